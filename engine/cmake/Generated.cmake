@@ -1,0 +1,16 @@
+# Sources made at build time: the schema as a string, and what this build is.
+file(READ "${CMAKE_CURRENT_SOURCE_DIR}/engine/scene/scenario.schema.json" SCHEMA_TEXT)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS engine/scene/scenario.schema.json)
+configure_file(engine/scene/scenario_schema.cpp.in generated/scenario_schema.cpp @ONLY)
+target_sources(shadowbench_scene PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/generated/scenario_schema.cpp")
+
+# The commit is asked for at every build, and the file is written only when it changed.
+add_custom_target(shadowbench_build_info
+  COMMAND ${CMAKE_COMMAND} -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
+          -DBUILD_TYPE=${CMAKE_BUILD_TYPE} -DCOMPILER=${CMAKE_CXX_COMPILER_ID}\ ${CMAKE_CXX_COMPILER_VERSION}
+          -DOUT=${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp
+          -P ${CMAKE_CURRENT_SOURCE_DIR}/engine/cmake/BuildInfo.cmake
+  BYPRODUCTS "${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp"
+  VERBATIM)
+add_dependencies(shadowbench_bench shadowbench_build_info)
+target_sources(shadowbench_bench PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp")

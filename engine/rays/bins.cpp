@@ -1,0 +1,107 @@
+#include "rays/bins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+
+namespace shadowbench::rays {
+
+void PlaneBox::add(double x, double y) {
+    if (empty()) {
+        x_low = x_high = x;
+        y_low = y_high = y;
+    } else {
+        x_low = std::min(x_low, x);
+        x_high = std::max(x_high, x);
+        y_low = std::min(y_low, y);
+        y_high = std::max(y_high, y);
+    }
+}
+
+void PlaneBox::add_all() {
+    x_low = y_low = -std::numeric_limits<double>::infinity();
+    x_high = y_high = std::numeric_limits<double>::infinity();
+}
+
+void add_sphere(const LightView& view, const base::Vec3f& c, double radius, PlaneBox& box) {
+    if (!view.perspective) {
+        box.add(c.x - radius, c.y - radius);
+        box.add(c.x + radius, c.y + radius);
+        return;
+    }
+    const double front = c.z - radius, back = c.z + radius;
+    if (back <= view.z_near) return;
+    if (front <= 0.25 * view.z_near) {  // around the light, or so near that slopes mean nothing
+        box.add_all();
+        return;
+    }
+    // Slopes of the box around the sphere: each is extreme at a corner.
+    for (const double z : {front, back}) {
+        box.add((c.x - radius) / z, (c.y - radius) / z);
+        box.add((c.x + radius) / z, (c.y + radius) / z);
+    }
+}
+
+void add_triangle(const LightView& view, const base::Vec3f& a, const base::Vec3f& b, const base::Vec3f& c,
+                  PlaneBox& box) {
+    const base::Vec3f* v[3] = {&a, &b, &c};
+    for (int i = 0; i < 3; ++i) {
+        const base::Vec3f& p = *v[i];
+        if (!view.perspective) {
+            box.add(p.x, p.y);
+            continue;
+        }
+        if (p.z > view.z_near) box.add(p.x / static_cast<double>(p.z), p.y / static_cast<double>(p.z));
+        const base::Vec3f& q = *v[(i + 1) % 3];
+        if ((p.z > view.z_near) != (q.z > view.z_near)) {  // the edge passes the near plane
+            const double u = (view.z_near - p.z) / (static_cast<double>(q.z) - p.z);
+            box.add((p.x + u * (q.x - p.x)) / view.z_near, (p.y + u * (q.y - p.y)) / view.z_near);
+        }
+    }
+}
+
+Bins make_bins(const LightView& view, const MapLayout& layout, std::size_t primitives,
+               const std::function<PlaneBox(std::size_t)>& bounds) {
+    struct TileRange {
+        int x0 = 0, y0 = 0, x1 = -1, y1 = -1;  // inclusive
+    };
+    std::vector<TileRange> ranges(primitives);
+    const double tile_x = view.pixel.x * layout.tile_width, tile_y = view.pixel.y * layout.tile_height;
+    const auto tile_of = [](double place, int tiles) {
+        return place <= 0.0 ? 0 : place >= tiles ? tiles - 1 : static_cast<int>(place);
+    };
+    constexpr std::size_t chunk = 4096;
+    base::parallel_for((primitives + chunk - 1) / chunk, [&](std::size_t block) {
+        for (std::size_t i = block * chunk; i < std::min(primitives, (block + 1) * chunk); ++i) {
+            PlaneBox box = bounds(i);
+            if (box.empty()) continue;
+            // A hundredth of a sample cell on every side outweighs any rounding of the bounds.
+            const double ex = 0.01 * view.pixel.x / layout.samples_x, ey = 0.01 * view.pixel.y / layout.samples_y;
+            const double x0 = (box.x_low - ex - view.lower.x) / tile_x, x1 = (box.x_high + ex - view.lower.x) / tile_x;
+            const double y0 = (box.y_low - ey - view.lower.y) / tile_y, y1 = (box.y_high + ey - view.lower.y) / tile_y;
+            if (x1 < 0 || y1 < 0 || x0 > layout.tiles_x() || y0 > layout.tiles_y()) continue;
+            ranges[i] = {tile_of(x0, layout.tiles_x()), tile_of(y0, layout.tiles_y()), tile_of(x1, layout.tiles_x()),
+                         tile_of(y1, layout.tiles_y())};
+        }
+    });
+
+    Bins bins;
+    bins.begin.assign(layout.tiles() + 1, 0);
+    for (const TileRange& r : ranges)
+        for (int y = r.y0; y <= r.y1; ++y)
+            for (int x = r.x0; x <= r.x1; ++x) ++bins.begin[y * layout.tiles_x() + x + 1];
+    for (int t = 0; t < layout.tiles(); ++t) bins.begin[t + 1] += bins.begin[t];
+    bins.primitives.resize(bins.begin.back());
+    std::vector<std::uint64_t> next(bins.begin.begin(), bins.begin.end() - 1);
+    for (std::size_t i = 0; i < primitives; ++i) {
+        const TileRange& r = ranges[i];
+        for (int y = r.y0; y <= r.y1; ++y)
+            for (int x = r.x0; x <= r.x1; ++x)
+                bins.primitives[next[y * layout.tiles_x() + x]++] = static_cast<std::uint32_t>(i);
+    }
+    return bins;
+}
+
+}  // namespace shadowbench::rays

@@ -1,0 +1,48 @@
+// Which primitives may touch which tile.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "rays/light_rays.h"
+#include "rays/light_view.h"
+
+namespace shadowbench::rays {
+
+// Bounds on the view plane; empty until add() is called.
+struct PlaneBox {
+    double x_low = 1, y_low = 1, x_high = 0, y_high = 0;
+
+    bool empty() const { return x_low > x_high; }
+    void add(double x, double y);
+    void add_all();  // the whole plane
+};
+
+// Bounds of what a ray sees of it: a sphere (surface or not), a triangle. Parts at z <= z_near are left out.
+void add_sphere(const LightView& view, const base::Vec3f& centre, double radius, PlaneBox& box);
+void add_triangle(const LightView& view, const base::Vec3f& a, const base::Vec3f& b, const base::Vec3f& c,
+                  PlaneBox& box);
+
+// One list of primitives a tile.
+struct Bins {
+    std::vector<std::uint64_t> begin;  // tiles + 1
+    std::vector<std::uint32_t> primitives;
+
+    std::span<const std::uint32_t> of(int tile) const {
+        return {primitives.data() + begin[tile], primitives.data() + begin[tile + 1]};
+    }
+    std::size_t bytes() const {
+        return begin.capacity() * sizeof(std::uint64_t) + primitives.capacity() * sizeof(std::uint32_t);
+    }
+};
+
+// `bounds(i)` gives the view-plane bounds of primitive i; it is called from several threads. In each tile the
+// primitives keep their order.
+Bins make_bins(const LightView& view, const MapLayout& layout, std::size_t primitives,
+               const std::function<PlaneBox(std::size_t)>& bounds);
+
+}  // namespace shadowbench::rays

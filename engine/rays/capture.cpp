@@ -1,0 +1,336 @@
+#include "rays/capture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "base/parallel.h"
+#include "rays/bins.h"
+#include "rays/hits.h"
+#include "rays/march.h"
+#include "rays/project.h"
+#include "scene/scene.h"
+
+namespace shadowbench::rays {
+namespace {
+
+using base::Vec3d;
+using base::Vec3f;
+
+// One object that casts shadows, in view space.
+struct Prepared {
+    const scene::Object* object = nullptr;
+    float transmittance[3] = {0, 0, 0};     // of an untextured surface
+    std::vector<Vec3f> points;              // mesh corners, hair points, sphere centres
+    std::vector<std::uint32_t> segments;    // hair: index of each segment's first point
+    std::vector<unsigned char> joined;      // hair: whether the segment continues a strand
+    Bins bins;
+    std::unique_ptr<VolumeMarcher> marcher;
+
+    std::size_t bytes() const {
+        return points.capacity() * sizeof(Vec3f) + segments.capacity() * sizeof(std::uint32_t) + joined.capacity() +
+               bins.bytes() + (marcher ? marcher->bytes() : 0);
+    }
+};
+
+void to_view_space(const LightView& view, const std::vector<Vec3f>& world, std::vector<Vec3f>& out) {
+    out.resize(world.size());
+    constexpr std::size_t chunk = 16384;
+    base::parallel_for((world.size() + chunk - 1) / chunk, [&](std::size_t block) {
+        for (std::size_t i = block * chunk; i < std::min(world.size(), (block + 1) * chunk); ++i)
+            out[i] = Vec3f(to_view(view, Vec3d(world[i])));
+    });
+}
+
+HairSegment hair_segment(const Prepared& p, const scene::Hair& hair, std::uint32_t segment) {
+    const std::uint32_t a = p.segments[segment];
+    return {p.points[a], p.points[a + 1], hair.radii[a], hair.radii[a + 1], p.joined[segment] != 0};
+}
+
+Prepared prepare(const scene::Object& object, const LightView& view, const MapLayout& layout) {
+    Prepared p;
+    p.object = &object;
+    for (int c = 0; c < 3; ++c) p.transmittance[c] = 1.0f - object.opacity[c];
+    if (const auto* mesh = std::get_if<scene::Mesh>(&object.shape)) {
+        to_view_space(view, mesh->positions, p.points);
+        p.bins = make_bins(view, layout, mesh->triangles.size(), [&](std::size_t i) {
+            const base::Vec3i& t = mesh->triangles[i];
+            PlaneBox box;
+            add_triangle(view, p.points[t.x], p.points[t.y], p.points[t.z], box);
+            return box;
+        });
+    } else if (const auto* hair = std::get_if<scene::Hair>(&object.shape)) {
+        to_view_space(view, hair->points, p.points);
+        for (std::size_t s = 0; s + 1 < hair->strand_begin.size(); ++s)
+            for (std::uint32_t a = hair->strand_begin[s]; a + 1 < hair->strand_begin[s + 1]; ++a) {
+                p.segments.push_back(a);
+                p.joined.push_back(a > hair->strand_begin[s]);
+            }
+        p.bins = make_bins(view, layout, p.segments.size(), [&](std::size_t i) {
+            const HairSegment s = hair_segment(p, *hair, static_cast<std::uint32_t>(i));
+            PlaneBox box;
+            add_sphere(view, s.a, s.radius_a, box);
+            add_sphere(view, s.b, s.radius_b, box);
+            return box;
+        });
+    } else if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {
+        p.marcher = std::make_unique<VolumeMarcher>(*grid);
+    } else {
+        const auto* spheres = std::get_if<scene::Spheres>(&object.shape);
+        const auto* particles = std::get_if<scene::Particles>(&object.shape);
+        const std::vector<float>& radii = spheres ? spheres->radii : particles->radii;
+        to_view_space(view, spheres ? spheres->centres : particles->centres, p.points);
+        p.bins = make_bins(view, layout, p.points.size(), [&](std::size_t i) {
+            PlaneBox box;
+            add_sphere(view, p.points[i], radii[i], box);
+            return box;
+        });
+    }
+    return p;
+}
+
+// The primitives of a tile from the nearest to the farthest, so that rays collect their hits nearly sorted.
+template <class Depth>
+std::vector<std::uint32_t> front_to_back(std::span<const std::uint32_t> primitives, const Depth& depth) {
+    std::vector<std::pair<float, std::uint32_t>> keyed(primitives.size());
+    for (std::size_t i = 0; i < primitives.size(); ++i) keyed[i] = {depth(primitives[i]), primitives[i]};
+    std::sort(keyed.begin(), keyed.end());
+    std::vector<std::uint32_t> sorted(primitives.size());
+    for (std::size_t i = 0; i < primitives.size(); ++i) sorted[i] = keyed[i].second;
+    return sorted;
+}
+
+// Origin and direction of a ray such that its parameter is planar depth: view space, and world space.
+struct RayLine {
+    Vec3d origin, direction;
+    double scale;  // world length per unit of depth
+};
+RayLine view_line(const LightView& view, double x, double y) {
+    if (view.perspective) return {{0, 0, 0}, {x, y, 1}, std::sqrt(1.0 + x * x + y * y)};
+    return {{x, y, 0}, {0, 0, 1}, 1.0};
+}
+RayLine world_line(const LightView& view, double x, double y) {
+    const RayLine line = view_line(view, x, y);
+    return {to_world(view, line.origin),
+            view.right * line.direction.x + view.up * line.direction.y + view.forward, line.scale};
+}
+
+template <bool perspective, class Sink>
+class TileProjection {
+public:
+    TileProjection(const LightView& view, const TileGrid& grid, int tile, Sink& sink)
+        : view_(view), grid_(grid), tile_(tile), sink_(sink) {}
+
+    void project(const Prepared& p) {
+        std::visit([&](const auto& shape) { project(p, shape); }, p.object->shape);
+    }
+
+private:
+    bool transmits_all(const float* t) const { return t[0] == 1.0f && t[1] == 1.0f && t[2] == 1.0f; }
+
+    void project(const Prepared& p, const scene::Hair& hair) {
+        if (transmits_all(p.transmittance)) return;
+        const auto order = front_to_back(p.bins.of(tile_), [&](std::uint32_t i) {
+            const std::uint32_t a = p.segments[i];
+            return p.points[a].z + p.points[a + 1].z;
+        });
+        for (const std::uint32_t i : order)
+            project_hair<perspective>(hair_segment(p, hair, i), grid_, view_.z_near, p.transmittance, sink_);
+    }
+
+    void project(const Prepared& p, const scene::Mesh& mesh) {
+        if (transmits_all(p.transmittance)) return;
+        const auto corner = [&](std::uint32_t triangle, int i) -> const Vec3f& {
+            return p.points[mesh.triangles[triangle][i]];
+        };
+        const auto order = front_to_back(p.bins.of(tile_), [&](std::uint32_t i) {
+            return corner(i, 0).z + corner(i, 1).z + corner(i, 2).z;
+        });
+        for (const std::uint32_t i : order) {
+            PlaneBox box;
+            add_triangle(view_, corner(i, 0), corner(i, 1), corner(i, 2), box);
+            if (box.empty()) continue;
+            float textured[3];
+            const auto shade = [&](const double weight[3]) -> const float* {
+                if (!mesh.alpha) return p.transmittance;
+                const base::Vec2f* uv = &mesh.corner_uv[3 * static_cast<std::size_t>(i)];
+                const base::Vec2f at = uv[0] * static_cast<float>(weight[0]) + uv[1] * static_cast<float>(weight[1]) +
+                                       uv[2] * static_cast<float>(weight[2]);
+                const float alpha = scene::sample(*mesh.alpha, at.x, at.y);
+                if (alpha <= 0.0f) return nullptr;
+                for (int c = 0; c < 3; ++c) textured[c] = 1.0f - alpha * p.object->opacity[c];
+                return textured;
+            };
+            const TriangleSetup setup =
+                set_up_triangle<perspective>(corner(i, 0), corner(i, 1), corner(i, 2));
+            project_triangle(setup, box.x_low, box.x_high, box.y_low, box.y_high, grid_, view_.z_near, shade, sink_);
+        }
+    }
+
+    template <class Visit>
+    void visit_sphere(const Vec3f& centre, double radius, const Visit& visit) {
+        PlaneBox box;
+        add_sphere(view_, centre, radius, box);
+        if (box.empty()) return;
+        visit_samples(box.x_low, box.x_high, box.y_low, box.y_high, grid_, [&](std::uint32_t ray, double x, double y) {
+            const RayLine line = view_line(view_, x, y);
+            double front, back;
+            if (sphere_stretch(line.origin, line.direction, Vec3d(centre), radius, front, back) && back > view_.z_near)
+                visit(ray, front, back, line.scale);
+        });
+    }
+
+    void project(const Prepared& p, const scene::Spheres& spheres) {
+        if (transmits_all(p.transmittance)) return;
+        for (const std::uint32_t i : p.bins.of(tile_))
+            visit_sphere(p.points[i], spheres.radii[i], [&](std::uint32_t ray, double front, double back, double) {
+                if (front > view_.z_near) sink_.surface(ray, front, p.transmittance);
+                sink_.surface(ray, back, p.transmittance);
+            });
+    }
+
+    void medium(std::uint32_t ray, float front, float back, double depth, const Vec3f& extinction) {
+        float t[3];
+        for (int c = 0; c < 3; ++c) t[c] = static_cast<float>(std::exp(-depth * extinction[c]));
+        if (!transmits_all(t)) sink_.medium(ray, front, back, t);
+    }
+
+    void project(const Prepared& p, const scene::Particles& particles) {
+        if constexpr (std::is_same_v<Sink, SegmentHits>) {
+            const auto order =
+                front_to_back(p.bins.of(tile_), [&](std::uint32_t i) { return p.points[i].z - particles.radii[i]; });
+            for (const std::uint32_t i : order)
+                visit_sphere(p.points[i], particles.radii[i],
+                             [&](std::uint32_t ray, double front, double back, double scale) {
+                                 front = std::max(front, view_.z_near);
+                                 const float f = static_cast<float>(front), b = static_cast<float>(back);
+                                 if (b > f)
+                                     medium(ray, f, b, (back - front) * scale * particles.density[i],
+                                            p.object->extinction);
+                             });
+        }
+    }
+
+    void project(const Prepared& p, const scene::GridVolume&) {
+        if constexpr (std::is_same_v<Sink, SegmentHits>) {
+            std::vector<MediumSegment> steps;
+            for (int j = 0; j < grid_.ny; ++j)
+                for (int i = 0; i < grid_.nx; ++i) {
+                    const std::size_t sample = static_cast<std::size_t>(j) * grid_.nx + i;
+                    const RayLine line = world_line(view_, grid_.x[sample], grid_.y[sample]);
+                    steps.clear();
+                    p.marcher->march(line.origin, line.direction, line.scale, std::max(view_.z_near, -1e30), 1e30, steps);
+                    for (const MediumSegment& s : steps)
+                        medium(grid_.ray_row[j] + grid_.ray_column[i], s.front, s.back, s.depth, p.object->extinction);
+                }
+        }
+    }
+
+    const LightView& view_;
+    const TileGrid& grid_;
+    const int tile_;
+    Sink& sink_;
+};
+
+// Rows of a deep image are the map's rows: one ray a pixel.
+void copy_deep_image(const scene::DeepImage& image, LightRays& rays) {
+    rays.begin.assign(1, 0);
+    for (int y = rays.y0; y < rays.y0 + rays.height; ++y)
+        for (int x = rays.x0; x < rays.x0 + rays.width; ++x) {
+            const std::size_t pixel = static_cast<std::size_t>(y) * image.width + x;
+            for (std::size_t s = image.begin[pixel]; s < image.begin[pixel + 1]; ++s) {
+                if (image.transmittance[s] == 1.0f) continue;
+                rays.z_front.push_back(image.z_front[s]);
+                rays.z_back.push_back(image.z_back[s]);
+                rays.transmittance.push_back(image.transmittance[s]);
+            }
+            rays.begin.push_back(static_cast<std::uint32_t>(rays.z_front.size()));
+        }
+    if (rays.z_back == rays.z_front) rays.z_back.clear();
+}
+
+float outward(double z, float direction) { return std::nextafter(static_cast<float>(z), direction); }
+
+}  // namespace
+
+MapLayout make_layout(const scene::Scene& scene, const LightView& view, const scene::RaySettings& settings) {
+    MapLayout layout;
+    layout.width = view.resolution.x;
+    layout.height = view.resolution.y;
+    layout.jittered = settings.pattern == scene::Pattern::jittered;
+    layout.seed = settings.seed;
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    layout.z_min = outward(view.z_min, -infinity);
+    layout.z_max = outward(view.z_max, infinity);
+    if (scene.deep_image) {
+        layout.jittered = false;
+        for (std::size_t s = 0; s < scene.deep_image->z_front.size() && !layout.media; ++s)
+            layout.media = scene.deep_image->z_back[s] > scene.deep_image->z_front[s];
+    } else {
+        layout.channels = scene::channels(scene);
+        layout.media = scene::has_media(scene);
+        set_samples(layout, settings.samples_per_pixel);
+    }
+    int size = 64;
+    while (size > 1 && size * size * layout.samples() > 16384) size /= 2;
+    layout.tile_width = std::min(size, layout.width);
+    layout.tile_height = std::min(size, layout.height);
+    return layout;
+}
+
+struct Capture::State {
+    const scene::Scene& scene;
+    const LightView view;
+    const MapLayout layout;
+    std::vector<Prepared> objects;
+
+    template <class Sink>
+    void project(LightRays& rays) const {
+        const TileGrid grid = make_tile_grid(view, layout, rays);
+        Sink sink;
+        if (view.perspective) {
+            TileProjection<true, Sink> projection(view, grid, rays.tile, sink);
+            for (const Prepared& p : objects) projection.project(p);
+        } else {
+            TileProjection<false, Sink> projection(view, grid, rays.tile, sink);
+            for (const Prepared& p : objects) projection.project(p);
+        }
+        sort_hits(sink, static_cast<std::size_t>(grid.nx) * grid.ny, rays);
+    }
+};
+
+Capture::Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout)
+    : state_(std::make_unique<State>(State{scene, view, layout, {}})) {
+    for (const scene::Object& object : scene.objects)
+        if (object.casts_shadow) state_->objects.push_back(prepare(object, view, layout));
+}
+
+Capture::~Capture() = default;
+
+LightRays Capture::tile(int index) const {
+    const MapLayout& layout = state_->layout;
+    LightRays rays;
+    rays.tile = index;
+    rays.x0 = index % layout.tiles_x() * layout.tile_width;
+    rays.y0 = index / layout.tiles_x() * layout.tile_height;
+    rays.width = std::min(layout.tile_width, layout.width - rays.x0);
+    rays.height = std::min(layout.tile_height, layout.height - rays.y0);
+    rays.samples = layout.samples();
+    rays.channels = layout.channels;
+    if (state_->scene.deep_image)
+        copy_deep_image(*state_->scene.deep_image, rays);
+    else if (layout.media || layout.channels > 1)
+        state_->project<SegmentHits>(rays);
+    else
+        state_->project<SurfaceHits>(rays);
+    return rays;
+}
+
+std::size_t Capture::bytes() const {
+    std::size_t sum = 0;
+    for (const Prepared& p : state_->objects) sum += p.bytes();
+    return sum;
+}
+
+}  // namespace shadowbench::rays

@@ -1,0 +1,46 @@
+// Scene + light -> light rays, tile by tile, by projecting the primitives into the light's sample grid and testing
+// each sample that they may cover exactly.
+//  - Triangles: edge functions with one sign for both triangles of an edge, so that a ray through a shared edge crosses
+//    exactly one of them (homogeneous form in perspective: Olano and Greer, Triangle Scan Conversion using 2D
+//    Homogeneous Coordinates, 1997).
+//  - Hair: ribbons that face the ray with round ends; at a joint the disc around the shared point belongs to the
+//    earlier segment, so a ray crosses a strand once there.
+//  - Grid volumes: marched at regular steps, joined by the trapezoid rule (Lokovic and Veach 2000, section 3.2).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "rays/light_rays.h"
+#include "rays/light_view.h"
+
+namespace shadowbench::scene {
+struct RaySettings;
+struct Scene;
+}  // namespace shadowbench::scene
+
+namespace shadowbench::rays {
+
+// The layout that captures `scene` as seen by `view` with these settings: tiles small enough that a few of them stay
+// far below memory limits.
+MapLayout make_layout(const scene::Scene& scene, const LightView& view, const scene::RaySettings& settings);
+
+// The scene prepared for one light: primitives in view space, sorted into tiles. Keeps references to its arguments.
+class Capture {
+public:
+    Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout);
+    ~Capture();
+    Capture(const Capture&) = delete;
+    Capture& operator=(const Capture&) = delete;
+
+    // Thread-safe. The rays depend on the tile alone. Throws Error{bad_input} when a tile's segments do not fit 32 bits.
+    LightRays tile(int index) const;
+
+    std::size_t bytes() const;  // held for all tiles
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace shadowbench::rays

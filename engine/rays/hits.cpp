@@ -1,0 +1,90 @@
+#include "rays/hits.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <tuple>
+
+#include "base/error.h"
+
+namespace shadowbench::rays {
+namespace {
+
+// Offsets of each ray's hits, by counting; `begin` has rays + 1 entries.
+template <class Hits>
+void count(const Hits& hits, std::size_t rays, std::vector<std::uint32_t>& begin) {
+    if (hits.hits.size() > std::numeric_limits<std::uint32_t>::max())
+        throw base::Error(base::ErrorCode::bad_input, "/rays",
+                          "a tile holds more than 2^32 segments: ask for fewer samples a pixel");
+    begin.assign(rays + 1, 0);
+    for (const auto& hit : hits.hits) ++begin[hit.ray + 1];
+    for (std::size_t r = 0; r < rays; ++r) begin[r + 1] += begin[r];
+}
+
+// Primitives come roughly front to back, so most lists are nearly sorted: insertion while that is cheap.
+template <class T, class Less>
+void sort_nearly_sorted(T* first, T* last, Less less) {
+    std::ptrdiff_t budget = 16 + 4 * (last - first);
+    for (T* i = first + (first != last); i < last; ++i) {
+        const T value = *i;
+        T* j = i;
+        while (j > first && less(value, j[-1])) {
+            *j = j[-1];
+            --j;
+        }
+        *j = value;
+        budget -= i - j;
+        if (budget < 0) {
+            std::sort(first, last, less);
+            return;
+        }
+    }
+}
+
+}  // namespace
+
+void sort_hits(const SurfaceHits& hits, std::size_t rays, LightRays& tile) {
+    count(hits, rays, tile.begin);
+    // Depths are not negative, so their bits sort as they do; the transmittance behind settles ties.
+    std::vector<std::uint64_t> keys(hits.hits.size());
+    std::vector<std::uint32_t> next(tile.begin.begin(), tile.begin.end() - 1);
+    for (const auto& hit : hits.hits)
+        keys[next[hit.ray]++] =
+            static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(hit.z)) << 32 | std::bit_cast<std::uint32_t>(hit.transmittance);
+    for (std::size_t r = 0; r < rays; ++r)
+        sort_nearly_sorted(keys.data() + tile.begin[r], keys.data() + tile.begin[r + 1], std::less<>());
+    tile.z_front.resize(keys.size());
+    tile.z_back.clear();
+    tile.transmittance.resize(keys.size());
+    for (std::size_t s = 0; s < keys.size(); ++s) {
+        tile.z_front[s] = std::bit_cast<float>(static_cast<std::uint32_t>(keys[s] >> 32));
+        tile.transmittance[s] = std::bit_cast<float>(static_cast<std::uint32_t>(keys[s]));
+    }
+}
+
+void sort_hits(const SegmentHits& hits, std::size_t rays, LightRays& tile) {
+    count(hits, rays, tile.begin);
+    std::vector<SegmentHits::Hit> sorted(hits.hits.size());
+    std::vector<std::uint32_t> next(tile.begin.begin(), tile.begin.end() - 1);
+    for (const auto& hit : hits.hits) sorted[next[hit.ray]++] = hit;
+    const auto key = [](const SegmentHits::Hit& h) {
+        return std::tie(h.z_front, h.z_back, h.transmittance[0], h.transmittance[1], h.transmittance[2]);
+    };
+    bool media = false;
+    for (std::size_t r = 0; r < rays; ++r)
+        sort_nearly_sorted(sorted.data() + tile.begin[r], sorted.data() + tile.begin[r + 1],
+                           [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    for (const auto& hit : sorted) media |= hit.z_back > hit.z_front;
+
+    const std::size_t channels = tile.channels;
+    tile.z_front.resize(sorted.size());
+    tile.z_back.resize(media ? sorted.size() : 0);
+    tile.transmittance.resize(sorted.size() * channels);
+    for (std::size_t s = 0; s < sorted.size(); ++s) {
+        tile.z_front[s] = sorted[s].z_front;
+        if (media) tile.z_back[s] = sorted[s].z_back;
+        for (std::size_t c = 0; c < channels; ++c) tile.transmittance[s * channels + c] = sorted[s].transmittance[c];
+    }
+}
+
+}  // namespace shadowbench::rays

@@ -1,0 +1,45 @@
+// What a tile's rays cross, in the order found, and its sorting into light rays.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rays/light_rays.h"
+
+namespace shadowbench::rays {
+
+// Opaque or translucent surfaces of one channel: what most scenes have, and all that they pay for.
+struct SurfaceHits {
+    struct Hit {
+        std::uint32_t ray;
+        float z, transmittance;
+    };
+    std::vector<Hit> hits;
+
+    void surface(std::uint32_t ray, double z, const float* transmittance) {
+        hits.push_back({ray, static_cast<float>(z), transmittance[0]});
+    }
+};
+
+// Anything: media, and three channels.
+struct SegmentHits {
+    struct Hit {
+        std::uint32_t ray;
+        float z_front, z_back;
+        float transmittance[3];
+    };
+    std::vector<Hit> hits;
+
+    void surface(std::uint32_t ray, double z, const float* transmittance) {
+        medium(ray, static_cast<float>(z), static_cast<float>(z), transmittance);
+    }
+    void medium(std::uint32_t ray, float front, float back, const float* t) {
+        hits.push_back({ray, front, back, {t[0], t[1], t[2]}});
+    }
+};
+
+// Fills begin, z_front, z_back and transmittance of `tile`, whose other fields are set, for `rays` rays.
+void sort_hits(const SurfaceHits& hits, std::size_t rays, LightRays& tile);
+void sort_hits(const SegmentHits& hits, std::size_t rays, LightRays& tile);
+
+}  // namespace shadowbench::rays

@@ -1,0 +1,189 @@
+#include "rays/light_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+namespace shadowbench::rays {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// What the light looks at lies along `forward`, `right` is to its right; the map's y axis leans towards `up`, or towards
+// the world's y axis.
+void set_frame(LightView& view, const Vec3d& forward, const std::optional<Vec3d>& up) {
+    view.forward = forward.normalized();
+    Vec3d lean = up ? *up : Vec3d(0, 1, 0);
+    if (view.forward.cross(lean).length() < 1e-6 * lean.length()) lean = Vec3d(0, 0, 1);
+    view.right = view.forward.cross(lean).normalized();
+    view.up = view.right.cross(view.forward);
+}
+
+std::array<Vec3d, 8> corners(const base::Box3d& box) {
+    std::array<Vec3d, 8> result;
+    for (int i = 0; i < 8; ++i)
+        result[i] = {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
+    return result;
+}
+
+struct PlaneBounds {
+    Vec2d low{infinity, infinity}, high{-infinity, -infinity};
+    void add(double x, double y) {
+        low = {std::min(low.x, x), std::min(low.y, y)};
+        high = {std::max(high.x, x), std::max(high.y, y)};
+    }
+};
+
+// A map of square pixels centred on `middle` that holds `size`.
+void fit(LightView& view, Vec2d middle, Vec2d size) {
+    const double pixel = std::max(size.x / view.resolution.x, size.y / view.resolution.y);
+    view.pixel = {pixel, pixel};
+    view.lower = {middle.x - 0.5 * pixel * view.resolution.x, middle.y - 0.5 * pixel * view.resolution.y};
+}
+
+[[noreturn]] void sees_nothing(const std::string& where) {
+    throw base::Error(base::ErrorCode::bad_input, where,
+                      "the light sees nothing that casts a shadow: no caster is inside its map");
+}
+
+LightView directional_view(const scene::Light& light, const base::Box3d& casters, Vec2i resolution) {
+    LightView view;
+    view.resolution = resolution;
+    view.z_near = -infinity;
+    set_frame(view, light.direction, light.up);
+    view.origin = light.target;
+
+    PlaneBounds plane;
+    double z_low = infinity, z_high = -infinity;
+    for (const Vec3d& corner : corners(casters)) {
+        const Vec3d p = to_view(view, corner);
+        plane.add(p.x, p.y);
+        z_low = std::min(z_low, p.z);
+        z_high = std::max(z_high, p.z);
+    }
+    // Depth 0 lies a little before the first caster: depths stay small, which keeps float z exact, and positive.
+    const double scale = std::max({z_high - z_low, plane.high.x - plane.low.x, plane.high.y - plane.low.y, 1e-6});
+    const double start = z_low - 0.01 * scale;
+    view.origin += view.forward * start;
+    view.z_min = z_low - start;
+    view.z_max = z_high - start;
+
+    if (light.extent) {
+        view.pixel = {light.extent->x / resolution.x, light.extent->y / resolution.y};
+        view.lower = {-0.5 * light.extent->x, -0.5 * light.extent->y};
+    } else {
+        const Vec2d size = plane.high - plane.low;
+        fit(view, (plane.low + plane.high) * 0.5, {1.04 * size.x + 1e-3 * scale, 1.04 * size.y + 1e-3 * scale});
+    }
+    return view;
+}
+
+LightView spot_view(const scene::Light& light, const base::Box3d& casters, Vec2i resolution,
+                    const std::string& where) {
+    LightView view;
+    view.perspective = true;
+    view.resolution = resolution;
+    view.origin = light.position;
+    const Vec3d axis = light.target - light.position;
+    set_frame(view, axis, light.up);
+    view.z_near = light.near > 0 ? light.near : 1e-3 * axis.length();
+
+    double z_low = infinity, z_high = -infinity, slope_x = 0, slope_y = 0;
+    for (const Vec3d& corner : corners(casters)) {
+        const Vec3d p = to_view(view, corner);
+        z_low = std::min(z_low, p.z);
+        z_high = std::max(z_high, p.z);
+        slope_x = std::max(slope_x, p.z > 0 ? std::abs(p.x / p.z) : infinity);
+        slope_y = std::max(slope_y, p.z > 0 ? std::abs(p.y / p.z) : infinity);
+    }
+    if (z_high <= view.z_near) sees_nothing(where);
+    view.z_min = std::max(z_low, view.z_near);
+    view.z_max = z_high;
+
+    if (light.angle) {
+        const double half = std::tan(*light.angle * std::numbers::pi / 360.0);
+        const double pixel = 2.0 * half / std::max(resolution.x, resolution.y);
+        fit(view, {0, 0}, {pixel * resolution.x, pixel * resolution.y});
+    } else {
+        const double widest = std::tan(85.0 * std::numbers::pi / 180.0);
+        if (slope_x > widest || slope_y > widest)
+            throw base::Error(base::ErrorCode::bad_input, where + "/angle",
+                              "the casters reach beside or behind the light, so no angle fits them: give \"angle\"");
+        fit(view, {0, 0}, {2.04 * slope_x + 1e-6, 2.04 * slope_y + 1e-6});
+    }
+    return view;
+}
+
+LightView deep_image_view(const scene::DeepImage& image) {
+    LightView view;
+    view.resolution = {image.width, image.height};
+    view.z_near = -infinity;
+    view.z_min = infinity;
+    view.z_max = -infinity;
+    for (std::size_t s = 0; s < image.z_front.size(); ++s) {
+        view.z_min = std::min<double>(view.z_min, image.z_front[s]);
+        view.z_max = std::max<double>(view.z_max, image.z_back[s]);
+    }
+    return view;
+}
+
+// Whether the casters' bounds surely miss the map: all corners outside of one of its sides.
+bool misses(const LightView& view, const base::Box3d& casters) {
+    const Vec2d high = view.lower + Vec2d(view.pixel.x * view.resolution.x, view.pixel.y * view.resolution.y);
+    int left = 0, right = 0, below = 0, above = 0;
+    for (const Vec3d& corner : corners(casters)) {
+        const Vec3d p = to_view(view, corner);
+        const double w = view.perspective ? p.z : 1.0;  // sides are planes through the light: x < lower * z, ...
+        left += p.x < view.lower.x * w;
+        right += p.x > high.x * w;
+        below += p.y < view.lower.y * w;
+        above += p.y > high.y * w;
+    }
+    return left == 8 || right == 8 || below == 8 || above == 8;
+}
+
+}  // namespace
+
+LightView make_light_view(const scene::Light& light, const scene::Scene& scene, Vec2i resolution,
+                          const std::string& where) {
+    if (light.type == scene::LightType::deep_image) return deep_image_view(*scene.deep_image);
+    const base::Box3d casters = scene::bounds(scene, true);
+    if (casters.isEmpty()) sees_nothing(where);
+    const LightView view = light.type == scene::LightType::spot ? spot_view(light, casters, resolution, where)
+                                                                : directional_view(light, casters, resolution);
+    if (misses(view, casters)) sees_nothing(where);
+    return view;
+}
+
+Vec3d to_view(const LightView& view, const Vec3d& world) {
+    const Vec3d d = world - view.origin;
+    return {d.dot(view.right), d.dot(view.up), d.dot(view.forward)};
+}
+
+Vec3d to_world(const LightView& view, const Vec3d& p) {
+    return view.origin + view.right * p.x + view.up * p.y + view.forward * p.z;
+}
+
+Vec3d to_light(const LightView& view, const Vec3d& world) {
+    const Vec3d p = to_view(view, world);
+    const double w = view.perspective ? p.z : 1.0;
+    return {(p.x / w - view.lower.x) / view.pixel.x, (p.y / w - view.lower.y) / view.pixel.y, p.z};
+}
+
+Vec3d unproject(const LightView& view, double x, double y, double z) {
+    const double w = view.perspective ? z : 1.0;
+    return {(view.lower.x + x * view.pixel.x) * w, (view.lower.y + y * view.pixel.y) * w, z};
+}
+
+double length_per_depth(const LightView& view, double x, double y) {
+    if (!view.perspective) return 1.0;
+    const double sx = view.lower.x + x * view.pixel.x, sy = view.lower.y + y * view.pixel.y;
+    return std::sqrt(1.0 + sx * sx + sy * sy);
+}
+
+}  // namespace shadowbench::rays

@@ -1,0 +1,50 @@
+// How a light sees the scene: world space to light space and back.
+// Light space: (x, y) in map pixels, x in [0, width), y in [0, height), pixel (i, j) spans [i, i+1) x [j, j+1);
+// z is planar depth along the light's axis in world length, growing away from the light, for both kinds of light.
+#pragma once
+
+#include <string>
+
+#include "base/vec.h"
+
+namespace shadowbench::scene {
+struct Light;
+struct Scene;
+}  // namespace shadowbench::scene
+
+namespace shadowbench::rays {
+
+using base::Vec2d;
+using base::Vec2i;
+using base::Vec3d;
+
+struct LightView {
+    bool perspective = false;
+    Vec3d origin{0, 0, 0};  // z = 0 here
+    Vec3d right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
+    Vec2d lower{0, 0};       // view-plane place of map corner (0, 0): world length, or slope (x / z) in perspective
+    Vec2d pixel{1, 1};       // size of a map pixel on the view plane
+    Vec2i resolution{1, 1};  // map pixels
+    double z_near = 0.0;     // crossings at z <= z_near are not seen (perspective); orthographic: minus infinity
+    double z_min = 0.0;      // depth bounds of what casts shadows
+    double z_max = 1.0;
+};
+
+// Sees the casters of the scene. Throws Error{bad_input} at `where` when no caster is in view.
+LightView make_light_view(const scene::Light& light, const scene::Scene& scene, Vec2i resolution,
+                          const std::string& where);
+
+// View space: coordinates along right, up, forward from the origin.
+Vec3d to_view(const LightView& view, const Vec3d& world);
+Vec3d to_world(const LightView& view, const Vec3d& view_point);
+
+// Light space of a world point: (x, y in map pixels, z). In perspective, x and y mean nothing for z <= 0.
+Vec3d to_light(const LightView& view, const Vec3d& world);
+
+// The view-space point of map position (x, y) at depth z.
+Vec3d unproject(const LightView& view, double x, double y, double z);
+
+// Length of the ray at map position (x, y) per unit of z, >= 1.
+double length_per_depth(const LightView& view, double x, double y);
+
+}  // namespace shadowbench::rays

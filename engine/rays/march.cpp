@@ -1,0 +1,117 @@
+#include "rays/march.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/scene.h"
+
+namespace shadowbench::rays {
+namespace {
+
+constexpr int block_size = 8;
+
+using base::Vec3d;
+using base::Vec3i;
+
+// Clips [t_min, t_max] to the box; false when nothing is left.
+bool clip(const Vec3d& origin, const Vec3d& direction, const Vec3d& lower, const Vec3d& upper, double& t_min,
+          double& t_max) {
+    for (int a = 0; a < 3; ++a) {
+        if (direction[a] == 0.0) {
+            if (origin[a] < lower[a] || origin[a] > upper[a]) return false;
+            continue;
+        }
+        const double t0 = (lower[a] - origin[a]) / direction[a], t1 = (upper[a] - origin[a]) / direction[a];
+        t_min = std::max(t_min, std::min(t0, t1));
+        t_max = std::min(t_max, std::max(t0, t1));
+    }
+    return t_min < t_max;
+}
+
+}  // namespace
+
+VolumeMarcher::VolumeMarcher(const scene::GridVolume& volume) : volume_(volume) {
+    // Block b holds the interpolation cells whose lower corner index + 1 lies in [8 b, 8 b + 8): indices -1 .. size - 1.
+    blocks_ = {volume.size.x / block_size + 1, volume.size.y / block_size + 1, volume.size.z / block_size + 1};
+    occupied_.assign(static_cast<std::size_t>(blocks_.x) * blocks_.y * blocks_.z, 0);
+    std::size_t v = 0;
+    for (int z = 0; z < volume.size.z; ++z)
+        for (int y = 0; y < volume.size.y; ++y)
+            for (int x = 0; x < volume.size.x; ++x, ++v) {
+                if (volume.density[v] <= 0.0f) continue;
+                // A voxel is a corner of the cells at its own index and at the one below, in each axis.
+                for (int bz = z / block_size; bz <= (z + 1) / block_size; ++bz)
+                    for (int by = y / block_size; by <= (y + 1) / block_size; ++by)
+                        for (int bx = x / block_size; bx <= (x + 1) / block_size; ++bx)
+                            occupied_[(static_cast<std::size_t>(bz) * blocks_.y + by) * blocks_.x + bx] = 1;
+            }
+}
+
+// Trilinear at `index` = voxel coordinates (voxel centres at whole numbers); 0 beyond the outermost centres' neighbours.
+double VolumeMarcher::density(const Vec3d& index) const {
+    const int x = static_cast<int>(std::floor(index.x)), y = static_cast<int>(std::floor(index.y)),
+              z = static_cast<int>(std::floor(index.z));
+    const Vec3i size = volume_.size;
+    if (x < -1 || y < -1 || z < -1 || x >= size.x || y >= size.y || z >= size.z) return 0.0;
+    const std::size_t block = (static_cast<std::size_t>((z + 1) / block_size) * blocks_.y + (y + 1) / block_size) * blocks_.x +
+                              (x + 1) / block_size;
+    if (!occupied_[block]) return 0.0;
+    // The box ends half a voxel outside the outermost centres; there the outermost value holds.
+    const int x0 = std::max(x, 0), x1 = std::min(x + 1, size.x - 1);
+    const int y0 = std::max(y, 0), y1 = std::min(y + 1, size.y - 1);
+    const int z0 = std::max(z, 0), z1 = std::min(z + 1, size.z - 1);
+    const double fx = index.x - x, fy = index.y - y, fz = index.z - z;
+    const float* d = volume_.density.data();
+    const auto row = [&](int yy, int zz) {
+        const float* r = d + (static_cast<std::size_t>(zz) * size.y + yy) * size.x;
+        return r[x0] + fx * (static_cast<double>(r[x1]) - r[x0]);
+    };
+    const double a = row(y0, z0) + fy * (row(y1, z0) - row(y0, z0));
+    const double b = row(y0, z1) + fy * (row(y1, z1) - row(y0, z1));
+    return a + fz * (b - a);
+}
+
+void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double scale, double t_min, double t_max,
+                          std::vector<MediumSegment>& out) const {
+    if (!clip(origin, direction, volume_.lower, volume_.upper, t_min, t_max)) return;
+    const Vec3d extent = volume_.upper - volume_.lower;
+    Vec3d start, slope;  // voxel coordinates along the ray
+    for (int a = 0; a < 3; ++a) {
+        const double per_length = volume_.size[a] / extent[a];
+        start[a] = (origin[a] - volume_.lower[a]) * per_length - 0.5;
+        slope[a] = direction[a] * per_length;
+    }
+    const double step = volume_.step / scale;
+    const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil((t_max - t_min) / step)));
+    float front = static_cast<float>(t_min);
+    double before = density(start + slope * t_min);
+    for (std::size_t i = 1; i <= steps; ++i) {
+        const double t = i == steps ? t_max : t_min + static_cast<double>(i) * step;
+        const double here = density(start + slope * t);
+        const float back = static_cast<float>(t);
+        if (before + here > 0.0 && back > front) {
+            const double t_before = i == 1 ? t_min : t_min + static_cast<double>(i - 1) * step;
+            out.push_back({front, back, 0.5 * (before + here) * (t - t_before) * scale});
+        }
+        front = back;
+        before = here;
+    }
+}
+
+bool sphere_stretch(const Vec3d& origin, const Vec3d& direction, const Vec3d& centre, double radius, double& front,
+                    double& back) {
+    // Closest approach first: the distance is taken of a small difference, which keeps its digits far from the origin.
+    const double length2 = direction.dot(direction);
+    const Vec3d to_centre = centre - origin;
+    const double middle = to_centre.dot(direction) / length2;
+    const Vec3d miss = to_centre - direction * middle;
+    const double inside = radius * radius - miss.dot(miss);
+    if (!(inside > 0.0)) return false;
+    const double half = std::sqrt(inside / length2);
+    front = middle - half;
+    back = middle + half;
+    return true;
+}
+
+}  // namespace shadowbench::rays

@@ -1,0 +1,35 @@
+#include "rays/tile_grid.h"
+
+namespace shadowbench::rays {
+
+TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const LightRays& tile) {
+    TileGrid grid;
+    grid.i0 = tile.x0 * layout.samples_x;
+    grid.j0 = tile.y0 * layout.samples_y;
+    grid.nx = tile.width * layout.samples_x;
+    grid.ny = tile.height * layout.samples_y;
+    grid.cell_x = view.pixel.x / layout.samples_x;
+    grid.cell_y = view.pixel.y / layout.samples_y;
+    grid.plane_x = view.lower.x;
+    grid.plane_y = view.lower.y;
+    const std::size_t count = static_cast<std::size_t>(grid.nx) * grid.ny;
+    grid.x.resize(count);
+    grid.y.resize(count);
+    std::size_t s = 0;
+    for (int j = 0; j < grid.ny; ++j)
+        for (int i = 0; i < grid.nx; ++i, ++s) {
+            const SamplePosition p = sample_position(layout, grid.i0 + i, grid.j0 + j);
+            grid.x[s] = view.lower.x + p.x * view.pixel.x;
+            grid.y[s] = view.lower.y + p.y * view.pixel.y;
+        }
+    grid.ray_column.resize(grid.nx);
+    for (int i = 0; i < grid.nx; ++i)
+        grid.ray_column[i] = (i / layout.samples_x) * layout.samples() + i % layout.samples_x;
+    grid.ray_row.resize(grid.ny);
+    for (int j = 0; j < grid.ny; ++j)
+        grid.ray_row[j] =
+            (j / layout.samples_y) * tile.width * layout.samples() + (j % layout.samples_y) * layout.samples_x;
+    return grid;
+}
+
+}  // namespace shadowbench::rays

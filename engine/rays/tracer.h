@@ -1,0 +1,55 @@
+// Rays traced through the scene with Embree: the independent check of the capture, the camera's rays, and the shadow
+// rays of the ray-traced technique.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "base/vec.h"
+#include "rays/light_view.h"
+
+namespace shadowbench::scene {
+struct Scene;
+}
+
+namespace shadowbench::rays {
+
+// A segment in the ray's own parameter t (world length when the direction has unit length).
+struct TracedSegment {
+    double front, back;           // equal for a surface
+    base::Vec3f transmittance;
+};
+
+struct SurfaceHit {
+    double t;
+    base::Vec3d position;
+    base::Vec3d normal;  // faces the ray's origin; for hair, across the strand
+};
+
+// Thread-safe once made. Keeps a reference to the scene.
+class Tracer {
+public:
+    Tracer(const scene::Scene& scene, bool casters_only);
+    ~Tracer();
+    Tracer(const Tracer&) = delete;
+    Tracer& operator=(const Tracer&) = delete;
+
+    // Everything between t_min and t_max, sorted by front; crossings at equal depth are all kept.
+    void all_segments(const base::Vec3d& origin, const base::Vec3d& direction, double t_min, double t_max,
+                      std::vector<TracedSegment>& out) const;
+
+    // The nearest surface; false when there is none.
+    bool nearest(const base::Vec3d& origin, const base::Vec3d& direction, SurfaceHit& out) const;
+
+    // Exact transmittance per channel of the light ray at map position (x, y) up to depth z (surfaces strictly before).
+    // `scratch` is reused between calls.
+    base::Vec3d transmittance(const LightView& view, double x, double y, double z,
+                              std::vector<TracedSegment>& scratch) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace shadowbench::rays

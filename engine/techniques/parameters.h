@@ -1,0 +1,53 @@
+// Parameters of techniques: each technique declares its own as a list; JSON, command lines, schema and reports all read
+// that list.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace shadowbench::techniques {
+
+enum class ParameterKind { number, integer, choice, number_or_word };
+
+struct Parameter {
+    const char* name;
+    ParameterKind kind;
+    const char* doc;
+    double standard = 0.0;              // default; of choice and word kinds when `standard_word` is empty
+    double min = 0.0, max = 0.0;        // range of numbers, inclusive
+    const char* standard_word = "";     // default word
+    std::vector<const char*> words = {};  // choice: the values there are; number_or_word: the words there are
+};
+
+// The values of one technique's parameters, complete: every declared parameter has one.
+class ParameterValues {
+public:
+    using Value = std::variant<double, std::string>;
+
+    double number(std::string_view name) const;              // number and integer kinds
+    int integer(std::string_view name) const;
+    const std::string& word(std::string_view name) const;    // choice kind
+    bool is_word(std::string_view name) const;               // number_or_word kind
+
+    std::map<std::string, Value, std::less<>> values;
+};
+
+// Reads a JSON object. Throws Error{bad_input}, place `where`/name: unknown name (the message lists those there are),
+// wrong type, out of range.
+ParameterValues read_parameters(std::span<const Parameter> declared, const nlohmann::json& object,
+                                const std::string& where);
+
+// {"type": id, each parameter: its value}; and the draft-07 schema of that object.
+nlohmann::json to_json(const ParameterValues& values);
+nlohmann::json parameter_schema(const char* id, std::span<const Parameter> declared);
+
+// "tolerance=0.02 filter=point": those that differ from the defaults, or all.
+std::string to_string(const ParameterValues& values, std::span<const Parameter> declared, bool all);
+
+}  // namespace shadowbench::techniques

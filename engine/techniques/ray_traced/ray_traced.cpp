@@ -1,0 +1,87 @@
+#include "techniques/ray_traced/ray_traced.h"
+
+#include <bit>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "rays/light_view.h"
+#include "rays/tracer.h"
+#include "techniques/cells.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+const Parameter parameters[] = {
+    {"samples", ParameterKind::integer, "rays a lookup, jittered over its footprint", 16, 1, 65536},
+};
+
+class RayTraced final : public Map {
+public:
+    explicit RayTraced(const ParameterValues& values) { rays::set_samples(pattern_, values.integer("samples")); }
+
+    void begin(const BuildInput& input) override {
+        if (!input.tracer)
+            throw base::Error(base::ErrorCode::bad_input, "/techniques",
+                              "ray_traced needs a scene to trace; ready-made light rays have none");
+        view_ = input.view;
+        tracer_ = input.tracer;
+        channel_ = input.channel;
+    }
+    void add(const rays::LightRays&) override {}
+    void finish() override {}
+
+    void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
+        const auto inside = [](double place, int count) { return place >= 0 && place < count; };
+        std::vector<rays::TracedSegment> scratch;
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const Query& q = queries[i];
+            if (!inside(q.x, view_.resolution.x) || !inside(q.y, view_.resolution.y)) {
+                visibility[i] = 1.0f;
+                continue;
+            }
+            // The jitter depends on the query alone.
+            const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
+            base::Random random(base::hash(bits(q.x) << 32 | bits(q.y), bits(q.z)));
+            double sum = 0.0;
+            int count = 0;
+            for (int sy = 0; sy < pattern_.samples_y; ++sy)
+                for (int sx = 0; sx < pattern_.samples_x; ++sx) {
+                    const double x = q.x + q.width * ((sx + random.uniform()) / pattern_.samples_x - 0.5);
+                    const double y = q.y + q.width * ((sy + random.uniform()) / pattern_.samples_y - 0.5);
+                    if (!inside(x, view_.resolution.x) || !inside(y, view_.resolution.y)) continue;
+                    sum += tracer_->transmittance(view_, x, y, q.z, scratch)[channel_];
+                    ++count;
+                }
+            visibility[i] = count ? static_cast<float>(sum / count) : 1.0f;
+        }
+    }
+    void touched(const Query&, std::vector<const void*>&) const override {}
+
+    std::size_t bytes() const override { return 0; }
+    std::size_t working_bytes() const override { return 0; }
+    NodeStats nodes() const override { return {}; }
+    Cells cells() const override { return Cells::none; }
+    void stored(int, int, std::span<const float>, curves::Curve& out) const override { out.clear(); }
+
+private:
+    rays::MapLayout pattern_;
+    rays::LightView view_;
+    const rays::Tracer* tracer_ = nullptr;
+    int channel_ = 0;
+};
+
+}  // namespace
+
+Technique ray_traced() {
+    return {"ray_traced",
+            "shadow rays through the scene, no map",
+            "none: the cost of doing without",
+            1,
+            {},
+            parameters,
+            [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<RayTraced>(values); },
+            [](const ParameterValues&, const rays::MapLayout&) { return std::numeric_limits<double>::infinity(); },
+            nullptr};
+}
+
+}  // namespace shadowbench::techniques

@@ -1,0 +1,114 @@
+// The contract of a technique: light rays in, a map that answers visibility out. A technique is a row of the registry;
+// everything else (CLI lists, schema, report, conformance tests) is read from the row.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "curves/curve.h"
+#include "rays/light_rays.h"
+#include "techniques/parameters.h"
+
+namespace shadowbench::rays {
+class Tracer;
+struct LightView;
+}  // namespace shadowbench::rays
+
+namespace shadowbench::techniques {
+
+// "How much light reaches light-space point (x, y, z), over a footprint of `width` map pixels?"
+struct Query {
+    float x, y;    // map pixels
+    float z;       // planar depth
+    float width;   // of the filter, map pixels, > 0
+};
+
+// Nodes of the stored functions. A cell is one stored function: a pixel, or one sample of a pixel.
+struct NodeStats {
+    std::uint64_t cells = 0;
+    std::uint64_t total = 0;
+    std::uint32_t max = 0;
+    std::vector<std::uint64_t> histogram;  // cells by number of nodes, up to max
+
+    double mean() const { return cells ? static_cast<double>(total) / static_cast<double>(cells) : 0.0; }
+    void add(std::uint32_t nodes);
+};
+
+// Which rays one stored function stands for.
+enum class Cells {
+    pixel,   // all rays of a pixel, averaged
+    sample,  // every ray has its own function; the map is samples_x by samples_y times as large
+    centre,  // one ray of each pixel, the one in its middle sample cell
+    none,    // nothing is stored
+};
+
+// Where the light rays come from; all of it outlives the map.
+struct BuildInput {
+    const rays::MapLayout& layout;
+    const rays::LightView& view;
+    const rays::Tracer* tracer;  // for techniques that trace; null where there is no scene to trace
+    int channel = 0;             // which channel of a coloured scene the map holds
+};
+
+// A map under construction, then a map. All techniques see one channel: of a coloured scene a map a channel is made.
+class Map {
+public:
+    virtual ~Map() = default;
+
+    // Called once, first. Throws Error{bad_input} when the technique cannot serve this layout.
+    virtual void begin(const BuildInput& input) = 0;
+    // Called once a tile, from several threads at once for different tiles.
+    virtual void add(const rays::LightRays& tile) = 0;
+    // Called once, last. After it the map does not change.
+    virtual void finish() = 0;
+
+    // visibility[i] in [0, 1] answers queries[i]; both have the same size. Thread-safe. Outside the map: lit.
+    virtual void lookup(std::span<const Query> queries, std::span<float> visibility) const = 0;
+
+    // Appends the address of every 64-byte line of the map's memory that this lookup reads: what the floor of the
+    // lookup time reads, and nothing else. Techniques without a map append nothing.
+    virtual void touched(const Query& query, std::vector<const void*>& lines) const = 0;
+
+    virtual std::size_t bytes() const = 0;         // held by the finished map
+    virtual std::size_t working_bytes() const = 0;  // held at most while building, above the rays given
+    virtual NodeStats nodes() const = 0;
+
+    virtual Cells cells() const = 0;
+    // The function stored in cell (x, y) as vertices; `out` is replaced. One that is not piecewise linear is sampled at
+    // its own nodes and at `depths` (sorted).
+    virtual void stored(int x, int y, std::span<const float> depths, curves::Curve& out) const = 0;
+};
+
+// What a technique promises of every stored function, whatever the scene (of opaque ones alone if opaque_only).
+struct Promises {
+    bool monotone = true;      // never rises with depth
+    bool unit_range = true;    // stays in [0, 1]
+    bool opaque_only = false;  // takes every crossing as opaque: errors are promised for opaque scenes alone
+};
+
+struct Technique {
+    const char* id;
+    const char* title;
+    const char* paper;
+    int version;  // grows when the same rays give other answers or bytes
+    Promises promises;
+    std::span<const Parameter> parameters;
+    std::unique_ptr<Map> (*create)(const ParameterValues& values);
+    // Largest curve error (see metrics) that these values promise for a map of this layout; infinity: none.
+    double (*error_bound)(const ParameterValues& values, const rays::MapLayout& layout);
+    // A finished map of given functions instead of rays: function i is pixel (i, 0) of a map one pixel high.
+    // Null when the technique cannot take any piecewise-linear function.
+    std::unique_ptr<Map> (*from_curves)(const ParameterValues& values, std::span<const curves::Curve> functions);
+};
+
+// The registry: one row a technique, in the order of the papers.
+std::span<const Technique> all();
+
+// Throws Error{bad_input} that lists the names there are.
+const Technique& find(const std::string& id, const std::string& where);
+
+}  // namespace shadowbench::techniques

@@ -1,0 +1,196 @@
+#include "techniques/uncompressed/uncompressed.h"
+
+#include <cmath>
+
+#include "curves/composite.h"
+#include "techniques/cells.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+using Node = curves::Vertex;
+
+// Transmittance functions of one tile's rays, in the order of its rays. Without media a node is a surface: its depth and
+// the transmittance behind it. With media nodes are as in curves/composite.h.
+struct TileFunctions {
+    int x0 = 0, y0 = 0, width = 0;
+    std::vector<std::uint32_t> begin;
+    std::vector<Node> nodes;
+};
+
+class Uncompressed final : public Map {
+public:
+    void begin(const BuildInput& input) override {
+        layout_ = input.layout;
+        cells_ = make_cells(layout_, Cells::sample);
+        tiles_.assign(layout_.tiles(), {});
+    }
+
+    void add(const rays::LightRays& rays) override {
+        TileFunctions& tile = tiles_[rays.tile];
+        tile.x0 = rays.x0;
+        tile.y0 = rays.y0;
+        tile.width = rays.width;
+        if (!layout_.media) {
+            tile.begin = rays.begin;
+            tile.nodes.resize(rays.segments());
+            for (std::size_t r = 0; r < rays.rays(); ++r) {
+                double through = 1.0;
+                for (std::uint32_t s = rays.begin[r]; s < rays.begin[r + 1]; ++s) {
+                    through *= rays.transmittance[s];
+                    tile.nodes[s] = {rays.z_front[s], static_cast<float>(through)};
+                }
+            }
+            return;
+        }
+        std::vector<curves::Node> nodes;
+        tile.begin.assign(1, 0);
+        for (std::size_t r = 0; r < rays.rays(); ++r) {
+            curves::composite(rays, r, 0, nodes);
+            for (const curves::Node& n : nodes) tile.nodes.push_back({static_cast<float>(n.z), static_cast<float>(n.value)});
+            tile.begin.push_back(static_cast<std::uint32_t>(tile.nodes.size()));
+        }
+        tile.nodes.shrink_to_fit();
+    }
+
+    void finish() override {}
+
+    // The mean over the rays whose samples lie inside the footprint; of the nearest cell's ray when none does.
+    void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            double sum = 0.0;
+            const int count = for_each_ray(queries[i], [&](std::span<const Node> ray) { sum += evaluate(ray, queries[i].z); });
+            visibility[i] = count ? static_cast<float>(sum / count) : 1.0f;
+        }
+    }
+
+    void touched(const Query& query, std::vector<const void*>& lines) const override {
+        for_each_ray(query, [&](std::span<const Node> ray) {
+            std::size_t low = 0, high = ray.size();
+            while (low < high) {  // the probes of evaluate()'s search
+                const std::size_t middle = (low + high) / 2;
+                touch_lines(&ray[middle], sizeof(Node), lines);
+                if (ray[middle].z < query.z)
+                    low = middle + 1;
+                else
+                    high = middle;
+            }
+        });
+    }
+
+    std::size_t bytes() const override {
+        std::size_t sum = tiles_.capacity() * sizeof(TileFunctions);
+        for (const TileFunctions& t : tiles_)
+            sum += t.begin.capacity() * sizeof(std::uint32_t) + t.nodes.capacity() * sizeof(Node);
+        return sum;
+    }
+    std::size_t working_bytes() const override { return bytes(); }
+
+    NodeStats nodes() const override {
+        NodeStats stats;
+        for (const TileFunctions& t : tiles_)
+            for (std::size_t r = 0; r + 1 < t.begin.size(); ++r) stats.add(t.begin[r + 1] - t.begin[r]);
+        return stats;
+    }
+
+    Cells cells() const override { return Cells::sample; }
+
+    void stored(int x, int y, std::span<const float> depths, curves::Curve& out) const override {
+        out.clear();
+        const std::span<const Node> ray = function(x, y);
+        if (!layout_.media) {
+            float before = 1.0f;
+            for (const Node& n : ray) {
+                out.push_back({n.z, before});
+                out.push_back({n.z, n.value});
+                before = n.value;
+            }
+            return;
+        }
+        std::size_t d = 0;
+        for (const Node& n : ray) {
+            for (; d < depths.size() && depths[d] < n.z; ++d) out.push_back({depths[d], evaluate(ray, depths[d])});
+            for (; d < depths.size() && depths[d] == n.z; ++d) {
+            }
+            out.push_back({n.z, n.value});
+        }
+    }
+
+private:
+    std::span<const Node> function(int x, int y) const {
+        const int px = x / layout_.samples_x, py = y / layout_.samples_y;
+        const TileFunctions& t = tiles_[static_cast<std::size_t>(py / layout_.tile_height) * layout_.tiles_x() + px / layout_.tile_width];
+        const std::size_t pixel = static_cast<std::size_t>(py - t.y0) * t.width + (px - t.x0);
+        const std::size_t ray =
+            pixel * layout_.samples() + (y % layout_.samples_y) * layout_.samples_x + x % layout_.samples_x;
+        return {t.nodes.data() + t.begin[ray], t.nodes.data() + t.begin[ray + 1]};
+    }
+
+    float evaluate(std::span<const Node> ray, float z) const {
+        std::size_t low = 0, high = ray.size();
+        while (low < high) {  // first node at or behind z
+            const std::size_t middle = (low + high) / 2;
+            if (ray[middle].z < z)
+                low = middle + 1;
+            else
+                high = middle;
+        }
+        if (low == 0) return 1.0f;
+        const Node& a = ray[low - 1];
+        if (!layout_.media || low == ray.size()) return a.value;
+        const Node& b = ray[low];
+        if (a.value == b.value || z == b.z) return b.value;
+        // Constant extinction between nodes: log(value) is linear. A value of 0 counts as the smallest normal float.
+        const double floor = std::numeric_limits<float>::min();
+        const double from = std::max<double>(a.value, floor), to = std::max<double>(b.value, floor);
+        const double u = (static_cast<double>(z) - a.z) / (static_cast<double>(b.z) - a.z);
+        return a.value == 0.0f ? 0.0f : static_cast<float>(from * std::pow(to / from, u));
+    }
+
+    template <class Visit>
+    int for_each_ray(const Query& q, const Visit& visit) const {
+        int cx, cy;
+        if (!cells_.find(q.x, q.y, cx, cy)) return 0;
+        const double half = 0.5 * q.width;
+        const auto clamp = [](double cell, int count) {
+            return cell <= 0 ? 0 : cell >= count ? count - 1 : static_cast<int>(cell);
+        };
+        const int x0 = clamp((q.x - half) * layout_.samples_x, cells_.width);
+        const int x1 = clamp((q.x + half) * layout_.samples_x, cells_.width);
+        const int y0 = clamp((q.y - half) * layout_.samples_y, cells_.height);
+        const int y1 = clamp((q.y + half) * layout_.samples_y, cells_.height);
+        int count = 0;
+        for (int y = y0; y <= y1; ++y)
+            for (int x = x0; x <= x1; ++x) {
+                const rays::SamplePosition p = rays::sample_position(layout_, x, y);
+                if (std::abs(p.x - q.x) > half || std::abs(p.y - q.y) > half) continue;
+                visit(function(x, y));
+                ++count;
+            }
+        if (count == 0) {
+            visit(function(cx, cy));
+            count = 1;
+        }
+        return count;
+    }
+
+    rays::MapLayout layout_;
+    CellGrid cells_;
+    std::vector<TileFunctions> tiles_;
+};
+
+}  // namespace
+
+Technique uncompressed() {
+    return {"uncompressed",
+            "every segment of every ray, evaluated exactly",
+            "Salvi et al. 2010 (reference)",
+            1,
+            {},
+            {},
+            [](const ParameterValues&) -> std::unique_ptr<Map> { return std::make_unique<Uncompressed>(); },
+            [](const ParameterValues&, const rays::MapLayout&) { return 1e-6; },
+            nullptr};
+}
+
+}  // namespace shadowbench::techniques
