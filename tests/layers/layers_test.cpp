@@ -1,0 +1,115 @@
+// The layers of the engine, read off the include lines of its sources.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Include {
+    std::string file;  // from the top of the sources, as engine/rays/capture.cpp
+    std::string path;  // as written
+    bool system;       // in angle brackets
+};
+
+std::vector<Include> read_includes() {
+    std::vector<Include> result;
+    const fs::path top = SHADOWBENCH_SOURCE_DIR;
+    const std::regex line_of(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
+    for (const char* folder : {"engine", "service"})
+        for (const auto& entry : fs::recursive_directory_iterator(top / folder)) {
+            const std::string extension = entry.path().extension().string();
+            if (extension != ".h" && extension != ".cpp") continue;
+            std::ifstream in(entry.path());
+            for (std::string line; std::getline(in, line);)
+                if (std::smatch match; std::regex_match(line, match, line_of))
+                    result.push_back({fs::relative(entry.path(), top).generic_string(), match[2], match[1] == "<"});
+        }
+    return result;
+}
+
+const std::vector<Include>& includes() {
+    static const std::vector<Include> all = read_includes();
+    return all;
+}
+
+bool starts_with(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+
+// "engine/techniques/deep/deep.cpp" -> "techniques/deep"; "engine/rays/capture.cpp" -> "rays"; "service/..." -> "service".
+// Files directly in engine/techniques are the contract ("techniques"), but for the registry.
+std::string layer_of_file(const std::string& file) {
+    if (file == "engine/techniques/registry.cpp") return "registry";
+    fs::path path = file;
+    std::vector<std::string> parts;
+    for (const auto& part : path.parent_path()) parts.push_back(part.string());
+    if (parts[0] == "service") return "service";
+    return parts[1] == "techniques" && parts.size() > 2 ? "techniques/" + parts[2] : parts[1];
+}
+
+std::string layer_of_include(const std::string& path) {
+    const fs::path parent = fs::path(path).parent_path();
+    return parent.generic_string();
+}
+
+TEST(Layers, TheSourcesAreFound) { EXPECT_GT(includes().size(), 200u); }
+
+TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
+    const std::map<std::string, std::set<std::string>> allowed = {
+        {"base", {"base"}},
+        {"scene", {"base", "scene"}},
+        {"rays", {"base", "scene", "rays"}},
+        {"curves", {"base", "rays", "curves"}},
+        {"techniques", {"base", "rays", "curves", "techniques"}},
+        {"metrics", {"base", "metrics"}},
+        {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
+        {"service", {"base", "scene", "curves", "techniques", "bench", "service"}},
+    };
+    for (const Include& include : includes()) {
+        if (include.system) continue;
+        const std::string from = layer_of_file(include.file);
+        std::string to = layer_of_include(include.path);
+        if (starts_with(to, "service")) to = "service";
+        if (from == "registry") {
+            EXPECT_TRUE(to == "base" || starts_with(to, "techniques")) << include.file << " includes " << include.path;
+        } else if (starts_with(from, "techniques/")) {
+            // A technique sees light rays, so it cannot cheat: no scene, no metrics, no other technique.
+            const std::set<std::string> own = {"base", "rays", "curves", "techniques", from};
+            EXPECT_TRUE(own.count(to)) << include.file << " includes " << include.path;
+        } else {
+            ASSERT_TRUE(allowed.count(from)) << "a layer without rules: " << include.file;
+            EXPECT_TRUE(allowed.at(from).count(to)) << include.file << " includes " << include.path;
+        }
+    }
+}
+
+TEST(Layers, OnlyTheHttpFrontKnowsSockets) {
+    for (const Include& include : includes())
+        if (include.path.find("httplib") != std::string::npos) {
+            EXPECT_TRUE(starts_with(include.file, "service/http")) << include.file;
+        }
+}
+
+TEST(Layers, HeavyLibrariesStayOutOfHeaders) {
+    for (const Include& include : includes()) {
+        if (!include.file.ends_with(".h") || !include.system) continue;
+        for (const char* heavy : {"nlohmann/json.hpp", "valijson", "CLI/", "openvdb", "OpenImageIO", "embree", "fmt/", "tbb/"})
+            EXPECT_EQ(include.path.find(heavy), std::string::npos) << include.file << " includes " << include.path;
+    }
+}
+
+TEST(Layers, TheSlowestHeadersAreCompiledOnce) {
+    std::map<std::string, std::set<std::string>> users;
+    for (const Include& include : includes())
+        for (const char* heavy : {"valijson", "CLI/", "openvdb", "tiny_obj_loader"})
+            if (include.system && starts_with(include.path, heavy)) users[heavy].insert(include.file);
+    for (const auto& [library, files] : users) EXPECT_EQ(files.size(), 1u) << library << " is included by " << *files.begin();
+}
+
+}  // namespace
