@@ -90,17 +90,6 @@ Prepared prepare(const scene::Object& object, const LightView& view, const MapLa
     return p;
 }
 
-// The primitives of a tile from the nearest to the farthest, so that rays collect their hits nearly sorted.
-template <class Depth>
-std::vector<std::uint32_t> front_to_back(std::span<const std::uint32_t> primitives, const Depth& depth) {
-    std::vector<std::pair<float, std::uint32_t>> keyed(primitives.size());
-    for (std::size_t i = 0; i < primitives.size(); ++i) keyed[i] = {depth(primitives[i]), primitives[i]};
-    std::sort(keyed.begin(), keyed.end());
-    std::vector<std::uint32_t> sorted(primitives.size());
-    for (std::size_t i = 0; i < primitives.size(); ++i) sorted[i] = keyed[i].second;
-    return sorted;
-}
-
 // Origin and direction of a ray such that its parameter is planar depth: view space, and world space.
 struct RayLine {
     Vec3d origin, direction;
@@ -131,11 +120,7 @@ private:
 
     void project(const Prepared& p, const scene::Hair& hair) {
         if (transmits_all(p.transmittance)) return;
-        const auto order = front_to_back(p.bins.of(tile_), [&](std::uint32_t i) {
-            const std::uint32_t a = p.segments[i];
-            return p.points[a].z + p.points[a + 1].z;
-        });
-        for (const std::uint32_t i : order)
+        for (const std::uint32_t i : p.bins.of(tile_))
             project_hair<perspective>(hair_segment(p, hair, i), grid_, view_.z_near, p.transmittance, sink_);
     }
 
@@ -144,10 +129,7 @@ private:
         const auto corner = [&](std::uint32_t triangle, int i) -> const Vec3f& {
             return p.points[mesh.triangles[triangle][i]];
         };
-        const auto order = front_to_back(p.bins.of(tile_), [&](std::uint32_t i) {
-            return corner(i, 0).z + corner(i, 1).z + corner(i, 2).z;
-        });
-        for (const std::uint32_t i : order) {
+        for (const std::uint32_t i : p.bins.of(tile_)) {
             PlaneBox box;
             add_triangle(view_, corner(i, 0), corner(i, 1), corner(i, 2), box);
             if (box.empty()) continue;
@@ -198,9 +180,7 @@ private:
 
     void project(const Prepared& p, const scene::Particles& particles) {
         if constexpr (std::is_same_v<Sink, SegmentHits>) {
-            const auto order =
-                front_to_back(p.bins.of(tile_), [&](std::uint32_t i) { return p.points[i].z - particles.radii[i]; });
-            for (const std::uint32_t i : order)
+            for (const std::uint32_t i : p.bins.of(tile_))
                 visit_sphere(p.points[i], particles.radii[i],
                              [&](std::uint32_t ray, double front, double back, double scale) {
                                  front = std::max(front, view_.z_near);

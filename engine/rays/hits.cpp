@@ -21,23 +21,18 @@ void count(const Hits& hits, std::size_t rays, std::vector<std::uint32_t>& begin
     for (std::size_t r = 0; r < rays; ++r) begin[r + 1] += begin[r];
 }
 
-// Primitives come roughly front to back, so most lists are nearly sorted: insertion while that is cheap.
+// Most rays cross little: insertion for them.
 template <class T, class Less>
-void sort_nearly_sorted(T* first, T* last, Less less) {
-    std::ptrdiff_t budget = 16 + 4 * (last - first);
+void sort_ray(T* first, T* last, Less less) {
+    if (last - first > 24) {
+        std::sort(first, last, less);
+        return;
+    }
     for (T* i = first + (first != last); i < last; ++i) {
         const T value = *i;
         T* j = i;
-        while (j > first && less(value, j[-1])) {
-            *j = j[-1];
-            --j;
-        }
+        for (; j > first && less(value, j[-1]); --j) *j = j[-1];
         *j = value;
-        budget -= i - j;
-        if (budget < 0) {
-            std::sort(first, last, less);
-            return;
-        }
     }
 }
 
@@ -52,7 +47,7 @@ void sort_hits(const SurfaceHits& hits, std::size_t rays, LightRays& tile) {
         keys[next[hit.ray]++] =
             static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(hit.z)) << 32 | std::bit_cast<std::uint32_t>(hit.transmittance);
     for (std::size_t r = 0; r < rays; ++r)
-        sort_nearly_sorted(keys.data() + tile.begin[r], keys.data() + tile.begin[r + 1], std::less<>());
+        sort_ray(keys.data() + tile.begin[r], keys.data() + tile.begin[r + 1], std::less<>());
     tile.z_front.resize(keys.size());
     tile.z_back.clear();
     tile.transmittance.resize(keys.size());
@@ -72,8 +67,8 @@ void sort_hits(const SegmentHits& hits, std::size_t rays, LightRays& tile) {
     };
     bool media = false;
     for (std::size_t r = 0; r < rays; ++r)
-        sort_nearly_sorted(sorted.data() + tile.begin[r], sorted.data() + tile.begin[r + 1],
-                           [&](const auto& a, const auto& b) { return key(a) < key(b); });
+        sort_ray(sorted.data() + tile.begin[r], sorted.data() + tile.begin[r + 1],
+                 [&](const auto& a, const auto& b) { return key(a) < key(b); });
     for (const auto& hit : sorted) media |= hit.z_back > hit.z_front;
 
     const std::size_t channels = tile.channels;

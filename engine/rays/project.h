@@ -4,62 +4,57 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "rays/primitives.h"
 #include "rays/tile_grid.h"
 
 namespace shadowbench::rays {
 
-// Places [low, high] of a line's x over rows y_low .. y_high, both widened by `reach`.
-struct Span {
-    double low, high;
-};
-inline Span line_span(double ax, double ay, double bx, double by, double y_low, double y_high, double reach) {
-    double u0 = 0.0, u1 = 1.0;
-    if (const double dy = by - ay; dy != 0.0) {
-        const double inverse = 1.0 / dy;
-        const double ua = (y_low - reach - ay) * inverse, ub = (y_high + reach - ay) * inverse;
-        u0 = std::clamp(std::min(ua, ub), 0.0, 1.0);
-        u1 = std::clamp(std::max(ua, ub), 0.0, 1.0);
-    }
-    const double x0 = ax + (bx - ax) * u0, x1 = ax + (bx - ax) * u1;
-    return {std::min(x0, x1) - reach, std::max(x0, x1) + reach};
-}
-
 template <bool perspective, class Sink>
 void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, const float* transmittance, Sink& sink) {
     // The axis on the view plane, and how far from it the ribbon can reach in x or y.
     double ax = s.a.x, ay = s.a.y, bx = s.b.x, by = s.b.y, reach = std::max(s.radius_a, s.radius_b);
+    bool everywhere = false;
     if constexpr (perspective) {
         const auto reach_of = [](double place, double z, double r) {
             return (std::abs(place) + r) / (z - r) - std::abs(place) / z;  // slopes of the box around a sphere
         };
-        const double front = std::min(s.a.z - s.radius_a, s.b.z - s.radius_b);
-        if (front <= 0.25 * z_near) {
+        if (std::min(s.a.z - s.radius_a, s.b.z - s.radius_b) <= 0.25 * z_near) {
             if (std::max(s.a.z, s.b.z) <= z_near) return;
-            ax = bx = grid.plane_x;  // around the light: try every sample
-            ay = by = grid.plane_y;
-            reach = std::numeric_limits<double>::infinity();
+            everywhere = true;  // around the light: every sample is tried
         } else {
             reach = std::max({reach_of(ax, s.a.z, s.radius_a), reach_of(ay, s.a.z, s.radius_a),
                               reach_of(bx, s.b.z, s.radius_b), reach_of(by, s.b.z, s.radius_b)});
-            ax /= s.a.z;
-            ay /= s.a.z;
-            bx /= s.b.z;
-            by /= s.b.z;
+            const double inverse_a = 1.0 / s.a.z, inverse_b = 1.0 / s.b.z;
+            ax *= inverse_a;
+            ay *= inverse_a;
+            bx *= inverse_b;
+            by *= inverse_b;
         }
     }
-    reach += 1e-9 * (std::abs(ax) + std::abs(ay) + std::abs(bx) + std::abs(by)) +
-             1e-3 * std::min(grid.cell_x, grid.cell_y);  // outweighs rounding of the bounds
-    const int j_low = grid.row(std::min(ay, by) - reach), j_high = grid.row(std::max(ay, by) + reach);
+    // The same in cells of this tile; a thousandth of a cell outweighs any rounding of the bounds.
+    ax = grid.cells_x(ax);
+    bx = grid.cells_x(bx);
+    ay = grid.cells_y(ay);
+    by = grid.cells_y(by);
+    const double reach_x = reach * grid.per_cell_x + 1e-3, reach_y = reach * grid.per_cell_y + 1e-3;
+    const double inverse_dy = by != ay ? 1.0 / (by - ay) : 0.0;
+    const int j_low = everywhere ? 0 : grid.row(std::min(ay, by) - reach_y);
+    const int j_high = everywhere ? grid.ny - 1 : grid.row(std::max(ay, by) + reach_y);
     for (int j = j_low; j <= j_high; ++j) {
-        const double y = grid.row_start(j);
-        const Span span = reach == std::numeric_limits<double>::infinity()
-                              ? Span{-reach, reach}
-                              : line_span(ax, ay, bx, by, y, y + grid.cell_y, reach);
-        const int i_high = grid.column(span.high);
-        for (int i = grid.column(span.low); i <= i_high; ++i) {
+        int i_low = 0, i_high = grid.nx - 1;
+        if (!everywhere) {  // where the axis passes the rows within reach of this one
+            double u0 = 0.0, u1 = 1.0;
+            if (inverse_dy != 0.0) {
+                const double ua = (j - reach_y - ay) * inverse_dy, ub = (j + 1 + reach_y - ay) * inverse_dy;
+                u0 = std::min(std::max(std::min(ua, ub), 0.0), 1.0);
+                u1 = std::min(std::max(std::max(ua, ub), 0.0), 1.0);
+            }
+            const double x0 = ax + (bx - ax) * u0, x1 = ax + (bx - ax) * u1;
+            i_low = grid.column(std::min(x0, x1) - reach_x);
+            i_high = grid.column(std::max(x0, x1) + reach_x);
+        }
+        for (int i = i_low; i <= i_high; ++i) {
             const std::size_t sample = static_cast<std::size_t>(j) * grid.nx + i;
             const RayMetric<perspective> ray(grid.x[sample], grid.y[sample]);
             double z;
@@ -72,10 +67,10 @@ void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, con
 template <class Sink, class Shade>
 void project_triangle(const TriangleSetup& t, double x_low, double x_high, double y_low, double y_high,
                       const TileGrid& grid, double z_near, const Shade& shade, Sink& sink) {
-    const int j_low = grid.row(y_low), j_high = grid.row(y_high);
+    const int j_low = grid.row(grid.cells_y(y_low)), j_high = grid.row(grid.cells_y(y_high));
+    const int i_low = grid.column(grid.cells_x(x_low)), i_high = grid.column(grid.cells_x(x_high));
     for (int j = j_low; j <= j_high; ++j) {
-        const int i_high = grid.column(x_high);
-        for (int i = grid.column(x_low); i <= i_high; ++i) {
+        for (int i = i_low; i <= i_high; ++i) {
             const std::size_t sample = static_cast<std::size_t>(j) * grid.nx + i;
             double z, weight[3];
             if (!cross_triangle(t, grid.x[sample], grid.y[sample], z, weight) || !(z > z_near)) continue;
@@ -88,8 +83,8 @@ void project_triangle(const TriangleSetup& t, double x_low, double x_high, doubl
 // Calls visit(ray, x, y) for every sample inside the view-plane bounds.
 template <class Visit>
 void visit_samples(double x_low, double x_high, double y_low, double y_high, const TileGrid& grid, const Visit& visit) {
-    const int i_low = grid.column(x_low), i_high = grid.column(x_high);
-    for (int j = grid.row(y_low), j_high = grid.row(y_high); j <= j_high; ++j)
+    const int i_low = grid.column(grid.cells_x(x_low)), i_high = grid.column(grid.cells_x(x_high));
+    for (int j = grid.row(grid.cells_y(y_low)), j_high = grid.row(grid.cells_y(y_high)); j <= j_high; ++j)
         for (int i = i_low; i <= i_high; ++i) {
             const std::size_t sample = static_cast<std::size_t>(j) * grid.nx + i;
             visit(grid.ray_row[j] + grid.ray_column[i], grid.x[sample], grid.y[sample]);

@@ -8,10 +8,10 @@ TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const Li
     grid.j0 = tile.y0 * layout.samples_y;
     grid.nx = tile.width * layout.samples_x;
     grid.ny = tile.height * layout.samples_y;
-    grid.cell_x = view.pixel.x / layout.samples_x;
-    grid.cell_y = view.pixel.y / layout.samples_y;
-    grid.plane_x = view.lower.x;
-    grid.plane_y = view.lower.y;
+    grid.per_cell_x = layout.samples_x / view.pixel.x;
+    grid.per_cell_y = layout.samples_y / view.pixel.y;
+    grid.plane_x = view.lower.x + tile.x0 * view.pixel.x;
+    grid.plane_y = view.lower.y + tile.y0 * view.pixel.y;
     const std::size_t count = static_cast<std::size_t>(grid.nx) * grid.ny;
     grid.x.resize(count);
     grid.y.resize(count);
