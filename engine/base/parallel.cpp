@@ -15,13 +15,13 @@ int thread_count() {
 }
 
 struct ThreadLimit::Control {
-    tbb::global_control control;
+    explicit Control(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
+    tbb::global_control control;  // must stay where it was made: a copy limits nothing
 };
 
 ThreadLimit::ThreadLimit(int threads) {
     const int count = threads > 0 ? threads : tbb::info::default_concurrency();
-    control_ = std::make_unique<Control>(
-        Control{{tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)}});
+    control_ = std::make_unique<Control>(static_cast<std::size_t>(count));
 }
 
 ThreadLimit::~ThreadLimit() = default;

@@ -34,12 +34,13 @@ public:
         layout_.width = static_cast<int>(functions.size());
         layout_.z_max = far_plane;
         start();
-        TransmittanceStream stream(nodes_, far_plane);
-        for (std::size_t f = 0; f < functions.size(); ++f) {
-            stream.clear(far_plane);
-            for (const curves::Vertex& v : functions[f]) stream.append(v.z, v.value);
-            store(stream, f);
-        }
+        with_stream([&](auto& stream) {
+            for (std::size_t f = 0; f < functions.size(); ++f) {
+                stream.clear(far_plane);
+                for (const curves::Vertex& v : functions[f]) stream.append(v.z, v.value);
+                store(stream, f);
+            }
+        });
     }
 
     void begin(const BuildInput& input) override {
@@ -48,12 +49,17 @@ public:
     }
 
     void add(const rays::LightRays& rays) override {
-        TransmittanceStream stream(nodes_, layout_.z_max);
-        for_each_cell(layout_, grid_, kind_, rays, [&](std::size_t cell, std::size_t ray) {
-            stream.clear(layout_.z_max);
-            for (std::uint32_t s = rays.begin[ray]; s < rays.begin[ray + 1]; ++s)
-                stream.insert(rays.z_front[s], rays.back(s), rays.transmittance[s]);
-            store(stream, cell);
+        with_stream([&](auto& stream) {
+            for_each_cell(layout_, grid_, kind_, rays, [&](std::size_t cell, std::size_t ray) {
+                if (rays.begin[ray] == rays.begin[ray + 1]) {
+                    store_empty(cell);
+                    return;
+                }
+                stream.clear(layout_.z_max);
+                for (std::uint32_t s = rays.begin[ray]; s < rays.begin[ray + 1]; ++s)
+                    stream.insert(rays.z_front[s], rays.back(s), rays.transmittance[s]);
+                store(stream, cell);
+            });
         });
     }
     void finish() override {}
@@ -88,7 +94,7 @@ public:
     }
 
     std::size_t bytes() const override { return grid_.count() * 8 * nodes_; }
-    std::size_t working_bytes() const override { return bytes() + sizeof(TransmittanceStream); }
+    std::size_t working_bytes() const override { return bytes() + sizeof(TransmittanceStream<64>); }
     NodeStats nodes() const override {
         NodeStats stats;
         for (std::size_t cell = 0; cell < grid_.count(); ++cell) stats.add(used(cell));
@@ -114,14 +120,43 @@ private:
     }
     float* texel(std::size_t cell) const { return texels_.get() + cell * 2 * nodes_; }
 
-    // Nodes not needed stand at the far plane with the last value.
-    void store(const TransmittanceStream& stream, std::size_t cell) {
+    void store_empty(std::size_t cell) {
         float* t = texel(cell);
-        const int last = stream.size() - 1;
-        for (int i = 0; i < nodes_; ++i) {
-            t[i] = stream.depth(std::min(i, last));
-            t[nodes_ + i] = stream.value(std::min(i, last));
+        std::fill_n(t, nodes_, layout_.z_max);
+        std::fill_n(t + nodes_, nodes_, 1.0f);
+    }
+
+    // Nodes not needed stand at the far plane with the last value.
+    template <class Stream>
+    void store(const Stream& stream, std::size_t cell) {
+        float* t = texel(cell);
+        int i = 0;
+        stream.for_each([&](float depth, float value) {
+            t[i] = depth;
+            t[nodes_ + i] = value;
+            ++i;
+        });
+        for (const int last = i - 1; i < nodes_; ++i) {
+            t[i] = t[last];
+            t[nodes_ + i] = t[nodes_ + last];
         }
+    }
+
+    // Calls work(stream) with a stream of the smallest sufficient size.
+    template <class Work>
+    void with_stream(const Work& work) {
+        const auto run = [&]<int size>() {
+            TransmittanceStream<size> stream(nodes_, layout_.z_max);
+            work(stream);
+        };
+        if (nodes_ <= 4)
+            run.template operator()<4>();
+        else if (nodes_ <= 8)
+            run.template operator()<8>();
+        else if (nodes_ <= 16)
+            run.template operator()<16>();
+        else
+            run.template operator()<64>();
     }
 
     // Nodes before the far plane and one there; an empty texel has 0.

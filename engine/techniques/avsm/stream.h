@@ -1,114 +1,186 @@
-// The streaming compression of one texel (section 3.2): insert a segment, then drop the nodes that change the area under
-// the curve least until no more than the texel's number are left.
+// The streaming compression of one texel (Salvi et al. 2010, section 3.2): insert a segment, then drop the nodes that
+// change the area under the curve least until no more than the texel's number are left.
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace shadowbench::techniques {
 
-// A transmittance curve of at most `capacity` nodes, 2 to 64, linear between them. The last one is always at the far
-// plane; depths do not decrease, values neither increase nor leave [0, 1]; the value before the first node is 1.
+// A transmittance curve of at most `capacity` nodes, 2 to max_capacity, linear between them. The last one is always at the
+// far plane; depths do not decrease, values neither increase nor leave [0, 1]; the value before the first node is its own.
+//
+// Nodes stay in their slots, linked in order of depth, so that nothing moves when one goes: a segment behind all others,
+// which is what sorted input brings, costs the same few steps however many nodes there are.
+template <int max_capacity>
 class TransmittanceStream {
 public:
-    static constexpr int max_capacity = 64;
-
     TransmittanceStream(int capacity, float far_plane) : capacity_(capacity) { clear(far_plane); }
 
     void clear(float far_plane) {
         size_ = 1;
-        depth_[0] = far_plane;
-        value_[0] = 1.0f;
+        depth_[far_slot] = far_plane;
+        value_[far_slot] = 1.0f;
+        previous_[far_slot] = next_[far_slot] = far_slot;  // a ring: behind the last node comes the first
+        rank_.fill(never);
+        free_ = all_free();
+        free_count_ = slots - 1;
     }
 
     // A segment with constant extinction from front to back (front == back: a surface) that transmits `through`. All of
     // it lies before the far plane.
     void insert(float front, float back, float through) {
-        // Where a zero curve is multiplied nothing changes, and where everything passes neither.
-        int at = 0;
-        while (at < size_ - 1 && depth_[at] < front) ++at;
-        const float before = value_at(at, front);
-        if (before <= 0.0f || through >= 1.0f) return;
-
-        int end = at;  // first node behind the segment
-        while (end < size_ && depth_[end] <= back) ++end;
-        const float after = end < size_ ? value_at(end, back) * through : value_[size_ - 1] * through;
-        // Nodes at the segment's own ends serve as its ends. The first node at `front` holds the value before it.
-        const bool has_front = depth_[at] == front;
-        if (front == back) {
-            for (int i = at + 1; i < end; ++i) value_[i] *= through;
-            for (int i = end; i < size_; ++i) value_[i] *= through;
-            const bool has_back = end - at >= 2;
-            open(end, has_back ? 0 : 1, back, after);
-            open(at, has_front ? 0 : 1, front, before);
+        if (through >= 1.0f) return;
+        const int last = previous_[far_slot];
+        const bool joins = size_ > 1 && front == depth_[last] && back > front;  // right behind the segment before
+        if (size_ == 1 || front > depth_[last] || joins) {
+            const float before = value_before_far(front);
+            if (before <= 0.0f) return;  // nothing is left to take
+            const float after = value_before_far(back) * through;
+            value_[far_slot] *= through;
+            if (!joins) link_before(far_slot, front, before);
+            const int end = link_before(far_slot, back, after);
+            // Areas change where a node's neighbours do: at `last`, and at the new nodes.
+            if (!joins) update(last);
+            update(previous_[end]);
+            update(end);
         } else {
-            const float log_through = std::log(through > 0.0f ? through : std::numeric_limits<float>::min());
-            for (int i = at; i < end; ++i)  // inside: the medium's own curve
-                value_[i] *= depth_[i] == back ? through : std::exp(log_through * ((depth_[i] - front) / (back - front)));
-            for (int i = end; i < size_; ++i) value_[i] *= through;
-            open(end, depth_[end - (end > 0)] == back && end > at ? 0 : 1, back, after);
-            open(at, has_front ? 0 : 1, front, before);
+            insert_between(front, back, through);
         }
         while (size_ > capacity_) remove_least();
     }
 
     // Appends a node behind all others; the far plane follows it. For curves that are given node by node.
     void append(float depth, float value) {
-        open(size_ - 1, 1, depth, value);
-        value_[size_ - 1] = value;
+        value_[far_slot] = value;
+        const int end = link_before(far_slot, depth, value);
+        update(previous_[end]);
+        update(end);
         while (size_ > capacity_) remove_least();
     }
 
     int size() const { return size_; }
-    float depth(int i) const { return depth_[i]; }
-    float value(int i) const { return value_[i]; }
+
+    // Calls visit(depth, value) from the first node to the far plane's.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        for (int node = next_[far_slot];; node = next_[node]) {
+            visit(depth_[node], value_[node]);
+            if (node == far_slot) return;
+        }
+    }
 
 private:
-    // Value at z, where `next` is the first node not before z.
-    float value_at(int next, float z) const {
-        if (next == 0) return 1.0f;
-        if (depth_[next] == z) return value_[next];
-        const float u = (z - depth_[next - 1]) / (depth_[next] - depth_[next - 1]);
-        return value_[next - 1] + u * (value_[next] - value_[next - 1]);
+    static constexpr int far_slot = 0;
+    static constexpr int slots = (max_capacity + 2 + 3) / 4 * 4;
+    static constexpr int slot_mask = std::bit_ceil(static_cast<unsigned>(slots)) - 1;
+    static constexpr std::int32_t never = std::numeric_limits<std::int32_t>::max();
+
+    static constexpr std::array<std::uint8_t, slots> all_free() {
+        std::array<std::uint8_t, slots> result{};
+        for (int i = 0; i < slots - 1; ++i) result[i] = static_cast<std::uint8_t>(slots - 1 - i);
+        return result;
     }
 
-    void open(int at, int count, float depth, float value) {
-        if (count == 0) return;
-        for (int i = size_; i > at; --i) {
-            depth_[i] = depth_[i - 1];
-            value_[i] = value_[i - 1];
+    // Anywhere: nodes inside the segment follow the medium's own curve, those behind it are scaled.
+    void insert_between(float front, float back, float through) {
+        int at = far_slot;  // first node not before the segment
+        while (previous_[at] != far_slot && depth_[previous_[at]] >= front) at = previous_[at];
+        const float before = value_at(at, front);
+        if (before <= 0.0f) return;
+        int end = at;  // first node behind it
+        while (end != far_slot && depth_[end] <= back) end = next_[end];
+        const float after = value_at(end, back) * through;
+
+        // Nodes that stand at the segment's ends serve as its ends: the first one at `front` holds the value before it,
+        // the last one at `back`, if it is another one, the value behind it.
+        const bool has_front = depth_[at] == front;
+        const bool has_back = end != at && depth_[previous_[end]] == back && !(front == back && previous_[end] == at);
+        const float log_through = std::log(through > 0.0f ? through : std::numeric_limits<float>::min());
+        for (int node = at; node != end; node = next_[node]) {
+            if (front == back)
+                value_[node] *= node == at ? 1.0f : through;
+            else if (depth_[node] == back)
+                value_[node] *= through;
+            else
+                value_[node] *= std::exp(log_through * ((depth_[node] - front) / (back - front)));
         }
-        depth_[at] = depth;
-        value_[at] = value;
-        ++size_;
+        for (int node = end;; node = next_[node]) {
+            value_[node] *= through;
+            if (node == far_slot) break;
+        }
+        if (!has_back) link_before(end, back, after);
+        if (!has_front) link_before(at == end && !has_back ? previous_[end] : at, front, before);
+        for (int node = next_[far_slot]; node != far_slot; node = next_[node]) update(node);
     }
 
-    // Section 3.2.1: twice the area of the triangle of a node and its neighbours.
-    float area(int i) const {
-        return std::abs((depth_[i + 1] - depth_[i - 1]) * (value_[i + 1] - value_[i]) -
-                        (depth_[i + 1] - depth_[i]) * (value_[i + 1] - value_[i - 1]));
+    // Value at z, between the last node before the far plane and the far plane.
+    float value_before_far(float z) const {
+        const int last = previous_[far_slot];
+        if (last == far_slot) return 1.0f;
+        const float u = (z - depth_[last]) / (depth_[far_slot] - depth_[last]);
+        return value_[last] + u * (value_[far_slot] - value_[last]);
+    }
+
+    // Value at z, where `node` is the first that is not before z.
+    float value_at(int node, float z) const {
+        if (node == next_[far_slot]) return 1.0f;
+        if (depth_[node] == z) return value_[node];
+        const int before = previous_[node];
+        const float u = (z - depth_[before]) / (depth_[node] - depth_[before]);
+        return value_[before] + u * (value_[node] - value_[before]);
+    }
+
+    int link_before(int node, float depth, float value) {
+        const int slot = free_[--free_count_];
+        depth_[slot] = depth;
+        value_[slot] = value;
+        const int before = previous_[node];
+        previous_[slot] = static_cast<std::uint8_t>(before);
+        next_[slot] = static_cast<std::uint8_t>(node);
+        next_[before] = previous_[node] = static_cast<std::uint8_t>(slot);
+        ++size_;
+        return slot;
+    }
+
+    // Section 3.2.1: twice the area of the triangle of a node and its neighbours. The first and the last node stay.
+    // The slot is kept in the lowest bits, so that one search for the least finds both: areas that differ by less than
+    // 1 part in 100,000 count as equal.
+    void update(int node) {
+        const int before = previous_[node], behind = next_[node];
+        if (before == far_slot || node == far_slot) {
+            rank_[node] = never;
+            return;
+        }
+        const float area = std::abs((depth_[behind] - depth_[before]) * (value_[behind] - value_[node]) -
+                                    (depth_[behind] - depth_[node]) * (value_[behind] - value_[before]));
+        rank_[node] = (std::bit_cast<std::int32_t>(area) & ~slot_mask) | node;
     }
 
     void remove_least() {
-        int least = 1;
-        float smallest = std::numeric_limits<float>::infinity();
-        for (int i = 1; i < size_ - 1; ++i)
-            if (const float a = area(i); a < smallest) {
-                smallest = a;
-                least = i;
-            }
+        std::int32_t least = never;
+        for (int i = 0; i < slots; ++i) least = rank_[i] < least ? rank_[i] : least;
+        const int node = least & slot_mask;
+        const int before = previous_[node], behind = next_[node];
+        next_[before] = static_cast<std::uint8_t>(behind);
+        previous_[behind] = static_cast<std::uint8_t>(before);
+        rank_[node] = never;
+        free_[free_count_++] = static_cast<std::uint8_t>(node);
         --size_;
-        for (int i = least; i < size_; ++i) {
-            depth_[i] = depth_[i + 1];
-            value_[i] = value_[i + 1];
-        }
+        update(before);
+        update(behind);
     }
 
     int capacity_;
-    int size_ = 0;
-    std::array<float, max_capacity + 4> depth_;
-    std::array<float, max_capacity + 4> value_;
+    int size_;
+    std::array<float, slots> depth_, value_;
+    std::array<std::int32_t, slots> rank_;  // area and slot; `never` for the first, the last and for free slots
+    std::array<std::uint8_t, slots> previous_, next_;
+    std::array<std::uint8_t, slots> free_;  // a stack of free slots
+    int free_count_;
 };
 
 }  // namespace shadowbench::techniques

@@ -1,0 +1,24 @@
+// Greedy compression of a piecewise-linear function within a tolerance (Lokovic and Veach 2000, section 3.3).
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "curves/curve.h"
+
+namespace shadowbench::curves {
+
+// Writes the compressed function to `out` and returns its number of vertices, at most curve.size(); `out` must have
+// room for curve.size() vertices and may be the input's own memory. The input must be a visibility function (finite, z
+// non-decreasing, values non-increasing and in [0, 1]).
+//  - |out(z) - curve(z)| <= tolerance for every z, on both sides of steps, up to one rounding of a float;
+//  - output depths are a subset of the input's; the output is a visibility function too;
+//  - O(n) time, O(1) state.
+// Differences from the paper, which keep its guarantee: a segment never rises (the published middle slope can), windows
+// are cut at 0, the function starts at its exact first value (what is in front of all is not darkened), and the last
+// segment aims at the exact last value. No vertices come out where the function is 1 everywhere.
+std::size_t compress(CurveView curve, float tolerance, Vertex* out);
+
+Curve compress(CurveView curve, float tolerance);
+
+}  // namespace shadowbench::curves

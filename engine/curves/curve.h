@@ -1,0 +1,31 @@
+// Piecewise-linear functions of depth. A function is its vertices in order of non-decreasing z; two (or more) vertices
+// at one z are a step. It has its first value before the first vertex, its last value after the last one, and at a step
+// the value before it: a surface shades only what is strictly behind it. No vertex at all means 1 everywhere.
+// Visibility functions do not increase and stay in [0, 1].
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace shadowbench::curves {
+
+struct Vertex {
+    float z;
+    float value;
+
+    friend bool operator==(const Vertex&, const Vertex&) = default;
+};
+
+using Curve = std::vector<Vertex>;
+using CurveView = std::span<const Vertex>;
+
+// Value at z. O(log vertices).
+float evaluate(CurveView curve, float z);
+
+// Limit from the right at z: the value just behind a step there.
+float evaluate_behind(CurveView curve, float z);
+
+// Whether the values never increase by more than `slack` from one vertex to the next, and stay in [-slack, 1 + slack].
+bool is_visibility(CurveView curve, float slack = 0.0f);
+
+}  // namespace shadowbench::curves

@@ -1,0 +1,59 @@
+// Light rays -> the visibility function of a pixel: the weighted sum of the transmittance functions of its rays, by one
+// sweep over all vertices in order of z (Lokovic and Veach 2000, sections 3.2 and 5.1).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "curves/composite.h"
+#include "curves/curve.h"
+
+namespace shadowbench::rays {
+struct LightRays;
+}
+
+namespace shadowbench::curves {
+
+// One transmittance function as a term of a weighted sum.
+struct WeightedCurve {
+    CurveView curve;
+    double weight;
+};
+
+// Scratch memory of a sweep, reused from call to call; one a thread.
+struct SweepScratch {
+    // A linear function slope * (z - origin) + offset, already weighted.
+    struct Line {
+        double slope = 0.0, offset = 0.0;
+    };
+    // From some depth on, a term goes on as another line.
+    struct Event {
+        Line line;
+        std::uint32_t term;
+        bool step;  // not continuous there
+    };
+    std::vector<std::uint64_t> order, sorting;  // see depth_sort.h
+    std::vector<std::int64_t> drops;            // surfaces: falls of transmittance in fixed point
+    std::vector<Event> events;
+    std::vector<Line> sums;  // binary tree over the terms' present lines
+    std::vector<Node> nodes;
+    Curve ray;
+
+    std::size_t bytes() const;
+};
+
+// Weighted sum of functions; `out` is replaced. Weights should sum to 1. Values in `out` are within 1e-6 of the exact
+// sum, stay in [0, 1] and do not increase when the terms do not. O(n log n).
+void weighted_sum(std::span<const WeightedCurve> terms, SweepScratch& scratch, Curve& out);
+
+// Visibility function of the rays [first, first + count) of a tile, each with weight 1 / count; of their first channel
+// (rays::channel makes rays of another one). Where surfaces alone are hit, the result is exact to float rounding and
+// does not depend on the order of the rays. A medium's exponential is evaluated at the ends of its segments and at so
+// many points between them that joining them by lines errs by at most `linearisation` (> 0; infinity: segment ends
+// only, as published).
+void visibility(const rays::LightRays& rays, std::size_t first, std::size_t count, double linearisation,
+                SweepScratch& scratch, Curve& out);
+
+}  // namespace shadowbench::curves

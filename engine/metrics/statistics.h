@@ -1,0 +1,31 @@
+// Arrays in, numbers out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace shadowbench::metrics {
+
+// Of the absolute values of errors. All 0 for no errors. A NaN counts as an infinite error: it cannot hide, and stays
+// comparable.
+struct ErrorNorms {
+    double max = 0.0;  // L-infinity
+    double rms = 0.0;
+    double mean = 0.0;
+    double p99 = 0.0;  // 99th percentile (nearest rank)
+};
+ErrorNorms error_norms(std::span<const double> errors);
+
+// Of an unsorted sample, which is not empty. The mean of the two middle values when their number is even.
+double median(std::span<const double> sample);
+
+struct Interval {
+    double low, high;
+};
+// Bootstrap interval of the median: percentiles of the medians of 2,000 resamples drawn with `seed`
+// (Efron 1979). A sample of one gives that value twice.
+Interval median_interval(std::span<const double> sample, double confidence = 0.95, std::uint64_t seed = 1);
+
+}  // namespace shadowbench::metrics

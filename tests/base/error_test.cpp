@@ -1,0 +1,34 @@
+#include "base/error.h"
+
+#include <gtest/gtest.h>
+
+namespace shadowbench::base {
+namespace {
+
+TEST(Error, WhatIsThePlaceAndTheMessage) {
+    const Error error(ErrorCode::bad_input, "/lights/0", "no such kind");
+    EXPECT_STREQ(error.what(), "/lights/0: no such kind");
+    EXPECT_EQ(error.code(), ErrorCode::bad_input);
+    EXPECT_EQ(error.where(), "/lights/0");
+    EXPECT_EQ(error.message(), "no such kind");
+}
+
+TEST(Error, WithoutAPlaceIsTheMessageAlone) {
+    EXPECT_STREQ(Error(ErrorCode::usage, "", "no command").what(), "no command");
+}
+
+// A message that quotes a file must not forge a second line of a log.
+TEST(Error, WhatIsOneLine) {
+    EXPECT_STREQ(Error(ErrorCode::io, "a\rb", "c\nd").what(), "a b: c d");
+}
+
+TEST(Error, CodesAreTheExitCodesOfTheProcess) {
+    EXPECT_EQ(static_cast<int>(ErrorCode::usage), 64);
+    EXPECT_EQ(static_cast<int>(ErrorCode::bad_input), 65);
+    EXPECT_EQ(static_cast<int>(ErrorCode::no_such_file), 66);
+    EXPECT_EQ(static_cast<int>(ErrorCode::internal), 70);
+    EXPECT_EQ(static_cast<int>(ErrorCode::io), 74);
+}
+
+}  // namespace
+}  // namespace shadowbench::base

@@ -1,0 +1,174 @@
+#include "curves/compress.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "cases.h"
+#include "curves/norms.h"
+
+namespace shadowbench::curves {
+namespace {
+
+constexpr double kRounding = 0x1p-24;  // of a float near 1
+
+double error(CurveView a, CurveView b) {
+    return distance(a, b, 0.0, 0.0).max;
+}
+
+bool is_subset_of_depths(const Curve& part, const Curve& whole) {
+    const auto less = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
+    return std::includes(whole.begin(), whole.end(), part.begin(), part.end(), less);
+}
+
+RC_GTEST_PROP(Compress, StaysWithinTheToleranceOnBothSidesOfEveryStep, ()) {
+    const Curve curve = *cases::any_function();
+    const float tolerance = *cases::any_tolerance();
+    RC_ASSERT(error(compress(curve, tolerance), curve) <= tolerance + kRounding);
+}
+
+// Invented depths make surfaces shade themselves; more vertices than the input would overrun the caller's memory.
+RC_GTEST_PROP(Compress, GivesAVisibilityFunctionOfTheInputsDepthsThatIsNotLonger, ()) {
+    const Curve curve = *cases::any_function();
+    const Curve compressed = compress(curve, *cases::any_tolerance());
+    RC_ASSERT(compressed.size() <= curve.size());
+    RC_ASSERT(is_visibility(compressed));
+    RC_ASSERT(is_subset_of_depths(compressed, curve));
+}
+
+RC_GTEST_PROP(Compress, AToleranceOfZeroKeepsTheFunction, ()) {
+    const Curve curve = *cases::any_function();
+    const Curve compressed = compress(curve, 0.0f);
+    RC_ASSERT(error(compressed, curve) <= kRounding);
+    for (const Vertex& v : compressed) {  // what is kept is kept exactly
+        RC_ASSERT(evaluate(compressed, v.z) == evaluate(curve, v.z));
+        RC_ASSERT(evaluate_behind(compressed, v.z) == evaluate_behind(curve, v.z));
+    }
+}
+
+// Greedy compression is not idempotent: its output has its own middle slopes. What holds: each pass adds its tolerance
+// at most and no vertices.
+RC_GTEST_PROP(Compress, AgainAtTheSameToleranceStaysWithinTwice, ()) {
+    const Curve curve = *cases::any_function();
+    const float tolerance = *cases::any_tolerance();
+    const Curve once = compress(curve, tolerance), twice = compress(once, tolerance);
+    RC_ASSERT(error(twice, curve) <= 2.0 * tolerance + 2.0 * kRounding);
+    RC_ASSERT(twice.size() <= once.size());
+}
+
+RC_GTEST_PROP(Compress, IntoTheInputsOwnMemoryGivesTheSame, ()) {
+    const Curve curve = *cases::any_function();
+    const float tolerance = *cases::any_tolerance();
+    Curve in_place = curve;
+    in_place.resize(compress(in_place, tolerance, in_place.data()));
+    RC_ASSERT(in_place == compress(curve, tolerance));
+}
+
+// The light behind everything is what the ground receives: no bias there.
+RC_GTEST_PROP(Compress, EndsAtTheExactValueWhenOneSegmentReachesTheEnd, ()) {
+    const Curve curve = *rc::gen::nonEmpty(cases::any_function());
+    const Curve compressed = compress(curve, 1.0f);
+    RC_ASSERT(evaluate_behind(compressed, curve.back().z) == curve.back().value);
+    RC_ASSERT(compressed.size() <= 2u);
+}
+
+TEST(Compress, NoVerticesStayNone) {
+    EXPECT_TRUE(compress(Curve{}, 0.02f).empty());
+}
+
+TEST(Compress, AFunctionThatIsLitEverywhereNeedsNoVertex) {
+    EXPECT_TRUE(compress(Curve{{1, 1}}, 0.02f).empty());
+    EXPECT_TRUE(compress(Curve{{1, 1}, {1, 1}, {2, 1}, {3, 1}}, 0.0f).empty());
+}
+
+TEST(Compress, AConstantBelowOneNeedsOneVertex) {
+    EXPECT_EQ(compress(Curve{{1, 0.5f}, {2, 0.5f}, {2, 0.5f}, {9, 0.5f}}, 0.02f).size(), 1u);
+    EXPECT_EQ(evaluate(compress(Curve{{1, 0.5f}, {2, 0.5f}}, 0.02f), -3.0f), 0.5f);
+}
+
+TEST(Compress, AWallStaysAWall) {
+    const Curve wall{{2, 1}, {2, 0}};
+    EXPECT_EQ(compress(wall, 0.02f), wall);
+    EXPECT_EQ(compress(Curve{{1, 1}, {2, 1}, {2, 0}, {3, 0}}, 0.02f), wall) << "flat parts need no vertices";
+}
+
+// A step above twice the tolerance cannot be crossed by any segment: two vertices at one depth.
+TEST(Compress, ALargeStepAmidSmallOnesStandsWhereItWas) {
+    Curve curve;
+    for (int i = 0; i < 100; ++i) curve.push_back({static_cast<float>(i), 1.0f - 0.002f * static_cast<float>(i)});
+    for (int i = 99; i < 200; ++i) curve.push_back({static_cast<float>(i), 0.6f - 0.002f * static_cast<float>(i)});
+    const Curve compressed = compress(curve, 0.01f);
+    EXPECT_EQ(compressed.size(), 4u);
+    EXPECT_LE(error(compressed, curve), 0.01 + kRounding);
+    EXPECT_EQ(compressed[1].z, 99.0f);
+    EXPECT_EQ(compressed[2].z, 99.0f);
+}
+
+// One vertex a segment: ending segments at the front side of each step would take two.
+TEST(Compress, ManySmallStepsBecomeALine) {
+    Curve curve;
+    for (int i = 0; i < 1000; ++i) {
+        curve.push_back({static_cast<float>(i), 1.0f - 0.001f * static_cast<float>(i)});
+        curve.push_back({static_cast<float>(i), 1.0f - 0.001f * static_cast<float>(i + 1)});
+    }
+    EXPECT_LE(compress(curve, 0.01f).size(), 2u);
+}
+
+// The middle of the slopes allowed may be above 0 on a flat stretch that follows a fall; the published rule rises
+// there.
+TEST(Compress, DoesNotRiseAfterAFall) {
+    base::Random random(5);
+    for (int round = 0; round < 300; ++round) {
+        Curve curve;
+        float value = 1.0f;
+        for (int i = 0; i < 60; ++i) {
+            curve.push_back({static_cast<float>(i), value});
+            if (random.below(5) == 0) value -= std::min(value, cases::number(random, 0, 0.1));
+        }
+        ASSERT_TRUE(is_visibility(compress(curve, 0.03f)));
+    }
+}
+
+TEST(Compress, ManyVerticesAtOneDepthAreOneStep) {
+    EXPECT_EQ(compress(Curve{{1, 1}, {1, 0.9f}, {1, 0.7f}, {1, 0.1f}, {1, 0}}, 0.02f), (Curve{{1, 1}, {1, 0}}));
+}
+
+// 1 / dz overflows a float here, and slopes reach 1e45.
+TEST(Compress, DenormalDistancesKeepTheirSteps) {
+    const float tiny = std::numeric_limits<float>::denorm_min();
+    const Curve curve{{0, 1}, {tiny, 0.5f}, {2 * tiny, 0.1f}, {1, 0.1f}, {1e30f, 0}};
+    for (const float tolerance : {0.0f, 0.02f, 0.2f})
+        EXPECT_LE(error(compress(curve, tolerance), curve), tolerance + kRounding);
+}
+
+TEST(Compress, LayersOneFloatApartFarFromTheLight) {
+    Curve curve;
+    float z = 1e6f, value = 1.0f;
+    for (int i = 0; i < 200; ++i, z = std::nextafter(z, 2e6f), value *= 0.97f) {
+        curve.push_back({z, value});
+        curve.push_back({z, value * 0.97f});
+    }
+    for (const float tolerance : {0.0f, 0.001f, 0.02f})
+        EXPECT_LE(error(compress(curve, tolerance), curve), tolerance + kRounding);
+}
+
+TEST(Compress, AToleranceThatIsNotANumberOrNegativeKeepsTheFunction) {
+    const Curve curve{{1, 1}, {2, 0.9f}, {3, 0.2f}};
+    EXPECT_EQ(compress(curve, -1.0f), curve);
+    EXPECT_EQ(compress(curve, std::numeric_limits<float>::quiet_NaN()), curve);
+}
+
+// Input that breaks the contract must not hang or write past the output.
+TEST(Compress, EndsOnFunctionsThatRiseOrAreNotNumbers) {
+    const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    const float values[] = {0.0f, 1.0f, 0.5f, nan, infinity, -infinity};
+    base::Random random(6);
+    for (int round = 0; round < 2000; ++round) {
+        Curve curve;
+        for (int i = 0; i < 8; ++i) curve.push_back({values[random.below(6)], values[random.below(6)]});
+        const std::size_t count = curve.size();
+        ASSERT_LE(compress(curve, 0.02f, curve.data()), count);
+    }
+}
+
+}  // namespace
+}  // namespace shadowbench::curves

@@ -1,0 +1,123 @@
+#include "curves/functions_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <fstream>
+
+#include "base/error.h"
+#include "cases.h"
+
+namespace shadowbench::curves {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+using testing::EndsWith;
+using testing::HasSubstr;
+
+// A folder of its own, removed in the end.
+class Folder {
+public:
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "shadowbench-XXXXXX").string();
+        path_ = mkdtemp(name.data());
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    std::filesystem::path file() const { return path_ / "functions.txt"; }
+    std::ptrdiff_t entries() const {
+        return std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator());
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+std::vector<Curve> read(const std::string& text) {
+    Folder folder;
+    std::ofstream(folder.file(), std::ios::binary) << text;
+    return read_functions(folder.file());
+}
+
+void expect_refused(const std::string& text, int line, const std::string& message) {
+    try {
+        read(text);
+        ADD_FAILURE() << "accepted: " << text;
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::bad_input);
+        EXPECT_THAT(error.where(), EndsWith("functions.txt:" + std::to_string(line)));
+        EXPECT_THAT(error.message(), HasSubstr(message));
+    }
+}
+
+TEST(FunctionsFile, ReadsRecordsAndSkipsCommentsAndEmptyLines) {
+    const auto functions = read("# two functions\n\n2\n1 1\r\n\n# wall\n1 0.5\n0\n1\n -3.5e-2\t0.25 \n");
+    ASSERT_EQ(functions.size(), 3u);
+    EXPECT_EQ(functions[0], (Curve{{1, 1}, {1, 0.5f}}));
+    EXPECT_TRUE(functions[1].empty());
+    EXPECT_EQ(functions[2], (Curve{{-0.035f, 0.25f}}));
+    EXPECT_TRUE(read("").empty());
+    EXPECT_EQ(read("1\n0 1").size(), 1u) << "the last line may lack its end";
+}
+
+TEST(FunctionsFile, SaysWhereAndWhatIsWrong) {
+    expect_refused("two\n", 1, "number of vertices");
+    expect_refused("-1\n", 1, "number of vertices");
+    expect_refused("2 3\n", 1, "number of vertices");
+    expect_refused("2\n1 1\n# end\n", 3, "2 vertices announced, only 1 found");
+    expect_refused("99999999999\n1 1\n", 1, "only");  // refused before memory is taken for it
+    expect_refused("99999999999999999999999\n1 1\n", 1, "number of vertices");
+    expect_refused("1\n1\n", 2, "two numbers");
+    expect_refused("1\n1 1 1\n", 2, "two numbers");
+    expect_refused("1\n1 one\n", 2, "two numbers");
+    expect_refused("1\n1,5 1\n", 2, "two numbers");
+    expect_refused("1\n1e99 1\n", 2, "two numbers");
+    expect_refused("1\ninf 1\n", 2, "not finite");
+    expect_refused("1\nnan 1\n", 2, "not finite");
+    expect_refused("1\n1 nan\n", 2, "outside [0, 1]");
+    expect_refused("1\n1 1.5\n", 2, "outside [0, 1]");
+    expect_refused("1\n1 -0.5\n", 2, "outside [0, 1]");
+    expect_refused("2\n2 1\n1 0.5\n", 3, "depth decreases from 2 to 1");
+    expect_refused("2\n1 0.5\n2 0.75\n", 3, "transmittance rises from 0.5 to 0.75");
+}
+
+TEST(FunctionsFile, TellsAMissingFileFromOneThatCannotBeRead) {
+    const Folder folder;
+    try {
+        read_functions(folder.file());
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::no_such_file);
+    }
+    try {
+        read_functions(folder.file().parent_path());
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::io);
+    }
+}
+
+RC_GTEST_PROP(FunctionsFile, ReadsBackTheSameFloats, ()) {
+    const auto functions = *rc::gen::container<std::vector<Curve>>(cases::any_function());
+    const Folder folder;
+    write_functions(folder.file(), functions);
+    RC_ASSERT(read_functions(folder.file()) == functions);
+}
+
+// A reader must never see half a file, and a failed write must not leave its temporary file about.
+TEST(FunctionsFile, ReplacesTheFileAsAWhole) {
+    const Folder folder;
+    write_functions(folder.file(), {{{1, 1}}, {{2, 0.1f}}});
+    write_functions(folder.file(), {{{3, 0.5f}}});
+    EXPECT_EQ(read_functions(folder.file()), (std::vector<Curve>{{{3, 0.5f}}}));
+    EXPECT_EQ(folder.entries(), 1);
+
+    std::filesystem::create_directories(folder.file().parent_path() / "folder" / "not empty");
+    EXPECT_THROW(write_functions(folder.file().parent_path() / "folder", {}), Error);
+    EXPECT_THROW(write_functions(folder.file().parent_path() / "none" / "x", {}), Error);
+    EXPECT_EQ(folder.entries(), 2);
+}
+
+}  // namespace
+}  // namespace shadowbench::curves

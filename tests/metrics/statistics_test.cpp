@@ -1,0 +1,102 @@
+#include "metrics/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/random.h"
+
+namespace shadowbench::metrics {
+namespace {
+
+TEST(ErrorNorms, OfNothingAreZero) {
+    const ErrorNorms norms = error_norms({});
+    EXPECT_EQ(norms.max, 0.0);
+    EXPECT_EQ(norms.p99, 0.0);
+}
+
+TEST(ErrorNorms, TakeTheSizeOfErrorsOfEitherSign) {
+    const std::vector<double> errors{3.0, -4.0};
+    const ErrorNorms norms = error_norms(errors);
+    EXPECT_EQ(norms.max, 4.0);
+    EXPECT_EQ(norms.mean, 3.5);
+    EXPECT_DOUBLE_EQ(norms.rms, std::sqrt(12.5));
+    EXPECT_EQ(norms.p99, 4.0);
+}
+
+// Nearest rank: the value that 99 % do not exceed, one of the data.
+TEST(ErrorNorms, The99thPercentileIsANearestRank) {
+    std::vector<double> errors;
+    for (int i = 1; i <= 100; ++i) errors.push_back(i % 2 ? i : -i);
+    EXPECT_EQ(error_norms(errors).p99, 99.0);
+    errors.push_back(101.0);
+    EXPECT_EQ(error_norms(errors).p99, 100.0);
+    errors.resize(99);
+    EXPECT_EQ(error_norms(errors).p99, 99.0);
+}
+
+// std::max(0, NaN) is 0: a technique that answers NaN would pass as perfect.
+TEST(ErrorNorms, ANaNIsAnInfiniteErrorNotNone) {
+    const std::vector<double> errors{0.0, std::numeric_limits<double>::quiet_NaN(), 0.0};
+    const ErrorNorms norms = error_norms(errors);
+    EXPECT_TRUE(std::isinf(norms.max));
+    EXPECT_TRUE(std::isinf(norms.mean));
+    EXPECT_TRUE(std::isinf(norms.rms));
+    EXPECT_TRUE(std::isinf(norms.p99));
+}
+
+TEST(ErrorNorms, AMillionSmallErrorsDoNotVanishBesideALargeOne) {
+    std::vector<double> errors(1'000'000, 1e-17);
+    errors[0] = 1.0;
+    EXPECT_DOUBLE_EQ(error_norms(errors).mean, (1.0 + 999'999e-17) / 1e6);
+}
+
+TEST(Median, IsTheMiddleOrTheMeanOfTheTwoMiddleValues) {
+    EXPECT_EQ(median(std::vector<double>{5}), 5.0);
+    EXPECT_EQ(median(std::vector<double>{9, 1, 5}), 5.0);
+    EXPECT_EQ(median(std::vector<double>{9, 1, 5, 3}), 4.0);
+    EXPECT_EQ(median(std::vector<double>{2, 1}), 1.5);
+}
+
+TEST(MedianInterval, OfOneValueIsThatValue) {
+    const std::vector<double> sample{7.0};
+    EXPECT_EQ(median_interval(sample).low, 7.0);
+    EXPECT_EQ(median_interval(sample).high, 7.0);
+}
+
+// A result file must say the same when it is scored again.
+TEST(MedianInterval, IsTheSameForTheSameSeed) {
+    const std::vector<double> sample{1, 2, 3, 5, 8, 13, 21, 34};
+    const Interval a = median_interval(sample), b = median_interval(sample);
+    EXPECT_EQ(a.low, b.low);
+    EXPECT_EQ(a.high, b.high);
+    EXPECT_LE(a.low, median(sample));
+    EXPECT_GE(a.high, median(sample));
+}
+
+TEST(MedianInterval, WidensWithConfidence) {
+    const std::vector<double> sample{1, 2, 3, 5, 8, 13, 21, 34, 55};
+    const Interval narrow = median_interval(sample, 0.5), wide = median_interval(sample, 0.99);
+    EXPECT_LT(wide.low, narrow.low);
+    EXPECT_GT(wide.high, narrow.high);
+}
+
+// An interval of the mean, or of the sample itself, would cover too rarely or nearly always.
+TEST(MedianInterval, CoversTheTrueMedianAboutAsOftenAsItSays) {
+    base::Random random(1);
+    int covered = 0;
+    constexpr int kRounds = 200;
+    for (int round = 0; round < kRounds; ++round) {
+        std::vector<double> sample;
+        for (int i = 0; i < 25; ++i) sample.push_back(-std::log(1.0 - random.uniform()));
+        const Interval interval = median_interval(sample, 0.95, static_cast<std::uint64_t>(round));
+        covered += interval.low <= std::log(2.0) && std::log(2.0) <= interval.high;
+    }
+    EXPECT_GT(covered, kRounds * 88 / 100);
+    EXPECT_LT(covered, kRounds);
+}
+
+}  // namespace
+}  // namespace shadowbench::metrics
