@@ -4,17 +4,6 @@
 
 namespace shadowbench::curves {
 
-namespace {
-
-// Value at z of the line that joins two vertices, left.z < z < right.z. In double: the difference of two far depths,
-// and the product, would lose the digits that keep the result between the two values.
-float join(const Vertex& left, const Vertex& right, float z) {
-    const double share = (static_cast<double>(z) - left.z) / (static_cast<double>(right.z) - left.z);
-    return static_cast<float>(left.value + (static_cast<double>(right.value) - left.value) * share);
-}
-
-}  // namespace
-
 float evaluate(CurveView curve, float z) {
     if (curve.empty()) return 1.0f;
     const auto right =

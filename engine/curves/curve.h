@@ -19,6 +19,14 @@ struct Vertex {
 using Curve = std::vector<Vertex>;
 using CurveView = std::span<const Vertex>;
 
+// Value at z of the line that joins two vertices, left.z < z <= right.z. In double: the difference of two far depths,
+// and the product, would lose the digits that keep the result between the two values.
+inline float join(const Vertex& left, const Vertex& right, float z) {
+    const double share = (static_cast<double>(z) - left.z) / (static_cast<double>(right.z) - left.z);
+    const double value = left.value + (static_cast<double>(right.value) - left.value) * share;
+    return z == right.z ? right.value : static_cast<float>(value);
+}
+
 // Value at z. O(log vertices).
 float evaluate(CurveView curve, float z);
 

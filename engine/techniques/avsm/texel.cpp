@@ -1,5 +1,7 @@
 #include "techniques/avsm/texel.h"
 
+#include "curves/curve.h"
+
 namespace shadowbench::techniques {
 namespace {
 
@@ -7,8 +9,7 @@ inline float between(const float* texel, int nodes, int next, float z) {
     const float* values = texel + nodes;
     if (next == 0) return values[0];
     if (next == nodes) return values[nodes - 1];
-    const float u = (z - texel[next - 1]) / (texel[next] - texel[next - 1]);
-    return values[next - 1] + u * (values[next] - values[next - 1]);
+    return curves::join({texel[next - 1], values[next - 1]}, {texel[next], values[next]}, z);
 }
 
 // Counting the depths before z needs no branch and, for a fixed number, becomes a few vector comparisons.

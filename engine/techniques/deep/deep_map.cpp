@@ -27,8 +27,7 @@ inline float evaluate(const float* depths, std::uint32_t n, float z) {
     const std::uint32_t i = lower_bound(depths, n, z);
     if (i == 0) return values[0];
     if (i == n) return values[n - 1];
-    const float u = (z - depths[i - 1]) / (depths[i] - depths[i - 1]);
-    return values[i - 1] + u * (values[i] - values[i - 1]);
+    return curves::join({depths[i - 1], values[i - 1]}, {depths[i], values[i]}, z);
 }
 
 }  // namespace
