@@ -174,7 +174,9 @@ private:
 
     void medium(std::uint32_t ray, float front, float back, double depth, const Vec3f& extinction) {
         float t[3];
-        for (int c = 0; c < 3; ++c) t[c] = static_cast<float>(std::exp(-depth * extinction[c]));
+        t[0] = static_cast<float>(std::exp(-depth * extinction[0]));
+        for (int c = 1; c < 3; ++c)
+            t[c] = extinction[c] == extinction[0] ? t[0] : static_cast<float>(std::exp(-depth * extinction[c]));
         if (!transmits_all(t)) sink_.medium(ray, front, back, t);
     }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "scene/scene.h"
@@ -48,16 +49,14 @@ VolumeMarcher::VolumeMarcher(const scene::GridVolume& volume) : volume_(volume) 
             }
 }
 
-// Trilinear at `index` = voxel coordinates (voxel centres at whole numbers); 0 beyond the outermost centres' neighbours.
+// Trilinear at `index` = voxel coordinates (voxel centres at whole numbers) inside the box, which ends half a voxel
+// outside the outermost centres: there the outermost value holds.
 double VolumeMarcher::density(const Vec3d& index) const {
-    const int x = static_cast<int>(std::floor(index.x)), y = static_cast<int>(std::floor(index.y)),
-              z = static_cast<int>(std::floor(index.z));
     const Vec3i size = volume_.size;
-    if (x < -1 || y < -1 || z < -1 || x >= size.x || y >= size.y || z >= size.z) return 0.0;
-    const std::size_t block = (static_cast<std::size_t>((z + 1) / block_size) * blocks_.y + (y + 1) / block_size) * blocks_.x +
-                              (x + 1) / block_size;
-    if (!occupied_[block]) return 0.0;
-    // The box ends half a voxel outside the outermost centres; there the outermost value holds.
+    const auto cell = [](double place, int count) {  // floor, for places from -1 on
+        return std::min(static_cast<int>(place + 1.0), count) - 1;
+    };
+    const int x = cell(index.x, size.x), y = cell(index.y, size.y), z = cell(index.z, size.z);
     const int x0 = std::max(x, 0), x1 = std::min(x + 1, size.x - 1);
     const int y0 = std::max(y, 0), y1 = std::min(y + 1, size.y - 1);
     const int z0 = std::max(z, 0), z1 = std::min(z + 1, size.z - 1);
@@ -67,34 +66,57 @@ double VolumeMarcher::density(const Vec3d& index) const {
         const float* r = d + (static_cast<std::size_t>(zz) * size.y + yy) * size.x;
         return r[x0] + fx * (static_cast<double>(r[x1]) - r[x0]);
     };
-    const double a = row(y0, z0) + fy * (row(y1, z0) - row(y0, z0));
-    const double b = row(y0, z1) + fy * (row(y1, z1) - row(y0, z1));
-    return a + fz * (b - a);
+    const double r00 = row(y0, z0), r01 = row(y0, z1);
+    const double a = r00 + fy * (row(y1, z0) - r00), b = r01 + fy * (row(y1, z1) - r01);
+    return std::max(a + fz * (b - a), 0.0);
+}
+
+// How far along the ray the block around `index` reaches when it is empty: the step of t to where the ray leaves it;
+// 0 for a block that holds something.
+double VolumeMarcher::empty_ahead(const Vec3d& index, const Vec3d& slope) const {
+    std::size_t block = 0;
+    double ahead = std::numeric_limits<double>::infinity();
+    for (int a = 2; a >= 0; --a) {
+        const int b = std::clamp(static_cast<int>(index[a] + 1.0) / block_size, 0, blocks_[a] - 1);
+        block = block * blocks_[a] + b;
+        if (slope[a] != 0.0) {
+            const double wall = (slope[a] > 0.0 ? b + 1 : b) * block_size - 1;
+            ahead = std::min(ahead, (wall - index[a]) / slope[a]);
+        }
+    }
+    return occupied_[block] ? 0.0 : ahead;
 }
 
 void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double scale, double t_min, double t_max,
                           std::vector<MediumSegment>& out) const {
     if (!clip(origin, direction, volume_.lower, volume_.upper, t_min, t_max)) return;
     const Vec3d extent = volume_.upper - volume_.lower;
-    Vec3d start, slope;  // voxel coordinates along the ray
+    Vec3d start, slope;  // voxel coordinates along the ray, from where it enters the box
     for (int a = 0; a < 3; ++a) {
         const double per_length = volume_.size[a] / extent[a];
-        start[a] = (origin[a] - volume_.lower[a]) * per_length - 0.5;
         slope[a] = direction[a] * per_length;
+        start[a] = (origin[a] - volume_.lower[a]) * per_length - 0.5 + slope[a] * t_min;
     }
     const double step = volume_.step / scale;
-    const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil((t_max - t_min) / step)));
-    float front = static_cast<float>(t_min);
-    double before = density(start + slope * t_min);
-    for (std::size_t i = 1; i <= steps; ++i) {
-        const double t = i == steps ? t_max : t_min + static_cast<double>(i) * step;
-        const double here = density(start + slope * t);
-        const float back = static_cast<float>(t);
-        if (before + here > 0.0 && back > front) {
-            const double t_before = i == 1 ? t_min : t_min + static_cast<double>(i - 1) * step;
-            out.push_back({front, back, 0.5 * (before + here) * (t - t_before) * scale});
+    const auto steps = static_cast<std::int64_t>(std::max(1.0, std::ceil((t_max - t_min) / step)));
+    const auto place = [&](std::int64_t i) { return i >= steps ? t_max - t_min : static_cast<double>(i) * step; };
+
+    double before = -1.0;  // density at the step's start; below 0: not known
+    for (std::int64_t i = 0; i < steps; ++i) {
+        const double t = place(i);
+        if (before <= 0.0) {
+            const Vec3d index = start + slope * t;
+            if (const double ahead = empty_ahead(index, slope); ahead > 0.0) {  // skip whole steps inside the block
+                i = std::max(i, static_cast<std::int64_t>((t + ahead) / step) - 1);
+                before = -1.0;
+                continue;
+            }
+            if (before < 0.0) before = density(index);
         }
-        front = back;
+        const double next = place(i + 1);
+        const double here = density(start + slope * next);
+        const float front = static_cast<float>(t_min + t), back = static_cast<float>(t_min + next);
+        if (before + here > 0.0 && back > front) out.push_back({front, back, 0.5 * (before + here) * (next - t) * scale});
         before = here;
     }
 }

@@ -33,6 +33,7 @@ public:
 
 private:
     double density(const base::Vec3d& index) const;
+    double empty_ahead(const base::Vec3d& index, const base::Vec3d& slope) const;
 
     const scene::GridVolume& volume_;
     base::Vec3i blocks_;

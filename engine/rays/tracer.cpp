@@ -111,7 +111,9 @@ void sphere_bounds(const RTCBoundsFunctionArguments* args) {
 
 Vec3f transmitted(const Vec3f& extinction, double optical_depth) {
     Vec3f t;
-    for (int c = 0; c < 3; ++c) t[c] = static_cast<float>(std::exp(-optical_depth * extinction[c]));
+    t[0] = static_cast<float>(std::exp(-optical_depth * extinction[0]));
+    for (int c = 1; c < 3; ++c)
+        t[c] = extinction[c] == extinction[0] ? t[0] : static_cast<float>(std::exp(-optical_depth * extinction[c]));
     return t;
 }
 

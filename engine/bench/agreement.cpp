@@ -1,0 +1,142 @@
+#include "bench/agreement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "bench/clock.h"
+#include "rays/light_rays.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using base::Vec3d;
+using rays::LightRays;
+using rays::MapLayout;
+
+constexpr std::size_t timed_rays = std::size_t{1} << 18;  // captured on one thread, at least, where there are so many
+constexpr double same_transmittance = 1e-4;
+
+struct TracedRay {
+    Vec3d origin, direction;  // unit length
+    double t_min, t_max;
+};
+
+// The ray at a map position, from just before the first caster to just behind the last.
+TracedRay ray_at(const rays::LightView& view, double x, double y) {
+    const double margin = 1e-3 * (view.z_max - view.z_min) + 1e-9;
+    const double start = view.perspective ? view.z_near : view.z_min - margin;
+    const double stretch = rays::length_per_depth(view, x, y);
+    const Vec3d at = rays::to_world(view, rays::unproject(view, x, y, start));
+    const Vec3d ahead = rays::to_world(view, rays::unproject(view, x, y, start + (view.z_max - view.z_min) + 1.0));
+    return {at, (ahead - at).normalized(), 0.0, (view.z_max + margin - start) * stretch};
+}
+
+struct Crossed {
+    std::size_t surfaces = 0;
+    double transmittance[3] = {1.0, 1.0, 1.0};
+};
+
+Crossed crossed(const LightRays& tile, std::size_t ray) {
+    Crossed result;
+    for (std::uint32_t s = tile.begin[ray]; s < tile.begin[ray + 1]; ++s)
+        result.surfaces += tile.z_front[s] == tile.back(s);
+    for (int c = 0; c < 3; ++c)
+        result.transmittance[c] =
+            rays::transmittance(tile, ray, std::min(c, tile.channels - 1), std::numeric_limits<double>::infinity());
+    return result;
+}
+
+Crossed crossed(const std::vector<rays::TracedSegment>& segments) {
+    Crossed result;
+    for (const rays::TracedSegment& segment : segments) {
+        result.surfaces += segment.front == segment.back;
+        for (int c = 0; c < 3; ++c) result.transmittance[c] *= static_cast<double>(segment.transmittance[c]);
+    }
+    return result;
+}
+
+// Tiles in an order that depends on the layout alone, so that the first few are spread over the map.
+std::vector<int> spread_tiles(const MapLayout& layout) {
+    std::vector<int> order(static_cast<std::size_t>(layout.tiles()));
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+    base::Random random(base::hash(static_cast<std::uint64_t>(layout.tiles())));
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+    return order;
+}
+
+struct ChosenRay {
+    const LightRays* tile;
+    std::size_t ray;
+    TracedRay traced;
+};
+
+ChosenRay choose(const LightRays& tile, const MapLayout& layout, const rays::LightView& view, std::size_t ray) {
+    const std::size_t samples = static_cast<std::size_t>(tile.samples);
+    const int pixel = static_cast<int>(ray / samples), sample = static_cast<int>(ray % samples);
+    const int i = (tile.x0 + pixel % tile.width) * layout.samples_x + sample % layout.samples_x;
+    const int j = (tile.y0 + pixel / tile.width) * layout.samples_y + sample / layout.samples_x;
+    const rays::SamplePosition place = rays::sample_position(layout, i, j);
+    return {&tile, ray, ray_at(view, place.x, place.y)};
+}
+
+void compare(const std::vector<ChosenRay>& chosen, const rays::Tracer& tracer, Agreement& agreement) {
+    std::vector<rays::TracedSegment> segments;
+    for (const ChosenRay& one : chosen) {
+        const TracedRay& ray = one.traced;
+        tracer.all_segments(ray.origin, ray.direction, ray.t_min, ray.t_max, segments);
+        const Crossed ours = crossed(*one.tile, one.ray), theirs = crossed(segments);
+        bool differs = false;
+        for (int c = 0; c < 3; ++c)
+            differs = differs || std::abs(ours.transmittance[c] - theirs.transmittance[c]) > same_transmittance;
+        agreement.other_crossings += ours.surfaces != theirs.surfaces;
+        agreement.other_transmittance += differs;
+    }
+    agreement.rays = chosen.size();
+}
+
+double rate_of_tracer(const std::vector<ChosenRay>& chosen, const rays::Tracer& tracer) {
+    std::vector<rays::TracedSegment> segments;
+    const Stopwatch stopwatch;
+    for (const ChosenRay& one : chosen)
+        tracer.all_segments(one.traced.origin, one.traced.direction, one.traced.t_min, one.traced.t_max, segments);
+    return static_cast<double>(chosen.size()) / stopwatch.seconds();
+}
+
+}  // namespace
+
+Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& layout, const rays::LightView& view,
+                              const rays::Tracer& tracer, std::size_t max_rays) {
+    const base::ThreadLimit one_thread(1);
+    std::vector<LightRays> tiles;
+    std::size_t rays = 0;
+    double seconds = 0.0;
+    for (const int index : spread_tiles(layout)) {
+        if (rays >= timed_rays) break;
+        const Stopwatch stopwatch;
+        tiles.push_back(capture.tile(index));
+        seconds += stopwatch.seconds();
+        rays += tiles.back().rays();
+    }
+
+    // Every n-th ray, in the order in which they were captured: neighbours stay neighbours for both.
+    std::vector<ChosenRay> chosen;
+    const std::size_t step = std::max<std::size_t>(1, (rays + max_rays - 1) / max_rays);
+    std::size_t at = 0;
+    for (const LightRays& tile : tiles)
+        for (std::size_t ray = 0; ray < tile.rays(); ++ray, ++at)
+            if (at % step == 0) chosen.push_back(choose(tile, layout, view, ray));
+
+    Agreement agreement;
+    compare(chosen, tracer, agreement);
+    agreement.times.capture_rays_per_second = static_cast<double>(rays) / seconds;
+    agreement.times.tracer_rays_per_second = rate_of_tracer(chosen, tracer);  // after compare() has warmed it up
+    agreement.times.ratio = agreement.times.capture_rays_per_second / agreement.times.tracer_rays_per_second;
+    return agreement;
+}
+
+}  // namespace shadowbench::bench

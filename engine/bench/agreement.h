@@ -1,0 +1,18 @@
+// The capture beside an independent way to the same rays: Embree's all-hits query.
+#pragma once
+
+#include <cstddef>
+
+#include "bench/result.h"
+#include "rays/capture.h"
+#include "rays/light_view.h"
+#include "rays/tracer.h"
+
+namespace shadowbench::bench {
+
+// Captures tiles spread over the map on one thread, then traces up to `max_rays` of their rays on one thread.
+// `tracer` sees what casts shadows. Which rays are compared depends on the layout alone.
+Agreement compare_with_tracer(const rays::Capture& capture, const rays::MapLayout& layout, const rays::LightView& view,
+                              const rays::Tracer& tracer, std::size_t max_rays);
+
+}  // namespace shadowbench::bench

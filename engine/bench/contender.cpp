@@ -1,0 +1,166 @@
+#include "bench/contender.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "bench/curve_check.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using techniques::Query;
+
+constexpr std::size_t max_checked_cells = std::size_t{1} << 20;  // of one map: more take long and tell little
+constexpr std::size_t lookups_a_piece = 256;
+constexpr float rounding = 1e-6f;  // of an answer beyond [0, 1]
+
+void begin_all(std::span<Contender> contenders, const techniques::BuildInput& input) {
+    for (Contender& contender : contenders) {
+        if (!contender.ok()) continue;
+        try {
+            contender.maps = begin_maps(*contender.row, contender.values, input);
+        } catch (const base::Error& error) {
+            fail(contender, error.message());
+        }
+    }
+}
+
+// Adds a batch to every map. Of several tiles that fail, the first one's reason counts.
+void add_batch(std::span<Contender> contenders, RaySource::Batch batch) {
+    for (Contender& contender : contenders) {
+        if (!contender.ok()) continue;
+        std::vector<std::optional<std::string>> faults(batch.size());
+        base::parallel_for(batch.size(), [&](std::size_t i) {
+            try {
+                add(contender.maps, batch[i]);
+            } catch (const base::Error& error) {
+                faults[i] = error.message();
+            }
+        });
+        for (const auto& fault : faults)
+            if (fault) fail(contender, *fault);
+    }
+}
+
+void refuse_too_large(std::span<Contender> contenders, std::size_t memory_limit) {
+    for (Contender& contender : contenders)
+        if (contender.ok() && std::max(bytes(contender.maps), working_bytes(contender.maps)) > memory_limit)
+            fail(contender, "the map grew beyond the memory limit");
+}
+
+void finish_all(std::span<Contender> contenders) {
+    for (Contender& contender : contenders) {
+        if (!contender.ok()) continue;
+        try {
+            finish(contender.maps);
+        } catch (const base::Error& error) {
+            fail(contender, error.message());
+            continue;
+        }
+        contender.cell.bytes = bytes(contender.maps);
+        contender.cell.working_bytes = working_bytes(contender.maps);
+        contender.cell.nodes = nodes(contender.maps);
+    }
+}
+
+// All answers, channel after channel, in pieces of a fixed size so that the threads do not change them.
+std::vector<float> answers(const Maps& maps, std::span<const Query> queries) {
+    std::vector<float> visibility(queries.size() * maps.channel.size());
+    const std::size_t pieces = (queries.size() + lookups_a_piece - 1) / lookups_a_piece;
+    base::parallel_for(pieces, [&](std::size_t piece) {
+        const std::size_t first = piece * lookups_a_piece;
+        const std::size_t count = std::min(lookups_a_piece, queries.size() - first);
+        for (std::size_t c = 0; c < maps.channel.size(); ++c)
+            maps.channel[c]->lookup(queries.subspan(first, count),
+                                    std::span(visibility).subspan(c * queries.size() + first, count));
+    });
+    return visibility;
+}
+
+void judge(Contender& contender, std::span<const Query> judged, const Truth& truth) {
+    const std::vector<float> visibility = answers(contender.maps, judged);
+    std::vector<double> errors(visibility.size());
+    LookupErrors result;
+    for (std::size_t i = 0; i < visibility.size(); ++i) {
+        const float v = visibility[i];
+        if (!(v >= -rounding && v <= 1.0f + rounding)) {
+            const Query& q = judged[i % judged.size()];
+            return fail(contender,
+                        fmt::format("the lookup at ({}, {}, {}) answers {}, which is not in [0, 1]", q.x, q.y, q.z, v));
+        }
+        errors[i] = v - truth.value[i];
+        result.signed_mean += errors[i];
+    }
+    result.norms = metrics::error_norms(errors);
+    if (!errors.empty()) result.signed_mean /= static_cast<double>(errors.size());
+    contender.cell.lookup = result;
+}
+
+}  // namespace
+
+Contender make_contender(const scene::TechniqueRequest& request, const std::string& where) {
+    Contender contender;
+    contender.row = &techniques::find(request.type, where + "/type");
+    contender.values =
+        techniques::read_parameters(contender.row->parameters, nlohmann::json::parse(request.parameters), where);
+    Cell& cell = contender.cell;
+    cell.technique = contender.row->id;
+    cell.version = contender.row->version;
+    cell.parameters = techniques::to_string(contender.values, contender.row->parameters, false);
+    cell.parameters_json = techniques::to_json(contender.values).dump();
+    cell.where = where;
+    return contender;
+}
+
+void fail(Contender& contender, const std::string& reason) {
+    if (!contender.ok()) return;
+    contender.cell.status = CellStatus::failed;
+    contender.cell.reason = reason;
+    contender.maps = {};
+}
+
+void build_all(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
+               std::size_t memory_limit, const RaySource::Watch& watch) {
+    for (Contender& contender : contenders) {
+        contender.cell.error_bound = contender.row->error_bound(contender.values, input.layout);
+        contender.cell.outside_promise = contender.row->promises.opaque_only && source.translucent();
+    }
+    begin_all(contenders, input);
+    std::size_t tiles = 0;
+    source.for_each_batch([&](RaySource::Batch batch) {
+        add_batch(contenders, batch);
+        refuse_too_large(contenders, memory_limit);
+        if (watch) watch(tiles += batch.size());
+    });
+    finish_all(contenders);
+}
+
+void check_functions(std::span<Contender> contenders, const RaySource& source, const rays::MapLayout& layout,
+                     const RaySource::Watch& watch) {
+    std::vector<CheckedMap> checked;
+    std::vector<Contender*> owners;
+    for (Contender& contender : contenders) {
+        if (!contender.ok()) continue;
+        checked.push_back(
+            {&contender.maps, contender.row->promises, contender.cell.error_bound, !contender.cell.outside_promise});
+        owners.push_back(&contender);
+    }
+    const std::vector<CurveVerdict> verdicts = check_curves(source, layout, checked, max_checked_cells, watch);
+    for (std::size_t i = 0; i < owners.size(); ++i) {
+        owners[i]->cell.curve = verdicts[i].errors;
+        if (!verdicts[i].broken.empty()) fail(*owners[i], verdicts[i].broken);
+    }
+}
+
+void check_lookups(std::span<Contender> contenders, std::span<const Query> judged, const Truth& truth) {
+    for (Contender& contender : contenders)
+        if (contender.ok()) judge(contender, judged, truth);
+}
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,44 @@
+// One technique with its parameters on its way through a run: built, checked, timed.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/maps.h"
+#include "bench/ray_source.h"
+#include "bench/reference.h"
+#include "bench/result.h"
+
+namespace shadowbench::bench {
+
+struct Contender {
+    const techniques::Technique* row = nullptr;
+    techniques::ParameterValues values;
+    Cell cell;
+    Maps maps;  // finished once warmed up; none when the cell failed
+
+    bool ok() const { return cell.status == CellStatus::ok; }
+};
+
+// From the request of a scenario. Throws what read_parameters throws, with `where` as its place.
+Contender make_contender(const scene::TechniqueRequest& request, const std::string& where);
+
+// The cell failed for this reason; its maps are given back. Only the first reason stays.
+void fail(Contender& contender, const std::string& reason);
+
+// Builds every map once, untimed, tiles in parallel; a technique that throws Error fails its own cell alone. A map that
+// grows beyond `memory_limit` bytes fails too. Fills in bytes and nodes.
+void build_all(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
+               std::size_t memory_limit, const RaySource::Watch& watch);
+
+// Compares every stored function with the light rays' own and holds the technique to its promises.
+void check_functions(std::span<Contender> contenders, const RaySource& source, const rays::MapLayout& layout,
+                     const RaySource::Watch& watch);
+
+// Compares the answers to the judged queries with the truth; an answer that is not finite or not in [0, 1] fails.
+void check_lookups(std::span<Contender> contenders, std::span<const techniques::Query> judged, const Truth& truth);
+
+}  // namespace shadowbench::bench

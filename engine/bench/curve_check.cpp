@@ -1,0 +1,206 @@
+#include "bench/curve_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "curves/norms.h"
+#include "curves/sweep.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using curves::Curve;
+using rays::LightRays;
+using rays::MapLayout;
+using techniques::Cells;
+
+constexpr double rounding = 1e-6;  // of stored floats, allowed beyond every promise
+
+// What one tile tells of one technique.
+struct TileErrors {
+    std::vector<double> max;  // one a checked cell
+    double l1 = 0.0, worst = -1.0;
+    int worst_x = 0, worst_y = 0;
+    std::string broken;
+};
+
+struct CellRays {
+    int x, y;           // of the map of cells
+    std::size_t first;  // ray
+    std::size_t count;  // of rays
+};
+
+// The cells of pixel `p` of a tile, and the rays that each stands for.
+void cells_of_pixel(Cells kind, const LightRays& tile, const MapLayout& layout, std::size_t p,
+                    std::vector<CellRays>& out) {
+    out.clear();
+    const std::size_t samples = static_cast<std::size_t>(tile.samples);
+    const int x = tile.x0 + static_cast<int>(p % static_cast<std::size_t>(tile.width));
+    const int y = tile.y0 + static_cast<int>(p / static_cast<std::size_t>(tile.width));
+    if (kind == Cells::pixel) out.push_back({x, y, p * samples, samples});
+    if (kind == Cells::centre)
+        out.push_back(
+            {x, y,
+             p * samples + static_cast<std::size_t>((layout.samples_y / 2) * layout.samples_x + layout.samples_x / 2),
+             1});
+    if (kind == Cells::sample)
+        for (std::size_t s = 0; s < samples; ++s)
+            out.push_back({x * layout.samples_x + static_cast<int>(s) % layout.samples_x,
+                           y * layout.samples_y + static_cast<int>(s) / layout.samples_x, p * samples + s, 1});
+}
+
+// Why this function breaks a promise; empty when it does not.
+std::string fault_of(const Curve& curve, const techniques::Promises& promises) {
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        const double value = curve[i].value;
+        if (!std::isfinite(value) || !std::isfinite(curve[i].z)) return "a value is not finite";
+        if (i > 0 && curve[i].z < curve[i - 1].z) return "depths are out of order";
+        if (promises.unit_range && (value < -rounding || value > 1.0 + rounding))
+            return fmt::format("the value {:.9g} at depth {:.9g} is outside [0, 1]", value, curve[i].z);
+        if (promises.monotone && i > 0 && value > curve[i - 1].value + rounding)
+            return fmt::format("the value rises from {:.9g} to {:.9g} at depth {:.9g}", curve[i - 1].value, value,
+                               curve[i].z);
+    }
+    return {};
+}
+
+// The reference curves of the cells that stand for a pixel, shared by all techniques that store such cells.
+struct PixelScratch {
+    curves::SweepScratch sweep;
+    Curve reference, stored;
+    std::vector<float> depths;
+    std::vector<CellRays> cells;
+};
+
+struct Pass {
+    const MapLayout& layout;
+    std::span<const CheckedMap> maps;
+    std::vector<std::uint64_t> share;  // one cell in so many is checked, one number a technique
+    double linearisation;
+};
+
+std::uint64_t share_of(Cells kind, const MapLayout& layout, std::size_t max_cells) {
+    const std::uint64_t cells = static_cast<std::uint64_t>(layout.width) * static_cast<std::uint64_t>(layout.height) *
+                                static_cast<std::uint64_t>(kind == Cells::sample ? layout.samples() : 1);
+    return std::max<std::uint64_t>(1, (cells + max_cells - 1) / max_cells);
+}
+
+bool is_checked(const CellRays& cell, std::uint64_t share) {
+    return share == 1 ||
+           base::hash(static_cast<std::uint64_t>(cell.x), static_cast<std::uint64_t>(cell.y)) % share == 0;
+}
+
+void check_cell(const Pass& pass, const CheckedMap& checked, const techniques::Map& map, const CellRays& cell,
+                PixelScratch& scratch, TileErrors& errors) {
+    map.stored(cell.x, cell.y, scratch.depths, scratch.stored);
+    const curves::Distance d =
+        curves::distance(scratch.stored, scratch.reference, pass.layout.z_min, pass.layout.z_max);
+    errors.max.push_back(d.max);
+    errors.l1 += d.l1;
+    if (d.max > errors.worst) {
+        errors.worst = d.max;
+        errors.worst_x = cell.x;
+        errors.worst_y = cell.y;
+    }
+    if (!errors.broken.empty()) return;
+    std::string fault = fault_of(scratch.stored, checked.promises);
+    const double allowed = checked.error_bound + (pass.layout.media ? pass.linearisation : 0.0) + rounding;
+    if (fault.empty() && checked.bound_holds && !(d.max <= allowed))
+        fault = fmt::format("the curve error {:.6g} is above the promised {:.6g}", d.max, checked.error_bound);
+    if (!fault.empty()) errors.broken = fmt::format("cell ({}, {}): {}", cell.x, cell.y, fault);
+}
+
+void check_kind(const Pass& pass, Cells kind, int channel, const LightRays& rays, std::size_t pixel,
+                PixelScratch& scratch, std::vector<TileErrors>& errors) {
+    cells_of_pixel(kind, rays, pass.layout, pixel, scratch.cells);
+    for (const CellRays& cell : scratch.cells) {
+        bool have_reference = false;
+        for (std::size_t m = 0; m < pass.maps.size(); ++m) {
+            if (cells(*pass.maps[m].maps) != kind || !is_checked(cell, pass.share[m])) continue;
+            if (!have_reference) {
+                curves::visibility(rays, cell.first, cell.count, pass.linearisation, scratch.sweep, scratch.reference);
+                scratch.depths.clear();
+                for (const curves::Vertex& v : scratch.reference) scratch.depths.push_back(v.z);
+                have_reference = true;
+            }
+            check_cell(pass, pass.maps[m], *pass.maps[m].maps->channel[static_cast<std::size_t>(channel)], cell,
+                       scratch, errors[m]);
+        }
+    }
+}
+
+std::vector<TileErrors> check_tile(const Pass& pass, const LightRays& tile) {
+    std::vector<TileErrors> errors(pass.maps.size());
+    PixelScratch scratch;
+    for (int c = 0; c < tile.channels; ++c) {
+        LightRays copy;
+        if (tile.channels > 1) copy = rays::channel(tile, c);
+        const LightRays& rays = tile.channels > 1 ? copy : tile;
+        const std::size_t pixels = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
+        for (std::size_t p = 0; p < pixels; ++p)
+            for (const Cells kind : {Cells::pixel, Cells::sample, Cells::centre})
+                check_kind(pass, kind, c, rays, p, scratch, errors);
+    }
+    return errors;
+}
+
+CurveVerdict merge(std::span<const std::vector<TileErrors>> tiles, std::size_t map, double reference_error) {
+    CurveVerdict verdict;
+    CurveErrors errors;
+    errors.reference_error = reference_error;
+    std::vector<double> all;
+    double worst = -1.0;
+    for (const std::vector<TileErrors>& tile : tiles) {
+        const TileErrors& part = tile[map];
+        all.insert(all.end(), part.max.begin(), part.max.end());
+        errors.mean_l1 += part.l1;
+        if (part.worst > worst) {
+            worst = part.worst;
+            errors.worst_x = part.worst_x;
+            errors.worst_y = part.worst_y;
+        }
+        if (verdict.broken.empty()) verdict.broken = part.broken;
+    }
+    if (all.empty()) return verdict;
+    errors.cells = all.size();
+    errors.norms = metrics::error_norms(all);
+    errors.mean_l1 /= static_cast<double>(all.size());
+    verdict.errors = errors;
+    return verdict;
+}
+
+}  // namespace
+
+double reference_linearisation(std::span<const CheckedMap> maps) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const CheckedMap& map : maps)
+        if (map.error_bound > 16e-6) smallest = std::min(smallest, map.error_bound);  // smaller ones: stored exactly
+    return std::clamp(smallest / 16.0, 1e-6, 1e-4);
+}
+
+std::vector<CurveVerdict> check_curves(const RaySource& source, const MapLayout& layout,
+                                       std::span<const CheckedMap> maps, std::size_t max_cells,
+                                       const RaySource::Watch& watch) {
+    Pass pass{layout, maps, {}, reference_linearisation(maps)};
+    for (const CheckedMap& map : maps) pass.share.push_back(share_of(cells(*map.maps), layout, max_cells));
+
+    std::vector<std::vector<TileErrors>> tiles;
+    source.for_each_batch([&](RaySource::Batch batch) {
+        const std::size_t before = tiles.size();
+        tiles.resize(before + batch.size());
+        base::parallel_for(batch.size(), [&](std::size_t i) { tiles[before + i] = check_tile(pass, batch[i]); });
+        if (watch) watch(tiles.size());
+    });
+
+    std::vector<CurveVerdict> verdicts;
+    for (std::size_t m = 0; m < maps.size(); ++m)
+        verdicts.push_back(merge(tiles, m, layout.media ? pass.linearisation : 0.0));
+    return verdicts;
+}
+
+}  // namespace shadowbench::bench

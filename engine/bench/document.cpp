@@ -1,0 +1,116 @@
+#include "bench/document.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench/pointer.h"
+#include "scene/scenario.h"
+#include "techniques/technique.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+using nlohmann::json;
+
+json::json_pointer read_path(const std::string& path, const std::string& assignment) {
+    std::string pointer = path;
+    if (pointer.empty() || pointer[0] != '/') {
+        for (char& c : pointer)
+            if (c == '.') c = '/';
+        pointer = '/' + pointer;
+    }
+    try {
+        return json::json_pointer(pointer);
+    } catch (const json::exception&) {
+        throw Error(ErrorCode::usage, "--set " + assignment, "the path is not a JSON pointer");
+    }
+}
+
+// {"if": {"type": id}, "then": the technique's own schema} for each technique.
+json technique_choices() {
+    json choices = json::array();
+    for (const techniques::Technique& row : techniques::all())
+        choices.push_back({{"if", {{"properties", {{"type", {{"const", row.id}}}}}}},
+                           {"then", techniques::parameter_schema(row.id, row.parameters)}});
+    return choices;
+}
+
+}  // namespace
+
+void set_value(json& document, const std::string& assignment) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw Error(ErrorCode::usage, "--set " + assignment, "expected path=value, as in rays.samples_per_pixel=64");
+    const std::string path = assignment.substr(0, equals), text = assignment.substr(equals + 1);
+    const json::json_pointer pointer = read_path(path, assignment);
+
+    json value = json::parse(text, nullptr, false);
+    if (value.is_discarded()) value = text;
+
+    json* place = find_place(document, pointer);
+    if (!place)
+        throw Error(ErrorCode::usage, "--set " + assignment,
+                    fmt::format("the scenario has no {} to set a value in", pointer.parent_pointer().to_string()));
+    *place = std::move(value);
+}
+
+json full_schema() {
+    json schema = scene::scenario_schema();
+    json& technique = schema.at("definitions").at("technique");
+    technique["allOf"] = technique_choices();
+    return schema;
+}
+
+void check_document(const json& document, std::span<const std::string> technique_where) {
+    scene::check_schema(document, scene::scenario_schema());
+    // The techniques' own checks come first: their messages say more than a schema can.
+    const json& items = document.at("techniques");
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const std::string where = technique_where.empty() ? fmt::format("/techniques/{}", i) : technique_where[i];
+        json parameters = items[i];
+        const techniques::Technique& row = techniques::find(parameters.at("type").get<std::string>(), where + "/type");
+        parameters.erase("type");
+        techniques::read_parameters(row.parameters, parameters, where);
+    }
+    scene::check_schema(document, full_schema());
+}
+
+void keep_only(Variant& variant, std::span<const std::string> types) {
+    if (types.empty()) return;
+    const json& items = variant.document->at("techniques");
+    std::string present;
+    for (const json& item : items) {
+        const std::string type = item.at("type").get<std::string>();
+        if ((" " + present + " ").find(" " + type + " ") == std::string::npos)
+            present += (present.empty() ? "" : " ") + type;
+    }
+    for (const std::string& type : types)
+        if ((" " + present + " ").find(" " + type + " ") == std::string::npos)
+            throw Error(ErrorCode::usage, "--only " + type, "the scenario has no such technique; it has: " + present);
+
+    json kept = json::array();
+    std::vector<std::string> kept_where;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (std::find(types.begin(), types.end(), items[i].at("type").get<std::string>()) == types.end()) continue;
+        kept.push_back(items[i]);
+        kept_where.push_back(variant.technique_where[i]);
+    }
+    json document = *variant.document;
+    document["techniques"] = std::move(kept);
+    variant.document = std::make_shared<const json>(std::move(document));
+    variant.technique_where = std::move(kept_where);
+}
+
+std::string hash_text(const std::string& text) {
+    std::uint64_t hash = 0xcbf29ce484222325ull;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
+    return fmt::format("{:016x}", hash);
+}
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,45 @@
+// The scenario document before it becomes a Scenario: changes from outside, checks, sweeps.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bench/result.h"
+
+namespace shadowbench::bench {
+
+// Sets one value: "rays.samples_per_pixel=64" or "/rays/samples_per_pixel=64". The value is read as JSON, or taken as a
+// string where it is none. A part of the scenario that the document leaves out (such as "timing") is added.
+// Throws Error{usage}: no '=', or a path whose parent is not there.
+void set_value(nlohmann::json& document, const std::string& assignment);
+
+// The committed schema with the techniques' parameters, from the registry.
+nlohmann::json full_schema();
+
+// Checks a document: schema, then each technique's parameters by its own declaration. `technique_where` names the
+// techniques in messages; empty: by their place in this document. Throws Error{bad_input}, place: JSON pointer.
+void check_document(const nlohmann::json& document, std::span<const std::string> technique_where = {});
+
+// One scenario of a document with sweeps.
+struct Variant {
+    std::shared_ptr<const nlohmann::json> document;  // without sweeps
+    std::vector<Setting> settings;                   // what the sweeps set outside of the techniques
+    std::vector<std::string> technique_where;        // JSON pointer into the original document, one a technique
+};
+
+// Replaces "sweeps": {pointer: [values]} by what it stands for. Pointers into /techniques/<i>/ turn that technique into
+// one for each combination of its values, in place; any others make one variant for each of their combinations, the
+// alphabetically last pointer changing fastest. Every variant has passed check_document. Throws Error{bad_input}.
+std::vector<Variant> expand(const nlohmann::json& document);
+
+// Keeps the techniques of these types; none given: all. Throws Error{usage} for a type that the variant does not have.
+void keep_only(Variant& variant, std::span<const std::string> types);
+
+// 64-bit FNV-1a (Fowler, Noll, Vo 1991) of a text, as 16 hexadecimal digits.
+std::string hash_text(const std::string& text);
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,138 @@
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench/document.h"
+#include "bench/pointer.h"
+#include "scene/scenario.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+using nlohmann::json;
+
+constexpr std::size_t max_variants = 1000;    // of a scenario
+constexpr std::size_t max_techniques = 1000;  // of a variant
+
+struct Sweep {
+    std::string text;  // the pointer as written
+    json::json_pointer pointer;
+    const json* values;
+    std::string where;
+};
+
+// "/sweeps/~1rays~1seed": the place of a sweep in the document.
+std::string place_of(const std::string& pointer) {
+    return (json::json_pointer("/sweeps") / pointer).to_string();
+}
+
+std::vector<Sweep> read_sweeps(const json& document) {
+    std::vector<Sweep> sweeps;
+    if (!document.contains("sweeps")) return sweeps;
+    for (const auto& [text, values] : document.at("sweeps").items()) {
+        const std::string where = place_of(text);
+        if (!values.is_array() || values.empty())
+            throw Error(ErrorCode::bad_input, where, "expected a list of one value or more");
+        try {
+            sweeps.push_back({text, json::json_pointer(text), &values, where});
+        } catch (const json::exception&) {
+            throw Error(ErrorCode::bad_input, where, "the key is not a JSON pointer");
+        }
+    }
+    return sweeps;
+}
+
+// The technique that a pointer reaches into, or -1.
+int technique_of(const json::json_pointer& pointer, std::size_t techniques) {
+    json::json_pointer rest = pointer;
+    std::vector<std::string> names;
+    for (; !rest.empty(); rest.pop_back()) names.insert(names.begin(), rest.back());
+    if (names.size() < 3 || names[0] != "techniques") return -1;
+    for (std::size_t i = 0; i < techniques; ++i)
+        if (names[1] == std::to_string(i)) return static_cast<int>(i);
+    return -1;
+}
+
+void put(json& document, const Sweep& sweep, const json& value) {
+    json* place = find_place(document, sweep.pointer);
+    if (!place) throw Error(ErrorCode::bad_input, sweep.where, "the scenario has nothing there to set");
+    *place = value;
+}
+
+struct Choice {
+    json document;
+    std::vector<const json*> values;  // one a sweep
+};
+
+// All combinations of the sweeps' values, the last sweep changing fastest.
+std::vector<Choice> combine(const json& document, const std::vector<Sweep>& sweeps, std::size_t limit) {
+    std::vector<Choice> choices{{document, {}}};
+    for (const Sweep& sweep : sweeps) {
+        if (choices.size() * sweep.values->size() > limit)
+            throw Error(ErrorCode::bad_input, sweep.where, fmt::format("the sweeps combine to more than {}", limit));
+        std::vector<Choice> next;
+        for (const Choice& choice : choices)
+            for (const json& value : *sweep.values) {
+                next.push_back(choice);
+                put(next.back().document, sweep, value);
+                next.back().values.push_back(&value);
+            }
+        choices = std::move(next);
+    }
+    return choices;
+}
+
+// Replaces each swept technique by one for each combination of its values.
+void expand_techniques(Variant& variant, const json& document, const std::vector<std::vector<Sweep>>& sweeps) {
+    json expanded = json::array();
+    for (std::size_t i = 0; i < sweeps.size(); ++i)
+        for (Choice& choice : combine(document, sweeps[i], max_techniques)) {
+            expanded.push_back(std::move(choice.document.at("techniques").at(i)));
+            variant.technique_where.push_back(fmt::format("/techniques/{}", i));
+        }
+    json result = document;
+    result["techniques"] = std::move(expanded);
+    variant.document = std::make_shared<const json>(std::move(result));
+}
+
+}  // namespace
+
+std::vector<Variant> expand(const json& document) {
+    scene::check_schema(document, scene::scenario_schema());
+    json plain = document;
+    plain.erase("sweeps");
+
+    const std::size_t techniques = document.at("techniques").size();
+    std::vector<Sweep> outer;
+    std::vector<std::vector<Sweep>> inner(techniques);
+    for (const Sweep& sweep : read_sweeps(document)) {
+        const int technique = technique_of(sweep.pointer, techniques);
+        if (technique < 0)
+            outer.push_back(sweep);
+        else
+            inner[static_cast<std::size_t>(technique)].push_back(sweep);
+    }
+    // A sweep over the techniques themselves would move what the other sweeps point at.
+    for (const Sweep& sweep : outer)
+        if (sweep.text.rfind("/techniques", 0) == 0)
+            throw Error(ErrorCode::bad_input, sweep.where, "sweeps reach a technique's parameters only");
+
+    std::vector<Variant> variants;
+    for (const Choice& choice : combine(plain, outer, max_variants)) {
+        Variant variant;
+        for (std::size_t i = 0; i < outer.size(); ++i)
+            variant.settings.push_back({outer[i].text, choice.values[i]->dump()});
+        expand_techniques(variant, choice.document, inner);
+        check_document(*variant.document, variant.technique_where);
+        variants.push_back(std::move(variant));
+    }
+    return variants;
+}
+
+}  // namespace shadowbench::bench

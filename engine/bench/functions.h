@@ -1,0 +1,51 @@
+// Techniques held to given functions of depth: no scene, no light rays.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bench/result.h"
+#include "curves/curve.h"
+#include "techniques/technique.h"
+
+namespace shadowbench::bench {
+
+struct FunctionTimes {
+    Sample build_ns_per_vertex;  // one thread, the whole map, per vertex that goes in
+    Sample lookup_random_ns, lookup_coherent_ns;
+};
+
+struct FunctionResult {
+    std::string technique, parameters, parameters_json;
+    std::uint64_t functions = 0, vertices_in = 0, nodes_out = 0;
+    std::size_t bytes = 0;
+    double error_max = 0.0, error_rms = 0.0;      // over the functions, of each one's largest error (exact)
+    std::optional<double> tolerance;              // the promised largest error; nothing when none is promised
+    std::optional<std::uint64_t> over_tolerance;  // functions whose error is larger
+    std::uint64_t broken = 0;                     // functions that rise somewhere or leave [0, 1]
+    std::optional<FunctionTimes> times;           // nothing when a promise is broken
+    std::vector<curves::Curve> stored;            // the functions as the technique holds them
+};
+
+// "deep:tolerance=0.02,filter=point" -> its row and parameters. Throws Error{usage}.
+struct TechniqueChoice {
+    const techniques::Technique* row = nullptr;
+    techniques::ParameterValues values;
+};
+TechniqueChoice read_technique(const std::string& text);
+
+// One map of all functions a technique, checked and then timed: repetitions interleaved. No function, or a technique
+// that cannot take functions, is Error{bad_input} or {usage}.
+std::vector<FunctionResult> measure_functions(std::span<const curves::Curve> functions,
+                                              std::span<const TechniqueChoice> techniques, int repetitions);
+
+nlohmann::ordered_json to_json(const FunctionResult& result);
+std::string to_table(std::span<const FunctionResult> results);
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,187 @@
+#include "bench/light_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "bench/agreement.h"
+#include "bench/build_timing.h"
+#include "bench/clock.h"
+#include "bench/fronts.h"
+#include "bench/lookup_timing.h"
+#include "bench/queries.h"
+#include "bench/ray_source.h"
+#include "bench/reference.h"
+#include "rays/capture.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using techniques::Query;
+
+constexpr std::size_t agreement_rays = 20000;
+
+QuerySet make_queries(const LightJob& job, const rays::LightView& view) {
+    const scene::Receivers& receivers = job.scenario.receivers;
+    QuerySet set = receivers.camera ? queries_of_points({job.seen.begin(), job.seen.end()}, receivers, view)
+                                    : probe_queries(receivers, view);
+    if (!set.queries.empty()) return set;
+    throw base::Error(base::ErrorCode::bad_input, "/receivers",
+                      set.dropped == 0 ? "there is nothing to ask for: the camera sees no surface and no medium"
+                                       : fmt::format("none of the {} receivers is inside the map of light \"{}\"",
+                                                     set.dropped, job.light.name));
+}
+
+RaySource::Watch stage(const LightJob& job, const char* name, const rays::MapLayout& layout) {
+    return [&job, name, total = static_cast<std::size_t>(layout.tiles())](std::size_t done) {
+        if (job.watch) job.watch(name, done, total);
+    };
+}
+
+ReferenceWatch stage(const LightJob& job, const char* name) {
+    return [&job, name](std::size_t done, std::size_t total) {
+        if (job.watch) job.watch(name, done, total);
+    };
+}
+
+Truth find_truth(const LightJob& job, const rays::LightView& view, std::span<const Query> judged) {
+    scene::RaySettings settings = job.scenario.rays;
+    if (!job.scenario.scene.deep_image) {
+        settings.samples_per_pixel = job.scenario.reference.samples_per_pixel;
+        settings.pattern = scene::Pattern::jittered;
+        settings.seed = job.scenario.reference.seed;
+    }
+    return reference_visibility(job.scenario.scene, view, settings, judged, stage(job, "reference"));
+}
+
+ReferenceReport report_reference(const LightJob& job, const rays::LightView& view, const rays::MapLayout& layout,
+                                 std::span<const Query> judged, const Truth& truth) {
+    ReferenceReport report;
+    const metrics::ErrorNorms error = metrics::error_norms(truth.standard_error);
+    report.judged = judged.size();
+    report.samples_per_pixel = job.scenario.scene.deep_image ? 1 : job.scenario.reference.samples_per_pixel;
+    report.error_rms = error.rms;
+    report.error_max = error.max;
+    report.noise_tolerance = 0.5 / std::sqrt(static_cast<double>(layout.samples()));
+    const int seeds = job.scenario.reference.spread_seeds;
+    if (seeds < 2) return report;
+    const Spread spread =
+        spread_over_seeds(job.scenario.scene, view, job.scenario.rays, seeds, judged, stage(job, "spread over seeds"));
+    report.spread_rms = spread.rms;
+    report.spread_max = spread.max;
+    return report;
+}
+
+struct LookupMeasurement {
+    std::size_t contender;
+    LookupPlan plan;
+};
+
+std::vector<LookupMeasurement> plan_all(const LightJob& job, std::span<const Contender> contenders,
+                                        std::span<const Query> queries) {
+    const base::ThreadLimit one_thread(1);
+    std::vector<LookupMeasurement> plans;
+    for (std::size_t i = 0; i < contenders.size(); ++i)
+        if (contenders[i].ok())
+            plans.push_back(
+                {i, plan_lookups(contenders[i].maps, queries, static_cast<std::size_t>(job.scenario.timing.lookups),
+                                 job.scenario.receivers.seed)});
+    return plans;
+}
+
+// Builds and lookups, interleaved: every technique once, then every technique once more.
+void time_all(const LightJob& job, std::span<Contender> contenders, const RaySource& source,
+              const techniques::BuildInput& input, std::span<const Query> queries) {
+    const std::size_t repetitions = static_cast<std::size_t>(job.scenario.timing.repetitions);
+    std::vector<std::vector<double>> seconds(contenders.size());
+    for (std::size_t r = 0; r < repetitions; ++r) {
+        time_builds(contenders, source, input, seconds);
+        if (job.watch) job.watch("timing builds", r + 1, repetitions);
+    }
+    std::vector<LookupMeasurement> plans = plan_all(job, contenders, queries);
+    for (std::size_t r = 0; r < repetitions; ++r) {
+        const base::ThreadLimit one_thread(1);
+        for (LookupMeasurement& one : plans) time_repetition(contenders[one.contender].maps, one.plan, r % 2 == 1);
+        if (job.watch) job.watch("timing lookups", r + 1, repetitions);
+    }
+    for (const LookupMeasurement& one : plans) {
+        CellTimes times;
+        for (double& s : seconds[one.contender]) s *= 1e3;
+        times.build_ms = summarise(std::move(seconds[one.contender]));
+        times.ns_per_segment =
+            source.segments() ? 1e6 * times.build_ms.median / static_cast<double>(source.segments()) : 0.0;
+        times.image_order = summarise(one.plan.image);
+        times.random_order = summarise(one.plan.random);
+        times.lookups = one.plan.image.queries.size();
+        contenders[one.contender].cell.times = std::move(times);
+    }
+}
+
+std::vector<Query> judged_queries(const LightJob& job, const QuerySet& set) {
+    const scene::Reference& reference = job.scenario.reference;
+    std::vector<Query> judged;
+    for (const std::size_t i :
+         choose_judged(set.queries.size(), static_cast<std::size_t>(reference.queries), reference.seed))
+        judged.push_back(set.queries[i]);
+    return judged;
+}
+
+LightResult describe(const LightJob& job, const rays::MapLayout& layout, const QuerySet& set) {
+    LightResult result;
+    result.name = job.light.name;
+    result.layout = layout;
+    result.deep_image = job.scenario.scene.deep_image.has_value();
+    result.receivers = set.queries.size();
+    result.dropped = set.dropped;
+    return result;
+}
+
+void report_capture(const RaySource& source, double setup_seconds, LightResult& result) {
+    result.rays = source.rays();
+    result.segments = source.segments();
+    result.ray_bytes = source.bytes();
+    result.kept = source.kept();
+    result.translucent = source.translucent();
+    result.times = {source.seconds(), setup_seconds, static_cast<double>(source.rays()) / source.seconds()};
+}
+
+}  // namespace
+
+LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
+    const scene::Scene& scene = job.scenario.scene;
+    const rays::LightView view = rays::make_light_view(job.light, scene, job.scenario.rays.resolution, job.where);
+    const rays::MapLayout layout = rays::make_layout(scene, view, job.scenario.rays);
+    check_memory(layout, contenders, job.limits, "/rays");
+    const QuerySet set = make_queries(job, view);
+    LightResult result = describe(job, layout, set);
+
+    const Stopwatch setup;
+    const rays::Capture capture(scene, view, layout);
+    const double setup_seconds = setup.seconds();
+    const RaySource source(capture, layout, job.limits.kept_rays, stage(job, "capture", layout));
+    if (source.segments() == 0)
+        throw base::Error(base::ErrorCode::bad_input, job.where,
+                          fmt::format("light \"{}\" sees nothing that casts a shadow", job.light.name));
+    report_capture(source, setup_seconds, result);
+    if (job.casters) result.agreement = compare_with_tracer(capture, layout, view, *job.casters, agreement_rays);
+
+    const std::vector<Query> judged = judged_queries(job, set);
+    const Truth truth = find_truth(job, view, judged);
+    result.reference = report_reference(job, view, layout, judged, truth);
+
+    const techniques::BuildInput input{layout, view, job.casters};
+    build_all(contenders, source, input, job.limits.all, stage(job, "build", layout));
+    check_functions(contenders, source, layout, stage(job, "check", layout));
+    check_lookups(contenders, judged, truth);
+    time_all(job, contenders, source, input, set.queries);
+
+    for (Contender& contender : contenders) result.cells.push_back(std::move(contender.cell));
+    mark_fronts(result.cells);
+    return result;
+}
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,33 @@
+// One light of one scenario: capture, check, time.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/contender.h"
+#include "bench/memory.h"
+#include "bench/result.h"
+#include "rays/tracer.h"
+#include "scene/scene.h"
+
+namespace shadowbench::bench {
+
+using StageWatch = std::function<void(const char* stage, std::size_t done, std::size_t total)>;
+
+struct LightJob {
+    const scene::Scenario& scenario;
+    const scene::Light& light;
+    std::string where;                  // JSON pointer of the light
+    const rays::Tracer* casters;        // null for a deep image
+    std::span<const base::Vec3d> seen;  // receivers in world space, with a camera
+    MemoryLimits limits;
+    StageWatch watch;
+};
+
+// Throws Error{bad_input}: the light sees nothing, no receiver is in its map, or the memory limit is exceeded. A fault
+// of a technique is not an error: its cell is marked failed.
+LightResult run_light(const LightJob& job, std::vector<Contender> contenders);
+
+}  // namespace shadowbench::bench

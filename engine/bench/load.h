@@ -1,0 +1,31 @@
+// Variants -> scenarios, one after the other.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bench/contender.h"
+#include "bench/document.h"
+#include "scene/scenario.h"
+
+namespace shadowbench::bench {
+
+// Loads the scenarios of variants in turn. Variants that differ in neither scene nor lights share what was loaded
+// first.
+class ScenarioLoader {
+public:
+    explicit ScenarioLoader(scene::SearchPath data);
+
+    // The reference stays valid until the next call.
+    const scene::Scenario& load(const Variant& variant);
+
+private:
+    scene::SearchPath data_;
+    scene::Scenario scenario_;
+    std::shared_ptr<const nlohmann::json> loaded_;
+};
+
+// The techniques of a variant's scenario, their messages naming the places in the original document.
+std::vector<Contender> make_contenders(const scene::Scenario& scenario, const Variant& variant);
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,135 @@
+#include "bench/lookup_timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/random.h"
+#include "bench/clock.h"
+#include "bench/floor.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using techniques::Query;
+
+constexpr std::size_t run_length = 64;
+constexpr double longest_pass = 0.050;                    // seconds
+constexpr double longest_warm_pass = 0.025;               // seconds: in longer ones the first misses do not show
+constexpr double shortest_pass = 0.002;                   // seconds: the clock and a late interrupt stay below 1 %
+constexpr std::size_t most_lines = std::size_t{1} << 21;  // 16 MiB of addresses an order
+
+double seconds_of_pass(const Maps& maps, std::span<const Query> queries, int rounds, std::vector<float>& out) {
+    out.resize(queries.size() * maps.channel.size());
+    const Stopwatch stopwatch;
+    for (int r = 0; r < rounds; ++r) lookup(maps, queries, out);
+    return stopwatch.seconds();
+}
+
+// Whoever reads this has used the floor's sum.
+void consume(unsigned value) {
+    volatile unsigned sink = value;
+    static_cast<void>(sink);
+}
+
+double seconds_of_floor(std::span<const void* const> lines, int rounds) {
+    unsigned sum = 0;
+    const Stopwatch stopwatch;
+    for (int r = 0; r < rounds; ++r) sum += read_lines(lines);
+    const double seconds = stopwatch.seconds();
+    consume(sum);
+    return seconds;
+}
+
+std::vector<Query> pick(std::span<const Query> queries, std::size_t count) {
+    std::vector<Query> picked;
+    for (const std::size_t i : choose_runs(queries.size(), count)) picked.push_back(queries[i]);
+    return picked;
+}
+
+void shuffle(std::vector<Query>& queries, std::uint64_t seed) {
+    base::Random random(base::hash(seed));
+    for (std::size_t i = queries.size(); i > 1; --i) std::swap(queries[i - 1], queries[random.below(i)]);
+}
+
+// Seconds a lookup, from passes that grow until one is long enough to tell.
+double calibrate(const Maps& maps, std::span<const Query> queries) {
+    std::vector<float> out;
+    std::size_t count = std::min(run_length, queries.size());
+    for (;;) {
+        const std::vector<Query> some = pick(queries, count);
+        const double seconds = seconds_of_pass(maps, some, 1, out);
+        if (seconds > 0.1 * longest_pass || count == queries.size()) return seconds / static_cast<double>(count);
+        count = std::min(4 * count, queries.size());
+    }
+}
+
+void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bool floor_first,
+                std::vector<float>& out) {
+    const int rounds = plan.rounds;
+    const double lookups = static_cast<double>(order.queries.size()) * rounds;
+    const double read = static_cast<double>(order.covered) * rounds;
+    if (plan.warm) seconds_of_pass(maps, order.queries, 1, out);
+    const auto time_floor = [&] {
+        if (!order.lines.empty()) order.floor_ns.push_back(1e9 * seconds_of_floor(order.lines, rounds) / read);
+    };
+    if (floor_first) time_floor();
+    order.ns.push_back(1e9 * seconds_of_pass(maps, order.queries, rounds, out) / lookups);
+    if (!floor_first) time_floor();
+}
+
+}  // namespace
+
+std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count) {
+    std::vector<std::size_t> chosen;
+    count = std::min(count, total);
+    if (count == 0) return chosen;
+    // Whole runs of the sequence, numbered; the chosen ones are spread evenly.
+    const std::size_t runs = (total + run_length - 1) / run_length;
+    const std::size_t wanted = (count + run_length - 1) / run_length;
+    for (std::size_t r = 0; r < wanted; ++r) {
+        const std::size_t first = r * runs / wanted * run_length;
+        for (std::size_t i = first; i < std::min(first + run_length, total) && chosen.size() < count; ++i)
+            chosen.push_back(i);
+    }
+    return chosen;
+}
+
+LookupPlan plan_lookups(const Maps& maps, std::span<const Query> queries, std::size_t most, std::uint64_t seed) {
+    const double each = calibrate(maps, queries);
+    const double fit = each > 0.0 ? longest_pass / each : static_cast<double>(most);
+    const std::size_t count =
+        std::clamp(static_cast<std::size_t>(std::min(fit, 1e15)), run_length, std::max(most, run_length));
+
+    LookupPlan plan;
+    plan.image.queries = pick(queries, count);
+    plan.random.queries = plan.image.queries;
+    shuffle(plan.random.queries, seed);
+    for (LookupOrder* order : {&plan.image, &plan.random}) {
+        order->covered = touched(maps, order->queries, most_lines, order->lines);
+        order->lines.shrink_to_fit();
+    }
+    const double pass = each * static_cast<double>(plan.image.queries.size());
+    plan.warm = pass < longest_warm_pass;
+    plan.rounds = pass < shortest_pass ? static_cast<int>(std::min(1000.0, std::ceil(shortest_pass / pass))) : 1;
+    return plan;
+}
+
+void time_repetition(const Maps& maps, LookupPlan& plan, bool floor_first) {
+    std::vector<float> out;
+    time_order(maps, plan.image, plan, floor_first, out);
+    time_order(maps, plan.random, plan, floor_first, out);
+}
+
+LookupTimes summarise(const LookupOrder& order) {
+    LookupTimes times;
+    times.ns = summarise(order.ns);
+    if (order.floor_ns.empty()) return times;
+    times.floor = summarise(order.floor_ns);
+    std::vector<double> ratios;
+    for (std::size_t r = 0; r < order.ns.size(); ++r) ratios.push_back(order.ns[r] / order.floor_ns[r]);
+    times.ratio = summarise(std::move(ratios));
+    return times;
+}
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,43 @@
+// Lookups against the clock: the same queries in image order and in random order, each pass beside its floor.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bench/maps.h"
+#include "bench/result.h"
+#include "techniques/technique.h"
+
+namespace shadowbench::bench {
+
+// What one timed pass in one order looks up.
+struct LookupOrder {
+    std::vector<techniques::Query> queries;
+    std::vector<const void*> lines;  // that the first `covered` of the queries read; empty: no map is read
+    std::size_t covered = 0;
+    std::vector<double> ns, floor_ns;  // a lookup; one of each a repetition (floor_ns: none without lines)
+};
+
+struct LookupPlan {
+    LookupOrder image, random;
+    int rounds = 1;     // a pass goes over its queries so often: more than once when once is too short for the clock
+    bool warm = false;  // each pass follows an untimed one, so that it finds in the cache what fits into it
+};
+
+// Indices of `count` of `total` queries: all, or runs of 64 neighbours spread evenly.
+std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count);
+
+// Warms up, and chooses for this map how many of the queries (at most `most`, at least 64 where there are so many) keep
+// one pass at or under 50 ms.
+LookupPlan plan_lookups(const Maps& maps, std::span<const techniques::Query> queries, std::size_t most,
+                        std::uint64_t seed);
+
+// One repetition of both orders on this thread, appended to the plan's times. `floor_first` says which of a lookup and
+// its floor goes first: alternate it, so that neither always finds the other's lines in the cache.
+void time_repetition(const Maps& maps, LookupPlan& plan, bool floor_first);
+
+LookupTimes summarise(const LookupOrder& order);
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,40 @@
+// The map of one technique: one Map, or one a channel for coloured light rays.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "techniques/technique.h"
+
+namespace shadowbench::bench {
+
+struct Maps {
+    // What the maps were begun with: the light rays' layout, as one channel of it sees it. Stays where it is.
+    std::unique_ptr<rays::MapLayout> layout;
+    std::vector<std::unique_ptr<techniques::Map>> channel;
+};
+
+// Begins one map a channel of input.layout. Throws what the technique throws.
+Maps begin_maps(const techniques::Technique& row, const techniques::ParameterValues& values,
+                const techniques::BuildInput& input);
+
+// Thread-safe for different tiles.
+void add(Maps& maps, const rays::LightRays& tile);
+void finish(Maps& maps);
+
+// Answers stand channel after channel: visibility has queries.size() * channels places.
+void lookup(const Maps& maps, std::span<const techniques::Query> queries, std::span<float> visibility);
+
+// Appends the lines that a lookup of all these queries reads, in the order in which it reads them, until there are
+// `limit` or more. Returns how many queries were covered in every channel.
+std::size_t touched(const Maps& maps, std::span<const techniques::Query> queries, std::size_t limit,
+                    std::vector<const void*>& lines);
+
+std::size_t bytes(const Maps& maps);
+std::size_t working_bytes(const Maps& maps);
+techniques::NodeStats nodes(const Maps& maps);
+techniques::Cells cells(const Maps& maps);
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,26 @@
+// What a light's run will hold, estimated before any of it is done.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "bench/contender.h"
+#include "rays/light_rays.h"
+
+namespace shadowbench::bench {
+
+struct MemoryLimits {
+    std::size_t all = std::size_t{16} << 30;       // bytes; a run that surely needs more is refused
+    std::size_t kept_rays = std::size_t{4} << 30;  // light rays beyond this are captured anew for every pass
+};
+
+// Bytes that a run holds at least: the light rays that are kept or in flight with one crossing a ray, and the smallest
+// map that each technique can make of its cells.
+double least_bytes(const rays::MapLayout& layout, std::span<const Contender> contenders, const MemoryLimits& limits);
+
+// Throws Error{bad_input} at `where` when that is more than the limit.
+void check_memory(const rays::MapLayout& layout, std::span<const Contender> contenders, const MemoryLimits& limits,
+                  const std::string& where);
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,208 @@
+#include "bench/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "rays/capture.h"
+#include "rays/light_rays.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using rays::LightRays;
+using rays::MapLayout;
+using techniques::Query;
+
+// Pixels [x0, x1] x [y0, y1] that hold every ray of a query's footprint.
+struct Footprint {
+    double left, right, low, high;
+    int x0, x1, y0, y1;
+};
+
+Footprint footprint(const Query& query, const MapLayout& layout) {
+    const double half = 0.5 * query.width;
+    Footprint f{query.x - half, query.x + half, query.y - half, query.y + half, 0, 0, 0, 0};
+    const auto pixel = [](double place, int pixels) {
+        return static_cast<int>(std::clamp(std::floor(place), 0.0, pixels - 1.0));
+    };
+    f.x0 = pixel(f.left, layout.width);
+    f.x1 = pixel(f.right, layout.width);
+    f.y0 = pixel(f.low, layout.height);
+    f.y1 = pixel(f.high, layout.height);
+    return f;
+}
+
+struct Moments {
+    double sum[3] = {0.0, 0.0, 0.0}, squares[3] = {0.0, 0.0, 0.0};
+    std::uint64_t count = 0;
+};
+
+// What one tile adds to one query.
+struct Part {
+    std::size_t query;
+    Moments moments;
+};
+
+std::size_t ray_of(const LightRays& tile, const MapLayout& layout, int i, int j) {
+    const int x = i / layout.samples_x - tile.x0, y = j / layout.samples_y - tile.y0;
+    const int sample = (j % layout.samples_y) * layout.samples_x + i % layout.samples_x;
+    return (static_cast<std::size_t>(y) * tile.width + x) * tile.samples + sample;
+}
+
+void add_ray(const LightRays& tile, std::size_t ray, double z, Moments& moments) {
+    for (int c = 0; c < tile.channels; ++c) {
+        const double value = rays::transmittance(tile, ray, c, z);
+        moments.sum[c] += value;
+        moments.squares[c] += value * value;
+    }
+    ++moments.count;
+}
+
+Moments gather(const LightRays& tile, const MapLayout& layout, const Query& query) {
+    const Footprint f = footprint(query, layout);
+    const int i0 = std::max(f.x0, tile.x0) * layout.samples_x;
+    const int i1 = std::min(f.x1 + 1, tile.x0 + tile.width) * layout.samples_x;
+    const int j0 = std::max(f.y0, tile.y0) * layout.samples_y;
+    const int j1 = std::min(f.y1 + 1, tile.y0 + tile.height) * layout.samples_y;
+    Moments moments;
+    for (int j = j0; j < j1; ++j)
+        for (int i = i0; i < i1; ++i) {
+            const rays::SamplePosition place = rays::sample_position(layout, i, j);
+            if (place.x >= f.left && place.x <= f.right && place.y >= f.low && place.y <= f.high)
+                add_ray(tile, ray_of(tile, layout, i, j), query.z, moments);
+        }
+    return moments;
+}
+
+// The one ray of the sample cell that holds (x, y), if it is this tile's.
+Moments gather_nearest(const LightRays& tile, const MapLayout& layout, const Query& query) {
+    const int i = static_cast<int>(query.x * static_cast<double>(layout.samples_x));
+    const int j = static_cast<int>(query.y * static_cast<double>(layout.samples_y));
+    const int x = i / layout.samples_x - tile.x0, y = j / layout.samples_y - tile.y0;
+    Moments moments;
+    if (x >= 0 && x < tile.width && y >= 0 && y < tile.height)
+        add_ray(tile, ray_of(tile, layout, i, j), query.z, moments);
+    return moments;
+}
+
+// For each tile, the queries whose footprint touches it.
+std::vector<std::vector<Part>> parts_by_tile(const MapLayout& layout, std::span<const Query> queries) {
+    std::vector<std::vector<Part>> parts(static_cast<std::size_t>(layout.tiles()));
+    for (std::size_t q = 0; q < queries.size(); ++q) {
+        const Footprint f = footprint(queries[q], layout);
+        for (int ty = f.y0 / layout.tile_height; ty <= f.y1 / layout.tile_height; ++ty)
+            for (int tx = f.x0 / layout.tile_width; tx <= f.x1 / layout.tile_width; ++tx)
+                parts[static_cast<std::size_t>(ty) * layout.tiles_x() + tx].push_back({q, {}});
+    }
+    return parts;
+}
+
+// The parts are summed tile after tile, so the sums are the same for every number of threads.
+std::vector<Moments> reduce(const std::vector<std::vector<Part>>& parts, std::size_t queries) {
+    std::vector<Moments> total(queries);
+    for (const std::vector<Part>& tile : parts)
+        for (const Part& part : tile) {
+            Moments& sum = total[part.query];
+            for (int c = 0; c < 3; ++c) {
+                sum.sum[c] += part.moments.sum[c];
+                sum.squares[c] += part.moments.squares[c];
+            }
+            sum.count += part.moments.count;
+        }
+    return total;
+}
+
+using Gather = Moments (*)(const LightRays&, const MapLayout&, const Query&);
+
+std::vector<Moments> gather_all(const rays::Capture& capture, const MapLayout& layout, std::span<const Query> queries,
+                                Gather gather_one, const ReferenceWatch& watch) {
+    std::vector<std::vector<Part>> parts = parts_by_tile(layout, queries);
+    std::vector<std::size_t> tiles;
+    for (std::size_t t = 0; t < parts.size(); ++t)
+        if (!parts[t].empty()) tiles.push_back(t);
+
+    const std::size_t in_flight = 4 * static_cast<std::size_t>(base::thread_count());
+    for (std::size_t first = 0; first < tiles.size(); first += in_flight) {
+        base::parallel_for(std::min(in_flight, tiles.size() - first), [&](std::size_t i) {
+            std::vector<Part>& tile_parts = parts[tiles[first + i]];
+            const LightRays tile = capture.tile(static_cast<int>(tiles[first + i]));
+            for (Part& part : tile_parts) part.moments = gather_one(tile, layout, queries[part.query]);
+        });
+        if (watch) watch(std::min(first + in_flight, tiles.size()), tiles.size());
+    }
+    return reduce(parts, queries.size());
+}
+
+// A footprint narrower than a sample cell may hold no ray at all.
+void fill_empty(const rays::Capture& capture, const MapLayout& layout, std::span<const Query> queries,
+                std::vector<Moments>& moments) {
+    std::vector<std::size_t> empty;
+    std::vector<Query> asked;
+    for (std::size_t q = 0; q < queries.size(); ++q)
+        if (moments[q].count == 0) {
+            empty.push_back(q);
+            asked.push_back(queries[q]);
+            asked.back().width = 0.0f;
+        }
+    if (empty.empty()) return;
+    const std::vector<Moments> nearest = gather_all(capture, layout, asked, gather_nearest, {});
+    for (std::size_t i = 0; i < empty.size(); ++i) moments[empty[i]] = nearest[i];
+}
+
+double standard_error(const Moments& moments, int channel) {
+    const double n = static_cast<double>(moments.count);
+    if (n < 2.0) return 0.5;  // one ray tells nothing: the widest that values in [0, 1] can vary
+    const double variance = (moments.squares[channel] - moments.sum[channel] * moments.sum[channel] / n) / (n - 1.0);
+    return std::sqrt(std::max(variance, 0.0) / n);
+}
+
+}  // namespace
+
+Truth reference_visibility(const scene::Scene& scene, const rays::LightView& view, const scene::RaySettings& settings,
+                           std::span<const Query> queries, const ReferenceWatch& watch) {
+    const MapLayout layout = rays::make_layout(scene, view, settings);
+    const rays::Capture capture(scene, view, layout);
+    std::vector<Moments> moments = gather_all(capture, layout, queries, gather, watch);
+    fill_empty(capture, layout, queries, moments);
+
+    Truth truth;
+    truth.channels = layout.channels;
+    for (int c = 0; c < layout.channels; ++c)
+        for (const Moments& m : moments) {
+            truth.value.push_back(m.count ? m.sum[c] / static_cast<double>(m.count) : 1.0);
+            truth.standard_error.push_back(scene.deep_image ? 0.0 : standard_error(m, c));
+        }
+    return truth;
+}
+
+Spread spread_over_seeds(const scene::Scene& scene, const rays::LightView& view, const scene::RaySettings& settings,
+                         int seeds, std::span<const Query> queries, const ReferenceWatch& watch) {
+    Spread spread;
+    if (settings.pattern == scene::Pattern::regular || scene.deep_image || seeds < 2) return spread;
+    std::vector<double> sum, squares;
+    for (int s = 0; s < seeds; ++s) {
+        scene::RaySettings other = settings;
+        other.seed = base::hash(settings.seed, static_cast<std::uint64_t>(s) + 1);
+        const Truth truth = reference_visibility(scene, view, other, queries, {});
+        sum.resize(truth.value.size());
+        squares.resize(truth.value.size());
+        for (std::size_t i = 0; i < truth.value.size(); ++i) {
+            sum[i] += truth.value[i];
+            squares[i] += truth.value[i] * truth.value[i];
+        }
+        if (watch) watch(static_cast<std::size_t>(s) + 1, static_cast<std::size_t>(seeds));
+    }
+    double total = 0.0;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        const double variance = std::max(0.0, (squares[i] - sum[i] * sum[i] / seeds) / (seeds - 1.0));
+        total += variance;
+        spread.max = std::max(spread.max, std::sqrt(variance));
+    }
+    if (!sum.empty()) spread.rms = std::sqrt(total / static_cast<double>(sum.size()));
+    return spread;
+}
+
+}  // namespace shadowbench::bench

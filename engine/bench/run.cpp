@@ -1,0 +1,121 @@
+#include "bench/run.h"
+
+#include <ctime>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/parallel.h"
+#include "bench/clock.h"
+#include "bench/document.h"
+#include "bench/light_run.h"
+#include "bench/load.h"
+#include "bench/machine.h"
+#include "bench/queries.h"
+#include "rays/capture.h"
+
+namespace shadowbench::bench {
+namespace {
+
+std::string now_utc() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+std::vector<Variant> variants_of(const nlohmann::json& document, const RunOptions& options) {
+    std::vector<Variant> variants = expand(document);
+    for (Variant& variant : variants) keep_only(variant, options.only);
+    return variants;
+}
+
+// "2/5 key" where there are several variants or lights.
+std::string place_of(std::size_t variant, std::size_t variants, const scene::Scenario& scenario, std::size_t light) {
+    std::string place = variants > 1 ? fmt::format("{}/{}", variant + 1, variants) : "";
+    if (scenario.lights.size() > 1) place += (place.empty() ? "" : " ") + scenario.lights[light].name;
+    return place;
+}
+
+std::string pointer_of(const scene::Scenario& scenario, std::size_t light) {
+    return scenario.scene.deep_image ? "/scene/deep_image" : fmt::format("/lights/{}", light);
+}
+
+// What all lights of a variant share: Embree's trees and the camera's receivers.
+struct Shared {
+    std::unique_ptr<rays::Tracer> casters;
+    std::vector<base::Vec3d> seen;
+};
+
+Shared prepare(const scene::Scenario& scenario) {
+    Shared shared;
+    if (scenario.scene.objects.empty()) return shared;
+    shared.casters = std::make_unique<rays::Tracer>(scenario.scene, true);
+    if (scenario.receivers.camera) shared.seen = camera_points(scenario.receivers, rays::Tracer(scenario.scene, false));
+    return shared;
+}
+
+}  // namespace
+
+Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress) {
+    const base::ThreadLimit threads(options.threads);
+    const Stopwatch stopwatch;
+    Result result;
+    result.times.started = now_utc();
+    result.times.threads = base::thread_count();
+    result.machine = this_machine();
+    const std::vector<Variant> variants = variants_of(document, options);
+    result.name = document.at("name").get<std::string>();
+    result.purpose = document.value("purpose", "");
+    result.document = document.dump();
+    result.hash = hash_text(result.document);
+
+    ScenarioLoader loader(options.data);
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        const scene::Scenario& scenario = loader.load(variants[v]);
+        const std::vector<Contender> contenders = make_contenders(scenario, variants[v]);
+        const Shared shared = prepare(scenario);
+        VariantResult& out = result.variants.emplace_back();
+        out.settings = variants[v].settings;
+        for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
+            StageWatch watch;
+            if (progress)
+                watch = [&, place = place_of(v, variants.size(), scenario, l)](const char* stage, std::size_t done,
+                                                                               std::size_t total) {
+                    progress({place, stage, done, total});
+                };
+            std::vector<Contender> fresh;
+            for (const Contender& c : contenders) fresh.push_back({c.row, c.values, c.cell, {}});
+            out.lights.push_back(run_light({scenario, scenario.lights[l], pointer_of(scenario, l), shared.casters.get(),
+                                            shared.seen, options.limits, watch},
+                                           std::move(fresh)));
+        }
+    }
+    result.times.seconds = stopwatch.seconds();
+    return result;
+}
+
+Validated validate(const nlohmann::json& document, const RunOptions& options) {
+    const base::ThreadLimit threads(options.threads);
+    Validated validated;
+    ScenarioLoader loader(options.data);
+    for (const Variant& variant : variants_of(document, options)) {
+        const scene::Scenario& scenario = loader.load(variant);
+        const std::vector<Contender> contenders = make_contenders(scenario, variant);
+        for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
+            const rays::LightView view = rays::make_light_view(scenario.lights[l], scenario.scene,
+                                                               scenario.rays.resolution, pointer_of(scenario, l));
+            check_memory(rays::make_layout(scenario.scene, view, scenario.rays), contenders, options.limits, "/rays");
+        }
+        validated.name = scenario.name;
+        ++validated.variants;
+        validated.lights += scenario.lights.size();
+        validated.techniques += contenders.size();
+    }
+    return validated;
+}
+
+}  // namespace shadowbench::bench

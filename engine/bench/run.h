@@ -1,0 +1,35 @@
+// A scenario document -> its result. Everything else of this folder is a step of this one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bench/memory.h"
+#include "bench/progress.h"
+#include "bench/result.h"
+#include "scene/scenario.h"
+
+namespace shadowbench::bench {
+
+struct RunOptions {
+    scene::SearchPath data;
+    std::vector<std::string> only;  // technique ids; empty: all
+    int threads = 0;                // 0: all processors
+    MemoryLimits limits;
+};
+
+// Expands the document, and captures, checks and times every variant, light and technique.
+// Throws Error: bad_input, no_such_file, io, or usage for `only`. Whether a technique failed stands in its cell.
+Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress);
+
+struct Validated {
+    std::string name;
+    std::size_t variants = 0, lights = 0, techniques = 0;  // lights and techniques: over all variants
+};
+
+// All that run() checks before it works: the document, its files, what its lights see, the memory limit.
+Validated validate(const nlohmann::json& document, const RunOptions& options);
+
+}  // namespace shadowbench::bench

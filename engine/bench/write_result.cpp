@@ -1,0 +1,93 @@
+#include "bench/write_result.h"
+
+#include <unistd.h>
+
+#include <fstream>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench/report.h"
+
+namespace shadowbench::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Error;
+using base::ErrorCode;
+
+// Takes away what was made, newest first, unless it is told to keep it.
+class Undo {
+public:
+    Undo() = default;
+    Undo(const Undo&) = delete;
+    Undo& operator=(const Undo&) = delete;
+    ~Undo() {
+        std::error_code ignored;
+        for (auto path = made_.rbegin(); path != made_.rend(); ++path) fs::remove(*path, ignored);
+    }
+    void made(const fs::path& path) { made_.push_back(path); }
+    void keep() { made_.clear(); }
+
+private:
+    std::vector<fs::path> made_;
+};
+
+void make_folders(const fs::path& folder, Undo& undo) {
+    std::error_code failed;
+    if (folder.empty() || fs::is_directory(folder, failed)) return;
+    make_folders(folder.parent_path(), undo);
+    if (fs::create_directory(folder, failed)) undo.made(folder);
+    if (failed) throw Error(ErrorCode::io, folder.string(), "cannot make the folder: " + failed.message());
+}
+
+fs::path temporary_name(const fs::path& path) {
+    return path.parent_path() / fmt::format(".{}.{}.tmp", path.filename().string(), getpid());
+}
+
+void write_one(const fs::path& path, const std::string& content) {
+    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    file.write(content.data(), static_cast<std::streamsize>(content.size()));
+    file.close();
+    if (!file) throw Error(ErrorCode::io, path.string(), "cannot write the file");
+}
+
+}  // namespace
+
+void write_files(const std::vector<NewFile>& files) {
+    Undo undo;
+    std::error_code failed;
+    for (const NewFile& file : files) {
+        // rename() would refuse a folder only after other files have been replaced.
+        if (fs::is_directory(file.path))
+            throw Error(ErrorCode::io, file.path.string(), "a folder is in the file's place");
+        make_folders(file.path.parent_path(), undo);
+        undo.made(temporary_name(file.path));
+        write_one(temporary_name(file.path), file.content);
+    }
+    for (const NewFile& file : files) {
+        fs::rename(temporary_name(file.path), file.path, failed);
+        if (failed) throw Error(ErrorCode::io, file.path.string(), "cannot replace the file: " + failed.message());
+    }
+    undo.keep();
+}
+
+void check_writable(const fs::path& folder) {
+    std::error_code ignored;
+    fs::path there = folder.empty() ? fs::path(".") : folder;
+    while (!fs::exists(there, ignored) && there.has_parent_path() && there != there.parent_path())
+        there = there.parent_path();
+    if (!fs::exists(there, ignored)) there = ".";
+    if (!fs::is_directory(there, ignored))
+        throw Error(ErrorCode::io, folder.string(), "results cannot go there: " + there.string() + " is not a folder");
+    if (access(there.c_str(), W_OK | X_OK) != 0)
+        throw Error(ErrorCode::io, folder.string(), "results cannot go there: " + there.string() + " is not writable");
+}
+
+void write_result(const fs::path& folder, const Result& result) {
+    write_files({{folder / "result.json", to_json(result).dump(1) + "\n"}, {folder / "result.csv", to_csv(result)}});
+}
+
+}  // namespace shadowbench::bench

@@ -1,0 +1,152 @@
+#include "service/cli/cli.h"
+
+#include <algorithm>
+#include <new>
+#include <ostream>
+#include <string>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+#include "bench/build_info.h"
+#include "service/cli/commands.h"
+
+namespace shadowbench::service {
+namespace {
+
+using base::ErrorCode;
+
+constexpr const char* examples = R"(Examples:
+  shadowbench run scenarios/quickstart.json
+  shadowbench run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out /tmp/hair
+  shadowbench validate smoke_vdb --data ~/volumes
+  shadowbench list techniques
+  shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
+SCENARIO is a file, or the name of one in ./scenarios or in the folders of $SHADOWBENCH_SCENARIOS.
+Exit codes: 0 ok; 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
+
+struct Arguments {
+    RunArguments run;
+    ScenarioArguments validate;
+    std::string list;
+    CurveArguments curve;
+};
+
+// One value an option, as often as the option is given: a following positional argument stays one.
+void repeatable(CLI::Option* option) {
+    option->allow_extra_args(false);
+}
+
+void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
+    command.add_option("SCENARIO", arguments.scenario, "A scenario file, or its name")->required();
+    repeatable(command.add_option("--set", arguments.set,
+                                  "path=value: change one value of the scenario, as in rays.samples_per_pixel=64 or "
+                                  "/techniques/0/tolerance=0.01"));
+    repeatable(command.add_option("--only", arguments.only, "Only techniques of this type"));
+    repeatable(command.add_option("--data", arguments.data,
+                                  "A folder to look for data in; before $SHADOWBENCH_DATA, the scenario's folder, its "
+                                  "data/, scenarios/data and ../shared/data"));
+    command.add_option("--threads", arguments.threads, "Threads of capture and checks; 0: all (times are of one)")
+        ->check(CLI::Range(0, 4096));
+    command.add_option("--memory-limit", arguments.memory_limit, "GiB; what surely needs more is refused")
+        ->check(CLI::Range(0.001, 1e6))
+        ->capture_default_str();
+}
+
+void add_commands(CLI::App& app, Arguments& arguments) {
+    CLI::App* run = app.add_subcommand("run", "Run a scenario: print a table, write result.json and result.csv");
+    add_scenario_options(*run, arguments.run);
+    run->add_option("--out", arguments.run.out, "Folder of the results [results/runs/<scenario name>]");
+
+    CLI::App* validate = app.add_subcommand("validate", "Check a scenario and its files without running it");
+    add_scenario_options(*validate, arguments.validate);
+
+    CLI::App* list = app.add_subcommand("list", "List the techniques with their parameters, or the scenarios");
+    list->add_option("WHAT", arguments.list, "techniques or scenarios")
+        ->required()
+        ->check(CLI::IsMember({"techniques", "scenarios"}));
+
+    CLI::App* curve = app.add_subcommand("curve", "Store given functions of depth: nodes, bytes, errors, times");
+    curve
+        ->add_option("FUNCTIONS", arguments.curve.functions,
+                     "Text file of records: a line n, then n lines `z T`; z non-decreasing, T non-increasing in [0, 1]")
+        ->required();
+    repeatable(curve->add_option("--technique", arguments.curve.techniques,
+                                 "id:name=value,name=value [deep:tolerance=0.02 and avsm:nodes=8]"));
+    curve->add_option("--dump", arguments.curve.dump,
+                      "Write the stored functions here in the same format; with several techniques, to "
+                      "FILE.1-<id>, FILE.2-<id>, ...");
+    curve->add_flag("--json", arguments.curve.json, "Print JSON instead of a table");
+    curve->add_option("--repetitions", arguments.curve.repetitions, "Timed passes")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+}
+
+void dispatch(const CLI::App& app, Arguments& arguments, std::ostream& out, std::ostream& err) {
+    if (app.got_subcommand("run")) run_command(arguments.run, out, err);
+    if (app.got_subcommand("validate")) validate_command(arguments.validate, out);
+    if (app.got_subcommand("list")) {
+        if (arguments.list == "techniques")
+            list_techniques(out);
+        else
+            list_scenarios(out);
+    }
+    if (app.got_subcommand("curve")) {
+        if (arguments.curve.techniques.empty()) arguments.curve.techniques = {"deep:tolerance=0.02", "avsm:nodes=8"};
+        curve_command(arguments.curve, out);
+    }
+}
+
+int report(std::ostream& err, ErrorCode code, std::string message) {
+    std::replace_if(
+        message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    err << "shadowbench: " << message << "\n";
+    return static_cast<int>(code);
+}
+
+// What CLI11 says of wrong arguments, but for an unknown command, which it calls a missing one.
+std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
+    if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-')
+        return fmt::format("unknown command \"{}\"; there are: run, validate, list, curve (see shadowbench --help)",
+                           argv[1]);
+    return std::string(error.what()) + " (see shadowbench --help)";
+}
+
+int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+    const bench::BuildInfo build = bench::build_info();
+    CLI::App app("Shadow-map techniques held to one scene, one oracle and one clock.", "shadowbench");
+    app.set_version_flag("--version", fmt::format("shadowbench {} ({}, {}, {})", build.version, build.commit,
+                                                  build.compiler, build.build_type));
+    app.require_subcommand(1);
+    app.footer(examples);
+    Arguments arguments;
+    add_commands(app, arguments);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error, out, err);
+        return report(err, ErrorCode::usage, usage_message(app, argc, argv, error));
+    }
+    dispatch(app, arguments, out, err);
+    return 0;
+}
+
+}  // namespace
+
+int cli_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+    try {
+        const int code = parse_and_run(argc, argv, out, err);
+        out.flush();
+        if (!out) return report(err, ErrorCode::io, "standard output: cannot write");
+        return code;
+    } catch (const base::Error& error) {
+        return report(err, error.code(), error.what());
+    } catch (const std::bad_alloc&) {
+        return report(err, ErrorCode::internal, "out of memory; a smaller map or --memory-limit may help");
+    } catch (const std::exception& error) {
+        return report(err, ErrorCode::internal, std::string("internal fault: ") + error.what());
+    }
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,37 @@
+// The commands, once their arguments are read. Each throws base::Error.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace shadowbench::service {
+
+struct ScenarioArguments {
+    std::string scenario;           // a path, or a name in the scenario folders
+    std::vector<std::string> set;   // path=value
+    std::vector<std::string> data;  // folders
+    std::vector<std::string> only;  // technique ids
+    int threads = 0;                // 0: all processors
+    double memory_limit = 16.0;     // GiB
+};
+
+struct RunArguments : ScenarioArguments {
+    std::string out;  // folder; empty: results/runs/<scenario name>
+};
+
+struct CurveArguments {
+    std::string functions;
+    std::vector<std::string> techniques;
+    std::string dump;  // file; empty: none
+    bool json = false;
+    int repetitions = 7;
+};
+
+void run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
+void validate_command(const ScenarioArguments& arguments, std::ostream& out);
+void list_techniques(std::ostream& out);
+void list_scenarios(std::ostream& out);
+void curve_command(const CurveArguments& arguments, std::ostream& out);
+
+}  // namespace shadowbench::service

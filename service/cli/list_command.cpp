@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <ostream>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "scene/scenario.h"
+#include "service/cli/commands.h"
+#include "service/cli/scenario_files.h"
+#include "techniques/technique.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using techniques::Parameter;
+using techniques::ParameterKind;
+
+std::string values_of(const Parameter& parameter) {
+    std::string text;
+    if (parameter.kind != ParameterKind::choice) text = fmt::format("{:g} to {:g}", parameter.min, parameter.max);
+    for (const char* word : parameter.words) text += (text.empty() ? "" : "|") + std::string(word);
+    return text;
+}
+
+std::string standard_of(const Parameter& parameter) {
+    return parameter.standard_word[0] != '\0' ? parameter.standard_word : fmt::format("{:g}", parameter.standard);
+}
+
+std::string promises_of(const techniques::Promises& promises) {
+    std::string text;
+    const auto add = [&](bool holds, const char* what) {
+        if (holds) text += (text.empty() ? "" : ", ") + std::string(what);
+    };
+    add(promises.monotone, "never rises with depth");
+    add(promises.unit_range, "stays in [0, 1]");
+    add(promises.opaque_only, "for opaque scenes only");
+    return text;
+}
+
+struct Listed {
+    std::string name, purpose, file;
+};
+
+Listed describe(const fs::path& file) {
+    Listed listed{file.stem().string(), "", file.string()};
+    try {
+        const nlohmann::json document = scene::parse_json(read_text(file), file.string());
+        if (document.is_object()) {
+            listed.name = document.value("name", listed.name);
+            listed.purpose = document.value("purpose", "");
+        }
+    } catch (const std::exception& error) {  // one broken file does not hide the others
+        listed.purpose = std::string("cannot be read: ") + error.what();
+    }
+    return listed;
+}
+
+}  // namespace
+
+void list_techniques(std::ostream& out) {
+    for (const techniques::Technique& row : techniques::all()) {
+        out << fmt::format("{:<14}{} (version {}; {})\n", row.id, row.title, row.version, row.paper);
+        out << fmt::format("{:<14}promises: {}\n", "", promises_of(row.promises));
+        for (const Parameter& parameter : row.parameters)
+            out << fmt::format("{:<14}{}={}  [{}] {}\n", "", parameter.name, standard_of(parameter),
+                               values_of(parameter), parameter.doc);
+    }
+}
+
+void list_scenarios(std::ostream& out) {
+    std::set<fs::path> files;
+    std::error_code ignored;
+    for (const fs::path& folder : scenario_folders())
+        for (fs::recursive_directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
+            if (entry->is_directory(ignored) && entry->path().filename() == "data") entry.disable_recursion_pending();
+            if (entry->is_regular_file(ignored) && entry->path().extension() == ".json") files.insert(entry->path());
+        }
+    if (files.empty())
+        throw base::Error(base::ErrorCode::no_such_file, "scenarios",
+                          "no scenario here; start in the project's folder, or name folders in SHADOWBENCH_SCENARIOS");
+    for (const fs::path& file : files) {
+        const Listed listed = describe(file);
+        out << fmt::format("{:<16}{}\n{:<16}{}\n", listed.name, listed.purpose, "", listed.file);
+    }
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,71 @@
+#include "service/cli/scenario_files.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Error;
+using base::ErrorCode;
+
+std::vector<fs::path> folders_of(const char* variable) {
+    std::vector<fs::path> folders;
+    const char* value = std::getenv(variable);
+    std::istringstream list(value ? value : "");
+    for (std::string folder; std::getline(list, folder, ':');)
+        if (!folder.empty()) folders.emplace_back(folder);
+    return folders;
+}
+
+}  // namespace
+
+std::vector<fs::path> scenario_folders() {
+    std::vector<fs::path> folders{"scenarios"};
+    for (const fs::path& folder : folders_of("SHADOWBENCH_SCENARIOS")) folders.push_back(folder);
+    return folders;
+}
+
+fs::path find_scenario(const std::string& name) {
+    std::error_code ignored;
+    if (fs::is_regular_file(name, ignored)) return name;
+    std::string looked_in;
+    for (const fs::path& folder : scenario_folders()) {
+        for (const std::string& file : {name, name + ".json"})
+            if (fs::is_regular_file(folder / file, ignored)) return folder / file;
+        looked_in += ", " + folder.string();
+    }
+    throw Error(ErrorCode::no_such_file, name,
+                "there is no such scenario file, nor one of this name in" + looked_in.substr(1));
+}
+
+scene::SearchPath data_path(const std::vector<std::string>& given, const fs::path& scenario) {
+    scene::SearchPath path;
+    std::error_code ignored;
+    for (const std::string& folder : given) {
+        if (!fs::is_directory(folder, ignored))
+            throw Error(ErrorCode::no_such_file, "--data " + folder, "there is no such folder");
+        path.emplace_back(folder);
+    }
+    for (const fs::path& folder : folders_of("SHADOWBENCH_DATA")) path.push_back(folder);
+    const fs::path own = scenario.has_parent_path() ? scenario.parent_path() : fs::path(".");
+    path.insert(path.end(), {own, own / "data", "scenarios/data", "../shared/data"});
+    return path;
+}
+
+std::string read_text(const fs::path& file) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored))
+        throw Error(ErrorCode::no_such_file, file.string(), "there is no such file");
+    std::ifstream stream(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (!stream) throw Error(ErrorCode::io, file.string(), "cannot read the file");
+    return text;
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,25 @@
+// Where scenarios and their data are looked for.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/scenario.h"
+
+namespace shadowbench::service {
+
+// ./scenarios, then the folders of $SHADOWBENCH_SCENARIOS (separated by colons).
+std::vector<std::filesystem::path> scenario_folders();
+
+// A path to a file, or the name of one in the scenario folders, with or without ".json". Throws Error{no_such_file}.
+std::filesystem::path find_scenario(const std::string& name);
+
+// The folders given, $SHADOWBENCH_DATA (separated by colons), the scenario's own folder and its data/, scenarios/data,
+// ../shared/data. Throws Error{no_such_file} when one of those given is not there.
+scene::SearchPath data_path(const std::vector<std::string>& given, const std::filesystem::path& scenario);
+
+// The whole file. Throws Error: no_such_file, io.
+std::string read_text(const std::filesystem::path& file);
+
+}  // namespace shadowbench::service

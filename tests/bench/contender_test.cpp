@@ -1,0 +1,108 @@
+#include "bench/contender.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "bench/fake_map.h"
+#include "bench/half_covered.h"
+#include "bench/memory.h"
+#include "rays/capture.h"
+
+namespace shadowbench::bench {
+namespace {
+
+// A fake technique on the half covered map with the layer over all of it, so that every pixel has the same function.
+class Contenders : public ::testing::Test {
+protected:
+    Cell judge(const FakeAnswers& answers) {
+        fake_answers = answers;
+        std::vector<Contender> contenders(1);
+        contenders[0].row = &fake_technique();
+        const techniques::BuildInput input{layout_, half_.view, nullptr};
+        build_all(contenders, source_, input, MemoryLimits{}.all, {});
+        check_functions(contenders, source_, layout_, {});
+        const techniques::Query judged[] = {{1.5f, 1.5f, 2.0f, 1.0f}, {6.5f, 3.5f, 2.0f, 1.0f}};
+        const Truth truth{1, {0.4, 0.4}, {0.0, 0.0}};
+        check_lookups(contenders, judged, truth);
+        return contenders[0].cell;
+    }
+
+    const curves::Curve true_function_{{1.0f, 1.0f}, {1.0f, 0.4f}, {3.0f, 0.4f}, {3.0f, 0.0f}};
+    HalfCovered half_ = half_covered(1.5);
+    rays::MapLayout layout_ = rays::make_layout(half_.scene, half_.view, half_.settings);
+    rays::Capture capture_{half_.scene, half_.view, layout_};
+    RaySource source_{capture_, layout_, std::size_t{1} << 30, {}};
+};
+
+TEST_F(Contenders, that_tell_the_truth_are_ok) {
+    const Cell cell = judge({.function = true_function_, .lookup = 0.45f});
+    EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+    ASSERT_TRUE(cell.curve && cell.lookup);
+    EXPECT_EQ(cell.curve->cells, 64u);
+    EXPECT_NEAR(cell.curve->norms.max, 0.0, 1e-6);
+    EXPECT_NEAR(cell.lookup->norms.rms, 0.05, 1e-6);
+    EXPECT_NEAR(cell.lookup->signed_mean, 0.05, 1e-6);
+    EXPECT_EQ(cell.bytes, 100u);
+    EXPECT_EQ(cell.working_bytes, 200u);
+}
+
+TEST_F(Contenders, within_their_promised_error_are_ok) {
+    curves::Curve near = true_function_;
+    near[1].value = near[2].value = 0.392f;
+    const Cell cell = judge({.function = near, .lookup = 0.4f});
+    EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+    EXPECT_NEAR(cell.curve->norms.rms, 0.008, 1e-6);
+    EXPECT_NEAR(cell.curve->mean_l1, 0.016, 1e-5);
+}
+
+TEST_F(Contenders, beyond_their_promised_error_fail_with_the_first_pixel) {
+    curves::Curve wrong = true_function_;
+    wrong[1].value = wrong[2].value = 0.3f;
+    const Cell cell = judge({.function = wrong, .lookup = 0.4f});
+    EXPECT_EQ(cell.status, CellStatus::failed);
+    EXPECT_NE(cell.reason.find("cell (0, 0)"), std::string::npos) << cell.reason;
+    EXPECT_NE(cell.reason.find("0.1"), std::string::npos) << cell.reason;
+    ASSERT_TRUE(cell.curve);  // what was measured is still shown
+    EXPECT_NEAR(cell.curve->norms.max, 0.1, 1e-6);
+    EXPECT_FALSE(cell.lookup);
+}
+
+TEST_F(Contenders, whose_function_rises_fail) {
+    const Cell cell = judge({.function = {{1.0f, 0.4f}, {2.0f, 0.405f}}});
+    EXPECT_EQ(cell.status, CellStatus::failed);
+    EXPECT_NE(cell.reason.find("rises"), std::string::npos) << cell.reason;
+}
+
+TEST_F(Contenders, whose_function_leaves_the_unit_range_fail) {
+    const Cell cell = judge({.function = {{1.0f, 1.0f}, {2.0f, -0.001f}}});
+    EXPECT_NE(cell.reason.find("outside [0, 1]"), std::string::npos) << cell.reason;
+}
+
+TEST_F(Contenders, that_answer_no_number_fail) {
+    for (const float answer : {std::numeric_limits<float>::quiet_NaN(), 1.5f, -0.1f}) {
+        const Cell cell = judge({.function = true_function_, .lookup = answer});
+        EXPECT_EQ(cell.status, CellStatus::failed) << answer;
+        EXPECT_NE(cell.reason.find("lookup"), std::string::npos) << cell.reason;
+    }
+}
+
+TEST_F(Contenders, that_refuse_the_layout_fail_alone) {
+    const Cell cell = judge({.function = true_function_, .refuses_begin = true});
+    EXPECT_EQ(cell.status, CellStatus::failed);
+    EXPECT_EQ(cell.reason, "this layout is not for me");
+}
+
+TEST_F(Contenders, are_judged_alike_when_the_rays_are_captured_anew) {
+    const RaySource anew(capture_, layout_, 0, {});
+    EXPECT_FALSE(anew.kept());
+    EXPECT_EQ(anew.segments(), source_.segments());
+    std::size_t rays = 0;
+    anew.for_each_batch([&](RaySource::Batch batch) {
+        for (const rays::LightRays& tile : batch) rays += tile.rays();
+    });
+    EXPECT_EQ(rays, source_.rays());
+}
+
+}  // namespace
+}  // namespace shadowbench::bench

@@ -1,0 +1,80 @@
+#include "bench/functions.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/errors.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using base::ErrorCode;
+using curves::Curve;
+
+std::vector<FunctionResult> measure(const std::vector<Curve>& functions, const char* technique) {
+    const TechniqueChoice choices[] = {read_technique(technique)};
+    return measure_functions(functions, choices, 2);
+}
+
+TEST(MeasureFunctions, finds_nothing_lost_where_nothing_can_be) {
+    const std::vector<Curve> functions{{{0, 1}, {1, 1}, {1, 0.25f}, {3, 0.2f}}, {{0, 1}, {2, 0}}};
+    const FunctionResult result = measure(functions, "deep:tolerance=0.001")[0];
+    EXPECT_EQ(result.functions, 2u);
+    EXPECT_EQ(result.vertices_in, 6u);
+    EXPECT_NEAR(result.error_max, 0.0, 1e-6);
+    EXPECT_EQ(result.over_tolerance, 0u);
+    EXPECT_EQ(result.broken, 0u);
+    ASSERT_TRUE(result.times);
+    EXPECT_EQ(result.times->lookup_random_ns.raw.size(), 2u);
+    ASSERT_EQ(result.stored.size(), 2u);
+    EXPECT_EQ(result.stored[1], functions[1]);
+}
+
+TEST(MeasureFunctions, compresses_a_staircase_within_its_tolerance) {
+    Curve stairs;
+    for (int i = 0; i <= 100; ++i) {
+        const float z = static_cast<float>(i);
+        stairs.push_back({z, 1.0f - 0.01f * z});
+        stairs.push_back({z, std::max(0.0f, 0.99f - 0.01f * z)});
+    }
+    const FunctionResult result = measure({stairs}, "deep:tolerance=0.02")[0];
+    EXPECT_LE(result.error_max, 0.02 + 1e-6);
+    EXPECT_GT(result.error_max, 0.0);
+    EXPECT_LT(result.nodes_out, 20u) << "202 vertices lie along one line";
+    EXPECT_EQ(result.error_rms, result.error_max) << "one function";
+}
+
+TEST(MeasureFunctions, counts_no_tolerance_where_none_is_promised) {
+    const FunctionResult result = measure({{{0, 1}, {1, 0.5f}, {2, 0}}}, "avsm:nodes=8")[0];
+    EXPECT_FALSE(result.tolerance);
+    EXPECT_FALSE(result.over_tolerance);
+    EXPECT_TRUE(to_json(result)["over_tolerance"].is_null());
+}
+
+TEST(MeasureFunctions, needs_functions) {
+    error_of([] { measure({}, "deep"); }, ErrorCode::bad_input, "");
+}
+
+TEST(ReadTechnique, reads_names_numbers_and_words) {
+    const TechniqueChoice deep = read_technique("deep:tolerance=0.5");
+    EXPECT_STREQ(deep.row->id, "deep");
+    EXPECT_EQ(deep.values.number("tolerance"), 0.5);
+    EXPECT_TRUE(read_technique("deep:tolerance=noise").values.is_word("tolerance"));
+    EXPECT_EQ(read_technique("avsm:nodes=4,filter=point").values.integer("nodes"), 4);
+}
+
+TEST(ReadTechnique, refuses_what_cannot_be) {
+    const auto refuses = [](const std::string& text, const std::string& below) {
+        return error_of([&] { read_technique(text); }, ErrorCode::usage, "--technique " + text + below);
+    };
+    EXPECT_NE(refuses("shallow", "").find("deep"), std::string::npos) << "lists the techniques";
+    refuses("deep:tolerance", "");
+    refuses("deep:tolerance=7", "/tolerance");
+    refuses("deep:tolerence=0.1", "/tolerence");
+    refuses("avsm:nodes=2.5", "/nodes");
+    refuses("ray_traced", "");
+}
+
+}  // namespace
+}  // namespace shadowbench::bench

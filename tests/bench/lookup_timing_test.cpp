@@ -1,0 +1,83 @@
+#include "bench/lookup_timing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bench/fake_map.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using techniques::Query;
+
+Maps fake_maps(int lines) {
+    Maps maps;
+    maps.channel.push_back(std::make_unique<FakeMap>(FakeAnswers{.function = {}, .lines = lines}));
+    return maps;
+}
+
+std::vector<Query> some_queries(int count) {
+    std::vector<Query> queries;
+    for (int i = 0; i < count; ++i) queries.push_back({static_cast<float>(i), 0.0f, 0.0f, 1.0f});
+    return queries;
+}
+
+TEST(ChooseRuns, takes_everything_when_it_may) {
+    const std::vector<std::size_t> all = choose_runs(200, 1000);
+    ASSERT_EQ(all.size(), 200u);
+    for (std::size_t i = 0; i < 200; ++i) EXPECT_EQ(all[i], i);
+}
+
+TEST(ChooseRuns, spreads_runs_of_neighbours_over_the_whole) {
+    const std::vector<std::size_t> chosen = choose_runs(64 * 100, 256);
+    ASSERT_EQ(chosen.size(), 256u);
+    EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
+    EXPECT_EQ(std::set<std::size_t>(chosen.begin(), chosen.end()).size(), 256u) << "none twice";
+    EXPECT_EQ(chosen[63], 63u);
+    EXPECT_EQ(chosen[64], 64u * 25);
+    EXPECT_GT(chosen.back(), 64u * 74);
+}
+
+TEST(LookupPlan, looks_up_the_same_queries_in_both_orders) {
+    const Maps maps = fake_maps(2);
+    const LookupPlan plan = plan_lookups(maps, some_queries(1000), 640, 3);
+    ASSERT_EQ(plan.image.queries.size(), 640u);
+    const auto places = [](const LookupOrder& order) {
+        std::vector<float> x;
+        for (const Query& q : order.queries) x.push_back(q.x);
+        return x;
+    };
+    std::vector<float> image = places(plan.image), random = places(plan.random);
+    EXPECT_TRUE(std::is_sorted(image.begin(), image.end()));
+    EXPECT_NE(image, random);
+    std::sort(random.begin(), random.end());
+    EXPECT_EQ(image, random);
+    EXPECT_EQ(plan.image.lines.size(), 2 * plan.image.covered);
+    EXPECT_EQ(plan.image.covered, 640u);
+}
+
+TEST(LookupPlan, keeps_one_time_and_one_floor_a_repetition) {
+    const Maps maps = fake_maps(3);
+    LookupPlan plan = plan_lookups(maps, some_queries(100), 100, 3);
+    for (int r = 0; r < 4; ++r) time_repetition(maps, plan, r % 2 == 1);
+    const LookupTimes times = summarise(plan.random);
+    EXPECT_EQ(times.ns.raw.size(), 4u);
+    ASSERT_TRUE(times.floor && times.ratio);
+    EXPECT_EQ(times.floor->raw.size(), 4u);
+    EXPECT_DOUBLE_EQ(times.ratio->raw[2], times.ns.raw[2] / times.floor->raw[2]);
+}
+
+TEST(LookupPlan, has_no_floor_for_a_technique_without_a_map) {
+    const Maps maps = fake_maps(0);
+    LookupPlan plan = plan_lookups(maps, some_queries(100), 100, 3);
+    time_repetition(maps, plan, true);
+    const LookupTimes times = summarise(plan.image);
+    EXPECT_EQ(times.ns.raw.size(), 1u);
+    EXPECT_FALSE(times.floor);
+    EXPECT_FALSE(times.ratio);
+}
+
+}  // namespace
+}  // namespace shadowbench::bench

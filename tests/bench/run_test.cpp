@@ -1,0 +1,138 @@
+#include "bench/run.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/document.h"
+#include "bench/errors.h"
+#include "bench/load.h"
+#include "bench/report.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using base::ErrorCode;
+using nlohmann::json;
+
+json quickstart() {
+    std::ifstream file(std::string(SHADOWBENCH_SOURCE_DIR) + "/scenarios/quickstart.json");
+    json document = json::parse(file);
+    for (const char* assignment : {"rays.resolution=32", "receivers.resolution=[32,24]", "reference.queries=64",
+                                   "reference.samples_per_pixel=16", "timing.repetitions=1", "timing.lookups=256",
+                                   "scene.objects.0.strands=200"})
+        set_value(document, assignment);
+    return document;
+}
+
+json two_layers() {
+    return json::parse(R"({
+        "name": "two_layers",
+        "scene": {"objects": [
+            {"type": "quad", "corner": [-1, 1, -1], "edge_u": [1, 0, 0], "edge_v": [0, 0, 2], "opacity": [0.2, 0.5, 0.8]},
+            {"type": "quad", "corner": [-1, 0, -1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2], "opacity": 0.5}]},
+        "lights": [{"type": "directional", "name": "sun", "direction": [0, -1, 0]}],
+        "rays": {"resolution": 16, "samples_per_pixel": 4},
+        "receivers": {"type": "probes", "count": 500},
+        "reference": {"samples_per_pixel": 64, "queries": 100, "spread_seeds": 0},
+        "timing": {"repetitions": 2, "lookups": 128},
+        "techniques": [{"type": "deep", "tolerance": 0.01}, {"type": "uncompressed"}]
+    })");
+}
+
+nlohmann::ordered_json without_times(const json& document, const RunOptions& options) {
+    nlohmann::ordered_json result = to_json(run(document, options, {}));
+    strip_times(result);
+    return result;
+}
+
+TEST(Run, gives_the_same_numbers_on_one_thread_and_on_two) {
+    RunOptions one, two;
+    one.threads = 1;
+    two.threads = 2;
+    EXPECT_EQ(without_times(quickstart(), one), without_times(quickstart(), two));
+}
+
+TEST(Run, gives_the_same_numbers_when_rays_are_captured_anew) {
+    RunOptions kept, anew;
+    anew.limits.kept_rays = 0;
+    nlohmann::ordered_json a = without_times(quickstart(), kept), b = without_times(quickstart(), anew);
+    EXPECT_EQ(a["variants"][0]["lights"][0]["rays_kept"], true);
+    EXPECT_EQ(b["variants"][0]["lights"][0]["rays_kept"], false);
+    for (auto* result : {&a, &b}) (*result)["variants"][0]["lights"][0].erase("rays_kept");
+    EXPECT_EQ(a, b);
+}
+
+TEST(Run, keeps_a_map_a_channel_of_a_coloured_scene) {
+    const Result result = run(two_layers(), {}, {});
+    const LightResult& light = result.variants[0].lights[0];
+    EXPECT_EQ(light.layout.channels, 3);
+    for (const Cell& cell : light.cells) {
+        EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+        EXPECT_EQ(cell.curve->cells, cell.nodes.cells) << cell.technique;
+        EXPECT_LE(cell.curve->norms.max, cell.error_bound + 1e-6) << cell.technique;
+    }
+    EXPECT_EQ(light.cells[0].nodes.cells, 3u * 16 * 16);
+    EXPECT_EQ(light.agreement->other_crossings, 0u);
+    EXPECT_EQ(light.agreement->other_transmittance, 0u);
+}
+
+TEST(Run, expands_sweeps_and_says_what_they_set) {
+    json document = two_layers();
+    document["sweeps"] = {{"/rays/samples_per_pixel", {1, 4}}, {"/techniques/0/tolerance", {0.01, 0.1}}};
+    const Result result = run(document, {}, {});
+    ASSERT_EQ(result.variants.size(), 2u);
+    EXPECT_EQ(result.variants[1].settings[0].value, "4");
+    ASSERT_EQ(result.variants[1].lights[0].cells.size(), 3u);
+    EXPECT_EQ(result.variants[1].lights[0].cells[1].parameters, "tolerance=0.1");
+    EXPECT_EQ(result.variants[0].lights[0].rays, 256u);
+    EXPECT_EQ(result.variants[1].lights[0].rays, 1024u);
+}
+
+TEST(Run, tells_how_far_it_is) {
+    std::vector<std::string> stages;
+    run(two_layers(), {}, [&](const Progress& progress) {
+        EXPECT_LE(progress.done, progress.total);
+        if (stages.empty() || stages.back() != progress.stage) stages.push_back(progress.stage);
+    });
+    EXPECT_EQ(stages.front(), "capture");
+    EXPECT_EQ(stages.back(), "timing lookups");
+}
+
+TEST(Run, refuses_more_memory_than_allowed_before_it_works) {
+    json document = two_layers();
+    document["rays"] = {{"resolution", 4096}, {"samples_per_pixel", 64}};
+    RunOptions options;
+    options.limits.all = std::size_t{1} << 30;
+    const std::string message = error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/rays");
+    EXPECT_NE(message.find("GiB"), std::string::npos) << message;
+    error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/rays");
+}
+
+TEST(Run, refuses_a_camera_that_looks_past_the_lights_map) {
+    json document = two_layers();
+    document["receivers"] = {{"type", "camera"}, {"position", {0, 5, 5}}, {"target", {0, 50, 5}}, {"up", {0, 0, 1}}};
+    error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
+}
+
+TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
+    const std::string file = ::testing::TempDir() + "shadowbench_loader.obj";
+    std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
+    json document = two_layers();
+    document["scene"] = {{"objects", {{{"type", "mesh"}, {"file", file}}}}};
+    document["sweeps"] = {{"/rays/seed", {1, 2}}};
+    const std::vector<Variant> variants = expand(document);
+    ScenarioLoader loader({});
+    const base::Vec3d target = loader.load(variants[0]).lights[0].target;
+    std::remove(file.c_str());
+    const scene::Scenario& second = loader.load(variants[1]);
+    EXPECT_EQ(second.rays.seed, 2u);
+    EXPECT_EQ(second.scene.objects.size(), 1u);
+    EXPECT_EQ(second.lights[0].target, target) << "which depends on the scene's bounds";
+}
+
+}  // namespace
+}  // namespace shadowbench::bench

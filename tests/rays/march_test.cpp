@@ -1,0 +1,139 @@
+#include "rays/march.h"
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "scene/scene.h"
+
+namespace shadowbench::rays {
+namespace {
+
+scene::GridVolume grid(base::Vec3i size, double step) {
+    scene::GridVolume g;
+    g.size = size;
+    g.density.assign(static_cast<std::size_t>(size.x) * size.y * size.z, 0.0f);
+    g.lower = {-1, -2, -3};
+    g.upper = {2, 2, 3};
+    g.step = step;
+    return g;
+}
+
+float& at(scene::GridVolume& g, int x, int y, int z) {
+    return g.density[(static_cast<std::size_t>(z) * g.size.y + y) * g.size.x + x];
+}
+
+double depth_of(const std::vector<MediumSegment>& segments) {
+    double sum = 0.0;
+    for (const MediumSegment& s : segments) sum += s.depth;
+    return sum;
+}
+
+// The same integral by many small steps over a plain trilinear lookup.
+double brute_force(scene::GridVolume& g, base::Vec3d origin, base::Vec3d direction) {
+    double sum = 0.0;
+    constexpr double dt = 1e-4;
+    for (double t = 0.5 * dt; t < 20; t += dt) {
+        const base::Vec3d p = origin + direction * t;
+        base::Vec3d i;
+        bool inside = true;
+        for (int a = 0; a < 3; ++a) {
+            inside &= p[a] >= g.lower[a] && p[a] <= g.upper[a];
+            i[a] = std::clamp((p[a] - g.lower[a]) / (g.upper[a] - g.lower[a]) * g.size[a] - 0.5, 0.0, g.size[a] - 1.0);
+        }
+        if (!inside) continue;
+        const int x = std::min(static_cast<int>(i.x), g.size.x - 2), y = std::min(static_cast<int>(i.y), g.size.y - 2),
+                  z = std::min(static_cast<int>(i.z), g.size.z - 2);
+        double value = 0.0;
+        for (int c = 0; c < 8; ++c) {
+            const int dx = c & 1, dy = c >> 1 & 1, dz = c >> 2;
+            value += at(g, x + dx, y + dy, z + dz) * (dx ? i.x - x : 1 - i.x + x) * (dy ? i.y - y : 1 - i.y + y) *
+                     (dz ? i.z - z : 1 - i.z + z);
+        }
+        sum += value * dt;
+    }
+    return sum;
+}
+
+TEST(March, SkippingEmptyBlocksLosesNothing) {
+    // Few voxels hold anything, most blocks are empty, and rays run in all directions, along axes too.
+    scene::GridVolume g = grid({40, 37, 51}, 0.01);
+    base::Random random(1);
+    for (int i = 0; i < 25; ++i)
+        at(g, static_cast<int>(random.below(40)), static_cast<int>(random.below(37)), static_cast<int>(random.below(51))) =
+            static_cast<float>(random.uniform(1, 3));
+    for (const auto& [x, y, z] : {std::tuple{0, 0, 0}, {39, 36, 50}, {7, 8, 15}, {8, 7, 16}, {20, 36, 23}}) at(g, x, y, z) = 2;
+    const VolumeMarcher marcher(g);
+    int hit = 0;
+    for (int i = 0; i < 60; ++i) {
+        // Through a voxel that holds something.
+        std::size_t v = random.below(g.density.size());
+        while (g.density[v] == 0.0f) v = (v + 1) % g.density.size();
+        const base::Vec3d voxel(static_cast<double>(v % 40), static_cast<double>(v / 40 % 37), static_cast<double>(v / 40 / 37));
+        base::Vec3d target;
+        for (int a = 0; a < 3; ++a)
+            target[a] = g.lower[a] + (voxel[a] + 0.5 + random.uniform(-0.4, 0.4)) / g.size[a] * (g.upper[a] - g.lower[a]);
+        base::Vec3d d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        if (i % 6 < 3) {
+            d = base::Vec3d(0, 0, 0);
+            d[i % 3] = i % 2 ? 1 : -1;
+        }
+        d.normalize();
+        const base::Vec3d origin = target - d * 8.0;
+        std::vector<MediumSegment> segments;
+        marcher.march(origin, d, 1.0, 0, 1e30, segments);
+        const double expected = brute_force(g, origin, d);
+        EXPECT_NEAR(depth_of(segments), expected, 0.002 * expected + 1e-4);
+        hit += !segments.empty();
+        for (std::size_t s = 1; s < segments.size(); ++s) EXPECT_GE(segments[s].front, segments[s - 1].back);
+    }
+    EXPECT_EQ(hit, 60);
+}
+
+TEST(March, StepsAreRegularAndShareTheirEnds) {
+    scene::GridVolume g = grid({4, 4, 4}, 0.25);
+    for (float& d : g.density) d = 1;
+    std::vector<MediumSegment> segments;
+    VolumeMarcher(g).march({0, 0, -10}, {0, 0, 1}, 1.0, 0, 1e30, segments);
+    ASSERT_EQ(segments.size(), 24u) << "6 units in quarters";
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        EXPECT_FLOAT_EQ(segments[i].back - segments[i].front, 0.25f);
+        EXPECT_DOUBLE_EQ(segments[i].depth, 0.25);
+        if (i) {
+            EXPECT_EQ(segments[i].front, segments[i - 1].back);
+        }
+    }
+}
+
+TEST(March, ADensityThatGrowsLinearlyIsIntegratedExactlyByTrapezoids) {
+    scene::GridVolume g = grid({4, 4, 60}, 0.1);
+    for (int z = 0; z < 60; ++z)
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x < 4; ++x) at(g, x, y, z) = static_cast<float>(z);
+    std::vector<MediumSegment> segments;
+    VolumeMarcher(g).march({0, 0, -10}, {0, 0, 1}, 1.0, 0, 1e30, segments);
+    // Voxels are 0.1 long and sampled at their borders, where neighbours meet half-way; the ends are flat.
+    EXPECT_NEAR(depth_of(segments), 0.1 * (60 * 59 / 2), 0.01);
+}
+
+TEST(March, IsClippedToTheStretchAskedFor) {
+    scene::GridVolume g = grid({4, 4, 4}, 0.25);
+    for (float& d : g.density) d = 1;
+    std::vector<MediumSegment> segments;
+    VolumeMarcher(g).march({0, 0, 0}, {0, 0, 1}, 1.0, 0.1, 1.2, segments);
+    EXPECT_FLOAT_EQ(segments.front().front, 0.1f);
+    EXPECT_FLOAT_EQ(segments.back().back, 1.2f);
+    EXPECT_NEAR(depth_of(segments), 1.1, 1e-12);
+    segments.clear();
+    VolumeMarcher(g).march({5, 0, 0}, {0, 0, 1}, 1.0, 0, 1e30, segments);
+    EXPECT_TRUE(segments.empty()) << "beside the box";
+}
+
+TEST(SphereStretch, KeepsItsDigitsFarAway) {
+    double front, back;
+    ASSERT_TRUE(sphere_stretch({0, 0, -1e6}, {0, 0, 1}, {0.001, 0, 0}, 0.002, front, back));
+    EXPECT_NEAR(back - front, 2 * std::sqrt(0.002 * 0.002 - 0.001 * 0.001), 1e-9);
+    EXPECT_FALSE(sphere_stretch({0, 0, -1e6}, {0, 0, 1}, {0.003, 0, 0}, 0.002, front, back));
+}
+
+}  // namespace
+}  // namespace shadowbench::rays

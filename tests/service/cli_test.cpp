@@ -1,0 +1,253 @@
+#include "service/cli/cli.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int code;
+    std::string out, err;
+};
+
+Outcome cli(std::vector<std::string> arguments) {
+    std::vector<const char*> argv{"shadowbench"};
+    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+    std::ostringstream out, err;
+    const int code = cli_main(static_cast<int>(argv.size()), argv.data(), out, err);
+    return {code, out.str(), err.str()};
+}
+
+std::string read(const fs::path& file) {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+const char* const tiny = R"({
+    "name": "tiny",
+    "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
+    "lights": [{"type": "directional", "direction": [0, -1, 0]}],
+    "rays": {"resolution": 8, "samples_per_pixel": 4},
+    "receivers": {"type": "probes", "count": 200},
+    "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
+    "timing": {"repetitions": 1, "lookups": 64},
+    "techniques": [{"type": "deep"}, {"type": "uncompressed"}]
+})";
+
+class Cli : public ::testing::Test {
+protected:
+    void SetUp() override {
+        fs::create_directories(folder_);
+        write("tiny.json", tiny);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name) << text;
+        return path(name);
+    }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    // One line on standard error that says this, nothing on standard output.
+    void fails(const std::vector<std::string>& arguments, int code, const std::string& says) const {
+        const Outcome outcome = cli(arguments);
+        EXPECT_EQ(outcome.code, code) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_EQ(outcome.err.rfind("shadowbench: ", 0), 0u) << outcome.err;
+        EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
+    }
+    // The tiny scenario with one value set does not pass.
+    void fails_with(const std::string& assignment, int code, const std::string& says) const {
+        fails({"validate", path("tiny.json"), "--set", assignment}, code, says);
+    }
+
+    const fs::path folder_ =
+        fs::path(::testing::TempDir()) /
+        (std::string("shadowbench_cli_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(Cli, helps) {
+    for (const auto& arguments :
+         std::vector<std::vector<std::string>>{{"--help"}, {"run", "--help"}, {"curve", "-h"}}) {
+        const Outcome outcome = cli(arguments);
+        EXPECT_EQ(outcome.code, 0);
+        EXPECT_EQ(outcome.err, "");
+        EXPECT_NE(outcome.out.find("Usage"), std::string::npos) << outcome.out;
+    }
+    EXPECT_NE(cli({"--help"}).out.find("Examples:"), std::string::npos);
+    EXPECT_NE(cli({"--version"}).out.find("shadowbench 0."), std::string::npos);
+}
+
+TEST_F(Cli, refuses_wrong_usage) {
+    fails({}, 64, "subcommand");
+    fails({"frobnicate"}, 64, "unknown command \"frobnicate\"");
+    fails({"run"}, 64, "SCENARIO");
+    fails({"run", path("tiny.json"), "--frobnicate"}, 64, "--frobnicate");
+    fails({"run", path("tiny.json"), "--threads", "many"}, 64, "--threads");
+    fails({"run", path("tiny.json"), "--threads", "-1"}, 64, "--threads");
+    fails({"list", "everything"}, 64, "techniques");
+    fails({"run", path("tiny.json"), "--set", "rays.seed"}, 64, "--set rays.seed");
+    fails({"run", path("tiny.json"), "--set", "rayz.seed=3"}, 64, "rayz.seed=3");
+    fails({"run", path("tiny.json"), "--only", "pcf"}, 64, "deep uncompressed");
+}
+
+TEST_F(Cli, says_which_file_is_missing) {
+    fails({"run", "no_such_scenario"}, 66, "no_such_scenario");
+    fails({"validate", path("missing.json")}, 66, "missing.json");
+    fails({"validate", folder_.string()}, 66, folder_.string());
+    fails({"validate", path("tiny.json"), "--data", path("nowhere")}, 66, "--data " + path("nowhere"));
+    fails({"curve", path("missing.txt")}, 66, "missing.txt");
+    write("hair.json", R"({"name": "h", "scene": {"objects": [{"type": "hair", "file": "gone.tfx", "radius": 0.1}]},
+        "lights": [{"type": "directional", "direction": [0, -1, 0]}], "techniques": [{"type": "deep"}]})");
+    fails({"validate", path("hair.json")}, 66, "/scene/objects/0/file: there is no file \"gone.tfx\"");
+}
+
+TEST_F(Cli, says_where_json_is_broken) {
+    fails({"run", write("broken.json", "{\n  \"name\": tiny\n}")}, 65, "broken.json:2:");
+    fails({"run", write("empty.json", "")}, 65, "empty.json:1:1");
+    fails({"run", write("list.json", "[1, 2]")}, 65, "shadowbench: ");
+    fails({"run", write("null.json", "null")}, 65, "shadowbench: ");
+    fails({"run", write("nan.json", R"({"name": NaN})")}, 65, "nan.json:1:");
+    fails({"run", write("overflow.json", R"({"name": "x", "rays": {"seed": 1e999}})")}, 65, "overflow.json");
+}
+
+TEST_F(Cli, says_which_value_is_wrong) {
+    fails_with("rays.sampels=3", 65, "/rays/sampels");
+    fails_with("rays.samples_per_pixel=0", 65, "/rays/samples_per_pixel");
+    fails_with("rays.samples_per_pixel=2.5", 65, "/rays/samples_per_pixel");
+    fails_with("rays.samples_per_pixel=four", 65, "/rays/samples_per_pixel");
+    fails_with("rays.resolution=NaN", 65, "/rays/resolution");
+    fails_with("rays.resolution=1e9", 65, "/rays/resolution");
+    fails_with("techniques.0.type=shallow", 65, "/techniques/0/type: unknown technique \"shallow\"; there are: ");
+    fails_with("techniques.0.tolerance=7", 65, "/techniques/0/tolerance");
+    fails_with("techniques.0.tolerence=0.1", 65, "/techniques/0/tolerence");
+    fails_with("techniques=[]", 65, "/techniques");
+    fails_with("scene.objects=[]", 65, "/scene/objects");
+    fails_with("scene.objects.0.casts_shadow=false", 65, "/scene/objects");
+    fails_with("sweeps={\"/rays/sed\":[1]}", 65, "/rays/sed");
+}
+
+TEST_F(Cli, says_which_light_sees_nothing) {
+    const std::vector<std::string> aside{"--set", "lights.0.extent=[1,1]", "--set", "lights.0.target=[100,0,0]"};
+    const std::vector<std::string> beside_the_ball{"--set", "lights.0.extent=[0.1,0.1]", "--set",
+                                                   "lights.0.target=[0.9,0,0.9]"};  // but inside its bounds
+    for (const char* command : {"validate", "run"}) {
+        std::vector<std::string> arguments{command, path("tiny.json")};
+        arguments.insert(arguments.end(), aside.begin(), aside.end());
+        fails(arguments, 65, "/lights/0");
+    }
+    std::vector<std::string> arguments{"run", path("tiny.json"), "--out", path("out")};
+    arguments.insert(arguments.end(), beside_the_ball.begin(), beside_the_ball.end());
+    fails(arguments, 65, "/lights/0");
+    EXPECT_FALSE(fs::exists(path("out")));
+}
+
+TEST_F(Cli, refuses_what_exceeds_the_memory_limit_before_it_works) {
+    fails({"run", path("tiny.json"), "--set", "rays.resolution=8192", "--set", "rays.samples_per_pixel=64",
+           "--memory-limit", "1", "--out", path("out")},
+          65, "GiB");
+    EXPECT_FALSE(fs::exists(path("out")));
+}
+
+TEST_F(Cli, validates_without_running) {
+    const Outcome outcome = cli({"validate", path("tiny.json")});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "OK tiny: 1 variant, 1 light, 2 techniques\n");
+}
+
+TEST_F(Cli, runs_and_writes_json_and_csv) {
+    const Outcome outcome = cli({"run", "--set", "rays.seed=9", "--out", path("out/deep"), path("tiny.json"), "--only",
+                                 "uncompressed", "--threads", "1"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "") << "no progress bar outside of a terminal";
+    EXPECT_NE(outcome.out.find("uncompressed"), std::string::npos);
+    const nlohmann::json result = nlohmann::json::parse(read(path("out/deep/result.json")));
+    EXPECT_EQ(result["scenario"]["rays"]["seed"], 9);
+    EXPECT_EQ(result["variants"][0]["lights"][0]["cells"].size(), 1u);
+    EXPECT_EQ(result["variants"][0]["lights"][0]["cells"][0]["status"], "ok");
+    EXPECT_EQ(read(path("out/deep/result.csv")).rfind("scenario,", 0), 0u);
+    EXPECT_EQ(std::distance(fs::directory_iterator(path("out/deep")), {}), 2) << "no temporary file stays";
+}
+
+TEST_F(Cli, says_at_once_that_results_cannot_be_written) {
+    fails({"run", path("tiny.json"), "--out", path("tiny.json/below")}, 74, "tiny.json/below");
+}
+
+TEST_F(Cli, finds_scenarios_by_name) {
+    setenv("SHADOWBENCH_SCENARIOS", folder_.c_str(), 1);
+    EXPECT_EQ(cli({"validate", "tiny"}).code, 0);
+    write("broken.json", "{");
+    const Outcome listed = cli({"list", "scenarios"});
+    unsetenv("SHADOWBENCH_SCENARIOS");
+    EXPECT_EQ(listed.code, 0);
+    EXPECT_NE(listed.out.find("tiny.json"), std::string::npos);
+    EXPECT_NE(listed.out.find("broken.json"), std::string::npos) << "one broken file does not hide the others";
+}
+
+TEST_F(Cli, lists_every_technique_with_its_parameters) {
+    const Outcome outcome = cli({"list", "techniques"});
+    EXPECT_EQ(outcome.code, 0);
+    for (const char* text :
+         {"shadow_map", "pcf", "deep", "avsm", "uncompressed", "ray_traced", "tolerance=", "nodes=8"})
+        EXPECT_NE(outcome.out.find(text), std::string::npos) << text;
+}
+
+class CurveCli : public Cli {
+protected:
+    const std::string functions_ = write_functions();
+    std::string write_functions() const {
+        fs::create_directories(folder_);
+        return write("functions.txt", "# a ramp, and a step\n3\n0 1\n1 0.5\n2 0\n\n4\n0 1\n1 1\n1 0.25\n3 0.2\n");
+    }
+};
+
+TEST_F(CurveCli, tells_what_is_stored_of_given_functions) {
+    const Outcome outcome = cli({"curve", functions_, "--json"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const nlohmann::json techniques = nlohmann::json::parse(outcome.out)["techniques"];
+    ASSERT_EQ(techniques.size(), 2u);
+    EXPECT_EQ(techniques[0]["technique"], "deep");
+    EXPECT_EQ(techniques[0]["parameters"]["tolerance"], 0.02);
+    EXPECT_EQ(techniques[0]["functions"], 2);
+    EXPECT_EQ(techniques[0]["vertices_in"], 7);
+    EXPECT_LE(techniques[0]["curve_error"]["max"].get<double>(), 0.02 + 1e-6);
+    EXPECT_EQ(techniques[0]["over_tolerance"], 0);
+    EXPECT_EQ(techniques[0]["broken"], 0);
+    EXPECT_EQ(techniques[1]["technique"], "avsm");
+    EXPECT_NEAR(techniques[1]["curve_error"]["max"].get<double>(), 0.0, 1e-6) << "8 nodes hold these functions";
+}
+
+TEST_F(CurveCli, writes_the_stored_functions_in_the_same_format) {
+    ASSERT_EQ(cli({"curve", functions_, "--technique", "deep:tolerance=0.001", "--dump", path("stored.txt")}).code, 0);
+    EXPECT_EQ(read(path("stored.txt")), "2\n0 1\n2 0\n3\n1 1\n1 0.25\n3 0.2\n");
+    ASSERT_EQ(cli({"curve", functions_, "--technique", "deep", "--technique", "avsm", "--dump", path("two")}).code, 0);
+    EXPECT_TRUE(fs::exists(path("two.1-deep")));
+    EXPECT_TRUE(fs::exists(path("two.2-avsm")));
+    EXPECT_EQ(cli({"curve", path("two.1-deep")}).code, 0) << "what was dumped can be read";
+}
+
+TEST_F(CurveCli, refuses_wrong_techniques_and_files) {
+    fails({"curve", functions_, "--technique", "shallow"}, 64, "unknown technique \"shallow\"");
+    fails({"curve", functions_, "--technique", "deep:tolerance=seven"}, 64, "tolerance");
+    fails({"curve", functions_, "--technique", "ray_traced"}, 64, "ray_traced");
+    fails({"curve", write("rising.txt", "2\n0 0.5\n1 0.75\n")}, 65, "rising.txt:3");
+    fails({"curve", write("short.txt", "3\n0 1\n1 0.5\n")}, 65, "short.txt");
+    fails({"curve", write("nan.txt", "1\nnan 1\n")}, 65, "nan.txt:2");
+    fails({"curve", write("none.txt", "# nothing\n")}, 65, "none.txt");
+    fails({"curve", functions_, "--technique", "deep", "--dump", path("functions.txt/below")}, 74, "below");
+}
+
+}  // namespace
+}  // namespace shadowbench::service
