@@ -1,0 +1,61 @@
+// A binary file read front to back. Every fault is an Error whose place is "file:offset", and nothing is allocated
+// before the file is known to be long enough for it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace shadowbench::scene {
+
+class FileReader {
+public:
+    // Throws Error{no_such_file} or Error{io}.
+    explicit FileReader(std::filesystem::path file);
+
+    std::uint64_t size() const { return size_; }
+    std::uint64_t position() const { return position_; }
+
+    void seek(std::uint64_t offset, const char* what);
+
+    // Values as they lie in the file; `what` names them in the message when the file is too short.
+    template <typename T>
+    T value(const char* what) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        T result;
+        read(&result, sizeof(T), what);
+        return result;
+    }
+
+    template <typename T>
+    std::vector<T> array(std::uint64_t count, const char* what) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        need(count, sizeof(T), what);
+        std::vector<T> result(static_cast<std::size_t>(count));
+        read(result.data(), result.size() * sizeof(T), what);
+        return result;
+    }
+
+    // Throws unless `count` items of `bytes` each are left to read.
+    void need(std::uint64_t count, std::uint64_t bytes, const char* what) const;
+
+    // Throws Error{bad_input} at an offset.
+    [[noreturn]] void fail(std::uint64_t offset, const std::string& message) const;
+
+    // Throws at the first value that is not finite or beyond max_coordinate; `offset` is where the array begins.
+    void check_finite(const std::vector<float>& values, std::uint64_t offset, const char* what) const;
+
+private:
+    void read(void* to, std::size_t bytes, const char* what);
+
+    std::filesystem::path file_;
+    std::ifstream stream_;
+    std::uint64_t size_ = 0;
+    std::uint64_t position_ = 0;
+};
+
+}  // namespace shadowbench::scene

@@ -1,0 +1,25 @@
+// The parts of load_scenario. Each takes JSON that has passed the schema; `where` is its JSON pointer.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "scene/scenario.h"
+#include "scene/scene.h"
+
+namespace shadowbench::scene {
+
+// A directional light without "target" is given the middle of `casters`.
+Light load_light(const nlohmann::json& from, std::size_t index, const Box3d& casters, const std::string& where);
+
+// Throws Error{bad_input} also for an object that holds nothing.
+Object load_object(const nlohmann::json& from, std::size_t index, const SearchPath& path, const std::string& where);
+
+// Shapes that several object types share.
+Mesh load_mesh(const nlohmann::json& from, const SearchPath& path, const std::string& where);
+Mesh load_quad(const nlohmann::json& from, const SearchPath& path, const std::string& where);
+GridVolume load_volume(const nlohmann::json& from, const SearchPath& path, const std::string& where);
+GridVolume load_cloud(const nlohmann::json& from, const std::string& where);
+
+}  // namespace shadowbench::scene

@@ -1,0 +1,96 @@
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "scene/files.h"
+#include "scene/json_read.h"
+#include "scene/limits.h"
+#include "scene/load.h"
+
+namespace shadowbench::scene {
+namespace {
+
+Mesh inline_mesh(const json& from, const std::string& where) {
+    for (const char* key : {"vertices", "triangles"})
+        if (!from.contains(key))
+            refuse(where, fmt::format("\"{}\" is missing: a mesh has a file, or vertices and triangles", key));
+    Mesh mesh;
+    read(from, "vertices", mesh.positions);
+    read(from, "triangles", mesh.triangles);
+    const auto count = static_cast<int>(mesh.positions.size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (int corner = 0; corner < 3; ++corner)
+            if (mesh.triangles[i][corner] >= count)
+                refuse(fmt::format("{}/triangles/{}/{}", where, i, corner),
+                       fmt::format("index {}, but there are {} vertices", mesh.triangles[i][corner], count));
+    std::vector<Vec2f> uvs;
+    read(from, "uvs", uvs);
+    if (uvs.empty()) return mesh;
+    if (uvs.size() != mesh.positions.size())
+        refuse(where + "/uvs", fmt::format("{} pairs for {} vertices", uvs.size(), mesh.positions.size()));
+    for (const Vec3i& triangle : mesh.triangles)
+        for (const int index : {triangle.x, triangle.y, triangle.z})
+            mesh.corner_uv.push_back(uvs[static_cast<std::size_t>(index)]);
+    return mesh;
+}
+
+void place(const json& from, const std::string& where, Mesh& mesh) {
+    double scale = 1.0;
+    Vec3d translate(0, 0, 0);
+    read(from, "scale", scale);
+    read(from, "translate", translate);
+    for (Vec3f& position : mesh.positions) {
+        const Vec3d placed = Vec3d(position.x, position.y, position.z) * scale + translate;
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(std::abs(placed[axis]) <= max_coordinate))
+                refuse(where, fmt::format("scale and translate move a vertex beyond {}", max_coordinate));
+        position = Vec3f(placed);
+    }
+}
+
+void load_alpha(const json& from, const SearchPath& path, const std::string& where, Mesh& mesh) {
+    std::string name;
+    read(from, "alpha_texture", name);
+    if (name.empty()) {
+        mesh.corner_uv.clear();
+        return;
+    }
+    if (mesh.corner_uv.empty())
+        refuse(where + "/alpha_texture", "the mesh has no texture coordinates to place a texture by");
+    mesh.alpha = std::make_shared<const AlphaTexture>(read_alpha(find_file(path, name, where + "/alpha_texture")));
+}
+
+}  // namespace
+
+Mesh load_mesh(const json& from, const SearchPath& path, const std::string& where) {
+    const bool from_file = from.contains("file");
+    if (from_file)
+        for (const char* key : {"vertices", "triangles", "uvs"})
+            if (from.contains(key)) refuse(fmt::format("{}/{}", where, key), "the mesh has a file already");
+    Mesh mesh = from_file ? read_mesh(find_file(path, from["file"].get<std::string>(), where + "/file"))
+                          : inline_mesh(from, where);
+    place(from, where, mesh);
+    load_alpha(from, path, where, mesh);
+    return mesh;
+}
+
+Mesh load_quad(const json& from, const SearchPath& path, const std::string& where) {
+    Vec3d corner(0, 0, 0), edge_u(0, 0, 0), edge_v(0, 0, 0);
+    read(from, "corner", corner);
+    read(from, "edge_u", edge_u);
+    read(from, "edge_v", edge_v);
+    check_direction(edge_u, where + "/edge_u");
+    check_direction(edge_v, where + "/edge_v");
+    check_not_parallel(edge_u, edge_v, where + "/edge_v", "edge_u and edge_v lie along one line: no area between them");
+    Mesh mesh;
+    for (const Vec3d& point : {corner, corner + edge_u, corner + edge_u + edge_v, corner + edge_v})
+        mesh.positions.emplace_back(point);
+    mesh.triangles = {Vec3i(0, 1, 2), Vec3i(0, 2, 3)};
+    mesh.corner_uv = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    load_alpha(from, path, where, mesh);
+    return mesh;
+}
+
+}  // namespace shadowbench::scene

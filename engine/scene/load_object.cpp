@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "scene/files.h"
+#include "scene/json_read.h"
+#include "scene/limits.h"
+#include "scene/load.h"
+#include "scene/procedural.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using Shape = decltype(Object::shape);
+
+Shape mesh(const json& from, const SearchPath& path, const std::string& where) {
+    return load_mesh(from, path, where);
+}
+Shape quad(const json& from, const SearchPath& path, const std::string& where) {
+    return load_quad(from, path, where);
+}
+
+Shape sphere(const json& from, const SearchPath&, const std::string&) {
+    double radius = 0.0;
+    Vec3d centre(0, 0, 0);
+    read(from, "radius", radius);
+    read(from, "centre", centre);
+    return Spheres{{Vec3f(centre)}, {static_cast<float>(radius)}};
+}
+
+void check_count(std::size_t count, std::size_t centres, const std::string& where) {
+    if (count != centres) refuse(where, fmt::format("{} values for {} centres", count, centres));
+}
+
+Shape spheres(const json& from, const SearchPath&, const std::string& where) {
+    Spheres shape;
+    read(from, "centres", shape.centres);
+    read(from, "radii", shape.radii);
+    check_count(shape.radii.size(), shape.centres.size(), where + "/radii");
+    return shape;
+}
+
+Shape particles(const json& from, const SearchPath&, const std::string& where) {
+    Particles shape;
+    read(from, "centres", shape.centres);
+    read(from, "radii", shape.radii);
+    read(from, "density", shape.density);
+    check_count(shape.radii.size(), shape.centres.size(), where + "/radii");
+    check_count(shape.density.size(), shape.centres.size(), where + "/density");
+    return shape;
+}
+
+Shape hair(const json& from, const SearchPath& path, const std::string& where) {
+    const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
+    double radius = 0.0;
+    read(from, "radius", radius);
+    if (file.extension() == ".hair") return read_hair(file, static_cast<float>(radius));
+    if (file.extension() != ".tfx") refuse(where + "/file", "hair files end in .tfx or .hair");
+    if (radius == 0.0) refuse(where, "\"radius\" is missing: .tfx files do not say how wide hair is");
+    return read_tressfx(file, static_cast<float>(radius));
+}
+
+Shape hair_ball(const json& from, const SearchPath&, const std::string& where) {
+    HairBall ball;
+    read(from, "strands", ball.strands);
+    read(from, "segments", ball.segments);
+    read(from, "centre", ball.centre);
+    read(from, "ball_radius", ball.ball_radius);
+    read(from, "length", ball.length);
+    read(from, "curl_radius", ball.curl_radius);
+    read(from, "curls", ball.curls);
+    read(from, "clumping", ball.clumping);
+    read(from, "radius", ball.radius);
+    read(from, "seed", ball.seed);
+    const std::uint64_t points =
+        static_cast<std::uint64_t>(ball.strands) * static_cast<std::uint64_t>(ball.segments + 1);
+    if (points > max_hair_points)
+        refuse(where + "/strands", fmt::format("{} points of hair; the limit is {}", points, max_hair_points));
+    return make_hair_ball(ball);
+}
+
+Shape volume(const json& from, const SearchPath& path, const std::string& where) {
+    return load_volume(from, path, where);
+}
+
+Shape cloud(const json& from, const SearchPath&, const std::string& where) {
+    return load_cloud(from, where);
+}
+
+Shape smoke_column(const json& from, const SearchPath&, const std::string&) {
+    SmokeColumn column;
+    read(from, "particles", column.particles);
+    read(from, "base", column.base);
+    read(from, "height", column.height);
+    read(from, "width", column.width);
+    read(from, "puff_radius", column.puff_radius);
+    read(from, "density", column.density);
+    read(from, "seed", column.seed);
+    return make_smoke_column(column);
+}
+
+// One row a type of object; the schema's definition of the same name says what keys it has.
+struct Row {
+    std::string_view type;
+    Shape (*load)(const json& from, const SearchPath& path, const std::string& where);
+};
+constexpr std::array rows{
+    Row{"mesh", mesh},           Row{"sphere", sphere},
+    Row{"spheres", spheres},     Row{"quad", quad},
+    Row{"hair", hair},           Row{"hair_ball", hair_ball},
+    Row{"volume", volume},       Row{"cloud", cloud},
+    Row{"particles", particles}, Row{"smoke_column", smoke_column},
+};
+
+// What is wrong with a shape that light would never meet; empty when nothing is.
+const char* emptiness(const Mesh& shape) {
+    return shape.triangles.empty() ? "the mesh has no triangles" : "";
+}
+const char* emptiness(const Spheres& shape) {
+    return shape.centres.empty() ? "there are no spheres" : "";
+}
+const char* emptiness(const Particles& shape) {
+    return shape.centres.empty() ? "there are no particles" : "";
+}
+
+const char* emptiness(const Hair& shape) {
+    if (shape.strand_begin.size() < 2) return "there are no strands";
+    const bool wide = std::any_of(shape.radii.begin(), shape.radii.end(), [](float radius) { return radius > 0.0f; });
+    return wide ? "" : "every strand has zero width; give a radius";
+}
+
+const char* emptiness(const GridVolume& shape) {
+    const bool dense = std::any_of(shape.density.begin(), shape.density.end(), [](float d) { return d > 0.0f; });
+    return dense ? "" : "the density is 0 everywhere";
+}
+
+}  // namespace
+
+Object load_object(const json& from, std::size_t index, const SearchPath& path, const std::string& where) {
+    Object object;
+    const std::string type = from["type"].get<std::string>();
+    object.name = fmt::format("{}_{}", type, index);
+    read(from, "name", object.name);
+    read(from, "casts_shadow", object.casts_shadow);
+    read(from, "opacity", object.opacity);
+    read(from, "extinction", object.extinction);
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& each) { return each.type == type; });
+    if (row == rows.end()) refuse(where + "/type", fmt::format("no object has type \"{}\"", type));
+    object.shape = row->load(from, path, where);
+    const std::string empty = std::visit([](const auto& shape) { return std::string(emptiness(shape)); }, object.shape);
+    if (!empty.empty()) refuse(where, empty);
+    return object;
+}
+
+}  // namespace shadowbench::scene

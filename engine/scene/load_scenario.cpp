@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cstdint>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "scene/files.h"
+#include "scene/json_read.h"
+#include "scene/limits.h"
+#include "scene/load.h"
+
+namespace shadowbench::scene {
+namespace {
+
+// The object under a key, or an empty one.
+const json& section(const json& document, const char* key) {
+    static const json none = json::object();
+    const auto found = document.find(key);
+    return found == document.end() ? none : *found;
+}
+
+void load_objects(const json& objects, const SearchPath& path, Scene& scene) {
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        scene.objects.push_back(load_object(objects[i], i, path, fmt::format("/scene/objects/{}", i)));
+    if (std::none_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return o.casts_shadow; }))
+        refuse("/scene/objects", "the scene is empty of shadows: no object has casts_shadow true");
+}
+
+void check_kind(const json& from) {
+    if (from.contains("objects") == from.contains("deep_image"))
+        refuse("/scene", from.empty() ? "the scene is empty: give objects, or a deep_image"
+                                      : "a scene has objects or a deep_image, not both");
+}
+
+Scene load_scene(const json& from, const SearchPath& path) {
+    Scene scene;
+    if (from.contains("objects")) {
+        load_objects(from["objects"], path, scene);
+        return scene;
+    }
+    const std::string where = "/scene/deep_image/file";
+    scene.deep_image = read_deep_image(find_file(path, from["deep_image"]["file"].get<std::string>(), where));
+    if (scene.deep_image->z_front.empty()) refuse(where, "the deep image has no samples");
+    return scene;
+}
+
+std::vector<Light> load_lights(const json& list, const Box3d& casters) {
+    std::vector<Light> lights;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string where = fmt::format("/lights/{}", i);
+        lights.push_back(load_light(list[i], i, casters, where));
+        if (!names.insert(lights.back().name).second)
+            refuse(where + "/name", fmt::format("two lights are called \"{}\"", lights.back().name));
+    }
+    return lights;
+}
+
+Light deep_image_light() {
+    Light light;
+    light.name = "deep_image";
+    light.type = LightType::deep_image;
+    light.direction = Vec3d(0, 0, 1);
+    return light;
+}
+
+RaySettings load_rays(const json& from) {
+    RaySettings rays;
+    read(from, "resolution", rays.resolution);
+    read(from, "samples_per_pixel", rays.samples_per_pixel);
+    std::string pattern = rays.pattern == Pattern::regular ? "regular" : "jittered";
+    read(from, "pattern", pattern);
+    rays.pattern = pattern == "regular" ? Pattern::regular : Pattern::jittered;
+    read(from, "seed", rays.seed);
+    const auto total = static_cast<std::uint64_t>(rays.resolution.x) * static_cast<std::uint64_t>(rays.resolution.y) *
+                       static_cast<std::uint64_t>(rays.samples_per_pixel);
+    if (total > max_light_rays)
+        refuse("/rays",
+               fmt::format("{} x {} pixels of {} samples are {} light rays; the limit is {}", rays.resolution.x,
+                           rays.resolution.y, rays.samples_per_pixel, total, max_light_rays));
+    return rays;
+}
+
+Camera load_camera(const json& from) {
+    Camera camera;
+    read(from, "position", camera.position);
+    read(from, "target", camera.target);
+    read(from, "up", camera.up);
+    read(from, "fov", camera.fov);
+    const Vec3d view = camera.target - camera.position;
+    if (!(view.length() > 0.0)) refuse("/receivers/target", "the camera stands on its target");
+    check_direction(camera.up, "/receivers/up");
+    check_not_parallel(camera.up, view, "/receivers/up", "up points along the view");
+    return camera;
+}
+
+Receivers load_receivers(const json& from) {
+    Receivers receivers;
+    if (from.value("type", "probes") == "camera") {
+        receivers.camera = load_camera(from);
+    }
+    read(from, "resolution", receivers.resolution);
+    read(from, "media_lookups", receivers.media_lookups);
+    read(from, "count", receivers.count);
+    read(from, "seed", receivers.seed);
+    read(from, "filter_width", receivers.filter_width);
+    read(from, "bias", receivers.bias);
+    const auto pixels =
+        static_cast<std::uint64_t>(receivers.resolution.x) * static_cast<std::uint64_t>(receivers.resolution.y);
+    if (pixels > max_camera_pixels)
+        refuse("/receivers/resolution", fmt::format("{} pixels; the limit is {}", pixels, max_camera_pixels));
+    return receivers;
+}
+
+Reference load_reference(const json& from) {
+    Reference reference;
+    read(from, "samples_per_pixel", reference.samples_per_pixel);
+    read(from, "queries", reference.queries);
+    read(from, "spread_seeds", reference.spread_seeds);
+    read(from, "seed", reference.seed);
+    const auto rays =
+        static_cast<std::uint64_t>(reference.queries) * static_cast<std::uint64_t>(reference.samples_per_pixel);
+    if (rays > max_reference_rays)
+        refuse("/reference", fmt::format("{} queries of {} samples; the limit is {} rays", reference.queries,
+                                         reference.samples_per_pixel, max_reference_rays));
+    return reference;
+}
+
+Timing load_timing(const json& from) {
+    Timing timing;
+    read(from, "repetitions", timing.repetitions);
+    read(from, "lookups", timing.lookups);
+    return timing;
+}
+
+std::vector<TechniqueRequest> load_techniques(const json& list) {
+    std::vector<TechniqueRequest> techniques;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        json parameters = list[i];
+        parameters.erase("type");
+        techniques.push_back({list[i]["type"].get<std::string>(), parameters.dump(), fmt::format("/techniques/{}", i)});
+    }
+    return techniques;
+}
+
+}  // namespace
+
+Scenario load_scenario(const json& document, const SearchPath& path) {
+    check_schema(document, scenario_schema());
+    Scenario scenario;
+    read(document, "name", scenario.name);
+    read(document, "purpose", scenario.purpose);
+    // Settings first: their faults and limits are found before files are read.
+    scenario.rays = load_rays(section(document, "rays"));
+    scenario.receivers = load_receivers(section(document, "receivers"));
+    scenario.reference = load_reference(section(document, "reference"));
+    scenario.timing = load_timing(section(document, "timing"));
+    scenario.techniques = load_techniques(section(document, "techniques"));
+    check_kind(document["scene"]);
+    const bool deep = document["scene"].contains("deep_image");
+    if (deep && scenario.receivers.camera)
+        refuse("/receivers/type", "a deep image has no world for a camera: use probes");
+    if (deep && !section(document, "lights").empty())
+        refuse("/lights", "a deep image is its own light: leave lights out");
+    if (!deep && section(document, "lights").empty()) refuse("/lights", "at least one light is needed");
+
+    scenario.scene = load_scene(document["scene"], path);
+    if (deep) {
+        const DeepImage& image = *scenario.scene.deep_image;
+        scenario.lights = {deep_image_light()};
+        scenario.rays.resolution = Vec2i(image.width, image.height);
+        scenario.rays.samples_per_pixel = 1;
+        scenario.rays.pattern = Pattern::regular;
+    } else {
+        scenario.lights = load_lights(document["lights"], bounds(scenario.scene, true));
+    }
+    return scenario;
+}
+
+}  // namespace shadowbench::scene

@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "scene/files.h"
+#include "scene/json_read.h"
+#include "scene/limits.h"
+#include "scene/load.h"
+#include "scene/procedural.h"
+
+namespace shadowbench::scene {
+namespace {
+
+void read_box(const json& from, const std::string& where, Vec3d& lower, Vec3d& upper) {
+    read(from, "lower", lower);
+    read(from, "upper", upper);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(lower[axis] < upper[axis]))
+            refuse(where + "/upper", "every coordinate of upper must be above that of lower");
+}
+
+void check_voxels(const Vec3i& size, const std::string& where) {
+    const double voxels = static_cast<double>(size.x) * size.y * size.z;
+    if (voxels > static_cast<double>(max_voxels))
+        refuse(where, fmt::format("{} x {} x {} voxels; the limit is {}", size.x, size.y, size.z, max_voxels));
+}
+
+void read_step(const json& from, const std::string& where, GridVolume& volume) {
+    const Vec3d extent = volume.upper - volume.lower;
+    volume.step = 0.5 * std::min({extent.x / volume.size.x, extent.y / volume.size.y, extent.z / volume.size.z});
+    read(from, "step", volume.step);
+    if (extent.length() > max_march_steps * volume.step)
+        refuse(where + "/step",
+               fmt::format("a step of {} crosses the volume in more than {} steps", volume.step, max_march_steps));
+}
+
+GridVolume load_raw(const json& from, const std::filesystem::path& file, const std::string& where) {
+    if (from.contains("grid")) refuse(where + "/grid", "only .vdb files have named grids");
+    for (const char* key : {"format", "size", "lower", "upper"})
+        if (!from.contains(key)) refuse(where, fmt::format("\"{}\" is missing: raw values need it", key));
+    Vec3i size(0, 0, 0);
+    Vec3d lower(0, 0, 0), upper(0, 0, 0);
+    read(from, "size", size);
+    check_voxels(size, where + "/size");
+    read_box(from, where, lower, upper);
+    GridVolume volume = read_raw_volume(file, size, from["format"].get<std::string>());
+    volume.lower = lower;
+    volume.upper = upper;
+    return volume;
+}
+
+}  // namespace
+
+GridVolume load_volume(const json& from, const SearchPath& path, const std::string& where) {
+    const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
+    GridVolume volume;
+    if (file.extension() == ".vdb") {
+        for (const char* key : {"format", "size", "lower", "upper"})
+            if (from.contains(key)) refuse(fmt::format("{}/{}", where, key), "a .vdb file has its own");
+        std::string grid = "density";
+        read(from, "grid", grid);
+        volume = read_vdb(file, grid);
+    } else {
+        volume = load_raw(from, file, where);
+    }
+    read_step(from, where, volume);
+    return volume;
+}
+
+GridVolume load_cloud(const json& from, const std::string& where) {
+    Cloud cloud;
+    read(from, "size", cloud.size);
+    read(from, "octaves", cloud.octaves);
+    read(from, "coverage", cloud.coverage);
+    read(from, "seed", cloud.seed);
+    check_voxels(cloud.size, where + "/size");
+    read_box(from, where, cloud.lower, cloud.upper);
+    GridVolume volume = make_cloud(cloud);
+    read_step(from, where, volume);
+    return volume;
+}
+
+}  // namespace shadowbench::scene

@@ -1,0 +1,63 @@
+// A PLY file as its header and a stream of numbers, whatever its encoding.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shadowbench::scene {
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct PlyProperty {
+    std::string name;
+    PlyType type = PlyType::float32;
+    bool is_list = false;
+    PlyType count_type = PlyType::uint8;  // of a list
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<PlyProperty> properties;
+};
+
+class PlySource {
+public:
+    // Reads the header. Throws Error: no_such_file, io, bad_input.
+    explicit PlySource(const std::filesystem::path& file);
+
+    const std::vector<PlyElement>& elements() const { return elements_; }
+
+    // Throws unless the rest of the file can hold the element: called before memory is taken for it.
+    void check_length(const PlyElement& element) const;
+
+    // The next number; may be any float, not a number too.
+    double value(PlyType type);
+    // The count at the head of a list, at most as many items as the rest of the file can hold.
+    std::uint64_t list_size(const PlyProperty& property);
+    void skip(const PlyProperty& property);
+
+    // Throws Error{bad_input} at the current byte.
+    [[noreturn]] void fail(const std::string& message) const;
+
+private:
+    enum class Encoding { ascii, little_endian, big_endian };
+
+    std::string line();
+    void read_header();
+    void read_property(const std::string& words);
+    // Bytes that a value takes at least.
+    std::uint64_t least_bytes(PlyType type) const;
+    std::uint64_t left() const { return bytes_.size() - position_; }
+
+    std::string file_;
+    std::string bytes_;
+    std::size_t position_ = 0;
+    Encoding encoding_ = Encoding::ascii;
+    std::vector<PlyElement> elements_;
+};
+
+}  // namespace shadowbench::scene

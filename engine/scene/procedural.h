@@ -1,0 +1,47 @@
+// Procedural scene content. The same parameters and seed give the same values on any machine and thread count.
+#pragma once
+
+#include <cstdint>
+
+#include "scene/scene.h"
+
+namespace shadowbench::scene {
+
+// A ball covered with curly hairs, after the scene of Lokovic and Veach 2000, section 6 (50,000 hairs).
+struct HairBall {
+    int strands = 50000;
+    int segments = 16;  // a strand
+    Vec3d centre{0, 0, 0};
+    double ball_radius = 1.0;  // where the roots are
+    double length = 0.6;       // of a hair, along its axis
+    double curl_radius = 0.04;
+    double curls = 3.0;      // turns a hair
+    double clumping = 0.5;   // 0: even; 1: all hairs of a tuft lean to its middle
+    double radius = 0.0015;  // half-width of a hair at its root; the tip has a quarter of it
+    std::uint64_t seed = 1;
+};
+Hair make_hair_ball(const HairBall& parameters);
+
+// A cloud: fractal noise inside an ellipsoid that fills the box, density in [0, 1].
+struct Cloud {
+    Vec3i size{64, 64, 64};
+    Vec3d lower{-1, -1, -1}, upper{1, 1, 1};
+    int octaves = 5;
+    double coverage = 0.5;  // in (0, 1): the share of the ellipsoid that is not clear, roughly
+    std::uint64_t seed = 1;
+};
+GridVolume make_cloud(const Cloud& parameters);
+
+// A rising column of puffs that widens and thins out, as in Salvi et al. 2010.
+struct SmokeColumn {
+    int particles = 2000;
+    Vec3d base{0, 0, 0};
+    double height = 3.0;
+    double width = 0.35;        // of the column at its base; at the top three times as wide
+    double puff_radius = 0.12;  // at the base; at the top twice as large
+    double density = 2.0;       // of a puff at the base; at the top a quarter
+    std::uint64_t seed = 1;
+};
+Particles make_smoke_column(const SmokeColumn& parameters);
+
+}  // namespace shadowbench::scene

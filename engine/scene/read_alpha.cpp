@@ -1,0 +1,101 @@
+#include "scene/read_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "scene/file_reader.h"
+#include "scene/files.h"
+#include "scene/limits.h"
+
+namespace shadowbench::scene {
+namespace {
+
+// Index of the channel that holds alpha, or -1.
+int alpha_channel(const OIIO::ImageSpec& spec) {
+    const int named = spec.channelindex("A");
+    return named >= 0 ? named : spec.alpha_channel;
+}
+
+// The DDS reader of OpenImageIO 2.4 gives pixels also for a file that ends before them. Layout: Microsoft, DDS_HEADER.
+void check_dds_size(const OIIO::ImageSpec& spec, const std::filesystem::path& file) {
+    FileReader reader(file);
+    reader.seek(88, "pixel format");
+    const auto bits = reader.value<std::uint32_t>("pixel format");
+    const auto width = static_cast<std::uint64_t>(spec.width), height = static_cast<std::uint64_t>(spec.height);
+    const std::string compression = spec.get_string_attribute("compression");
+    std::uint64_t bytes = width * height * bits / 8;
+    if (!compression.empty()) {
+        // 4 x 4 texels a block.
+        const std::uint64_t block = compression == "DXT1" || compression == "BC4" ? 8 : 16;
+        bytes = (width + 3) / 4 * ((height + 3) / 4) * block;
+    }
+    reader.seek(128, "pixels");
+    reader.need(bytes, 1, "pixels");
+}
+
+// Luminance weights of ITU-R BT.709.
+float luminance(const float* pixel, int channels) {
+    return channels < 3 ? pixel[0] : 0.2126f * pixel[0] + 0.7152f * pixel[1] + 0.0722f * pixel[2];
+}
+
+}  // namespace
+
+std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw base::Error(base::ErrorCode::no_such_file, file.string(), "there is no such file");
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
+    if (!input) refuse_image(file, "not a readable image: " + OIIO::geterror());
+    const OIIO::ImageSpec& spec = input->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.width > max_image_side || spec.height > max_image_side)
+        refuse_image(file,
+                     fmt::format("{} x {} pixels; 1 to {} a side are read", spec.width, spec.height, max_image_side));
+    return input;
+}
+
+void refuse_image(const std::filesystem::path& file, const std::string& message) {
+    throw base::Error(base::ErrorCode::bad_input, file.string(), message);
+}
+
+AlphaTexture read_alpha(const std::filesystem::path& file) {
+    try {
+        const std::unique_ptr<OIIO::ImageInput> input = open_image(file);
+        const OIIO::ImageSpec spec = input->spec();
+        if (std::string_view(input->format_name()) == "dds") check_dds_size(spec, file);
+        if (spec.deep) refuse_image(file, "a deep image is no texture");
+        const std::uint64_t texels = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+        const int channels = spec.nchannels;
+        if (spec.depth > 1 || channels < 1 || texels * static_cast<std::uint64_t>(channels) > max_texels)
+            refuse_image(file, fmt::format("{} x {} x {} pixels of {} channels; the limit is {} values", spec.width,
+                                           spec.height, spec.depth, channels, max_texels));
+        std::vector<float> values(texels * static_cast<std::uint64_t>(channels));
+        // Some of its readers say that they read an image, and leave an error behind.
+        if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()) || input->has_error())
+            refuse_image(file, "damaged or cut short: " + input->geterror());
+
+        AlphaTexture texture{spec.width, spec.height, {}};
+        texture.alpha.reserve(texels);
+        const int alpha = alpha_channel(spec);
+        for (std::uint64_t i = 0; i < texels; ++i) {
+            const float* pixel = values.data() + i * static_cast<std::uint64_t>(channels);
+            const float value = alpha >= 0 ? pixel[alpha] : luminance(pixel, channels);
+            if (!std::isfinite(value))
+                refuse_image(file, fmt::format("pixel ({}, {}) is {}", i % static_cast<std::uint64_t>(spec.width),
+                                               i / static_cast<std::uint64_t>(spec.width), value));
+            texture.alpha.push_back(std::clamp(value, 0.0f, 1.0f));
+        }
+        return texture;
+    } catch (const base::Error&) {
+        throw;
+    } catch (const std::exception& fault) {
+        refuse_image(file, fmt::format("not a readable image: {}", fault.what()));
+    }
+}
+
+}  // namespace shadowbench::scene

@@ -1,0 +1,18 @@
+// What the readers of images share: OpenImageIO behind Error.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <OpenImageIO/imageio.h>
+
+namespace shadowbench::scene {
+
+// Throws Error: no_such_file, or bad_input when no format reads it.
+std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file);
+
+// Throws Error{bad_input} with the file as place.
+[[noreturn]] void refuse_image(const std::filesystem::path& file, const std::string& message);
+
+}  // namespace shadowbench::scene

@@ -1,0 +1,33 @@
+// Scenario JSON -> Scenario. The format is scenario.schema.json beside this file (draft-07), which also documents it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "scene/scene.h"
+
+namespace shadowbench::scene {
+
+// The folders that relative file names of a scenario are looked for in, in order.
+using SearchPath = std::vector<std::filesystem::path>;
+
+// Finds `name` in the path. Throws Error{no_such_file} that lists the folders looked in.
+std::filesystem::path find_file(const SearchPath& path, const std::string& name, const std::string& where);
+
+// Reads JSON text. Throws Error{bad_input} whose place is origin:line:column.
+nlohmann::json parse_json(const std::string& text, const std::string& origin);
+
+// The schema as committed, without the parameters of techniques (bench adds those from the registry).
+const nlohmann::json& scenario_schema();
+
+// Checks `document` against a draft-07 schema. Throws Error{bad_input} with the JSON pointer of the first fault.
+void check_schema(const nlohmann::json& document, const nlohmann::json& schema);
+
+// Checks the document against the schema, reads its files, makes its procedural objects and returns the values.
+// Throws Error: bad_input (pointer), no_such_file, io. An empty scene, or one whose files hold nothing, is bad input.
+Scenario load_scenario(const nlohmann::json& document, const SearchPath& path);
+
+}  // namespace shadowbench::scene

@@ -1,0 +1,108 @@
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace shadowbench::scene {
+namespace {
+
+// The texel left of `position` (in texels, repeated) and how far towards the next one it is.
+struct Tap {
+    int first, second;
+    float fraction;
+};
+
+Tap tap(float position, int count) {
+    const float below = std::floor(position);
+    const float wrapped = below - std::floor(below / static_cast<float>(count)) * static_cast<float>(count);
+    const int first = std::clamp(static_cast<int>(wrapped), 0, count - 1);
+    return {first, first + 1 == count ? 0 : first + 1, position - below};
+}
+
+Vec3d wide(const Vec3f& v) {
+    return Vec3d(v.x, v.y, v.z);
+}
+
+void extend(Box3d& box, const Vec3d& centre, double radius) {
+    const Vec3d half(radius, radius, radius);
+    box.extendBy(centre - half);
+    box.extendBy(centre + half);
+}
+
+// Files may hold vertices that no triangle uses: those do not count.
+void extend(Box3d& box, const Mesh& mesh) {
+    for (const Vec3i& triangle : mesh.triangles)
+        for (const int index : {triangle.x, triangle.y, triangle.z})
+            box.extendBy(wide(mesh.positions[static_cast<std::size_t>(index)]));
+}
+
+void extend(Box3d& box, const Spheres& spheres) {
+    for (std::size_t i = 0; i < spheres.centres.size(); ++i) extend(box, wide(spheres.centres[i]), spheres.radii[i]);
+}
+
+void extend(Box3d& box, const Hair& hair) {
+    for (std::size_t i = 0; i < hair.points.size(); ++i) extend(box, wide(hair.points[i]), hair.radii[i]);
+}
+
+void extend(Box3d& box, const GridVolume& volume) {
+    box.extendBy(volume.lower);
+    box.extendBy(volume.upper);
+}
+
+void extend(Box3d& box, const Particles& particles) {
+    for (std::size_t i = 0; i < particles.centres.size(); ++i)
+        extend(box, wide(particles.centres[i]), particles.radii[i]);
+}
+
+bool is_medium(const Object& object) {
+    return std::holds_alternative<GridVolume>(object.shape) || std::holds_alternative<Particles>(object.shape);
+}
+
+bool is_grey(const Vec3f& colour) {
+    return colour.x == colour.y && colour.y == colour.z;
+}
+
+}  // namespace
+
+float sample(const AlphaTexture& texture, float u, float v) {
+    // Texel centres lie at half integers, and row 0 is the top of the image: v grows upwards.
+    const Tap x = tap(u * static_cast<float>(texture.width) - 0.5f, texture.width);
+    const Tap y = tap((1.0f - v) * static_cast<float>(texture.height) - 0.5f, texture.height);
+    const auto texel = [&](int column, int row) {
+        return texture.alpha[static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) +
+                             static_cast<std::size_t>(column)];
+    };
+    const float upper = std::lerp(texel(x.first, y.first), texel(x.second, y.first), x.fraction);
+    const float lower = std::lerp(texel(x.first, y.second), texel(x.second, y.second), x.fraction);
+    return std::lerp(upper, lower, y.fraction);
+}
+
+Box3d bounds(const Scene& scene, bool casters_only) {
+    Box3d box;
+    for (const Object& object : scene.objects) {
+        if (casters_only && !object.casts_shadow) continue;
+        std::visit([&](const auto& shape) { extend(box, shape); }, object.shape);
+    }
+    return box;
+}
+
+int channels(const Scene& scene) {
+    for (const Object& object : scene.objects) {
+        if (!object.casts_shadow) continue;
+        if (!is_grey(is_medium(object) ? object.extinction : object.opacity)) return 3;
+    }
+    return 1;
+}
+
+bool has_media(const Scene& scene) {
+    for (const Object& object : scene.objects)
+        if (object.casts_shadow && is_medium(object)) return true;
+    if (!scene.deep_image) return false;
+    const DeepImage& image = *scene.deep_image;
+    for (std::size_t i = 0; i < image.z_front.size(); ++i)
+        if (image.z_back[i] > image.z_front[i]) return true;
+    return false;
+}
+
+}  // namespace shadowbench::scene

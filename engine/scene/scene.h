@@ -1,0 +1,168 @@
+// What a scenario holds, as plain values. World space is right-handed; lengths are the scene's own unit.
+// Made by load_scenario (scenario.h); every value here is finite and inside the range stated beside it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace shadowbench::scene {
+
+using base::Box3d;
+using base::Vec2d;
+using base::Vec2f;
+using base::Vec2i;
+using base::Vec3d;
+using base::Vec3f;
+using base::Vec3i;
+
+// An opacity texture, sampled bilinearly, repeated outside [0, 1]^2. Row 0 is v = 1 (image files start at the top).
+struct AlphaTexture {
+    int width = 0, height = 0;
+    std::vector<float> alpha;  // width * height, row after row, in [0, 1]
+};
+float sample(const AlphaTexture& texture, float u, float v);
+
+// Triangles. A light ray crosses each triangle once, whichever side it comes from.
+struct Mesh {
+    std::vector<Vec3f> positions;
+    std::vector<Vec3i> triangles;               // indices into positions
+    std::vector<Vec2f> corner_uv;               // 3 a triangle; empty without a texture
+    std::shared_ptr<const AlphaTexture> alpha;  // multiplies the object's opacity; null: opacity as it is
+};
+
+// Sphere surfaces: a ray that enters one also leaves it, two crossings.
+struct Spheres {
+    std::vector<Vec3f> centres;
+    std::vector<float> radii;  // > 0
+};
+
+// Strands of straight segments; each segment is a ribbon that faces the ray, of the half-width given at its points.
+struct Hair {
+    std::vector<Vec3f> points;                // strand after strand
+    std::vector<float> radii;                 // half-width, one a point, >= 0
+    std::vector<std::uint32_t> strand_begin;  // strands + 1 indices into points
+};
+
+// Density on a regular grid, trilinear between voxel centres, 0 outside [lower, upper].
+struct GridVolume {
+    Vec3i size{0, 0, 0};                   // voxels
+    std::vector<float> density;            // x fastest, >= 0
+    Vec3d lower{0, 0, 0}, upper{0, 0, 0};  // world box; voxel centres are half a voxel inside
+    double step = 0.0;                     // marching step, world length along the ray, > 0
+};
+
+// Spheres of a constant medium.
+struct Particles {
+    std::vector<Vec3f> centres;
+    std::vector<float> radii;    // > 0
+    std::vector<float> density;  // one a particle, >= 0
+};
+
+struct Object {
+    std::string name;
+    bool casts_shadow = true;
+    Vec3f opacity{1.0f, 1.0f, 1.0f};     // surfaces: a crossing transmits 1 - opacity, each in [0, 1]
+    Vec3f extinction{1.0f, 1.0f, 1.0f};  // media: extinction per unit of density and of length, each >= 0
+    std::variant<Mesh, Spheres, Hair, GridVolume, Particles> shape;
+};
+
+// Ready-made light rays: one ray a pixel, straight along z, its samples as a deep image holds them.
+struct DeepImage {
+    int width = 0, height = 0;
+    std::vector<std::uint64_t> begin;  // width * height + 1 offsets into the samples, row 0 first
+    std::vector<float> z_front, z_back;
+    std::vector<float> transmittance;  // 1 - alpha
+};
+
+struct Scene {
+    std::vector<Object> objects;
+    std::optional<DeepImage> deep_image;  // stands alone: no objects then
+};
+
+enum class LightType { directional, spot, deep_image };
+
+struct Light {
+    std::string name;
+    LightType type = LightType::directional;
+    Vec3d position{0, 0, 0};    // spot: where it stands
+    Vec3d target{0, 0, 0};      // what the middle of the map looks at
+    Vec3d direction{0, -1, 0};  // directional: the way the light travels, unit length
+    std::optional<Vec3d> up;    // the map's y axis, not along the light; chosen when absent
+    Vec3f colour{1, 1, 1};
+    std::optional<Vec2d> extent;  // directional: world width and height of the map; absent: the casters' bounds
+    std::optional<double> angle;  // spot: full angle across the map's larger side, degrees in (0, 179); absent: fits
+    double near = 0.0;            // spot: nearest planar depth seen; 0: a thousandth of the distance to the target
+};
+
+enum class Pattern { regular, jittered };
+
+struct RaySettings {
+    Vec2i resolution{256, 256};  // map pixels
+    int samples_per_pixel = 16;  // laid out as the most square grid of that many cells
+    Pattern pattern = Pattern::jittered;
+    std::uint64_t seed = 1;
+};
+
+struct Camera {
+    Vec3d position{0, 0, 0}, target{0, 0, 0}, up{0, 1, 0};
+    double fov = 40.0;  // vertical, degrees
+};
+
+// Where visibility is asked for: what a camera sees (nearest surface a pixel, and points inside media before it),
+// or points spread evenly over the map and the casters' depths.
+struct Receivers {
+    std::optional<Camera> camera;
+    Vec2i resolution{256, 256};  // camera: pixels
+    int media_lookups = 8;       // camera: points a view ray spreads over the media it passes
+    int count = 65536;           // without a camera: points
+    std::uint64_t seed = 7;
+    double filter_width = 1.0;  // map pixels
+    double bias = 0.0;          // moves every receiver towards the light, world length, >= 0
+};
+
+struct Reference {
+    int samples_per_pixel = 256;  // of the truth that lookups are judged against
+    int queries = 4096;           // how many of the receivers are judged
+    int spread_seeds = 4;         // further seeds that the noise of the rays is measured over
+    std::uint64_t seed = 1234567;
+};
+
+struct Timing {
+    int repetitions = 7;
+    int lookups = 65536;  // receivers looked up in one timed pass, at most
+};
+
+// One technique with its parameters, as written: the technique itself reads them.
+struct TechniqueRequest {
+    std::string type;
+    std::string parameters;  // JSON object without "type"
+    std::string where;       // JSON pointer
+};
+
+struct Scenario {
+    std::string name, purpose;
+    Scene scene;
+    std::vector<Light> lights;
+    RaySettings rays;
+    Receivers receivers;
+    Reference reference;
+    Timing timing;
+    std::vector<TechniqueRequest> techniques;
+};
+
+// World bounds of the objects that cast shadows (or of all); empty when there are none.
+Box3d bounds(const Scene& scene, bool casters_only);
+
+// 3 when the scene's opacities or extinctions that cast shadows differ between channels, else 1.
+int channels(const Scene& scene);
+
+// Whether anything that casts a shadow is a medium.
+bool has_media(const Scene& scene);
+
+}  // namespace shadowbench::scene

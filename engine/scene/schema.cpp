@@ -1,0 +1,44 @@
+// The only file that includes valijson: it takes long to compile.
+// GCC 12 sees uninitialised members in std::regex when a sanitizer is on (GCC bug 105562).
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+
+#include <nlohmann/json.hpp>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "base/error.h"
+#include "scene/scenario.h"
+#include "scene/schema_fault.h"
+#include "scene/schema_text.h"
+
+namespace shadowbench::scene {
+
+const nlohmann::json& scenario_schema() {
+    static const nlohmann::json schema = nlohmann::json::parse(scenario_schema_text());
+    return schema;
+}
+
+void check_schema(const nlohmann::json& document, const nlohmann::json& schema) {
+    valijson::Schema parsed;
+    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), parsed);
+    const valijson::adapters::NlohmannJsonAdapter target(document);
+    valijson::Validator validator;
+    // Results collect every fault; a valid document, the common case, does not pay for them.
+    if (validator.validate(parsed, target, nullptr)) return;
+
+    valijson::ValidationResults results;
+    validator.validate(parsed, target, &results);
+    valijson::ValidationResults::Error first;
+    std::vector<std::string> path;
+    if (results.popError(first))
+        // "<root>", "[lights]", "[0]": the innermost value comes first.
+        for (std::size_t i = 1; i < first.context.size(); ++i)
+            path.push_back(first.context[i].substr(1, first.context[i].size() - 2));
+    const SchemaFault fault = explain_fault(document, schema, path, first.description);
+    throw base::Error(base::ErrorCode::bad_input, fault.pointer, fault.message);
+}
+
+}  // namespace shadowbench::scene

@@ -1,0 +1,83 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/scenario.h"
+#include "scene/support.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using nlohmann::json;
+using test::error_of;
+
+Scenario load(const char* lights) {
+    json document = json::parse(R"({
+        "name": "lights",
+        "scene": {"objects": [{"type": "sphere", "centre": [3, 4, 5], "radius": 1}]},
+        "techniques": [{"type": "deep"}]
+    })");
+    document["lights"] = json::parse(lights);
+    return load_scenario(document, {});
+}
+
+std::string place(const char* lights) {
+    return error_of([&] { load(lights); }).where();
+}
+
+TEST(LoadLight, DirectionalHasUnitDirectionAndLooksAtTheCasters) {
+    const Light light = load(R"([{"type": "directional", "direction": [0, 0, -4]}])").lights[0];
+    EXPECT_EQ(light.type, LightType::directional);
+    EXPECT_EQ(light.name, "directional_0");
+    EXPECT_EQ(light.direction, Vec3d(0, 0, -1));
+    EXPECT_EQ(light.target, Vec3d(3, 4, 5));
+    EXPECT_FALSE(light.extent);
+    EXPECT_FALSE(light.up);
+}
+
+TEST(LoadLight, ReadsEveryKey) {
+    const auto lights = load(R"([
+        {"type": "directional", "name": "sun", "direction": [0, -1, 0], "target": [1, 2, 3], "extent": [4, 5],
+         "up": [1, 0, 0], "colour": [1, 0.5, 0]},
+        {"type": "spot", "position": [0, 9, 0], "target": [0, 0, 0], "angle": 30, "near": 0.5, "up": [0, 0, 1],
+         "colour": 2}])")
+                            .lights;
+    EXPECT_EQ(lights[0].name, "sun");
+    EXPECT_EQ(lights[0].target, Vec3d(1, 2, 3));
+    EXPECT_EQ(*lights[0].extent, Vec2d(4, 5));
+    EXPECT_EQ(*lights[0].up, Vec3d(1, 0, 0));
+    EXPECT_EQ(lights[0].colour, Vec3f(1, 0.5f, 0));
+    EXPECT_EQ(lights[1].type, LightType::spot);
+    EXPECT_EQ(lights[1].name, "spot_1");
+    EXPECT_EQ(lights[1].position, Vec3d(0, 9, 0));
+    EXPECT_EQ(*lights[1].angle, 30.0);
+    EXPECT_EQ(lights[1].near, 0.5);
+    EXPECT_EQ(lights[1].colour, Vec3f(2, 2, 2));
+}
+
+TEST(LoadLight, RefusesDirectionsThatAreNone) {
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, 0, 0]}])"), "/lights/0/direction");
+    EXPECT_EQ(place(R"([{"type": "spot", "position": [1, 1, 1], "target": [1, 1, 1]}])"), "/lights/0/target");
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, 3, 0], "up": [0, -1, 0]}])"), "/lights/0/up");
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, 3, 0], "up": [0, 0, 0]}])"), "/lights/0/up");
+    EXPECT_EQ(place(R"([{"type": "spot", "position": [0, 2, 0], "target": [0, 0, 0], "up": [0, 1, 1e-9]}])"),
+              "/lights/0/up");
+}
+
+TEST(LoadLight, RefusesAnglesAtTheEndsOfTheirRange) {
+    for (const char* angle : {"0", "179", "-10"}) {
+        const std::string spot =
+            std::string(R"([{"type": "spot", "position": [0, 2, 0], "target": [0, 0, 0], "angle": )") + angle + "}]";
+        EXPECT_EQ(place(spot.c_str()), "/lights/0/angle");
+    }
+}
+
+TEST(LoadLight, NamesAreUnique) {
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "name": "a"},
+                        {"type": "directional", "direction": [0, -1, 0], "name": "a"}])"),
+              "/lights/1/name");
+}
+
+}  // namespace
+}  // namespace shadowbench::scene

@@ -1,0 +1,194 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/procedural.h"
+#include "scene/scenario.h"
+#include "scene/support.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using nlohmann::json;
+using test::bytes_of;
+using test::error_of;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Object load(const std::string& object, const SearchPath& path = {}) {
+    json document = json::parse(R"({"name": "objects", "techniques": [{"type": "deep"}],
+                                    "lights": [{"type": "directional", "direction": [0, -1, 0]}]})");
+    document["scene"]["objects"] = {json::parse(object)};
+    return load_scenario(document, path).scene.objects[0];
+}
+
+base::Error failure(const std::string& object, const SearchPath& path = {}) {
+    return error_of([&] { load(object, path); });
+}
+
+TEST(LoadObject, ReadsTheKeysThatAllHave) {
+    const Object surface =
+        load(R"({"type": "sphere", "name": "ball", "centre": [1, 2, 3], "radius": 2, "opacity": [0, 0.5, 1]})");
+    EXPECT_EQ(surface.name, "ball");
+    EXPECT_EQ(surface.opacity, Vec3f(0, 0.5f, 1));
+    const Object medium =
+        load(R"({"type": "particles", "centres": [[0, 0, 0]], "radii": [1], "density": [2], "extinction": 3})");
+    EXPECT_EQ(medium.name, "particles_0");
+    EXPECT_EQ(medium.extinction, Vec3f(3, 3, 3));
+}
+
+TEST(LoadObject, MakesSpheres) {
+    const auto one = std::get<Spheres>(load(R"({"type": "sphere", "centre": [1, 2, 3], "radius": 2})").shape);
+    EXPECT_THAT(one.centres, ElementsAre(Vec3f(1, 2, 3)));
+    EXPECT_THAT(one.radii, ElementsAre(2.0f));
+    const auto two =
+        std::get<Spheres>(load(R"({"type": "spheres", "centres": [[1, 2, 3], [4, 5, 6]], "radii": [1, 2]})").shape);
+    EXPECT_THAT(two.centres, ElementsAre(Vec3f(1, 2, 3), Vec3f(4, 5, 6)));
+    EXPECT_EQ(failure(R"({"type": "spheres", "centres": [[1, 2, 3]], "radii": [1, 2]})").where(),
+              "/scene/objects/0/radii");
+}
+
+TEST(LoadObject, MakesParticles) {
+    const auto shape = std::get<Particles>(
+        load(R"({"type": "particles", "centres": [[0, 0, 0], [1, 0, 0]], "radii": [1, 2], "density": [0, 4]})").shape);
+    EXPECT_THAT(shape.density, ElementsAre(0.0f, 4.0f));
+    EXPECT_EQ(failure(R"({"type": "particles", "centres": [[0, 0, 0]], "radii": [1], "density": [1, 2]})").where(),
+              "/scene/objects/0/density");
+}
+
+TEST(LoadObject, MakesAQuadOfTwoTriangles) {
+    const auto mesh = std::get<Mesh>(
+        load(R"({"type": "quad", "corner": [1, 0, 0], "edge_u": [2, 0, 0], "edge_v": [0, 0, 3]})").shape);
+    EXPECT_THAT(mesh.positions, ElementsAre(Vec3f(1, 0, 0), Vec3f(3, 0, 0), Vec3f(3, 0, 3), Vec3f(1, 0, 3)));
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_EQ(failure(R"({"type": "quad", "corner": [0, 0, 0], "edge_u": [2, 0, 0], "edge_v": [-4, 0, 0]})").where(),
+              "/scene/objects/0/edge_v");
+    EXPECT_EQ(failure(R"({"type": "quad", "corner": [0, 0, 0], "edge_u": [0, 0, 0], "edge_v": [-4, 0, 0]})").where(),
+              "/scene/objects/0/edge_u");
+}
+
+TEST(LoadObject, PutsATextureOnAQuad) {
+    // A binary grey image of one texel.
+    const auto folder = test::write_file("grey.pgm", std::string("P5 1 1 255\n\x33", 12)).parent_path();
+    const auto mesh =
+        std::get<Mesh>(load(R"({"type": "quad", "corner": [0, 0, 0], "edge_u": [2, 0, 0], "edge_v": [0, 0, 3],
+                                              "alpha_texture": "grey.pgm"})",
+                            {folder})
+                           .shape);
+    ASSERT_TRUE(mesh.alpha);
+    EXPECT_NEAR(sample(*mesh.alpha, 0.5f, 0.5f), 0.2f, 1e-6f);
+    EXPECT_THAT(mesh.corner_uv,
+                ElementsAre(Vec2f(0, 0), Vec2f(1, 0), Vec2f(1, 1), Vec2f(0, 0), Vec2f(1, 1), Vec2f(0, 1)));
+}
+
+TEST(LoadMesh, ReadsInlineTriangles) {
+    const auto mesh = std::get<Mesh>(load(R"({"type": "mesh", "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]],
+                                              "triangles": [[0, 1, 2]], "scale": 2, "translate": [0, 0, 5]})")
+                                         .shape);
+    EXPECT_THAT(mesh.positions, ElementsAre(Vec3f(0, 0, 5), Vec3f(2, 0, 5), Vec3f(0, 2, 5)));
+    EXPECT_THAT(mesh.triangles, ElementsAre(Vec3i(0, 1, 2)));
+}
+
+TEST(LoadMesh, PointsAtWhatDoesNotFit) {
+    const auto where = [](const std::string& rest) {
+        return failure(R"({"type": "mesh", "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], )" + rest + "}").where();
+    };
+    EXPECT_EQ(where(R"("triangles": [[0, 1, 2], [0, 1, 3]])"), "/scene/objects/0/triangles/1/2");
+    EXPECT_EQ(where(R"("triangles": [[0, 1, 2]], "uvs": [[0, 0]])"), "/scene/objects/0/uvs");
+    EXPECT_EQ(where(R"("triangles": [[0, 1, 2]], "file": "a.obj")"), "/scene/objects/0/vertices");
+    EXPECT_EQ(where(R"("triangles": [[0, 1, 2]], "alpha_texture": "a.png")"), "/scene/objects/0/alpha_texture");
+    EXPECT_EQ(where(R"("triangles": [[0, 1, 2]], "scale": 1e18, "translate": [1e18, 0, 0])"), "/scene/objects/0");
+    EXPECT_THAT(failure(R"({"type": "mesh"})").message(), HasSubstr("a file, or vertices and triangles"));
+}
+
+TEST(LoadMesh, RefusesAFileWithoutTriangles) {
+    const auto folder = test::write_file("a.obj", "v 0 0 0\n").parent_path();
+    EXPECT_THAT(failure(R"({"type": "mesh", "file": "a.obj"})", {folder}).message(), HasSubstr("no triangles"));
+    const base::Error missing = failure(R"({"type": "mesh", "file": "b.obj"})", {folder});
+    EXPECT_EQ(missing.code(), base::ErrorCode::no_such_file);
+    EXPECT_EQ(missing.where(), "/scene/objects/0/file");
+}
+
+TEST(LoadObject, HairNeedsAWidth) {
+    std::string bytes = bytes_of(3.0f, 1u, 2u);
+    bytes.resize(296 + 24, '\0');
+    const auto folder = test::write_file("a.tfx", bytes).parent_path();
+    EXPECT_THAT(failure(R"({"type": "hair", "file": "a.tfx"})", {folder}).message(),
+                HasSubstr("\"radius\" is missing"));
+    EXPECT_EQ(std::get<Hair>(load(R"({"type": "hair", "file": "a.tfx", "radius": 0.5})", {folder}).shape).radii[0],
+              0.5f);
+    test::write_file("none.tfx", bytes_of(3.0f, 0u, 2u) + std::string(300, '\0'));
+    EXPECT_THAT(failure(R"({"type": "hair", "file": "none.tfx", "radius": 1})", {folder}).message(),
+                HasSubstr("no strands"));
+    test::write_file("a.abc", "");
+    EXPECT_THAT(failure(R"({"type": "hair", "file": "a.abc", "radius": 1})", {folder}).message(),
+                HasSubstr(".tfx or .hair"));
+}
+
+TEST(LoadObject, LimitsHair) {
+    EXPECT_THAT(failure(R"({"type": "hair_ball", "strands": 100000000, "segments": 2})").message(),
+                HasSubstr("limit is 200000000"));
+}
+
+TEST(LoadVolume, ReadsRawValuesIntoTheirBox) {
+    const auto folder = test::write_file("a.raw", bytes_of(0.0f, 1.0f, 2.0f, 3.0f)).parent_path();
+    const std::string raw = R"({"type": "volume", "file": "a.raw", "format": "float32", "size": [4, 1, 1],
+                                "lower": [0, 0, 0], "upper": [8, 1, 1])";
+    const auto volume = std::get<GridVolume>(load(raw + "}", {folder}).shape);
+    EXPECT_EQ(volume.upper, Vec3d(8, 1, 1));
+    EXPECT_EQ(volume.step, 0.5);  // half of the smallest voxel edge
+    EXPECT_EQ(std::get<GridVolume>(load(raw + R"(, "step": 0.125})", {folder}).shape).step, 0.125);
+    EXPECT_EQ(failure(raw + R"(, "step": 1e-5})", {folder}).where(), "/scene/objects/0/step");
+    EXPECT_EQ(failure(raw + R"(, "grid": "density"})", {folder}).where(), "/scene/objects/0/grid");
+}
+
+TEST(LoadVolume, PointsAtWhatIsMissingOrWrong) {
+    const auto folder = test::write_file("a.raw", std::string(4, '\0')).parent_path();
+    const auto message = [&](const std::string& rest) {
+        return failure(R"({"type": "volume", "file": "a.raw", "format": "uint8", "size": [4, 1, 1], )" + rest + "}",
+                       {folder});
+    };
+    EXPECT_THAT(message(R"("lower": [0, 0, 0])").message(), HasSubstr("\"upper\" is missing"));
+    EXPECT_EQ(message(R"("lower": [0, 0, 0], "upper": [1, 0, 1])").where(), "/scene/objects/0/upper");
+    EXPECT_THAT(message(R"("lower": [0, 0, 0], "upper": [1, 1, 1])").message(), HasSubstr("0 everywhere"));
+    EXPECT_THAT(failure(R"({"type": "cloud", "size": [2000, 2000, 2000]})").message(),
+                HasSubstr("limit is 1000000000"));
+    EXPECT_EQ(failure(R"({"type": "cloud", "lower": [0, 0, 2]})").where(), "/scene/objects/0/upper");
+}
+
+// Objects whose every key is written at the default that the schema documents equal those without any key.
+class Procedural : public testing::TestWithParam<const char*> {};
+
+TEST_P(Procedural, SchemaDocumentsTheDefaultsOfTheStruct) {
+    json written = {{"type", GetParam()}};
+    for (const auto& [name, property] : scenario_schema()["definitions"][GetParam()]["properties"].items())
+        if (property.contains("default")) written[name] = property["default"];
+    json plain = {{"type", GetParam()}};
+    const Object a = load(written.dump()), b = load(plain.dump());
+    EXPECT_EQ(a.opacity, b.opacity);
+    EXPECT_EQ(a.extinction, b.extinction);
+    Scene scene_a{{a}, {}}, scene_b{{b}, {}};
+    EXPECT_EQ(bounds(scene_a, true), bounds(scene_b, true));
+    ASSERT_EQ(a.shape.index(), b.shape.index());
+    if (const auto* hair = std::get_if<Hair>(&a.shape)) {
+        EXPECT_EQ(hair->points, std::get<Hair>(b.shape).points);
+        EXPECT_EQ(hair->points, make_hair_ball(HairBall{}).points);
+        EXPECT_EQ(hair->radii, make_hair_ball(HairBall{}).radii);
+    } else if (const auto* volume = std::get_if<GridVolume>(&a.shape)) {
+        EXPECT_EQ(volume->density, std::get<GridVolume>(b.shape).density);
+        EXPECT_EQ(volume->density, make_cloud(Cloud{}).density);
+        EXPECT_EQ(volume->step, make_cloud(Cloud{}).step);
+    } else {
+        EXPECT_EQ(std::get<Particles>(a.shape).centres, make_smoke_column(SmokeColumn{}).centres);
+        EXPECT_EQ(std::get<Particles>(a.shape).radii, make_smoke_column(SmokeColumn{}).radii);
+        EXPECT_EQ(std::get<Particles>(a.shape).density, make_smoke_column(SmokeColumn{}).density);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Objects, Procedural, testing::Values("hair_ball", "cloud", "smoke_column"));
+
+}  // namespace
+}  // namespace shadowbench::scene

@@ -1,0 +1,206 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/scenario.h"
+#include "scene/support.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using nlohmann::json;
+using test::error_of;
+using testing::HasSubstr;
+
+json minimal() {
+    return json::parse(R"({
+        "name": "minimal",
+        "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1}]},
+        "lights": [{"type": "directional", "direction": [0, -2, 0]}],
+        "techniques": [{"type": "avsm", "nodes": 8}]
+    })");
+}
+
+base::Error error_with(const char* pointer, const char* value, const json& base = minimal()) {
+    json document = base;
+    document[json::json_pointer(pointer)] = json::parse(value);
+    return error_of([&] { load_scenario(document, {}); });
+}
+
+void expect_same(const RaySettings& a, const RaySettings& b) {
+    EXPECT_EQ(a.resolution, b.resolution);
+    EXPECT_EQ(a.samples_per_pixel, b.samples_per_pixel);
+    EXPECT_EQ(a.pattern, b.pattern);
+    EXPECT_EQ(a.seed, b.seed);
+}
+
+void expect_same(const Receivers& a, const Receivers& b) {
+    EXPECT_EQ(a.camera.has_value(), b.camera.has_value());
+    EXPECT_EQ(a.resolution, b.resolution);
+    EXPECT_EQ(a.media_lookups, b.media_lookups);
+    EXPECT_EQ(a.count, b.count);
+    EXPECT_EQ(a.seed, b.seed);
+    EXPECT_EQ(a.filter_width, b.filter_width);
+    EXPECT_EQ(a.bias, b.bias);
+}
+
+void expect_same(const Reference& a, const Reference& b) {
+    EXPECT_EQ(a.samples_per_pixel, b.samples_per_pixel);
+    EXPECT_EQ(a.queries, b.queries);
+    EXPECT_EQ(a.spread_seeds, b.spread_seeds);
+    EXPECT_EQ(a.seed, b.seed);
+}
+
+void expect_same(const Timing& a, const Timing& b) {
+    EXPECT_EQ(a.repetitions, b.repetitions);
+    EXPECT_EQ(a.lookups, b.lookups);
+}
+
+// Every key of a section of the schema that has a default, at that default.
+json defaults_of(const json& section) {
+    json values = json::object();
+    for (const auto& [name, property] : section["properties"].items())
+        if (property.contains("default")) values[name] = property["default"];
+    return values;
+}
+
+TEST(LoadScenario, DefaultsAreThoseOfTheStructs) {
+    const Scenario scenario = load_scenario(minimal(), {});
+    expect_same(scenario.rays, RaySettings{});
+    expect_same(scenario.receivers, Receivers{});
+    expect_same(scenario.reference, Reference{});
+    expect_same(scenario.timing, Timing{});
+    EXPECT_EQ(scenario.purpose, "");
+    EXPECT_TRUE(scenario.scene.objects[0].casts_shadow);
+    EXPECT_EQ(scenario.scene.objects[0].opacity, Vec3f(1, 1, 1));
+    EXPECT_EQ(scenario.lights[0].colour, Vec3f(1, 1, 1));
+}
+
+TEST(LoadScenario, DefaultsAreThoseThatTheSchemaDocuments) {
+    const json& properties = scenario_schema()["properties"];
+    const json& definitions = scenario_schema()["definitions"];
+    json document = minimal();
+    for (const char* section : {"rays", "reference", "timing"}) {
+        document[section] = defaults_of(properties[section]);
+        EXPECT_EQ(document[section].size(), properties[section]["properties"].size()) << section;
+    }
+    document["receivers"] = defaults_of(definitions["probes"]);
+    document["receivers"]["type"] = properties["receivers"]["default"]["type"];
+    const Scenario written = load_scenario(document, {});
+    expect_same(written.rays, RaySettings{});
+    expect_same(written.receivers, Receivers{});
+    expect_same(written.reference, Reference{});
+    expect_same(written.timing, Timing{});
+
+    document["receivers"] = defaults_of(definitions["camera"]);
+    document["receivers"].update(json{{"type", "camera"}, {"position", {0, 0, 5}}, {"target", {0, 0, 0}}});
+    const Receivers camera = load_scenario(document, {}).receivers;
+    EXPECT_EQ(camera.resolution, Receivers{}.resolution);
+    EXPECT_EQ(camera.media_lookups, Receivers{}.media_lookups);
+    EXPECT_EQ(camera.camera->fov, Camera{}.fov);
+    EXPECT_EQ(camera.camera->up, Camera{}.up);
+}
+
+TEST(LoadScenario, ReadsEverySetting) {
+    json document = minimal();
+    document["purpose"] = "To see.";
+    document["rays"] = {
+        {"resolution", {64, 32}}, {"samples_per_pixel", 9}, {"pattern", "regular"}, {"seed", 9007199254740991}};
+    document["receivers"] = {{"type", "camera"},    {"position", {1, 2, 3}}, {"target", {0, 1, 0}}, {"up", {0, 0, 1}},
+                             {"fov", 60},           {"resolution", 100},     {"media_lookups", 3},  {"seed", 4},
+                             {"filter_width", 2.5}, {"bias", 0.25}};
+    document["reference"] = {{"samples_per_pixel", 10}, {"queries", 11}, {"spread_seeds", 12}, {"seed", 13}};
+    document["timing"] = {{"repetitions", 14}, {"lookups", 15}};
+    const Scenario scenario = load_scenario(document, {});
+    EXPECT_EQ(scenario.name, "minimal");
+    EXPECT_EQ(scenario.purpose, "To see.");
+    expect_same(scenario.rays, RaySettings{{64, 32}, 9, Pattern::regular, 9007199254740991});
+    EXPECT_EQ(scenario.receivers.camera->position, Vec3d(1, 2, 3));
+    EXPECT_EQ(scenario.receivers.camera->target, Vec3d(0, 1, 0));
+    EXPECT_EQ(scenario.receivers.camera->up, Vec3d(0, 0, 1));
+    EXPECT_EQ(scenario.receivers.camera->fov, 60.0);
+    EXPECT_EQ(scenario.receivers.resolution, Vec2i(100, 100));
+    EXPECT_EQ(scenario.receivers.media_lookups, 3);
+    EXPECT_EQ(scenario.receivers.seed, 4u);
+    EXPECT_EQ(scenario.receivers.filter_width, 2.5);
+    EXPECT_EQ(scenario.receivers.bias, 0.25);
+    expect_same(scenario.reference, Reference{10, 11, 12, 13});
+    expect_same(scenario.timing, Timing{14, 15});
+}
+
+TEST(LoadScenario, HandsTechniquesTheirParametersUnread) {
+    const Scenario scenario = load_scenario(minimal(), {});
+    ASSERT_EQ(scenario.techniques.size(), 1u);
+    EXPECT_EQ(scenario.techniques[0].type, "avsm");
+    EXPECT_EQ(scenario.techniques[0].parameters, R"({"nodes":8})");
+    EXPECT_EQ(scenario.techniques[0].where, "/techniques/0");
+}
+
+TEST(LoadScenario, IgnoresSweeps) {
+    json document = minimal();
+    document["sweeps"] = {{"/rays/seed", {1, 2}}};
+    EXPECT_NO_THROW(load_scenario(document, {}));
+}
+
+TEST(LoadScenario, RefusesAnEmptyScene) {
+    EXPECT_EQ(error_with("/scene", "{}").where(), "/scene");
+    EXPECT_THAT(error_with("/scene", "{}").message(), HasSubstr("empty"));
+    EXPECT_EQ(error_with("/scene/objects/0/casts_shadow", "false").where(), "/scene/objects");
+    EXPECT_THAT(error_with("/scene/deep_image", R"({"file": "a.exr"})").message(), HasSubstr("not both"));
+    EXPECT_EQ(error_with("/lights", "[]").where(), "/lights");
+}
+
+TEST(LoadScenario, StatesTheLimitOfLightRays) {
+    const base::Error error = error_with("/rays", R"({"resolution": 16384, "samples_per_pixel": 17})");
+    EXPECT_EQ(error.where(), "/rays");
+    EXPECT_THAT(error.message(), HasSubstr("limit is 4294967296"));
+    EXPECT_THAT(error_with("/reference", R"({"samples_per_pixel": 65536, "queries": 65537})").message(),
+                HasSubstr("limit"));
+    EXPECT_THAT(error_with("/receivers", R"({"type": "camera", "position": [0, 0, 5], "target": [0, 0, 0],
+                           "resolution": 16384})")
+                    .message(),
+                HasSubstr("limit"));
+}
+
+TEST(LoadScenario, RefusesCamerasThatSeeNothing) {
+    const char* on_target = R"({"type": "camera", "position": [0, 0, 5], "target": [0, 0, 5]})";
+    EXPECT_EQ(error_with("/receivers", on_target).where(), "/receivers/target");
+    const char* along = R"({"type": "camera", "position": [0, 5, 0], "target": [0, 0, 0]})";
+    EXPECT_EQ(error_with("/receivers", along).where(), "/receivers/up");
+    const char* no_up = R"({"type": "camera", "position": [5, 0, 0], "target": [0, 0, 0], "up": [0, 0, 0]})";
+    EXPECT_EQ(error_with("/receivers", no_up).where(), "/receivers/up");
+}
+
+json deep() {
+    return json::parse(R"({"name": "deep", "scene": {"deep_image": {"file": "deep/leaves.exr"}},
+                           "techniques": [{"type": "deep"}]})");
+}
+
+TEST(LoadScenario, ADeepImageBringsItsOwnLightAndRays) {
+    SHADOWBENCH_NEED_DATA(file, "deep/leaves.exr");
+    json document = deep();
+    document["rays"] = {{"resolution", 8}, {"samples_per_pixel", 4}};
+    const Scenario scenario = load_scenario(document, {file.parent_path().parent_path()});
+    ASSERT_TRUE(scenario.scene.deep_image);
+    ASSERT_EQ(scenario.lights.size(), 1u);
+    EXPECT_EQ(scenario.lights[0].name, "deep_image");
+    EXPECT_EQ(scenario.lights[0].type, LightType::deep_image);
+    EXPECT_EQ(scenario.rays.resolution, Vec2i(1024, 576));
+    EXPECT_EQ(scenario.rays.samples_per_pixel, 1);
+    EXPECT_EQ(scenario.rays.pattern, Pattern::regular);
+}
+
+TEST(LoadScenario, ADeepImageHasNoOtherLightsAndNoCamera) {
+    EXPECT_EQ(error_with("/lights", R"([{"type": "directional", "direction": [0, -1, 0]}])", deep()).where(),
+              "/lights");
+    EXPECT_EQ(
+        error_with("/receivers", R"({"type": "camera", "position": [0, 0, 5], "target": [0, 0, 0]})", deep()).where(),
+        "/receivers/type");
+    const base::Error missing = error_of([] { load_scenario(deep(), {"/nowhere"}); });
+    EXPECT_EQ(missing.code(), base::ErrorCode::no_such_file);
+    EXPECT_EQ(missing.where(), "/scene/deep_image/file");
+}
+
+}  // namespace
+}  // namespace shadowbench::scene

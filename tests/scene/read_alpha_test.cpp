@@ -1,0 +1,80 @@
+#include <OpenImageIO/imageio.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numeric>
+
+#include "scene/files.h"
+#include "scene/support.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using test::error_of;
+using testing::HasSubstr;
+
+std::filesystem::path write(const std::string& name, int width, int height, int channels,
+                            const std::vector<float>& pixels, OIIO::TypeDesc type) {
+    const std::filesystem::path file = test::fresh_path(name);
+    OIIO::ImageSpec spec(width, height, channels, type);
+    const auto output = OIIO::ImageOutput::create(file.string());
+    EXPECT_TRUE(output && output->open(file.string(), spec));
+    EXPECT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, pixels.data()));
+    output->close();
+    return file;
+}
+
+TEST(ReadAlpha, TakesTheAlphaChannelRowByRow) {
+    const auto file =
+        write("a.tif", 2, 2, 4, {1, 1, 1, 0, 1, 1, 1, 0.2f, 0, 0, 0, 0.4f, 0, 0, 0, 1}, OIIO::TypeDesc::FLOAT);
+    const AlphaTexture texture = read_alpha(file);
+    EXPECT_EQ(texture.width, 2);
+    EXPECT_EQ(texture.height, 2);
+    EXPECT_THAT(texture.alpha, testing::ElementsAre(0.0f, 0.2f, 0.4f, 1.0f));
+}
+
+TEST(ReadAlpha, TakesLuminanceWithoutAlpha) {
+    EXPECT_THAT(read_alpha(write("a.tif", 2, 1, 1, {0.25f, 0.75f}, OIIO::TypeDesc::FLOAT)).alpha,
+                testing::ElementsAre(0.25f, 0.75f));
+    EXPECT_NEAR(read_alpha(write("b.tif", 1, 1, 3, {0, 1, 0}, OIIO::TypeDesc::FLOAT)).alpha[0], 0.7152f, 1e-6f);
+}
+
+TEST(ReadAlpha, RefusesAPixelThatIsNoNumber) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const auto file = write("a.exr", 2, 2, 1, {0, 0, 0, nan}, OIIO::TypeDesc::FLOAT);
+    EXPECT_THAT(error_of([&] { read_alpha(file); }).message(), HasSubstr("pixel (1, 1)"));
+}
+
+TEST(ReadAlpha, RefusesFilesThatAreNoWholeImage) {
+    EXPECT_EQ(error_of([] { read_alpha("/nowhere/a.png"); }).code(), base::ErrorCode::no_such_file);
+    std::vector<float> noise(64 * 64);
+    for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<float>(i * 7919 % 251) / 251.0f;
+    for (const char* name : {"a.tif", "a.exr"}) {
+        const std::string bytes = test::read_bytes(write(name, 64, 64, 1, noise, OIIO::TypeDesc::FLOAT));
+        test::expect_cuts_refused(bytes, name, bytes.size() / 2, [](const auto& file) { read_alpha(file); });
+    }
+    EXPECT_EQ(error_of([] { read_alpha(test::write_file("b.png", "no image")); }).code(), base::ErrorCode::bad_input);
+}
+
+TEST(ReadAlpha, ReadsTheLeaves) {
+    SHADOWBENCH_NEED_DATA(file, "meshes/tree_leaves_alpha.dds");
+    const AlphaTexture texture = read_alpha(file);
+    EXPECT_EQ(texture.width, 1024);
+    EXPECT_EQ(texture.alpha.size(), 1024u * 1024u);
+    const double mean = std::accumulate(texture.alpha.begin(), texture.alpha.end(), 0.0) / 1024.0 / 1024.0;
+    EXPECT_NEAR(mean, 0.411, 0.001);
+}
+
+TEST(ReadAlpha, RefusesADdsThatEndsInsideItsPixels) {
+    SHADOWBENCH_NEED_DATA(file, "meshes/tree_leaves_alpha.dds");
+    // DXT3: a byte a texel, behind a header of 128 bytes.
+    const std::string bytes = test::read_bytes(file).substr(0, 128 + 1024 * 1024);
+    EXPECT_NO_THROW(read_alpha(test::write_file("whole.dds", bytes)));
+    const auto cut = test::write_file("cut.dds", bytes.substr(0, bytes.size() - 1));
+    EXPECT_EQ(error_of([&] { read_alpha(cut); }).code(), base::ErrorCode::bad_input);
+}
+
+}  // namespace
+}  // namespace shadowbench::scene

@@ -1,0 +1,111 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "scene/files.h"
+#include "scene/support.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using test::bytes_of;
+using test::error_of;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string header(const std::string& format, const std::string& vertices = "4", const std::string& faces = "1") {
+    return "ply\nformat " + format + " 1.0\ncomment made by hand\nelement vertex " + vertices +
+           "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nelement face " + faces +
+           "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+const std::string ascii = header("ascii") + "0 0 0 9\n1 0 0 9\n1 1 0 9\n0 1 0 9\n4 0 1 2 3\n";
+
+template <typename T>
+std::string ordered(T value, bool big) {
+    std::string bytes = bytes_of(value);
+    if (big) std::reverse(bytes.begin(), bytes.end());
+    return bytes;
+}
+
+std::string binary(bool big) {
+    std::string bytes = header(big ? "binary_big_endian" : "binary_little_endian");
+    for (const auto& [x, y] : {std::pair{0.0f, 0.0f}, {1.0f, 0.0f}, {1.0f, 1.0f}, {0.0f, 1.0f}})
+        bytes += ordered(x, big) + ordered(y, big) + ordered(0.0f, big) + "\x09";
+    bytes += "\x04";
+    for (const int index : {0, 1, 2, 3}) bytes += ordered(index, big);
+    return bytes;
+}
+
+Mesh read(const std::string& bytes) {
+    return read_mesh(test::write_file("a.ply", bytes));
+}
+
+TEST(ReadPly, ReadsAllThreeEncodingsAlike) {
+    for (const std::string& bytes : {ascii, binary(false), binary(true)}) {
+        const Mesh mesh = read(bytes);
+        EXPECT_THAT(mesh.positions, ElementsAre(Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(1, 1, 0), Vec3f(0, 1, 0)));
+        EXPECT_THAT(mesh.triangles, ElementsAre(Vec3i(0, 1, 2), Vec3i(0, 2, 3)));
+    }
+}
+
+TEST(ReadPly, RefusesAFileCutAnywhere) {
+    const auto read_file = [](const std::filesystem::path& file) { read_mesh(file); };
+    // Without its last number; the end of the last line may be missing.
+    test::expect_cuts_refused(ascii, "cut.ply", ascii.size() - 2, read_file);
+    test::expect_cuts_refused(binary(false), "cut.ply", binary(false).size(), read_file);
+    test::expect_cuts_refused(binary(true), "cut.ply", binary(true).size(), read_file);
+}
+
+TEST(ReadPly, TakesTextureCoordinatesOfVerticesToTheCorners) {
+    const Mesh mesh = read(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\nproperty "
+        "float s\nproperty float t\nelement face 1\nproperty list uchar uint vertex_index\nend_header\n"
+        "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 2 1 0\n");
+    EXPECT_THAT(mesh.corner_uv, ElementsAre(Vec2f(0, 1), Vec2f(1, 0), Vec2f(0, 0)));
+}
+
+TEST(ReadPly, ReadsPastOtherElementsAndProperties) {
+    const Mesh mesh = read(
+        "ply\nformat ascii 1.0\nelement camera 2\nproperty list uchar float values\nelement vertex 3\nproperty list "
+        "uchar int tags\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty int id\n"
+        "property list uchar int vertex_indices\nproperty float area\nend_header\n"
+        "2 5 6\n0\n1 7 0 0 0\n0 1 0 0\n0 0 1 0\n42 3 0 1 2 0.5\n");
+    EXPECT_THAT(mesh.triangles, ElementsAre(Vec3i(0, 1, 2)));
+    EXPECT_EQ(mesh.positions[1], Vec3f(1, 0, 0));
+}
+
+TEST(ReadPly, RefusesCountsTheFileCannotHoldBeforeMemoryIsTaken) {
+    for (const char* format : {"ascii", "binary_little_endian"}) {
+        EXPECT_THAT(error_of([&] { read(header(format, "200000000")); }).message(), HasSubstr("too short"));
+        EXPECT_THAT(error_of([&] { read(header(format, "99999999999999")); }).message(), HasSubstr("limit"));
+        EXPECT_EQ(error_of([&] { read(header(format, "-1")); }).code(), base::ErrorCode::bad_input);
+    }
+    std::string long_list = ascii;
+    long_list.replace(long_list.rfind("4 0 1 2 3"), 1, "255");
+    EXPECT_EQ(error_of([&] { read(long_list); }).code(), base::ErrorCode::bad_input);
+}
+
+TEST(ReadPly, RefusesValuesThatMakeNoMesh) {
+    const auto message = [](std::string from, const std::string& to) {
+        std::string bytes = ascii;
+        bytes.replace(bytes.find(from), from.size(), to);
+        return error_of([&] { read(bytes); }).message();
+    };
+    EXPECT_THAT(message("1 1 0 9", "1 nan 0 9"), HasSubstr("y is nan"));
+    EXPECT_THAT(message("1 1 0 9", "1 inf 0 9"), HasSubstr("not a finite number"));
+    EXPECT_THAT(message("1 1 0 9", "1 x 0 9"), HasSubstr("\"x\" is not a number"));
+    EXPECT_THAT(message("4 0 1 2 3", "4 0 1 2 4"), HasSubstr("names vertex 4"));
+    EXPECT_THAT(message("4 0 1 2 3", "4 0 1 2 -1"), HasSubstr("names vertex -1"));
+    EXPECT_THAT(message("4 0 1 2 3", "2 0 1"), HasSubstr("2 corners"));
+    EXPECT_THAT(message("property float z", "property float w"), HasSubstr("x, y and z"));
+    EXPECT_THAT(message("format ascii", "format base64"), HasSubstr("base64"));
+    EXPECT_THAT(message("property uchar red", "property colour red"), HasSubstr("not understood"));
+    EXPECT_THAT(message("list uchar int", "list float int"), HasSubstr("no integer type"));
+    EXPECT_THAT(message("element vertex", "element point"), HasSubstr("before the vertices"));
+}
+
+}  // namespace
+}  // namespace shadowbench::scene

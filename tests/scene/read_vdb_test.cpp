@@ -1,0 +1,125 @@
+#include <openvdb/openvdb.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "scene/files.h"
+#include "scene/support.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using test::error_of;
+using testing::AllOf;
+using testing::HasSubstr;
+
+// A box of 3 x 2 x 1 voxels from (-1, 0, 5), the value 1 + x + 10 y in each, of voxels 0.5 wide.
+openvdb::FloatGrid::Ptr small_grid() {
+    openvdb::initialize();
+    openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(0.0f);
+    grid->setName("density");
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
+    grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+    for (int x = -1; x <= 1; ++x)
+        for (int y = 0; y <= 1; ++y) grid->tree().setValue({x, y, 5}, static_cast<float>(2 + x + 10 * y));
+    return grid;
+}
+
+std::filesystem::path write(const openvdb::GridPtrVec& grids) {
+    const std::filesystem::path path = test::fresh_path("a.vdb");
+    openvdb::io::File file(path.string());
+    file.write(grids);
+    file.close();
+    return path;
+}
+
+TEST(ReadVdb, GivesTheActiveBoxXFastestWithItsWorldBounds) {
+    const GridVolume volume = read_vdb(write({small_grid()}), "density");
+    EXPECT_EQ(volume.size, Vec3i(3, 2, 1));
+    EXPECT_THAT(volume.density, testing::ElementsAre(1, 2, 3, 11, 12, 13));
+    // Voxel centres are whole index coordinates: the box reaches half a voxel further.
+    EXPECT_EQ(volume.lower, Vec3d(-0.75, -0.25, 2.25));
+    EXPECT_EQ(volume.upper, Vec3d(0.75, 0.75, 2.75));
+}
+
+TEST(ReadVdb, FollowsScaleAndTranslation) {
+    openvdb::FloatGrid::Ptr grid = small_grid();
+    grid->transform().postScale(openvdb::Vec3d(2.0, 1.0, 4.0));
+    grid->transform().postTranslate(openvdb::Vec3d(10.0, 0.0, 0.0));
+    const GridVolume volume = read_vdb(write({grid}), "density");
+    EXPECT_EQ(volume.lower, Vec3d(8.5, -0.25, 9.0));
+    EXPECT_EQ(volume.upper, Vec3d(11.5, 0.75, 11.0));
+}
+
+TEST(ReadVdb, ListsTheGridsWhenTheNameIsNotThere) {
+    openvdb::FloatGrid::Ptr second = small_grid();
+    second->setName("heat");
+    const auto file = write({small_grid(), second});
+    const base::Error error = error_of([&] { read_vdb(file, "smoke"); });
+    EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
+    EXPECT_EQ(error.where(), file.string());
+    EXPECT_THAT(error.message(), AllOf(HasSubstr("smoke"), HasSubstr("density, heat")));
+    EXPECT_NO_THROW(read_vdb(file, "heat"));
+}
+
+TEST(ReadVdb, RefusesTransformsThatAreNoBox) {
+    openvdb::FloatGrid::Ptr turned = small_grid();
+    turned->transform().postRotate(0.5);
+    EXPECT_THAT(error_of([&] { read_vdb(write({turned}), "density"); }).message(), HasSubstr("axis-aligned"));
+    openvdb::FloatGrid::Ptr mirrored = small_grid();
+    mirrored->transform().postScale(openvdb::Vec3d(1.0, -1.0, 1.0));
+    EXPECT_THAT(error_of([&] { read_vdb(write({mirrored}), "density"); }).message(), HasSubstr("mirrors"));
+}
+
+TEST(ReadVdb, RefusesABoxOverTheLimitBeforeItIsFilled) {
+    openvdb::FloatGrid::Ptr grid = small_grid();
+    grid->tree().setValue({20000, 20000, 20000}, 1.0f);
+    EXPECT_THAT(error_of([&] { read_vdb(write({grid}), "density"); }).message(), HasSubstr("limit is 1000000000"));
+}
+
+TEST(ReadVdb, RefusesValuesThatAreNoDensity) {
+    for (const float bad : {-1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        openvdb::FloatGrid::Ptr grid = small_grid();
+        grid->tree().setValue({0, 0, 5}, bad);
+        EXPECT_EQ(error_of([&] { read_vdb(write({grid}), "density"); }).code(), base::ErrorCode::bad_input);
+    }
+}
+
+TEST(ReadVdb, RefusesOtherKindsOfGrid) {
+    openvdb::Vec3SGrid::Ptr vectors = openvdb::Vec3SGrid::create();
+    vectors->setName("density");
+    EXPECT_THAT(error_of([&] { read_vdb(write({vectors}), "density"); }).message(), HasSubstr("not float"));
+    openvdb::FloatGrid::Ptr level_set = small_grid();
+    level_set->setGridClass(openvdb::GRID_LEVEL_SET);
+    EXPECT_THAT(error_of([&] { read_vdb(write({level_set}), "density"); }).message(), HasSubstr("level set"));
+    openvdb::FloatGrid::Ptr empty = openvdb::FloatGrid::create();
+    empty->setName("density");
+    EXPECT_THAT(error_of([&] { read_vdb(write({empty}), "density"); }).message(), HasSubstr("no active voxels"));
+}
+
+TEST(ReadVdb, RefusesAFileCutAnywhereAndOtherFiles) {
+    const std::string bytes = test::read_bytes(write({small_grid()}));
+    test::expect_cuts_refused(bytes, "cut.vdb", bytes.size(), [](const auto& file) { read_vdb(file, "density"); });
+    EXPECT_EQ(error_of([] { read_vdb(test::write_file("b.vdb", "something else"), "density"); }).code(),
+              base::ErrorCode::bad_input);
+    EXPECT_EQ(error_of([] { read_vdb("/nowhere/a.vdb", "density"); }).code(), base::ErrorCode::no_such_file);
+}
+
+TEST(ReadVdb, ReadsTheSmokeWholeOrNotAtAll) {
+    SHADOWBENCH_NEED_DATA(file, "volumes/smoke.vdb");
+    const GridVolume volume = read_vdb(file, "density");
+    EXPECT_EQ(volume.size, Vec3i(111, 222, 112));
+    EXPECT_NEAR(*std::max_element(volume.density.begin(), volume.density.end()), 5.71, 0.01);
+    const std::string bytes = test::read_bytes(file);
+    for (const double part : {0.1, 0.5, 0.9, 0.99999}) {
+        const auto cut =
+            test::write_file("cut.vdb", bytes.substr(0, static_cast<std::size_t>(part * double(bytes.size()))));
+        EXPECT_EQ(error_of([&] { read_vdb(cut, "density"); }).code(), base::ErrorCode::bad_input) << part;
+    }
+}
+
+}  // namespace
+}  // namespace shadowbench::scene
