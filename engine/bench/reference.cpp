@@ -115,6 +115,22 @@ std::vector<Moments> reduce(const std::vector<std::vector<Part>>& parts, std::si
     return total;
 }
 
+// The pixels of a tile that its queries' footprints touch.
+std::vector<unsigned char> wanted_pixels(int tile, const MapLayout& layout, std::span<const Query> queries,
+                                         std::span<const Part> parts) {
+    const int x0 = tile % layout.tiles_x() * layout.tile_width, y0 = tile / layout.tiles_x() * layout.tile_height;
+    const int width = std::min(layout.tile_width, layout.width - x0);
+    const int height = std::min(layout.tile_height, layout.height - y0);
+    std::vector<unsigned char> wanted(static_cast<std::size_t>(width) * height, 0);
+    for (const Part& part : parts) {
+        const Footprint f = footprint(queries[part.query], layout);
+        for (int y = std::max(f.y0, y0); y <= std::min(f.y1, y0 + height - 1); ++y)
+            for (int x = std::max(f.x0, x0); x <= std::min(f.x1, x0 + width - 1); ++x)
+                wanted[static_cast<std::size_t>(y - y0) * width + (x - x0)] = 1;
+    }
+    return wanted;
+}
+
 using Gather = Moments (*)(const LightRays&, const MapLayout&, const Query&);
 
 std::vector<Moments> gather_all(const rays::Capture& capture, const MapLayout& layout, std::span<const Query> queries,
@@ -128,7 +144,8 @@ std::vector<Moments> gather_all(const rays::Capture& capture, const MapLayout& l
     for (std::size_t first = 0; first < tiles.size(); first += in_flight) {
         base::parallel_for(std::min(in_flight, tiles.size() - first), [&](std::size_t i) {
             std::vector<Part>& tile_parts = parts[tiles[first + i]];
-            const LightRays tile = capture.tile(static_cast<int>(tiles[first + i]));
+            const int index = static_cast<int>(tiles[first + i]);
+            const LightRays tile = capture.tile(index, wanted_pixels(index, layout, queries, tile_parts));
             for (Part& part : tile_parts) part.moments = gather_one(tile, layout, queries[part.query]);
         });
         if (watch) watch(std::min(first + in_flight, tiles.size()), tiles.size());

@@ -108,8 +108,9 @@ RayLine world_line(const LightView& view, double x, double y) {
 template <bool perspective, class Sink>
 class TileProjection {
 public:
-    TileProjection(const LightView& view, const TileGrid& grid, int tile, Sink& sink)
-        : view_(view), grid_(grid), tile_(tile), sink_(sink) {}
+    TileProjection(const LightView& view, const TileGrid& grid, const LightRays& rays,
+                   std::span<const unsigned char> wanted, Sink& sink)
+        : view_(view), grid_(grid), tile_(rays.tile), samples_(rays.samples), wanted_(wanted), sink_(sink) {}
 
     void project(const Prepared& p) {
         std::visit([&](const auto& shape) { project(p, shape); }, p.object->shape);
@@ -200,6 +201,7 @@ private:
             for (int j = 0; j < grid_.ny; ++j)
                 for (int i = 0; i < grid_.nx; ++i) {
                     const std::size_t sample = static_cast<std::size_t>(j) * grid_.nx + i;
+                    if (!wanted_.empty() && !wanted_[(grid_.ray_row[j] + grid_.ray_column[i]) / samples_]) continue;
                     const RayLine line = world_line(view_, grid_.x[sample], grid_.y[sample]);
                     steps.clear();
                     p.marcher->march(line.origin, line.direction, line.scale, std::max(view_.z_near, -1e30), 1e30, steps);
@@ -212,6 +214,8 @@ private:
     const LightView& view_;
     const TileGrid& grid_;
     const int tile_;
+    const int samples_;  // rays a pixel
+    const std::span<const unsigned char> wanted_;
     Sink& sink_;
 };
 
@@ -268,14 +272,15 @@ struct Capture::State {
     std::vector<Prepared> objects;
 
     template <class Sink>
-    void project(LightRays& rays) const {
+    void project(LightRays& rays, std::span<const unsigned char> wanted) const {
         const TileGrid grid = make_tile_grid(view, layout, rays);
-        Sink sink;
+        thread_local Sink sink;  // its memory serves tile after tile
+        sink.hits.clear();
         if (view.perspective) {
-            TileProjection<true, Sink> projection(view, grid, rays.tile, sink);
+            TileProjection<true, Sink> projection(view, grid, rays, wanted, sink);
             for (const Prepared& p : objects) projection.project(p);
         } else {
-            TileProjection<false, Sink> projection(view, grid, rays.tile, sink);
+            TileProjection<false, Sink> projection(view, grid, rays, wanted, sink);
             for (const Prepared& p : objects) projection.project(p);
         }
         sort_hits(sink, static_cast<std::size_t>(grid.nx) * grid.ny, rays);
@@ -290,7 +295,7 @@ Capture::Capture(const scene::Scene& scene, const LightView& view, const MapLayo
 
 Capture::~Capture() = default;
 
-LightRays Capture::tile(int index) const {
+LightRays Capture::tile(int index, std::span<const unsigned char> wanted) const {
     const MapLayout& layout = state_->layout;
     LightRays rays;
     rays.tile = index;
@@ -303,9 +308,9 @@ LightRays Capture::tile(int index) const {
     if (state_->scene.deep_image)
         copy_deep_image(*state_->scene.deep_image, rays);
     else if (layout.media || layout.channels > 1)
-        state_->project<SegmentHits>(rays);
+        state_->project<SegmentHits>(rays, wanted);
     else
-        state_->project<SurfaceHits>(rays);
+        state_->project<SurfaceHits>(rays, wanted);
     return rays;
 }
 

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 
 #include "rays/light_rays.h"
 #include "rays/light_view.h"
@@ -34,7 +35,9 @@ public:
     Capture& operator=(const Capture&) = delete;
 
     // Thread-safe. The rays depend on the tile alone. Throws Error{bad_input} when a tile's segments do not fit 32 bits.
-    LightRays tile(int index) const;
+    // `wanted`, one a pixel of the tile, names the pixels that are needed (empty: all); rays of the others may lack what
+    // is slow to find.
+    LightRays tile(int index, std::span<const unsigned char> wanted = {}) const;
 
     std::size_t bytes() const;  // held for all tiles
 

@@ -21,11 +21,11 @@ void count(const Hits& hits, std::size_t rays, std::vector<std::uint32_t>& begin
     for (std::size_t r = 0; r < rays; ++r) begin[r + 1] += begin[r];
 }
 
-// Most rays cross little: insertion for them.
+// Most rays cross little: insertion for them. Long lists often come sorted, as the steps of a volume do.
 template <class T, class Less>
 void sort_ray(T* first, T* last, Less less) {
     if (last - first > 24) {
-        std::sort(first, last, less);
+        if (!std::is_sorted(first, last, less)) std::sort(first, last, less);
         return;
     }
     for (T* i = first + (first != last); i < last; ++i) {
@@ -41,7 +41,8 @@ void sort_ray(T* first, T* last, Less less) {
 void sort_hits(const SurfaceHits& hits, std::size_t rays, LightRays& tile) {
     count(hits, rays, tile.begin);
     // Depths are not negative, so their bits sort as they do; the transmittance behind settles ties.
-    std::vector<std::uint64_t> keys(hits.hits.size());
+    thread_local std::vector<std::uint64_t> keys;
+    keys.resize(hits.hits.size());
     std::vector<std::uint32_t> next(tile.begin.begin(), tile.begin.end() - 1);
     for (const auto& hit : hits.hits)
         keys[next[hit.ray]++] =
@@ -59,7 +60,8 @@ void sort_hits(const SurfaceHits& hits, std::size_t rays, LightRays& tile) {
 
 void sort_hits(const SegmentHits& hits, std::size_t rays, LightRays& tile) {
     count(hits, rays, tile.begin);
-    std::vector<SegmentHits::Hit> sorted(hits.hits.size());
+    thread_local std::vector<SegmentHits::Hit> sorted;
+    sorted.resize(hits.hits.size());
     std::vector<std::uint32_t> next(tile.begin.begin(), tile.begin.end() - 1);
     for (const auto& hit : hits.hits) sorted[next[hit.ray]++] = hit;
     const auto key = [](const SegmentHits::Hit& h) {

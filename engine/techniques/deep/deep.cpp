@@ -36,6 +36,7 @@ public:
             for (std::size_t i = 0; i < n; ++i) map_.nodes.push_back(kept[i].value);
             map_.offsets.push_back(static_cast<std::uint32_t>(map_.nodes.size() / 2));
         }
+        map_.nodes.resize(map_.nodes.size() + DeepMap::padding);
         map_.nodes.shrink_to_fit();
         map_.offsets.shrink_to_fit();
         map_.peak_bytes = map_.bytes() + kept.capacity() * sizeof(curves::Vertex);

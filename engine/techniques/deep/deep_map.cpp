@@ -1,6 +1,7 @@
 #include "techniques/deep/deep_map.h"
 
 #include <cmath>
+#include <experimental/simd>
 #include <limits>
 
 #include "base/error.h"
@@ -10,24 +11,35 @@
 namespace shadowbench::techniques {
 namespace {
 
-// First of n sorted depths that is not less than z, without branches that depend on the data.
+namespace simd = std::experimental;
+
+constexpr std::uint32_t lanes = DeepMap::padding;  // depths that are compared at once
+using Lanes = simd::fixed_size_simd<float, static_cast<int>(lanes)>;
+
+// First of n sorted depths that is not less than z. Without branches for short functions, which most are.
 inline std::uint32_t lower_bound(const float* depths, std::uint32_t n, float z) {
+    if (n <= lanes) {
+        const Lanes number([](auto lane) { return static_cast<float>(lane); });
+        const auto before = (Lanes(depths, simd::element_aligned) < z) && (number < static_cast<float>(static_cast<int>(n)));
+        return static_cast<std::uint32_t>(simd::popcount(before));
+    }
     const float* first = depths;
     while (n > 1) {
         const std::uint32_t half = n / 2;
         first += first[half - 1] < z ? half : 0;
         n -= half;
     }
-    return static_cast<std::uint32_t>(first - depths) + (n == 1 && *first < z);
+    return static_cast<std::uint32_t>(first - depths) + (*first < z);
 }
 
+// curves::evaluate, to the bit.
 inline float evaluate(const float* depths, std::uint32_t n, float z) {
     if (n == 0) return 1.0f;
     const float* values = depths + n;
-    const std::uint32_t i = lower_bound(depths, n, z);
-    if (i == 0) return values[0];
-    if (i == n) return values[n - 1];
-    return curves::join({depths[i - 1], values[i - 1]}, {depths[i], values[i]}, z);
+    const std::uint32_t next = lower_bound(depths, n, z);
+    if (next == 0) return values[0];
+    if (next == n) return values[n - 1];
+    return curves::join({depths[next - 1], values[next - 1]}, {depths[next], values[next]}, z);
 }
 
 }  // namespace
@@ -75,7 +87,7 @@ void DeepMap::finish() {
         throw base::Error(base::ErrorCode::bad_input, "/techniques",
                           "a deep map holds at most 2^32 vertices: raise the tolerance or lower the resolution");
     for (std::size_t p = 0; p < grid.count(); ++p) offsets[p + 1] += offsets[p];
-    nodes.resize(2 * total);
+    nodes.assign(2 * total + lanes, 0.0f);
     for (const TileNodes& t : tiles_)
         for (std::size_t p = 0; p + 1 < t.begin.size(); ++p) {
             const std::size_t pixel = grid.index(t.x0 + static_cast<int>(p) % t.width, t.y0 + static_cast<int>(p) / t.width);
