@@ -1,6 +1,6 @@
 // A running sum whose rounding errors are kept and added back: terms that are added and later taken away leave nothing.
-// Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen (1974), with Knuth's branch-free two-sum.
-// Needs strict IEEE arithmetic (no -ffast-math).
+// Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen (1974), with Knuth's branch-free
+// two-sum. Needs strict IEEE arithmetic (no -ffast-math).
 #pragma once
 
 namespace shadowbench::base {

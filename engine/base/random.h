@@ -19,7 +19,9 @@ constexpr std::uint64_t hash(std::uint64_t a, std::uint64_t b = 0, std::uint64_t
 }
 
 // Uniform in [0, 1), all 53 bits of a double used.
-constexpr double to_unit(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1p-53; }
+constexpr double to_unit(std::uint64_t bits) {
+    return static_cast<double>(bits >> 11) * 0x1p-53;
+}
 
 // A sequence of random numbers of one key.
 class Random {

@@ -19,7 +19,7 @@ using rays::LightRays;
 using rays::MapLayout;
 
 constexpr std::size_t timed_rays = std::size_t{1} << 18;  // captured on one thread, at least, where there are so many
-constexpr double same_transmittance = 1e-4;
+constexpr double same_transmittance = 1e-3;  // a texture's place is a float: 1e-4 of a texel, and so of its alpha
 
 struct TracedRay {
     Vec3d origin, direction;  // unit length

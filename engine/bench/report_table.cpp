@@ -89,10 +89,10 @@ std::string capture_lines(const LightResult& light, int threads) {
     if (light.agreement) {
         const Agreement& a = *light.agreement;
         text += fmt::format(
-            "; one thread {:.3g} M rays/s, {:.1f} x Embree's all-hits query; of {} rays {} differ in crossings, {} in "
-            "transmittance",
-            a.times.capture_rays_per_second * 1e-6, a.times.ratio, count(a.rays), a.other_crossings,
-            a.other_transmittance);
+            "; one thread {:.3g} M rays/s, {:.1f} x {}; of {} rays {} differ in crossings, {} in transmittance",
+            a.times.capture_rays_per_second * 1e-6, a.times.ratio,
+            light.layout.media ? "the same rays traced one by one" : "Embree's all-hits query", count(a.rays),
+            a.other_crossings, a.other_transmittance);
     }
     return text + "\n";
 }

@@ -13,4 +13,12 @@ Sample summarise(std::vector<double> raw) {
     return sample;
 }
 
+bool any_failed(const Result& result) {
+    for (const VariantResult& variant : result.variants)
+        for (const LightResult& light : variant.lights)
+            for (const Cell& cell : light.cells)
+                if (cell.status == CellStatus::failed) return true;
+    return false;
+}
+
 }  // namespace shadowbench::bench

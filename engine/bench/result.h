@@ -87,7 +87,7 @@ struct AgreementTimes {
 struct Agreement {
     std::uint64_t rays = 0;                 // traced
     std::uint64_t other_crossings = 0;      // rays with another number of surface crossings
-    std::uint64_t other_transmittance = 0;  // rays whose whole transmittance differs by more than 1e-4
+    std::uint64_t other_transmittance = 0;  // rays whose whole transmittance differs by more than 1e-3
     AgreementTimes times;
 };
 
@@ -143,5 +143,8 @@ struct Result {
     RunTimes times;
     std::vector<VariantResult> variants;
 };
+
+// Whether any cell has failed.
+bool any_failed(const Result& result);
 
 }  // namespace shadowbench::bench

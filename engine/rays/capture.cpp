@@ -21,10 +21,10 @@ using base::Vec3f;
 // One object that casts shadows, in view space.
 struct Prepared {
     const scene::Object* object = nullptr;
-    float transmittance[3] = {0, 0, 0};     // of an untextured surface
-    std::vector<Vec3f> points;              // mesh corners, hair points, sphere centres
-    std::vector<std::uint32_t> segments;    // hair: index of each segment's first point
-    std::vector<unsigned char> joined;      // hair: whether the segment continues a strand
+    float transmittance[3] = {0, 0, 0};   // of an untextured surface
+    std::vector<Vec3f> points;            // mesh corners, hair points, sphere centres
+    std::vector<std::uint32_t> segments;  // hair: index of each segment's first point
+    std::vector<unsigned char> joined;    // hair: whether the segment continues a strand
     Bins bins;
     std::unique_ptr<VolumeMarcher> marcher;
 
@@ -101,8 +101,8 @@ RayLine view_line(const LightView& view, double x, double y) {
 }
 RayLine world_line(const LightView& view, double x, double y) {
     const RayLine line = view_line(view, x, y);
-    return {to_world(view, line.origin),
-            view.right * line.direction.x + view.up * line.direction.y + view.forward, line.scale};
+    return {to_world(view, line.origin), view.right * line.direction.x + view.up * line.direction.y + view.forward,
+            line.scale};
 }
 
 template <bool perspective, class Sink>
@@ -145,8 +145,7 @@ private:
                 for (int c = 0; c < 3; ++c) textured[c] = 1.0f - alpha * p.object->opacity[c];
                 return textured;
             };
-            const TriangleSetup setup =
-                set_up_triangle<perspective>(corner(i, 0), corner(i, 1), corner(i, 2));
+            const TriangleSetup setup = set_up_triangle<perspective>(corner(i, 0), corner(i, 1), corner(i, 2));
             project_triangle(setup, box.x_low, box.x_high, box.y_low, box.y_high, grid_, view_.z_near, shade, sink_);
         }
     }
@@ -184,14 +183,13 @@ private:
     void project(const Prepared& p, const scene::Particles& particles) {
         if constexpr (std::is_same_v<Sink, SegmentHits>) {
             for (const std::uint32_t i : p.bins.of(tile_))
-                visit_sphere(p.points[i], particles.radii[i],
-                             [&](std::uint32_t ray, double front, double back, double scale) {
-                                 front = std::max(front, view_.z_near);
-                                 const float f = static_cast<float>(front), b = static_cast<float>(back);
-                                 if (b > f)
-                                     medium(ray, f, b, (back - front) * scale * particles.density[i],
-                                            p.object->extinction);
-                             });
+                visit_sphere(
+                    p.points[i], particles.radii[i], [&](std::uint32_t ray, double front, double back, double scale) {
+                        front = std::max(front, view_.z_near);
+                        const float f = static_cast<float>(front), b = static_cast<float>(back);
+                        if (b > f)
+                            medium(ray, f, b, (back - front) * scale * particles.density[i], p.object->extinction);
+                    });
         }
     }
 
@@ -204,7 +202,8 @@ private:
                     if (!wanted_.empty() && !wanted_[(grid_.ray_row[j] + grid_.ray_column[i]) / samples_]) continue;
                     const RayLine line = world_line(view_, grid_.x[sample], grid_.y[sample]);
                     steps.clear();
-                    p.marcher->march(line.origin, line.direction, line.scale, std::max(view_.z_near, -1e30), 1e30, steps);
+                    p.marcher->march(line.origin, line.direction, line.scale, std::max(view_.z_near, -1e30), 1e30,
+                                     steps);
                     for (const MediumSegment& s : steps)
                         medium(grid_.ray_row[j] + grid_.ray_column[i], s.front, s.back, s.depth, p.object->extinction);
                 }
@@ -236,7 +235,9 @@ void copy_deep_image(const scene::DeepImage& image, LightRays& rays) {
     if (rays.z_back == rays.z_front) rays.z_back.clear();
 }
 
-float outward(double z, float direction) { return std::nextafter(static_cast<float>(z), direction); }
+float outward(double z, float direction) {
+    return std::nextafter(static_cast<float>(z), direction);
+}
 
 }  // namespace
 

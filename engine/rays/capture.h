@@ -34,9 +34,9 @@ public:
     Capture(const Capture&) = delete;
     Capture& operator=(const Capture&) = delete;
 
-    // Thread-safe. The rays depend on the tile alone. Throws Error{bad_input} when a tile's segments do not fit 32 bits.
-    // `wanted`, one a pixel of the tile, names the pixels that are needed (empty: all); rays of the others may lack what
-    // is slow to find.
+    // Thread-safe. The rays depend on the tile alone. Throws Error{bad_input} when a tile's segments do not fit 32
+    // bits. `wanted`, one a pixel of the tile, names the pixels that are needed (empty: all); rays of the others may
+    // lack what is slow to find.
     LightRays tile(int index, std::span<const unsigned char> wanted = {}) const;
 
     std::size_t bytes() const;  // held for all tiles

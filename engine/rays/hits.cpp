@@ -45,8 +45,8 @@ void sort_hits(const SurfaceHits& hits, std::size_t rays, LightRays& tile) {
     keys.resize(hits.hits.size());
     std::vector<std::uint32_t> next(tile.begin.begin(), tile.begin.end() - 1);
     for (const auto& hit : hits.hits)
-        keys[next[hit.ray]++] =
-            static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(hit.z)) << 32 | std::bit_cast<std::uint32_t>(hit.transmittance);
+        keys[next[hit.ray]++] = static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(hit.z)) << 32 |
+                                std::bit_cast<std::uint32_t>(hit.transmittance);
     for (std::size_t r = 0; r < rays; ++r)
         sort_ray(keys.data() + tile.begin[r], keys.data() + tile.begin[r + 1], std::less<>());
     tile.z_front.resize(keys.size());

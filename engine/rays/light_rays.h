@@ -11,13 +11,13 @@ namespace shadowbench::rays {
 
 // The rays of a whole map. Sample cell (i, j), i in [0, width * samples_x), holds one ray.
 struct MapLayout {
-    int width = 1, height = 1;          // pixels
-    int samples_x = 1, samples_y = 1;   // sample cells a pixel
-    int channels = 1;                   // 1 or 3
-    bool media = false;                 // whether any ray may hold a segment with z_front < z_back
-    bool jittered = false;              // samples lie anywhere in their cells, else in the middle
-    std::uint64_t seed = 0;             // of the jitter
-    float z_min = 0.0f, z_max = 1.0f;   // bounds of every depth that occurs
+    int width = 1, height = 1;            // pixels
+    int samples_x = 1, samples_y = 1;     // sample cells a pixel
+    int channels = 1;                     // 1 or 3
+    bool media = false;                   // whether any ray may hold a segment with z_front < z_back
+    bool jittered = false;                // samples lie anywhere in their cells, else in the middle
+    std::uint64_t seed = 0;               // of the jitter
+    float z_min = 0.0f, z_max = 1.0f;     // bounds of every depth that occurs
     int tile_width = 1, tile_height = 1;  // pixels; tiles at the right and top edge may be smaller
 
     int samples() const { return samples_x * samples_y; }
@@ -40,15 +40,15 @@ SamplePosition sample_position(const MapLayout& layout, int i, int j);
 // A surface has z_front == z_back. A medium's segment has constant extinction between its ends. Segments may overlap:
 // they multiply. tau(z) takes the surfaces with z_front < z.
 struct LightRays {
-    int tile = 0;                          // row-major index
-    int x0 = 0, y0 = 0;                    // the tile's first pixel
-    int width = 0, height = 0;             // pixels of this tile
-    int samples = 1;                       // rays a pixel
+    int tile = 0;               // row-major index
+    int x0 = 0, y0 = 0;         // the tile's first pixel
+    int width = 0, height = 0;  // pixels of this tile
+    int samples = 1;            // rays a pixel
     int channels = 1;
-    std::vector<std::uint32_t> begin;      // rays + 1 offsets into the segments
+    std::vector<std::uint32_t> begin;  // rays + 1 offsets into the segments
     std::vector<float> z_front;
-    std::vector<float> z_back;             // empty when the tile holds surfaces only
-    std::vector<float> transmittance;      // channels a segment, in [0, 1]
+    std::vector<float> z_back;         // empty when the tile holds surfaces only
+    std::vector<float> transmittance;  // channels a segment, in [0, 1]
 
     std::size_t rays() const { return begin.empty() ? 0 : begin.size() - 1; }
     std::size_t segments() const { return z_front.size(); }

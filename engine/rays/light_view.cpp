@@ -14,8 +14,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// What the light looks at lies along `forward`, `right` is to its right; the map's y axis leans towards `up`, or towards
-// the world's y axis.
+// What the light looks at lies along `forward`, `right` is to its right; the map's y axis leans towards `up`, or
+// towards the world's y axis.
 void set_frame(LightView& view, const Vec3d& forward, const std::optional<Vec3d>& up) {
     view.forward = forward.normalized();
     Vec3d lean = up ? *up : Vec3d(0, 1, 0);
@@ -83,8 +83,7 @@ LightView directional_view(const scene::Light& light, const base::Box3d& casters
     return view;
 }
 
-LightView spot_view(const scene::Light& light, const base::Box3d& casters, Vec2i resolution,
-                    const std::string& where) {
+LightView spot_view(const scene::Light& light, const base::Box3d& casters, Vec2i resolution, const std::string& where) {
     LightView view;
     view.perspective = true;
     view.resolution = resolution;

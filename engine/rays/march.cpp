@@ -33,7 +33,8 @@ bool clip(const Vec3d& origin, const Vec3d& direction, const Vec3d& lower, const
 }  // namespace
 
 VolumeMarcher::VolumeMarcher(const scene::GridVolume& volume) : volume_(volume) {
-    // Block b holds the interpolation cells whose lower corner index + 1 lies in [8 b, 8 b + 8): indices -1 .. size - 1.
+    // Block b holds the interpolation cells whose lower corner index + 1 lies in [8 b, 8 b + 8): indices -1 .. size
+    // - 1.
     blocks_ = {volume.size.x / block_size + 1, volume.size.y / block_size + 1, volume.size.z / block_size + 1};
     occupied_.assign(static_cast<std::size_t>(blocks_.x) * blocks_.y * blocks_.z, 0);
     std::size_t v = 0;
@@ -116,7 +117,8 @@ void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double sc
         const double next = place(i + 1);
         const double here = density(start + slope * next);
         const float front = static_cast<float>(t_min + t), back = static_cast<float>(t_min + next);
-        if (before + here > 0.0 && back > front) out.push_back({front, back, 0.5 * (before + here) * (next - t) * scale});
+        if (before + here > 0.0 && back > front)
+            out.push_back({front, back, 0.5 * (before + here) * (next - t) * scale});
         before = here;
     }
 }

@@ -12,7 +12,8 @@ struct GridVolume;
 
 namespace shadowbench::rays {
 
-// Optical depth of one unit of extinction over [front, back]: multiply by a channel's extinction for -log of transmittance.
+// Optical depth of one unit of extinction over [front, back]: multiply by a channel's extinction for -log of
+// transmittance.
 struct MediumSegment {
     float front, back;
     double depth;
@@ -23,9 +24,9 @@ class VolumeMarcher {
 public:
     explicit VolumeMarcher(const scene::GridVolume& volume);
 
-    // Marches [t_min, t_max] at regular steps from where the ray enters the box, joins the samples by the trapezoid rule
-    // (Lokovic and Veach 2000, section 3.2) and appends the steps that hold something. Neighbouring steps share their
-    // ends exactly. A step is volume.step of world length; the last one may be shorter.
+    // Marches [t_min, t_max] at regular steps from where the ray enters the box, joins the samples by the trapezoid
+    // rule (Lokovic and Veach 2000, section 3.2) and appends the steps that hold something. Neighbouring steps share
+    // their ends exactly. A step is volume.step of world length; the last one may be shorter.
     void march(const base::Vec3d& origin, const base::Vec3d& direction, double scale, double t_min, double t_max,
                std::vector<MediumSegment>& out) const;
 

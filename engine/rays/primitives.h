@@ -12,8 +12,8 @@ namespace shadowbench::rays {
 // Distances of points to a ray, measured across the ray. `flat` is the point's place minus the ray's at the same depth.
 template <bool perspective>
 struct RayMetric {
-    double sx = 0, sy = 0;        // slope; 0 when orthographic
-    double inverse_length2 = 1;   // 1 / (1 + slope^2)
+    double sx = 0, sy = 0;       // slope; 0 when orthographic
+    double inverse_length2 = 1;  // 1 / (1 + slope^2)
     double px = 0, py = 0;
 
     RayMetric(double x, double y) {
@@ -49,8 +49,9 @@ struct HairSegment {
     bool joined;
 };
 
-// The ribbon faces the ray and has round ends. Writes the depth at which the ray passes its axis. The disc around a joint belongs to the
-// earlier segment: the same arithmetic on the same shared point decides for both, so no ray crosses twice or never.
+// The ribbon faces the ray and has round ends. Writes the depth at which the ray passes its axis. The disc around a
+// joint belongs to the earlier segment: the same arithmetic on the same shared point decides for both, so no ray
+// crosses twice or never.
 template <bool perspective>
 bool cross_hair(const HairSegment& s, const RayMetric<perspective>& ray, double& z) {
     const base::Vec2d a = ray.flat(s.a), b = ray.flat(s.b);

@@ -58,7 +58,8 @@ void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, con
             const std::size_t sample = static_cast<std::size_t>(j) * grid.nx + i;
             const RayMetric<perspective> ray(grid.x[sample], grid.y[sample]);
             double z;
-            if (cross_hair(s, ray, z) && z > z_near) sink.surface(grid.ray_row[j] + grid.ray_column[i], z, transmittance);
+            if (cross_hair(s, ray, z) && z > z_near)
+                sink.surface(grid.ray_row[j] + grid.ray_column[i], z, transmittance);
         }
     }
 }

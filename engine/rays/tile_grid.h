@@ -10,8 +10,8 @@
 namespace shadowbench::rays {
 
 struct TileGrid {
-    int i0 = 0, j0 = 0;  // the tile's first sample cell in the map
-    int nx = 0, ny = 0;  // sample cells
+    int i0 = 0, j0 = 0;                     // the tile's first sample cell in the map
+    int nx = 0, ny = 0;                     // sample cells
     double per_cell_x = 1, per_cell_y = 1;  // cells per length on the view plane
     double plane_x = 0, plane_y = 0;        // view-plane place of the tile's corner
     // Row after row: view-plane position of each sample (world length, or slope in perspective), and the tile's ray

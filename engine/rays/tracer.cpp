@@ -33,7 +33,9 @@ struct Query : RTCIntersectContext {
     std::vector<TracedSegment>* out;
 };
 
-double length_of(const Query& q) { return q.direction.length(); }
+double length_of(const Query& q) {
+    return q.direction.length();
+}
 
 // Perpendicular distance test at a joint, and the depth of a strand's axis: the ray's closest approach, in double.
 bool hair_crossing(const Traced& traced, const scene::Hair& hair, unsigned segment, const Query& q, double& t) {
@@ -58,8 +60,8 @@ bool hair_crossing(const Traced& traced, const scene::Hair& hair, unsigned segme
 Vec3f opacity_at(const scene::Object& object, const scene::Mesh& mesh, unsigned triangle, double u, double v) {
     if (!mesh.alpha) return object.opacity;
     const base::Vec2f* uv = &mesh.corner_uv[3 * static_cast<std::size_t>(triangle)];
-    const base::Vec2f at = uv[0] * static_cast<float>(1.0 - u - v) + uv[1] * static_cast<float>(u) +
-                           uv[2] * static_cast<float>(v);
+    const base::Vec2f at =
+        uv[0] * static_cast<float>(1.0 - u - v) + uv[1] * static_cast<float>(u) + uv[2] * static_cast<float>(v);
     return object.opacity * scene::sample(*mesh.alpha, at.x, at.y);
 }
 
@@ -183,9 +185,11 @@ void Tracer::State::add(const scene::Object& object) {
     auto traced = std::make_unique<Traced>(Traced{&object, {}, {}});
     if (const auto* mesh = std::get_if<scene::Mesh>(&object.shape)) {
         RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* points = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh->positions.size());
+        void* points =
+            rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh->positions.size());
         std::copy(mesh->positions.begin(), mesh->positions.end(), static_cast<Vec3f*>(points));
-        void* index = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh->triangles.size());
+        void* index =
+            rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh->triangles.size());
         std::copy(mesh->triangles.begin(), mesh->triangles.end(), static_cast<base::Vec3i*>(index));
         rtcSetGeometryIntersectFilterFunction(g, collect);
         attach(g, std::move(traced));

@@ -22,7 +22,8 @@ struct CellGrid {
     // Cell of a map position in pixels; false outside the map.
     bool find(float px, float py, int& x, int& y) const {
         const float fx = px * per_pixel_x, fy = py * per_pixel_y;
-        if (!(fx >= 0.0f && fy >= 0.0f && fx < static_cast<float>(width) && fy < static_cast<float>(height))) return false;
+        if (!(fx >= 0.0f && fy >= 0.0f && fx < static_cast<float>(width) && fy < static_cast<float>(height)))
+            return false;
         x = static_cast<int>(fx);
         y = static_cast<int>(fy);
         return true;
@@ -37,10 +38,16 @@ inline CellGrid make_cells(const rays::MapLayout& layout, Cells cells) {
 }
 
 // The parameter that chooses between Cells::sample and Cells::centre, for techniques whose functions are of one ray.
-inline const Parameter cells_parameter{"cells", ParameterKind::choice,
-                                       "one stored function a sample (the map is as much larger), or one a pixel, of the "
-                                       "ray in the middle of the pixel",
-                                       0, 0, 0, "sample", {"sample", "centre"}};
+inline const Parameter cells_parameter{
+    "cells",
+    ParameterKind::choice,
+    "one stored function a sample (the map is as much larger), or one a pixel, of the "
+    "ray in the middle of the pixel",
+    0,
+    0,
+    0,
+    "sample",
+    {"sample", "centre"}};
 inline Cells read_cells(const ParameterValues& values) {
     return values.word("cells") == "sample" ? Cells::sample : Cells::centre;
 }

@@ -13,18 +13,22 @@ namespace {
 
 using nlohmann::json;
 
-bool takes_numbers(const Parameter& p) { return p.kind != ParameterKind::choice; }
+bool takes_numbers(const Parameter& p) {
+    return p.kind != ParameterKind::choice;
+}
 bool takes_words(const Parameter& p) {
     return p.kind == ParameterKind::choice || p.kind == ParameterKind::number_or_word;
 }
-bool standard_is_word(const Parameter& p) { return p.standard_word[0] != '\0'; }
+bool standard_is_word(const Parameter& p) {
+    return p.standard_word[0] != '\0';
+}
 
 // "a number from 0 to 1 or one of "noise""
 std::string expectation(const Parameter& p) {
     std::string text;
     if (takes_numbers(p))
-        text = fmt::format("{} from {:g} to {:g}", p.kind == ParameterKind::integer ? "a whole number" : "a number", p.min,
-                           p.max);
+        text = fmt::format("{} from {:g} to {:g}", p.kind == ParameterKind::integer ? "a whole number" : "a number",
+                           p.min, p.max);
     if (takes_words(p)) {
         if (!text.empty()) text += " or ";
         for (std::size_t i = 0; i < p.words.size(); ++i) text += fmt::format("{}\"{}\"", i ? ", " : "", p.words[i]);
@@ -53,8 +57,12 @@ ParameterValues::Value standard(const Parameter& p) {
 
 }  // namespace
 
-double ParameterValues::number(std::string_view name) const { return std::get<double>(values.find(name)->second); }
-int ParameterValues::integer(std::string_view name) const { return static_cast<int>(number(name)); }
+double ParameterValues::number(std::string_view name) const {
+    return std::get<double>(values.find(name)->second);
+}
+int ParameterValues::integer(std::string_view name) const {
+    return static_cast<int>(number(name));
+}
 const std::string& ParameterValues::word(std::string_view name) const {
     return std::get<std::string>(values.find(name)->second);
 }
@@ -67,7 +75,8 @@ ParameterValues read_parameters(std::span<const Parameter> declared, const json&
     for (const Parameter& p : declared) result.values.emplace(p.name, standard(p));
     for (const auto& [key, value] : object.items()) {
         if (key == "type") continue;
-        const auto p = std::find_if(declared.begin(), declared.end(), [&](const Parameter& d) { return key == d.name; });
+        const auto p =
+            std::find_if(declared.begin(), declared.end(), [&](const Parameter& d) { return key == d.name; });
         if (p == declared.end()) {
             std::string names;
             for (const Parameter& d : declared) names += fmt::format("{}{}", names.empty() ? "" : ", ", d.name);
@@ -82,25 +91,27 @@ ParameterValues read_parameters(std::span<const Parameter> declared, const json&
 
 json to_json(const ParameterValues& values) {
     json object = json::object();
-    for (const auto& [name, value] : values.values) std::visit([&](const auto& v) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>) {
-            if (v == std::floor(v) && std::abs(v) < 1e15)
-                object[name] = static_cast<long long>(v);
-            else
-                object[name] = v;
-        } else {
-            object[name] = v;
-        }
-    }, value);
+    for (const auto& [name, value] : values.values)
+        std::visit(
+            [&](const auto& v) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>) {
+                    if (v == std::floor(v) && std::abs(v) < 1e15)
+                        object[name] = static_cast<long long>(v);
+                    else
+                        object[name] = v;
+                } else {
+                    object[name] = v;
+                }
+            },
+            value);
     return object;
 }
 
 json parameter_schema(const char* id, std::span<const Parameter> declared) {
     json properties = {{"type", {{"const", id}}}};
     for (const Parameter& p : declared) {
-        json number = {{"type", p.kind == ParameterKind::integer ? "integer" : "number"},
-                       {"minimum", p.min},
-                       {"maximum", p.max}};
+        json number = {
+            {"type", p.kind == ParameterKind::integer ? "integer" : "number"}, {"minimum", p.min}, {"maximum", p.max}};
         json entry;
         if (!takes_words(p)) {
             entry = number;

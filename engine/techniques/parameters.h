@@ -19,9 +19,9 @@ struct Parameter {
     const char* name;
     ParameterKind kind;
     const char* doc;
-    double standard = 0.0;              // default; of choice and word kinds when `standard_word` is empty
-    double min = 0.0, max = 0.0;        // range of numbers, inclusive
-    const char* standard_word = "";     // default word
+    double standard = 0.0;                // default; of choice and word kinds when `standard_word` is empty
+    double min = 0.0, max = 0.0;          // range of numbers, inclusive
+    const char* standard_word = "";       // default word
     std::vector<const char*> words = {};  // choice: the values there are; number_or_word: the words there are
 };
 
@@ -30,10 +30,10 @@ class ParameterValues {
 public:
     using Value = std::variant<double, std::string>;
 
-    double number(std::string_view name) const;              // number and integer kinds
+    double number(std::string_view name) const;  // number and integer kinds
     int integer(std::string_view name) const;
-    const std::string& word(std::string_view name) const;    // choice kind
-    bool is_word(std::string_view name) const;               // number_or_word kind
+    const std::string& word(std::string_view name) const;  // choice kind
+    bool is_word(std::string_view name) const;             // number_or_word kind
 
     std::map<std::string, Value, std::less<>> values;
 };

@@ -22,9 +22,9 @@ namespace shadowbench::techniques {
 
 // "How much light reaches light-space point (x, y, z), over a footprint of `width` map pixels?"
 struct Query {
-    float x, y;    // map pixels
-    float z;       // planar depth
-    float width;   // of the filter, map pixels, > 0
+    float x, y;   // map pixels
+    float z;      // planar depth
+    float width;  // of the filter, map pixels, > 0
 };
 
 // Nodes of the stored functions. A cell is one stored function: a pixel, or one sample of a pixel.
@@ -73,7 +73,7 @@ public:
     // lookup time reads, and nothing else. Techniques without a map append nothing.
     virtual void touched(const Query& query, std::vector<const void*>& lines) const = 0;
 
-    virtual std::size_t bytes() const = 0;         // held by the finished map
+    virtual std::size_t bytes() const = 0;          // held by the finished map
     virtual std::size_t working_bytes() const = 0;  // held at most while building, above the rays given
     virtual NodeStats nodes() const = 0;
 

@@ -28,7 +28,8 @@ struct CurveArguments {
     int repetitions = 7;
 };
 
-void run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
+// Whether every technique kept its promises.
+bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
 void validate_command(const ScenarioArguments& arguments, std::ostream& out);
 void list_techniques(std::ostream& out);
 void list_scenarios(std::ostream& out);

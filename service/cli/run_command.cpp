@@ -45,7 +45,7 @@ fs::path result_folder(const RunArguments& arguments, const nlohmann::json& docu
 
 }  // namespace
 
-void run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
+bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
     const Job job = read_job(arguments);
     const fs::path folder = result_folder(arguments, job.document);
     bench::check_writable(folder);
@@ -58,6 +58,7 @@ void run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
     bar.reset();
     bench::write_result(folder, result);
     out << bench::to_table(result) << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
+    return !bench::any_failed(result);
 }
 
 void validate_command(const ScenarioArguments& arguments, std::ostream& out) {

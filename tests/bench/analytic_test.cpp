@@ -18,7 +18,8 @@ using techniques::testing::build;
 using techniques::testing::slab;
 
 // Area of the disc x^2 + y^2 <= r^2 inside [x0, x1] x [y0, y1]: between the places where the circle meets the box each
-// boundary of the region is a constant or the circle, whose integral is (x s + r^2 asin(x / r)) / 2, s = sqrt(r^2 - x^2).
+// boundary of the region is a constant or the circle, whose integral is (x s + r^2 asin(x / r)) / 2, s = sqrt(r^2 -
+// x^2).
 double disc_in_box(double r, double x0, double x1, double y0, double y1) {
     const auto s = [&](double x) { return std::sqrt(std::max(r * r - x * x, 0.0)); };
     const auto circle = [&](double x) { return 0.5 * (x * s(x) + r * r * std::asin(std::clamp(x / r, -1.0, 1.0))); };
@@ -67,7 +68,8 @@ TEST(Analytic, TheEdgeOfAnOpaqueDiscIsFilteredToItsCoverage) {
     for (int i = 0; i < 300; ++i) {
         base::Random random(i);
         const double around = random.uniform(0, 6.2831853), away = 16 + random.uniform(-3, 3) - 16 + radius * 16;
-        const Query q{static_cast<float>(16 + away * std::cos(around)), static_cast<float>(16 + away * std::sin(around)), 5.0f,
+        const Query q{static_cast<float>(16 + away * std::cos(around)),
+                      static_cast<float>(16 + away * std::sin(around)), 5.0f,
                       static_cast<float>(random.uniform(0.5, 4))};
         const double h = q.width / 32.0, x = q.x / 16.0 - 1, y = q.y / 16.0 - 1;  // map pixels to world
         queries.push_back(q);
@@ -86,8 +88,9 @@ TEST(Analytic, TheEdgeOfAnOpaqueDiscIsFilteredToItsCoverage) {
     // Shadow rays, whose number gives their own worst standard error.
     const auto traced = build(techniques::find("ray_traced", ""), scene, rays::testing::directional(),
                               rays::testing::rays(resolution, 1), R"({"samples": 400})");
-    const auto filtered = build(techniques::find("pcf", ""), scene, rays::testing::directional(),
-                                rays::testing::rays(resolution, 64), R"({"num_samples": 400, "res_factor": 1, "min_size": 0})");
+    const auto filtered =
+        build(techniques::find("pcf", ""), scene, rays::testing::directional(), rays::testing::rays(resolution, 64),
+              R"({"num_samples": 400, "res_factor": 1, "min_size": 0})");
     const auto exact = build(techniques::find("uncompressed", ""), scene, rays::testing::directional(), settings);
     for (std::size_t i = 0; i < queries.size(); ++i) {
         const double sigma = 3 * std::sqrt(expected[i] * (1 - expected[i]) / 400) + 2e-3;
@@ -104,7 +107,8 @@ TEST(Analytic, LayeredSlabsMultiply) {
         float extinction;
         double front, back;
     };
-    const std::array<Layer, 3> layers = {{{0.5f, 0.9, 0.5}, {4.0f, 0.4, 0.1}, {1.0f, 0.2, -0.8}}};  // the last two overlap
+    const std::array<Layer, 3> layers = {
+        {{0.5f, 0.9, 0.5}, {4.0f, 0.4, 0.1}, {1.0f, 0.2, -0.8}}};  // the last two overlap
     scene::Scene scene;
     for (const Layer& l : layers) scene.objects.push_back(slab(l.extinction, l.front, l.back, 0.01));
     for (const auto& light : {rays::testing::directional(), rays::testing::spot({0, 0, 4}, 20)}) {
@@ -137,8 +141,8 @@ TEST(Analytic, LayeredSlabsMultiply) {
 }
 
 TEST(Analytic, RandomOpaqueLayersLetThroughWhatChanceSays) {
-    // Each of n layers covers each cell of a 24 x 24 grid with probability p, on its own: behind k layers (1 - p)^k of the
-    // light is left, give or take the standard deviation of 576 coins.
+    // Each of n layers covers each cell of a 24 x 24 grid with probability p, on its own: behind k layers (1 - p)^k of
+    // the light is left, give or take the standard deviation of 576 coins.
     constexpr int n = 6, cells = 24;
     constexpr double p = 0.3;
     base::Random random(12);
@@ -148,11 +152,13 @@ TEST(Analytic, RandomOpaqueLayersLetThroughWhatChanceSays) {
         for (int y = 0; y < cells; ++y)
             for (int x = 0; x < cells; ++x) {
                 if (random.uniform() >= p) continue;
-                const float size = 2.0f / cells, x0 = -1 + size * static_cast<float>(x), y0 = -1 + size * static_cast<float>(y);
+                const float size = 2.0f / cells, x0 = -1 + size * static_cast<float>(x),
+                            y0 = -1 + size * static_cast<float>(y);
                 const float z = -0.1f * static_cast<float>(layer);
                 const int first = static_cast<int>(mesh.positions.size());
                 for (const auto& [i, j] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
-                    mesh.positions.emplace_back(x0 + size * static_cast<float>(i), y0 + size * static_cast<float>(j), z);
+                    mesh.positions.emplace_back(x0 + size * static_cast<float>(i), y0 + size * static_cast<float>(j),
+                                                z);
                 mesh.triangles.emplace_back(first, first + 1, first + 2);
                 mesh.triangles.emplace_back(first, first + 2, first + 3);
             }
@@ -170,7 +176,8 @@ TEST(Analytic, RandomOpaqueLayersLetThroughWhatChanceSays) {
             for (int y = 0; y < cells; ++y)
                 for (int x = 0; x < cells; ++x)
                     sum += b.lookup(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, static_cast<float>(z));
-            EXPECT_NEAR(sum / (cells * cells), expected, 3 * std::sqrt(expected * (1 - expected) / (cells * cells))) << id << k;
+            EXPECT_NEAR(sum / (cells * cells), expected, 3 * std::sqrt(expected * (1 - expected) / (cells * cells)))
+                << id << k;
         }
     }
 }

@@ -40,10 +40,12 @@ const std::vector<Include>& includes() {
     return all;
 }
 
-bool starts_with(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+bool starts_with(const std::string& text, const std::string& start) {
+    return text.rfind(start, 0) == 0;
+}
 
-// "engine/techniques/deep/deep.cpp" -> "techniques/deep"; "engine/rays/capture.cpp" -> "rays"; "service/..." -> "service".
-// Files directly in engine/techniques are the contract ("techniques"), but for the registry.
+// "engine/techniques/deep/deep.cpp" -> "techniques/deep"; "engine/rays/capture.cpp" -> "rays"; "service/..." ->
+// "service". Files directly in engine/techniques are the contract ("techniques"), but for the registry.
 std::string layer_of_file(const std::string& file) {
     if (file == "engine/techniques/registry.cpp") return "registry";
     fs::path path = file;
@@ -58,7 +60,9 @@ std::string layer_of_include(const std::string& path) {
     return parent.generic_string();
 }
 
-TEST(Layers, TheSourcesAreFound) { EXPECT_GT(includes().size(), 200u); }
+TEST(Layers, TheSourcesAreFound) {
+    EXPECT_GT(includes().size(), 200u);
+}
 
 TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
     const std::map<std::string, std::set<std::string>> allowed = {
@@ -99,8 +103,10 @@ TEST(Layers, OnlyTheHttpFrontKnowsSockets) {
 TEST(Layers, HeavyLibrariesStayOutOfHeaders) {
     for (const Include& include : includes()) {
         if (!include.file.ends_with(".h") || !include.system) continue;
-        if (include.file == "engine/scene/read_image.h") continue;  // what the two readers of images share, and nobody else
-        for (const char* heavy : {"nlohmann/json.hpp", "valijson", "CLI/", "openvdb", "OpenImageIO", "embree", "fmt/", "tbb/"})
+        if (include.file == "engine/scene/read_image.h")
+            continue;  // what the two readers of images share, and nobody else
+        for (const char* heavy :
+             {"nlohmann/json.hpp", "valijson", "CLI/", "openvdb", "OpenImageIO", "embree", "fmt/", "tbb/"})
             EXPECT_EQ(include.path.find(heavy), std::string::npos) << include.file << " includes " << include.path;
     }
 }
@@ -110,7 +116,8 @@ TEST(Layers, TheSlowestHeadersAreCompiledOnce) {
     for (const Include& include : includes())
         for (const char* heavy : {"valijson", "CLI/", "openvdb", "tiny_obj_loader"})
             if (include.system && starts_with(include.path, heavy)) users[heavy].insert(include.file);
-    for (const auto& [library, files] : users) EXPECT_EQ(files.size(), 1u) << library << " is included by " << *files.begin();
+    for (const auto& [library, files] : users)
+        EXPECT_EQ(files.size(), 1u) << library << " is included by " << *files.begin();
 }
 
 }  // namespace

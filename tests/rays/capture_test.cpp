@@ -42,7 +42,8 @@ scene::Object crumpled_sheet(int cells) {
 
 int rays_without_one_crossing(const Captured& c) {
     int wrong = 0;
-    for_each_ray(c, [&](const LightRays& t, std::size_t ray, int, int) { wrong += t.begin[ray + 1] - t.begin[ray] != 1; });
+    for_each_ray(c,
+                 [&](const LightRays& t, std::size_t ray, int, int) { wrong += t.begin[ray + 1] - t.begin[ray] != 1; });
     return wrong;
 }
 
@@ -54,13 +55,14 @@ TEST(Capture, ACrumpledSheetIsCrossedExactlyOnceByEveryRay) {
 }
 
 TEST(Capture, SamplesExactlyOnSharedEdgesAndVerticesBelongToOneTriangle) {
-    // Vertices at multiples of 1/32 and regular samples at odd multiples of 1/32: edges run through samples, and with an
-    // even grid shifted by half a cell so do vertices.
+    // Vertices at multiples of 1/32 and regular samples at odd multiples of 1/32: edges run through samples, and with
+    // an even grid shifted by half a cell so do vertices.
     scene::Mesh mesh;
     const int n = 32;
     for (int y = 0; y <= n; ++y)
         for (int x = 0; x <= n; ++x)
-            mesh.positions.emplace_back(static_cast<float>(x - 16) / 16 + 1.0f / 32, static_cast<float>(y - 16) / 16 + 1.0f / 32, 0.0f);
+            mesh.positions.emplace_back(static_cast<float>(x - 16) / 16 + 1.0f / 32,
+                                        static_cast<float>(y - 16) / 16 + 1.0f / 32, 0.0f);
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
             const int a = y * (n + 1) + x;
@@ -108,7 +110,8 @@ TEST(Capture, DepthIsPlanarForBothKindsOfLight) {
 }
 
 TEST(Capture, AStrandIsCrossedOnceAtItsJoints) {
-    // A straight strand of many pieces, thicker than they are long: pieces that overlap would be counted again and again.
+    // A straight strand of many pieces, thicker than they are long: pieces that overlap would be counted again and
+    // again.
     scene::Hair hair;
     for (int i = 0; i <= 40; ++i) {
         hair.points.emplace_back(-0.5f + 0.025f * static_cast<float>(i), 0.003f * static_cast<float>(i), 0.0f);
@@ -145,8 +148,8 @@ TEST(Capture, AgreesWithEmbree) {
     scene.objects.back().opacity = base::Vec3f(0.25f);
     scene.objects.back().shape = scene::Spheres{{{0.2f, 0.1f, 0.3f}, {-0.4f, 0.2f, -0.2f}}, {0.3f, 0.2f}};
     scene.objects.emplace_back();
-    scene.objects.back().shape =
-        scene::Particles{{{0.1f, 0.3f, 0.1f}, {-0.2f, -0.4f, 0.2f}, {0, 0, 0}}, {0.25f, 0.3f, 0.5f}, {2.0f, 1.0f, 0.5f}};
+    scene.objects.back().shape = scene::Particles{
+        {{0.1f, 0.3f, 0.1f}, {-0.2f, -0.4f, 0.2f}, {0, 0, 0}}, {0.25f, 0.3f, 0.5f}, {2.0f, 1.0f, 0.5f}};
     const Tracer tracer(scene, true);
     std::vector<TracedSegment> traced;
     for (const auto& light : {testing::directional(), testing::spot({0.5, 0.4, 2}, 50)}) {
@@ -263,7 +266,8 @@ TEST(Capture, AUniformSlabFollowsTheExponentialAtEveryDepth) {
             const SamplePosition p = sample_position(c.layout, i, j);
             const double scale = length_per_depth(c.view, p.x, p.y);
             for (const double depth : {0.0, 0.123, 0.5, 0.77, 1.0, 2.0})
-                EXPECT_NEAR(transmittance(t, ray, 0, front + depth), std::exp(-3.0 * scale * std::min(depth, 1.0)), 2e-6);
+                EXPECT_NEAR(transmittance(t, ray, 0, front + depth), std::exp(-3.0 * scale * std::min(depth, 1.0)),
+                            2e-6);
         });
     }
 }

@@ -59,19 +59,22 @@ TEST(March, SkippingEmptyBlocksLosesNothing) {
     scene::GridVolume g = grid({40, 37, 51}, 0.01);
     base::Random random(1);
     for (int i = 0; i < 25; ++i)
-        at(g, static_cast<int>(random.below(40)), static_cast<int>(random.below(37)), static_cast<int>(random.below(51))) =
-            static_cast<float>(random.uniform(1, 3));
-    for (const auto& [x, y, z] : {std::tuple{0, 0, 0}, {39, 36, 50}, {7, 8, 15}, {8, 7, 16}, {20, 36, 23}}) at(g, x, y, z) = 2;
+        at(g, static_cast<int>(random.below(40)), static_cast<int>(random.below(37)),
+           static_cast<int>(random.below(51))) = static_cast<float>(random.uniform(1, 3));
+    for (const auto& [x, y, z] : {std::tuple{0, 0, 0}, {39, 36, 50}, {7, 8, 15}, {8, 7, 16}, {20, 36, 23}})
+        at(g, x, y, z) = 2;
     const VolumeMarcher marcher(g);
     int hit = 0;
     for (int i = 0; i < 60; ++i) {
         // Through a voxel that holds something.
         std::size_t v = random.below(g.density.size());
         while (g.density[v] == 0.0f) v = (v + 1) % g.density.size();
-        const base::Vec3d voxel(static_cast<double>(v % 40), static_cast<double>(v / 40 % 37), static_cast<double>(v / 40 / 37));
+        const base::Vec3d voxel(static_cast<double>(v % 40), static_cast<double>(v / 40 % 37),
+                                static_cast<double>(v / 40 / 37));
         base::Vec3d target;
         for (int a = 0; a < 3; ++a)
-            target[a] = g.lower[a] + (voxel[a] + 0.5 + random.uniform(-0.4, 0.4)) / g.size[a] * (g.upper[a] - g.lower[a]);
+            target[a] =
+                g.lower[a] + (voxel[a] + 0.5 + random.uniform(-0.4, 0.4)) / g.size[a] * (g.upper[a] - g.lower[a]);
         base::Vec3d d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
         if (i % 6 < 3) {
             d = base::Vec3d(0, 0, 0);

@@ -33,7 +33,9 @@ std::vector<std::pair<float, float>> run(int capacity, const std::vector<Segment
     return nodes(stream);
 }
 
-TEST(AvsmStream, StartsClear) { EXPECT_THAT(run(4, {}), ElementsAre(Pair(far_plane, 1.0f))); }
+TEST(AvsmStream, StartsClear) {
+    EXPECT_THAT(run(4, {}), ElementsAre(Pair(far_plane, 1.0f)));
+}
 
 TEST(AvsmStream, ASurfaceIsAStepOfTwoNodes) {
     EXPECT_THAT(run(4, {{5, 5, 0.25f}}), ElementsAre(Pair(5.0f, 1.0f), Pair(5.0f, 0.25f), Pair(far_plane, 0.25f)));
@@ -56,8 +58,8 @@ TEST(AvsmStream, TheOrderOfSegmentsDoesNotMatterWhileEverythingFits) {
         curves::Curve a, b;
         for (const auto& [z, t] : expected) a.push_back({z, t});
         for (const auto& [z, t] : found) b.push_back({z, t});
-        // Between nodes the streams join by lines what is exponential, at nodes that differ with the order: a chord over
-        // a transmittance of 0.8 is at most 0.0062 off.
+        // Between nodes the streams join by lines what is exponential, at nodes that differ with the order: a chord
+        // over a transmittance of 0.8 is at most 0.0062 off.
         for (const float z : {0.5f, 1.0f, 1.999f, 2.0f, 3.0f, 3.0001f, 4.0f, 5.0f, 6.0f, 6.1f, 50.0f})
             EXPECT_NEAR(curves::evaluate(a, z), curves::evaluate(b, z), 0.0062) << z;
         EXPECT_NEAR(curves::evaluate(b, 50.0f), 0.9 * 0.5 * 0.8 * 0.5 * 0.1, 1e-7) << "what passes in all is exact";
@@ -141,8 +143,9 @@ TEST(Avsm, MoreNodesLeaveLessError) {
     for (const bool media : {false, true}) {
         double before = std::numeric_limits<double>::infinity();
         for (const int nodes : {2, 4, 8, 16, 64}) {
-            const auto b = testing::build(find("avsm", ""), testing::hairy_scene(media), rays::testing::directional(),
-                                          rays::testing::rays(24, 4), ("{\"nodes\": " + std::to_string(nodes) + "}").c_str());
+            const auto b =
+                testing::build(find("avsm", ""), testing::hairy_scene(media), rays::testing::directional(),
+                               rays::testing::rays(24, 4), ("{\"nodes\": " + std::to_string(nodes) + "}").c_str());
             const double error = mean_curve_error(b);
             if (nodes <= 16)
                 EXPECT_LT(error, before) << nodes;
@@ -166,15 +169,17 @@ TEST(Avsm, BilinearLookupsBlendFourTexels) {
             return point.lookup(static_cast<float>(std::min(i + dx, 15)) + 0.5f,
                                 static_cast<float>(std::min(j + dy, 15)) + 0.5f, 1.0f);
         };
-        const float expected = (1 - wy) * ((1 - wx) * at(0, 0) + wx * at(1, 0)) + wy * ((1 - wx) * at(0, 1) + wx * at(1, 1));
+        const float expected =
+            (1 - wy) * ((1 - wx) * at(0, 0) + wx * at(1, 0)) + wy * ((1 - wx) * at(0, 1) + wx * at(1, 1));
         EXPECT_NEAR(b.lookup(x, y, 1.0f), expected, 1e-6f);
     }
 }
 
 TEST(Avsm, BytesAreEightANodeWhateverTheScene) {
     for (const int nodes : {2, 4, 8, 12, 64}) {
-        const auto b = testing::build(find("avsm", ""), testing::hairy_scene(false), rays::testing::directional(),
-                                      rays::testing::rays(16, 4), ("{\"nodes\": " + std::to_string(nodes) + "}").c_str());
+        const auto b =
+            testing::build(find("avsm", ""), testing::hairy_scene(false), rays::testing::directional(),
+                           rays::testing::rays(16, 4), ("{\"nodes\": " + std::to_string(nodes) + "}").c_str());
         EXPECT_EQ(b.map->bytes(), 16u * 16 * 4 * nodes * 8) << "table 1 counts 8 bytes a node";
     }
 }

@@ -62,8 +62,8 @@ inline scene::Scene hairy_scene(bool media, float opacity = 0.5f) {
     scene.objects.back().opacity = base::Vec3f(opacity);
     if (media) {
         scene.objects.emplace_back();
-        scene.objects.back().shape =
-            scene::Particles{{{0.1f, 0.3f, 0.1f}, {-0.2f, -0.4f, 0.2f}, {0, 0, 0}}, {0.25f, 0.3f, 0.5f}, {3.0f, 1.0f, 0.5f}};
+        scene.objects.back().shape = scene::Particles{
+            {{0.1f, 0.3f, 0.1f}, {-0.2f, -0.4f, 0.2f}, {0, 0, 0}}, {0.25f, 0.3f, 0.5f}, {3.0f, 1.0f, 0.5f}};
     }
     return scene;
 }

@@ -36,7 +36,8 @@ scene::Scene wall(float opacity, int count = 1) {
 curves::Curve reference(const Built& b, int x, int y, double linearisation) {
     const rays::MapLayout& layout = b.rays.layout;
     const Cells cells = b.map->cells();
-    const int px = cells == Cells::sample ? x / layout.samples_x : x, py = cells == Cells::sample ? y / layout.samples_y : y;
+    const int px = cells == Cells::sample ? x / layout.samples_x : x,
+              py = cells == Cells::sample ? y / layout.samples_y : y;
     const rays::LightRays& tile = b.rays.tiles[(py / layout.tile_height) * layout.tiles_x() + px / layout.tile_width];
     std::size_t first = (static_cast<std::size_t>(py - tile.y0) * tile.width + (px - tile.x0)) * tile.samples;
     std::size_t count = tile.samples;
@@ -103,7 +104,8 @@ TEST_P(Conformance, AUniformSlabFollowsItsExponential) {
     const double promised = row().error_bound(b.values, b.rays.layout);
     const double allowed = (std::isfinite(promised) ? promised : 0.02) + 1e-5;
     for (double d = -0.1; d < 1.5; d += 0.07)
-        EXPECT_NEAR(b.lookup(8.5f, 8.5f, static_cast<float>(front + d)), std::exp(-1.5 * std::clamp(d, 0.0, 1.0)), allowed);
+        EXPECT_NEAR(b.lookup(8.5f, 8.5f, static_cast<float>(front + d)), std::exp(-1.5 * std::clamp(d, 0.0, 1.0)),
+                    allowed);
 }
 
 TEST_P(Conformance, StoredFunctionsKeepThePromises) {
@@ -189,8 +191,10 @@ TEST_P(Conformance, LinesTouchedLieInTheMap) {
     for (int i = 0; i < 200; ++i) {
         base::Random random(i);
         lines.clear();
-        b.map->touched({static_cast<float>(random.uniform(0, 32)), static_cast<float>(random.uniform(0, 32)), 1.0f, 1.0f}, lines);
-        // Reading them must be allowed: the sanitizers know. A line may begin before the memory that it holds a part of.
+        b.map->touched(
+            {static_cast<float>(random.uniform(0, 32)), static_cast<float>(random.uniform(0, 32)), 1.0f, 1.0f}, lines);
+        // Reading them must be allowed: the sanitizers know. A line may begin before the memory that it holds a part
+        // of.
         for (const void* line : lines) sum += reinterpret_cast<std::uintptr_t>(line) % 64;
         found += lines.size();
     }
@@ -207,8 +211,7 @@ TEST_P(Conformance, TheRowDescribesItself) {
     for (const Parameter& p : row().parameters) EXPECT_GT(std::string(p.doc).size(), 10u) << p.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Registry, Conformance,
-                         ::testing::ValuesIn([] {
+INSTANTIATE_TEST_SUITE_P(Registry, Conformance, ::testing::ValuesIn([] {
                              std::vector<const Technique*> rows;
                              for (const Technique& row : all()) rows.push_back(&row);
                              return rows;

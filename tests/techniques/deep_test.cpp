@@ -12,7 +12,9 @@ namespace {
 
 using testing::build;
 
-const Technique& deep() { return find("deep", ""); }
+const Technique& deep() {
+    return find("deep", "");
+}
 
 // Largest exact distance between stored functions and the uncompressed functions of the same rays.
 double curve_error(const testing::Built& b) {
@@ -31,8 +33,9 @@ double curve_error(const testing::Built& b) {
 TEST(Deep, KeepsItsToleranceInEveryPixelAndUsesIt) {
     for (const bool media : {false, true})
         for (const double tolerance : {0.0, 0.001, 0.02, 0.1}) {
-            const auto b = build(deep(), testing::hairy_scene(media), rays::testing::directional(), rays::testing::rays(24, 16),
-                                 ("{\"tolerance\": " + std::to_string(tolerance) + "}").c_str());
+            const auto b =
+                build(deep(), testing::hairy_scene(media), rays::testing::directional(), rays::testing::rays(24, 16),
+                      ("{\"tolerance\": " + std::to_string(tolerance) + "}").c_str());
             const double error = curve_error(b);
             EXPECT_LE(error, std::max(tolerance, media ? 1e-6 : 0.0) + 1.1e-6) << "media " << media;
             EXPECT_GE(error, 0.5 * tolerance) << "a tolerance that is not used stores too much";
@@ -73,10 +76,13 @@ TEST(Deep, AWideLookupAveragesThePixelsOfItsFootprint) {
 }
 
 TEST(Deep, TheTentKernelIsBilinearAtAWidthOfOnePixel) {
-    const auto b = build(deep(), testing::hairy_scene(true), rays::testing::directional(), rays::testing::rays(16, 16), R"({"kernel": "tent"})");
-    const auto box = build(deep(), testing::hairy_scene(true), rays::testing::directional(), rays::testing::rays(16, 16));
+    const auto b = build(deep(), testing::hairy_scene(true), rays::testing::directional(), rays::testing::rays(16, 16),
+                         R"({"kernel": "tent"})");
+    const auto box =
+        build(deep(), testing::hairy_scene(true), rays::testing::directional(), rays::testing::rays(16, 16));
     const auto at = [&](float x, float y) { return box.lookup(x, y, 1.0f); };
-    const float expected = 0.75f * (0.75f * at(7.5f, 8.5f) + 0.25f * at(8.5f, 8.5f)) + 0.25f * (0.75f * at(7.5f, 9.5f) + 0.25f * at(8.5f, 9.5f));
+    const float expected = 0.75f * (0.75f * at(7.5f, 8.5f) + 0.25f * at(8.5f, 8.5f)) +
+                           0.25f * (0.75f * at(7.5f, 9.5f) + 0.25f * at(8.5f, 9.5f));
     EXPECT_NEAR(b.lookup(7.75f, 8.75f, 1.0f), expected, 1e-6f);
 }
 

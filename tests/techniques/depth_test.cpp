@@ -19,7 +19,8 @@ scene::Scene half_wall() {
 }
 
 TEST(ShadowMap, TheBiasIsAddedToStoredDepths) {
-    const auto b = build(find("shadow_map", ""), half_wall(), directional(), rays::testing::rays(16, 1), R"({"bias": 0.5})");
+    const auto b =
+        build(find("shadow_map", ""), half_wall(), directional(), rays::testing::rays(16, 1), R"({"bias": 0.5})");
     const float z = b.rays.tiles[0].z_front[0];
     EXPECT_EQ(b.lookup(2.5f, 8.5f, z + 0.49f), 1.0f);
     EXPECT_EQ(b.lookup(2.5f, 8.5f, z + 0.51f), 0.0f);
@@ -27,7 +28,8 @@ TEST(ShadowMap, TheBiasIsAddedToStoredDepths) {
 
 TEST(ShadowMap, KeepsEverySampleOrOnlyTheMiddleOne) {
     const auto all = build(find("shadow_map", ""), half_wall(), directional(), rays::testing::rays(16, 16));
-    const auto one = build(find("shadow_map", ""), half_wall(), directional(), rays::testing::rays(16, 16), R"({"cells": "centre"})");
+    const auto one = build(find("shadow_map", ""), half_wall(), directional(), rays::testing::rays(16, 16),
+                           R"({"cells": "centre"})");
     EXPECT_EQ(all.map->bytes(), 16u * 16 * 16 * 4);
     EXPECT_EQ(one.map->bytes(), 16u * 16 * 4);
     EXPECT_EQ(one.lookup(2.5f, 8.5f, 10.0f), 0.0f);

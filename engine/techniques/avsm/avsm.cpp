@@ -12,8 +12,13 @@ namespace {
 
 const Parameter parameters[] = {
     {"nodes", ParameterKind::integer, "nodes a texel", 8, 2, 64},
-    {"filter", ParameterKind::choice,
-     "texels of a lookup: the nearest, four bilinearly, or all of the query's footprint", 0, 0, 0, "footprint",
+    {"filter",
+     ParameterKind::choice,
+     "texels of a lookup: the nearest, four bilinearly, or all of the query's footprint",
+     0,
+     0,
+     0,
+     "footprint",
      {"point", "bilinear", "footprint"}},
     cells_parameter,
 };
@@ -22,7 +27,9 @@ const Parameter parameters[] = {
 class Avsm final : public Map {
 public:
     explicit Avsm(const ParameterValues& values)
-        : nodes_(values.integer("nodes")), filter_(values.word("filter")), kind_(read_cells(values)),
+        : nodes_(values.integer("nodes")),
+          filter_(values.word("filter")),
+          kind_(read_cells(values)),
           evaluate_(texel_evaluator(nodes_)) {}
 
     Avsm(const ParameterValues& values, std::span<const curves::Curve> functions) : Avsm(values) {

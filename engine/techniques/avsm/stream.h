@@ -10,11 +10,12 @@
 
 namespace shadowbench::techniques {
 
-// A transmittance curve of at most `capacity` nodes, 2 to max_capacity, linear between them. The last one is always at the
-// far plane; depths do not decrease, values neither increase nor leave [0, 1]; the value before the first node is its own.
+// A transmittance curve of at most `capacity` nodes, 2 to max_capacity, linear between them. The last one is always at
+// the far plane; depths do not decrease, values neither increase nor leave [0, 1]; the value before the first node is
+// its own.
 //
-// Nodes stay in their slots, linked in order of depth, so that nothing moves when one goes: a segment behind all others,
-// which is what sorted input brings, costs the same few steps however many nodes there are.
+// Nodes stay in their slots, linked in order of depth, so that nothing moves when one goes: a segment behind all
+// others, which is what sorted input brings, costs the same few steps however many nodes there are.
 template <int max_capacity>
 class TransmittanceStream {
 public:

@@ -30,11 +30,16 @@ float evaluate_any(const float* texel, int nodes, float z) {
 
 TexelEvaluator texel_evaluator(int nodes) {
     switch (nodes) {
-        case 4: return evaluate_fixed<4>;
-        case 8: return evaluate_fixed<8>;
-        case 12: return evaluate_fixed<12>;
-        case 16: return evaluate_fixed<16>;
-        default: return evaluate_any;
+        case 4:
+            return evaluate_fixed<4>;
+        case 8:
+            return evaluate_fixed<8>;
+        case 12:
+            return evaluate_fixed<12>;
+        case 16:
+            return evaluate_fixed<16>;
+        default:
+            return evaluate_any;
     }
 }
 

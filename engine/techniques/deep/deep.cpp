@@ -9,10 +9,23 @@ namespace shadowbench::techniques {
 namespace {
 
 const Parameter parameters[] = {
-    {"tolerance", ParameterKind::number_or_word,
-     "largest error of a stored function; \"noise\" is 0.25 / sqrt(samples a pixel), half of the rays' worst expected noise",
-     0, 0, 1, "noise", {"noise"}},
-    {"kernel", ParameterKind::choice, "how a lookup weighs the pixels of its footprint", 0, 0, 0, "box", {"box", "tent"}},
+    {"tolerance",
+     ParameterKind::number_or_word,
+     "largest error of a stored function; \"noise\" is 0.25 / sqrt(samples a pixel), half of the rays' worst expected "
+     "noise",
+     0,
+     0,
+     1,
+     "noise",
+     {"noise"}},
+    {"kernel",
+     ParameterKind::choice,
+     "how a lookup weighs the pixels of its footprint",
+     0,
+     0,
+     0,
+     "box",
+     {"box", "tent"}},
 };
 
 double tolerance_of(const ParameterValues& values, int samples) {

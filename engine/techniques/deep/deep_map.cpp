@@ -20,7 +20,8 @@ using Lanes = simd::fixed_size_simd<float, static_cast<int>(lanes)>;
 inline std::uint32_t lower_bound(const float* depths, std::uint32_t n, float z) {
     if (n <= lanes) {
         const Lanes number([](auto lane) { return static_cast<float>(lane); });
-        const auto before = (Lanes(depths, simd::element_aligned) < z) && (number < static_cast<float>(static_cast<int>(n)));
+        const auto before =
+            (Lanes(depths, simd::element_aligned) < z) && (number < static_cast<float>(static_cast<int>(n)));
         return static_cast<std::uint32_t>(simd::popcount(before));
     }
     const float* first = depths;
@@ -44,7 +45,9 @@ inline float evaluate(const float* depths, std::uint32_t n, float z) {
 
 }  // namespace
 
-double linearisation_of(double tolerance) { return std::max(tolerance / 16.0, 1e-6); }
+double linearisation_of(double tolerance) {
+    return std::max(tolerance / 16.0, 1e-6);
+}
 
 void DeepMap::begin(const rays::MapLayout& map_layout) {
     layout_ = map_layout;
@@ -90,7 +93,8 @@ void DeepMap::finish() {
     nodes.assign(2 * total + lanes, 0.0f);
     for (const TileNodes& t : tiles_)
         for (std::size_t p = 0; p + 1 < t.begin.size(); ++p) {
-            const std::size_t pixel = grid.index(t.x0 + static_cast<int>(p) % t.width, t.y0 + static_cast<int>(p) / t.width);
+            const std::size_t pixel =
+                grid.index(t.x0 + static_cast<int>(p) % t.width, t.y0 + static_cast<int>(p) / t.width);
             const std::uint32_t n = t.begin[p + 1] - t.begin[p];
             float* depths = nodes.data() + 2 * static_cast<std::size_t>(offsets[pixel]);
             for (std::uint32_t i = 0; i < n; ++i) {
@@ -126,8 +130,8 @@ void DeepMap::lookup(std::span<const Query> queries, std::span<float> visibility
             const Query& q = queries[start + k];
             if (single[k]) {
                 const std::uint32_t begin = offsets[cell[k]];
-                visibility[start + k] = evaluate(nodes.data() + 2 * static_cast<std::size_t>(begin),
-                                                 offsets[cell[k] + 1] - begin, q.z);
+                visibility[start + k] =
+                    evaluate(nodes.data() + 2 * static_cast<std::size_t>(begin), offsets[cell[k] + 1] - begin, q.z);
                 continue;
             }
             Query wide = q;

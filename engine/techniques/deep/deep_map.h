@@ -9,7 +9,8 @@
 namespace shadowbench::techniques {
 
 // A compressed visibility function a pixel, all in one array: the nodes of pixel p are the floats
-// [2 offsets[p], 2 offsets[p + 1]), first their depths, then their values, so that a search reads depths alone. `padding` unused floats follow the last one.
+// [2 offsets[p], 2 offsets[p + 1]), first their depths, then their values, so that a search reads depths alone.
+// `padding` unused floats follow the last one.
 struct DeepMap {
     static constexpr std::uint32_t padding = 8;  // floats that a lookup may read behind the last node
 

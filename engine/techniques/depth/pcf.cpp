@@ -37,13 +37,14 @@ Region make_region(const Settings& s, const CellGrid& grid, const Query& q) {
         across = std::floor(half_x * 2.0f + 0.5f);
         along = std::floor(half_y * 2.0f + 0.5f);
     } else {
-        along = std::clamp(std::floor(std::sqrt(half_y * s.samples / half_x) + 0.5f), s.min_samples, std::max(s.samples, s.min_samples));
+        along = std::clamp(std::floor(std::sqrt(half_y * s.samples / half_x) + 0.5f), s.min_samples,
+                           std::max(s.samples, s.min_samples));
         across = std::floor(s.samples / along + 0.5f);
     }
     across = std::clamp(across, s.min_samples, std::max(s.samples, s.min_samples));
     along = std::clamp(along, s.min_samples, std::max(s.samples, s.min_samples));
     return {q.x * grid.per_pixel_x - half_x, q.y * grid.per_pixel_y - half_y, 2.0f * half_x / across,
-            2.0f * half_y / along,           static_cast<int>(across),         static_cast<int>(along)};
+            2.0f * half_y / along,           static_cast<int>(across),        static_cast<int>(along)};
 }
 
 class PercentageCloser final : public Map {
@@ -64,9 +65,8 @@ public:
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const Query& q = queries[i];
             int shadowed = 0;
-            const int samples = for_each_sample(q, [&](const float* depth, float bias) {
-                shadowed += q.z > *depth + bias;
-            });
+            const int samples =
+                for_each_sample(q, [&](const float* depth, float bias) { shadowed += q.z > *depth + bias; });
             visibility[i] = samples ? 1.0f - static_cast<float>(shadowed) / static_cast<float>(samples) : 1.0f;
         }
     }

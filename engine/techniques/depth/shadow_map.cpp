@@ -23,7 +23,8 @@ public:
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const Query& q = queries[i];
             int x, y;
-            visibility[i] = map_.grid.find(q.x, q.y, x, y) && q.z > map_.depth[map_.grid.index(x, y)] + bias_ ? 0.0f : 1.0f;
+            visibility[i] =
+                map_.grid.find(q.x, q.y, x, y) && q.z > map_.depth[map_.grid.index(x, y)] + bias_ ? 0.0f : 1.0f;
         }
     }
     void touched(const Query& q, std::vector<const void*>& lines) const override {

@@ -10,8 +10,8 @@ namespace {
 
 using Node = curves::Vertex;
 
-// Transmittance functions of one tile's rays, in the order of its rays. Without media a node is a surface: its depth and
-// the transmittance behind it. With media nodes are as in curves/composite.h.
+// Transmittance functions of one tile's rays, in the order of its rays. Without media a node is a surface: its depth
+// and the transmittance behind it. With media nodes are as in curves/composite.h.
 struct TileFunctions {
     int x0 = 0, y0 = 0, width = 0;
     std::vector<std::uint32_t> begin;
@@ -47,7 +47,8 @@ public:
         tile.begin.assign(1, 0);
         for (std::size_t r = 0; r < rays.rays(); ++r) {
             curves::composite(rays, r, 0, nodes);
-            for (const curves::Node& n : nodes) tile.nodes.push_back({static_cast<float>(n.z), static_cast<float>(n.value)});
+            for (const curves::Node& n : nodes)
+                tile.nodes.push_back({static_cast<float>(n.z), static_cast<float>(n.value)});
             tile.begin.push_back(static_cast<std::uint32_t>(tile.nodes.size()));
         }
         tile.nodes.shrink_to_fit();
@@ -59,7 +60,8 @@ public:
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             double sum = 0.0;
-            const int count = for_each_ray(queries[i], [&](std::span<const Node> ray) { sum += evaluate(ray, queries[i].z); });
+            const int count =
+                for_each_ray(queries[i], [&](std::span<const Node> ray) { sum += evaluate(ray, queries[i].z); });
             visibility[i] = count ? static_cast<float>(sum / count) : 1.0f;
         }
     }
@@ -119,7 +121,8 @@ public:
 private:
     std::span<const Node> function(int x, int y) const {
         const int px = x / layout_.samples_x, py = y / layout_.samples_y;
-        const TileFunctions& t = tiles_[static_cast<std::size_t>(py / layout_.tile_height) * layout_.tiles_x() + px / layout_.tile_width];
+        const TileFunctions& t =
+            tiles_[static_cast<std::size_t>(py / layout_.tile_height) * layout_.tiles_x() + px / layout_.tile_width];
         const std::size_t pixel = static_cast<std::size_t>(py - t.y0) * t.width + (px - t.x0);
         const std::size_t ray =
             pixel * layout_.samples() + (y % layout_.samples_y) * layout_.samples_x + x % layout_.samples_x;
