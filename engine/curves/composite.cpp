@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
+#include "base/compensated.h"
 #include "rays/light_rays.h"
 
 namespace shadowbench::curves {
@@ -17,12 +19,86 @@ struct Medium {
     double front, back;
     double through;            // transmittance of the whole segment
     double extinction = -1.0;  // per unit of z; computed when first needed, most media never overlap another segment
+    bool counted = false;      // in the sums of OpenMedia
+    bool ended = false;
 
     double through_inside() const { return std::max(through, double{std::numeric_limits<float>::min()}); }
-    double optical_depth(double z) {
+    double per_depth() {
         if (extinction < 0.0) extinction = -std::log(through_inside()) / (back - front);
-        return extinction * (z - front);
+        return extinction;
     }
+};
+
+// The media that a ray is inside of. Their optical depths are kept as two sums, of extinctions and of extinctions times
+// fronts, in twice the precision: what is added and taken away again leaves nothing, and thousands of media one inside
+// the other cost no more each than two.
+class OpenMedia {
+public:
+    bool empty() const { return by_back_.empty(); }
+    double first_back() const { return by_back_.front().back; }
+
+    void open(const Medium& medium) {
+        if (empty()) {  // a fresh start: no rounding error outlives the media that made it
+            origin_ = medium.front;
+            extinction_ = extinction_front_ = base::CompensatedSum();
+        }
+        by_back_.push_back({medium.back, media_.size()});
+        std::push_heap(by_back_.begin(), by_back_.end(), std::greater<>());
+        fresh_.push_back(media_.size());
+        media_.push_back(medium);
+    }
+
+    // Takes out all that end at or before z; ended() names them until the next call.
+    void close(double z) {
+        ended_.clear();
+        while (!empty() && first_back() <= z) {
+            const std::size_t number = by_back_.front().number;
+            std::pop_heap(by_back_.begin(), by_back_.end(), std::greater<>());
+            by_back_.pop_back();
+            ended_.push_back(number);
+            media_[number].ended = true;
+            if (media_[number].counted) count(media_[number], -1.0);
+        }
+        for (const std::size_t number : fresh_)
+            if (!media_[number].ended) {
+                count(media_[number], 1.0);
+                media_[number].counted = true;
+            }
+        fresh_.clear();
+        if (empty()) extinction_ = extinction_front_ = base::CompensatedSum();
+    }
+    const std::vector<std::size_t>& ended() const { return ended_; }
+    Medium& medium(std::size_t number) { return media_[number]; }
+
+    // Of all that are open, from their fronts to z.
+    double optical_depth(double z) const {
+        return empty() ? 0.0 : std::max(extinction_.value() * (z - origin_) - extinction_front_.value(), 0.0);
+    }
+    double extinction() const { return extinction_.value(); }
+
+    void clear() {
+        media_.clear();
+        by_back_.clear();
+        fresh_.clear();
+    }
+
+private:
+    struct End {
+        double back;
+        std::size_t number;
+        bool operator>(const End& other) const { return back > other.back; }
+    };
+    void count(Medium& medium, double sign) {
+        extinction_.add(sign * medium.per_depth());
+        extinction_front_.add(sign * (medium.per_depth() * (medium.front - origin_)));
+    }
+
+    std::vector<Medium> media_;
+    std::vector<End> by_back_;        // a heap, the first end on top
+    std::vector<std::size_t> fresh_;  // opened at the last event, not in the sums yet
+    std::vector<std::size_t> ended_;
+    double origin_ = 0.0;
+    base::CompensatedSum extinction_, extinction_front_;
 };
 
 void composite_surfaces(const rays::LightRays& rays, std::size_t ray, int channel, std::vector<Node>& out) {
@@ -39,11 +115,10 @@ void composite_surfaces(const rays::LightRays& rays, std::size_t ray, int channe
 
 // Many media one upon the other can reach optical depths whose transmittance is 0 in double. The node (z, 0) would hide
 // how steeply the function fell, so a node goes where it is still a number, at a depth that a float can hold.
-void add_faintest(std::vector<Medium>& active, double z, std::vector<Node>& out) {
+void add_faintest(OpenMedia& open, double z, std::vector<Node>& out) {
     const Node last = out.back();
-    double extinction = 0.0;
-    for (Medium& medium : active) extinction += medium.optical_depth(z) - medium.optical_depth(last.z);
-    extinction /= z - last.z;
+    double extinction = open.extinction();
+    for (const std::size_t number : open.ended()) extinction += open.medium(number).per_depth();
     const float low = static_cast<float>(last.z), high = std::numeric_limits<float>::infinity();
     float at = static_cast<float>(last.z + std::log(last.value / kFaintest) / extinction);
     if (at > last.z + std::log(last.value / kFaintest) / extinction) at = std::nextafter(at, low);
@@ -57,25 +132,25 @@ void composite(const rays::LightRays& rays, std::size_t ray, int channel, std::v
     out.clear();
     if (rays.z_back.empty()) return composite_surfaces(rays, ray, channel, out);
 
-    std::vector<Medium> active;
+    thread_local OpenMedia open;  // its memory serves ray after ray
+    open.clear();
     double closed = 1.0;  // product of all that lies wholly in front
     const std::size_t end = rays.begin[ray + 1];
     std::size_t s = rays.begin[ray];
     const auto through = [&] { return double{rays.transmittance[s * rays.channels + channel]}; };
     while (true) {
         while (s < end && through() >= 1.0) ++s;
-        if (s == end && active.empty()) return;
+        if (s == end && open.empty()) return;
         double z = s < end ? double{rays.z_front[s]} : std::numeric_limits<double>::infinity();
-        for (const Medium& medium : active) z = std::min(z, medium.back);
+        if (!open.empty()) z = std::min(z, open.first_back());
 
-        double before = closed, after = closed, optical_depth = 0.0;
-        for (Medium& medium : active)
-            if (medium.back > z) {
-                optical_depth += medium.optical_depth(z);
-            } else {
-                before *= medium.through_inside();
-                after *= medium.through;
-            }
+        open.close(z);
+        double before = closed, after = closed;
+        for (const std::size_t number : open.ended()) {
+            before *= open.medium(number).through_inside();
+            after *= open.medium(number).through;
+        }
+        const double optical_depth = open.optical_depth(z);
         for (; s < end && rays.z_front[s] == z && (rays.z_back[s] <= z || through() >= 1.0); ++s) after *= through();
         // Sorted by z_back at one z_front: the surfaces come first, and a medium ends behind its front.
         closed = after;
@@ -85,7 +160,7 @@ void composite(const rays::LightRays& rays, std::size_t ray, int channel, std::v
             after *= faded;
         }
         if (!out.empty()) {
-            if (before < kFaintest && out.back().value > kFaintest && z > out.back().z) add_faintest(active, z, out);
+            if (before < kFaintest && out.back().value > kFaintest && z > out.back().z) add_faintest(open, z, out);
             before = std::min(before, out.back().value);  // the exponential's last digit
             after = std::min(after, before);
         }
@@ -93,9 +168,8 @@ void composite(const rays::LightRays& rays, std::size_t ray, int channel, std::v
         if (after < before) out.push_back({z, after});
         if (after == 0.0) return;
 
-        std::erase_if(active, [z](const Medium& medium) { return medium.back <= z; });
         for (; s < end && rays.z_front[s] == z; ++s)
-            if (through() < 1.0) active.push_back({z, rays.z_back[s], through()});
+            if (through() < 1.0) open.open({z, rays.z_back[s], through()});
     }
 }
 

@@ -20,9 +20,10 @@ struct Node {
 };
 
 // Transmittance function of one ray and channel at every depth where something starts, ends or stands; what absorbs
-// nothing leaves no node, and nothing follows a value of 0. `out` is replaced. Products are in double; total extinction
-// is summed anew at every end, so no rounding error outlives its segment. A medium's transmittance of 0 counts as the
-// smallest normal float inside the segment, and as 0 behind it. Below 1e-300 log(value) need not be linear.
+// nothing leaves no node, and nothing follows a value of 0. `out` is replaced. Products are in double, sums of
+// extinction in twice that, so no rounding error outlives its segment; n overlapping media cost O(n log n). A medium's
+// transmittance of 0 counts as the smallest normal float inside the segment, and as 0 behind it. Below 1e-300
+// log(value) need not be linear.
 void composite(const rays::LightRays& rays, std::size_t ray, int channel, std::vector<Node>& out);
 
 // Adds nodes so that joining neighbours by lines errs by at most `linearisation`; appends to `out` as vertices.
