@@ -5,10 +5,9 @@
 #include <limits>
 #include <variant>
 
-#include "base/parallel.h"
-#include "rays/bins.h"
 #include "rays/hits.h"
 #include "rays/march.h"
+#include "rays/prepared.h"
 #include "rays/project.h"
 #include "scene/scene.h"
 
@@ -17,78 +16,6 @@ namespace {
 
 using base::Vec3d;
 using base::Vec3f;
-
-// One object that casts shadows, in view space.
-struct Prepared {
-    const scene::Object* object = nullptr;
-    float transmittance[3] = {0, 0, 0};   // of an untextured surface
-    std::vector<Vec3f> points;            // mesh corners, hair points, sphere centres
-    std::vector<std::uint32_t> segments;  // hair: index of each segment's first point
-    std::vector<unsigned char> joined;    // hair: whether the segment continues a strand
-    Bins bins;
-    std::unique_ptr<VolumeMarcher> marcher;
-
-    std::size_t bytes() const {
-        return points.capacity() * sizeof(Vec3f) + segments.capacity() * sizeof(std::uint32_t) + joined.capacity() +
-               bins.bytes() + (marcher ? marcher->bytes() : 0);
-    }
-};
-
-void to_view_space(const LightView& view, const std::vector<Vec3f>& world, std::vector<Vec3f>& out) {
-    out.resize(world.size());
-    constexpr std::size_t chunk = 16384;
-    base::parallel_for((world.size() + chunk - 1) / chunk, [&](std::size_t block) {
-        for (std::size_t i = block * chunk; i < std::min(world.size(), (block + 1) * chunk); ++i)
-            out[i] = Vec3f(to_view(view, Vec3d(world[i])));
-    });
-}
-
-HairSegment hair_segment(const Prepared& p, const scene::Hair& hair, std::uint32_t segment) {
-    const std::uint32_t a = p.segments[segment];
-    return {p.points[a], p.points[a + 1], hair.radii[a], hair.radii[a + 1], p.joined[segment] != 0};
-}
-
-Prepared prepare(const scene::Object& object, const LightView& view, const MapLayout& layout) {
-    Prepared p;
-    p.object = &object;
-    for (int c = 0; c < 3; ++c) p.transmittance[c] = 1.0f - object.opacity[c];
-    if (const auto* mesh = std::get_if<scene::Mesh>(&object.shape)) {
-        to_view_space(view, mesh->positions, p.points);
-        p.bins = make_bins(view, layout, mesh->triangles.size(), [&](std::size_t i) {
-            const base::Vec3i& t = mesh->triangles[i];
-            PlaneBox box;
-            add_triangle(view, p.points[t.x], p.points[t.y], p.points[t.z], box);
-            return box;
-        });
-    } else if (const auto* hair = std::get_if<scene::Hair>(&object.shape)) {
-        to_view_space(view, hair->points, p.points);
-        for (std::size_t s = 0; s + 1 < hair->strand_begin.size(); ++s)
-            for (std::uint32_t a = hair->strand_begin[s]; a + 1 < hair->strand_begin[s + 1]; ++a) {
-                p.segments.push_back(a);
-                p.joined.push_back(a > hair->strand_begin[s]);
-            }
-        p.bins = make_bins(view, layout, p.segments.size(), [&](std::size_t i) {
-            const HairSegment s = hair_segment(p, *hair, static_cast<std::uint32_t>(i));
-            PlaneBox box;
-            add_sphere(view, s.a, s.radius_a, box);
-            add_sphere(view, s.b, s.radius_b, box);
-            return box;
-        });
-    } else if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {
-        p.marcher = std::make_unique<VolumeMarcher>(*grid);
-    } else {
-        const auto* spheres = std::get_if<scene::Spheres>(&object.shape);
-        const auto* particles = std::get_if<scene::Particles>(&object.shape);
-        const std::vector<float>& radii = spheres ? spheres->radii : particles->radii;
-        to_view_space(view, spheres ? spheres->centres : particles->centres, p.points);
-        p.bins = make_bins(view, layout, p.points.size(), [&](std::size_t i) {
-            PlaneBox box;
-            add_sphere(view, p.points[i], radii[i], box);
-            return box;
-        });
-    }
-    return p;
-}
 
 // Origin and direction of a ray such that its parameter is planar depth: view space, and world space.
 struct RayLine {

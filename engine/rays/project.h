@@ -10,6 +10,8 @@
 
 namespace shadowbench::rays {
 
+constexpr double margin = 1e-3;  // of a sample cell, around all bounds: outweighs any rounding of them
+
 template <bool perspective, class Sink>
 void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, const float* transmittance, Sink& sink) {
     // The axis on the view plane, and how far from it the ribbon can reach in x or y.
@@ -32,12 +34,12 @@ void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, con
             by *= inverse_b;
         }
     }
-    // The same in cells of this tile; a thousandth of a cell outweighs any rounding of the bounds.
+    // The same in cells of this tile.
     ax = grid.cells_x(ax);
     bx = grid.cells_x(bx);
     ay = grid.cells_y(ay);
     by = grid.cells_y(by);
-    const double reach_x = reach * grid.per_cell_x + 1e-3, reach_y = reach * grid.per_cell_y + 1e-3;
+    const double reach_x = reach * grid.per_cell_x + margin, reach_y = reach * grid.per_cell_y + margin;
     const double inverse_dy = by != ay ? 1.0 / (by - ay) : 0.0;
     const int j_low = everywhere ? 0 : grid.row(std::min(ay, by) - reach_y);
     const int j_high = everywhere ? grid.ny - 1 : grid.row(std::max(ay, by) + reach_y);
@@ -68,8 +70,8 @@ void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, con
 template <class Sink, class Shade>
 void project_triangle(const TriangleSetup& t, double x_low, double x_high, double y_low, double y_high,
                       const TileGrid& grid, double z_near, const Shade& shade, Sink& sink) {
-    const int j_low = grid.row(grid.cells_y(y_low)), j_high = grid.row(grid.cells_y(y_high));
-    const int i_low = grid.column(grid.cells_x(x_low)), i_high = grid.column(grid.cells_x(x_high));
+    const int j_low = grid.row(grid.cells_y(y_low) - margin), j_high = grid.row(grid.cells_y(y_high) + margin);
+    const int i_low = grid.column(grid.cells_x(x_low) - margin), i_high = grid.column(grid.cells_x(x_high) + margin);
     for (int j = j_low; j <= j_high; ++j) {
         for (int i = i_low; i <= i_high; ++i) {
             const std::size_t sample = static_cast<std::size_t>(j) * grid.nx + i;

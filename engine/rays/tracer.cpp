@@ -29,7 +29,8 @@ struct Traced {
 struct Query : RTCIntersectContext {
     Vec3d origin, direction;
     double t_min, t_max;
-    bool nearest;  // only the nearest surface; media are passed through
+    double back_off;  // t from where Embree's ray starts to `origin`
+    bool nearest;     // only the nearest surface; media are passed through
     std::vector<TracedSegment>* out;
 };
 
@@ -71,7 +72,7 @@ void collect(const RTCFilterFunctionNArguments* args) {
     auto& q = *static_cast<Query*>(args->context);
     const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
     const auto* ray = reinterpret_cast<const RTCRay*>(args->ray);
-    double t = ray->tfar;
+    double t = ray->tfar - q.back_off;
     Vec3f opacity = traced.object->opacity;
     if (const auto* hair = std::get_if<scene::Hair>(&traced.object->shape)) {
         if (!q.nearest && !hair_crossing(traced, *hair, hit->primID, q, t)) {
@@ -86,7 +87,7 @@ void collect(const RTCFilterFunctionNArguments* args) {
         if (const double facing = normal.dot(q.direction); facing != 0.0) t = normal.dot(p0 - q.origin) / facing;
     }
     if (q.nearest) {  // accept what is more there than not
-        if (opacity.x + opacity.y + opacity.z < 1.5f) args->valid[0] = 0;
+        if (t <= q.t_min || opacity.x + opacity.y + opacity.z < 1.5f) args->valid[0] = 0;
         return;
     }
     args->valid[0] = 0;
@@ -131,9 +132,9 @@ void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
     if (q.nearest) {
         const double t = front > q.t_min ? front : back;
         auto* rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
-        if (particles || traced.object->opacity.x < 0.5f || t <= q.t_min || t >= rayhit->ray.tfar) return;
+        if (particles || traced.object->opacity.x < 0.5f || t <= q.t_min || t + q.back_off >= rayhit->ray.tfar) return;
         const Vec3d normal = q.origin + q.direction * t - centre;
-        rayhit->ray.tfar = static_cast<float>(t);
+        rayhit->ray.tfar = static_cast<float>(t + q.back_off);
         rayhit->hit.Ng_x = static_cast<float>(normal.x);
         rayhit->hit.Ng_y = static_cast<float>(normal.y);
         rayhit->hit.Ng_z = static_cast<float>(normal.z);
@@ -165,6 +166,7 @@ struct Tracer::State {
         VolumeMarcher marcher;
     };
     std::vector<Volume> volumes;
+    double widest_hair = 0.0;
 
     ~State() {
         rtcReleaseScene(scene);
@@ -199,6 +201,7 @@ void Tracer::State::add(const scene::Object& object) {
                 traced->segments.push_back(a);
                 traced->joined.push_back(a > hair->strand_begin[s]);
             }
+        for (const float radius : hair->radii) widest_hair = std::max<double>(widest_hair, radius);
         RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE);
         auto* points = static_cast<float*>(
             rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, hair->points.size()));
@@ -223,17 +226,21 @@ void Tracer::State::add(const scene::Object& object) {
 
 namespace {
 
-RTCRayHit trace(RTCScene scene, Query& q) {
+// Embree passes over ribbons that a ray meets within twice their half-width of its start, so that rays from hair do not
+// hit it. Here they count: the ray starts further back, and what lies before t_min is dropped when it is found.
+RTCRayHit trace(RTCScene scene, double widest_hair, Query& q) {
+    q.back_off = 4.0 * widest_hair / q.direction.length();
+    const Vec3d start = q.origin - q.direction * q.back_off;
     RTCRayHit rayhit{};
-    rayhit.ray.org_x = static_cast<float>(q.origin.x);
-    rayhit.ray.org_y = static_cast<float>(q.origin.y);
-    rayhit.ray.org_z = static_cast<float>(q.origin.z);
+    rayhit.ray.org_x = static_cast<float>(start.x);
+    rayhit.ray.org_y = static_cast<float>(start.y);
+    rayhit.ray.org_z = static_cast<float>(start.z);
     rayhit.ray.dir_x = static_cast<float>(q.direction.x);
     rayhit.ray.dir_y = static_cast<float>(q.direction.y);
     rayhit.ray.dir_z = static_cast<float>(q.direction.z);
-    rayhit.ray.tnear = static_cast<float>(std::max(q.t_min, 0.0));
+    rayhit.ray.tnear = widest_hair > 0.0 ? 0.0f : static_cast<float>(std::max(q.t_min, 0.0));
     // A little further than asked, since exact depths are recomputed from what is found.
-    rayhit.ray.tfar = static_cast<float>(std::min(q.t_max * 1.0001, 3e38));
+    rayhit.ray.tfar = static_cast<float>(std::min(q.t_max * 1.0001 + q.back_off, 3e38));
     rayhit.ray.mask = ~0u;
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &q, &rayhit);
@@ -269,7 +276,7 @@ void Tracer::all_segments(const Vec3d& origin, const Vec3d& direction, double t_
     q.t_max = t_max;
     q.nearest = false;
     q.out = &out;
-    trace(state_->scene, q);
+    trace(state_->scene, state_->widest_hair, q);
     if (!state_->volumes.empty()) {
         std::vector<MediumSegment> steps;
         for (const State::Volume& volume : state_->volumes) {
@@ -294,9 +301,9 @@ bool Tracer::nearest(const Vec3d& origin, const Vec3d& direction, SurfaceHit& ou
     q.t_max = std::numeric_limits<double>::infinity();
     q.nearest = true;
     q.out = nullptr;
-    const RTCRayHit found = trace(state_->scene, q);
+    const RTCRayHit found = trace(state_->scene, state_->widest_hair, q);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    out.t = found.ray.tfar;
+    out.t = found.ray.tfar - q.back_off;
     out.position = origin + direction * out.t;
     out.normal = Vec3d(found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z);
     if (out.normal.dot(direction) > 0.0) out.normal = -out.normal;

@@ -98,4 +98,11 @@ inline void touch_lines(const void* first, std::size_t bytes, std::vector<const 
     for (std::uintptr_t line = begin; line < end; line += 64) lines.push_back(reinterpret_cast<const void*>(line));
 }
 
+// Each line counts once in a lookup, however often it is read: sorts the lines from `first` on and drops repetitions.
+inline void keep_unique(std::vector<const void*>& lines, std::size_t first) {
+    const auto begin = lines.begin() + static_cast<std::ptrdiff_t>(first);
+    std::sort(begin, lines.end());
+    lines.erase(std::unique(begin, lines.end()), lines.end());
+}
+
 }  // namespace shadowbench::techniques

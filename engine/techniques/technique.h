@@ -103,6 +103,8 @@ struct Technique {
     // A finished map of given functions instead of rays: function i is pixel (i, 0) of a map one pixel high.
     // Null when the technique cannot take any piecewise-linear function.
     std::unique_ptr<Map> (*from_curves)(const ParameterValues& values, std::span<const curves::Curve> functions);
+    // What the finished map of this layout surely holds, in bytes: for refusing what cannot fit before work starts.
+    std::size_t (*least_bytes)(const ParameterValues& values, const rays::MapLayout& layout);
 };
 
 // The registry: one row a technique, in the order of the papers.

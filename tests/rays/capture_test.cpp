@@ -177,6 +177,65 @@ TEST(Capture, AgreesWithEmbree) {
     }
 }
 
+TEST(Capture, HairAroundASpotAndThroughItsNearPlaneIsNotLost) {
+    scene::Scene scene;
+    base::Random random(6);
+    scene::Hair hair;
+    hair.strand_begin.push_back(0);
+    for (int s = 0; s < 40; ++s) {  // long segments from behind the light to in front of it, past its map
+        for (const float z : {1.5f, -0.8f}) {
+            hair.points.emplace_back(static_cast<float>(random.uniform(-0.4, 0.4)),
+                                     static_cast<float>(random.uniform(-0.4, 0.4)), z);
+            hair.radii.push_back(0.01f);
+        }
+        hair.strand_begin.push_back(static_cast<std::uint32_t>(hair.points.size()));
+    }
+    scene.objects.emplace_back();
+    scene.objects[0].shape = hair;
+    const Tracer tracer(scene, true);
+    for (const double near : {0.0, 0.3}) {
+        scene::Light light = testing::spot({0, 0, 1}, 60);
+        light.near = near;
+        const Captured c = capture(scene, light, testing::rays(64, 4));
+        std::vector<TracedSegment> traced;
+        int rays = 0, differing = 0, hit = 0;
+        for_each_ray(c, [&](const LightRays& t, std::size_t ray, int i, int j) {
+            const SamplePosition p = sample_position(c.layout, i, j);
+            tracer.transmittance(c.view, p.x, p.y, 1e9, traced);
+            ++rays;
+            hit += !traced.empty();
+            differing += traced.size() != t.begin[ray + 1] - t.begin[ray];
+        });
+        EXPECT_GT(hit, 1000);
+        EXPECT_LE(differing, rays / 1000);
+    }
+}
+
+TEST(Tracer, HairRightAtTheStartOfARayIsNotPassedOver) {
+    // Embree by itself skips ribbons within two half-widths of where a ray starts.
+    scene::Scene scene;
+    scene::Hair hair;
+    hair.points = {{-1, 0, 0}, {1, 0, 0}};
+    hair.radii = {0.1f, 0.1f};
+    hair.strand_begin = {0, 2};
+    scene.objects.emplace_back();
+    scene.objects[0].shape = hair;
+    const Tracer tracer(scene, true);
+    std::vector<TracedSegment> found;
+    for (const double away : {0.01, 0.1, 0.19, 0.3}) {
+        tracer.all_segments({0, 0.02, -away}, {0, 0, 1}, 0, 10, found);
+        ASSERT_EQ(found.size(), 1u) << away;
+        EXPECT_NEAR(found[0].front, away, 1e-6);
+        SurfaceHit hit;
+        ASSERT_TRUE(tracer.nearest({0, 0.02, -away}, {0, 0, 1}, hit)) << away;
+        EXPECT_NEAR(hit.t, away, 0.01);
+    }
+    tracer.all_segments({0, 0.02, 0.01}, {0, 0, 1}, 0, 10, found);
+    EXPECT_TRUE(found.empty()) << "behind the start";
+    SurfaceHit hit;
+    EXPECT_FALSE(tracer.nearest({0, 0.02, 0.01}, {0, 0, 1}, hit));
+}
+
 TEST(Capture, DoesNotDependOnTheNumberOfThreads) {
     scene::Scene scene;
     scene.objects.push_back(testing::curly_hair(200, 20, 0.01f, 2));

@@ -23,12 +23,18 @@ const Parameter parameters[] = {
     cells_parameter,
 };
 
+enum class Filter { point, bilinear, footprint };
+Filter read_filter(const ParameterValues& values) {
+    const std::string& word = values.word("filter");
+    return word == "point" ? Filter::point : word == "bilinear" ? Filter::bilinear : Filter::footprint;
+}
+
 // Texels one after the other, each of 2 * nodes floats: depths, then values. Aligned to cache lines.
 class Avsm final : public Map {
 public:
     explicit Avsm(const ParameterValues& values)
         : nodes_(values.integer("nodes")),
-          filter_(values.word("filter")),
+          filter_(read_filter(values)),
           kind_(read_cells(values)),
           evaluate_(texel_evaluator(nodes_)) {}
 
@@ -72,7 +78,7 @@ public:
     void finish() override {}
 
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
-        if (filter_ == "point") {
+        if (filter_ == Filter::point) {
             for (std::size_t i = 0; i < queries.size(); ++i) {
                 int x, y;
                 visibility[i] = grid_.find(queries[i].x, queries[i].y, x, y)
@@ -94,7 +100,7 @@ public:
     void touched(const Query& query, std::vector<const void*>& lines) const override {
         const auto touch = [&](std::size_t cell, float) { touch_lines(texel(cell), 8 * nodes_, lines); };
         int x, y;
-        if (filter_ != "point")
+        if (filter_ != Filter::point)
             for_each_texel(query, touch);
         else if (grid_.find(query.x, query.y, x, y))
             touch(grid_.index(x, y), 1.0f);
@@ -176,7 +182,7 @@ private:
 
     template <class Visit>
     void for_each_texel(const Query& q, const Visit& visit) const {
-        if (filter_ == "footprint") {
+        if (filter_ == Filter::footprint) {
             const CellRange r = footprint(grid_, q);
             for (int y = r.y0; y < r.y1; ++y)
                 for (int x = r.x0; x < r.x1; ++x) visit(grid_.index(x, y), 1.0f);
@@ -194,7 +200,7 @@ private:
     }
 
     int nodes_;
-    std::string filter_;
+    Filter filter_;
     Cells kind_;
     TexelEvaluator evaluate_;
     rays::MapLayout layout_;
@@ -215,6 +221,9 @@ Technique avsm() {
             [](const ParameterValues&, const rays::MapLayout&) { return std::numeric_limits<double>::infinity(); },
             [](const ParameterValues& values, std::span<const curves::Curve> functions) -> std::unique_ptr<Map> {
                 return std::make_unique<Avsm>(values, functions);
+            },
+            [](const ParameterValues& values, const rays::MapLayout& layout) {
+                return make_cells(layout, read_cells(values)).count() * 8 * values.integer("nodes");
             }};
 }
 

@@ -92,6 +92,9 @@ Technique deep() {
             },
             [](const ParameterValues& values, std::span<const curves::Curve> functions) -> std::unique_ptr<Map> {
                 return std::make_unique<Deep>(values, functions);
+            },
+            [](const ParameterValues&, const rays::MapLayout& layout) {
+                return make_cells(layout, Cells::pixel).count() * sizeof(std::uint32_t);
             }};
 }
 

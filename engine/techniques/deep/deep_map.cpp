@@ -167,7 +167,7 @@ void DeepMap::touched(const Query& q, std::vector<const void*>& lines) const {
             const std::uint32_t i = lower_bound(depths, n, q.z);
             // The search ends at the two depths around z and reads the values beside them; a long function's earlier
             // probes lie elsewhere, and are counted too.
-            std::size_t before = lines.size();
+            const std::size_t before = lines.size();
             for (std::uint32_t low = 0, left = n; left > 1;) {
                 const std::uint32_t half = left / 2;
                 touch_lines(depths + low + half - 1, sizeof(float), lines);
@@ -177,8 +177,7 @@ void DeepMap::touched(const Query& q, std::vector<const void*>& lines) const {
             touch_lines(depths + std::min(i, n - 1), sizeof(float), lines);
             touch_lines(depths + n + (i ? i - 1 : 0), sizeof(float), lines);
             touch_lines(depths + n + std::min(i, n - 1), sizeof(float), lines);
-            std::sort(lines.begin() + static_cast<std::ptrdiff_t>(before), lines.end());
-            lines.erase(std::unique(lines.begin() + static_cast<std::ptrdiff_t>(before), lines.end()), lines.end());
+            keep_unique(lines, before);
         }
 }
 

@@ -1,3 +1,4 @@
+// The compressed pixels of a deep shadow map, their building and their lookup. Lokovic and Veach 2000, section 3.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// The map that shadow_map and pcf share. Williams 1978; Reeves, Salesin, Cook 1987, section 3.1.
 #pragma once
 
 #include <limits>

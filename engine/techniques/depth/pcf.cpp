@@ -127,7 +127,10 @@ Technique pcf() {
                 return std::make_unique<PercentageCloser>(values);
             },
             [](const ParameterValues&, const rays::MapLayout&) { return 0.0; },
-            nullptr};
+            nullptr,
+            [](const ParameterValues& values, const rays::MapLayout& layout) {
+                return make_cells(layout, read_cells(values)).count() * sizeof(float);
+            }};
 }
 
 }  // namespace shadowbench::techniques

@@ -54,7 +54,10 @@ Technique shadow_map() {
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<ShadowMap>(values); },
             [](const ParameterValues&, const rays::MapLayout&) { return 0.0; },
-            nullptr};
+            nullptr,
+            [](const ParameterValues& values, const rays::MapLayout& layout) {
+                return make_cells(layout, read_cells(values)).count() * sizeof(float);
+            }};
 }
 
 }  // namespace shadowbench::techniques

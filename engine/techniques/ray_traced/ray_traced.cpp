@@ -81,7 +81,8 @@ Technique ray_traced() {
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<RayTraced>(values); },
             [](const ParameterValues&, const rays::MapLayout&) { return std::numeric_limits<double>::infinity(); },
-            nullptr};
+            nullptr,
+            [](const ParameterValues&, const rays::MapLayout&) { return std::size_t{0}; }};
 }
 
 }  // namespace shadowbench::techniques

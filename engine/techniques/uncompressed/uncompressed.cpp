@@ -61,13 +61,17 @@ public:
         for (std::size_t i = 0; i < queries.size(); ++i) {
             double sum = 0.0;
             const int count =
-                for_each_ray(queries[i], [&](std::span<const Node> ray) { sum += evaluate(ray, queries[i].z); });
+                for_each_ray(queries[i], [&](const Place& place) { sum += evaluate(place.nodes(), queries[i].z); });
             visibility[i] = count ? static_cast<float>(sum / count) : 1.0f;
         }
     }
 
     void touched(const Query& query, std::vector<const void*>& lines) const override {
-        for_each_ray(query, [&](std::span<const Node> ray) {
+        const std::size_t before = lines.size();
+        for_each_ray(query, [&](const Place& place) {
+            const std::span<const Node> ray = place.nodes();
+            touch_lines(&place.tile, sizeof(place.tile), lines);
+            touch_lines(&place.tile.begin[place.ray], 2 * sizeof(std::uint32_t), lines);
             std::size_t low = 0, high = ray.size();
             while (low < high) {  // the probes of evaluate()'s search
                 const std::size_t middle = (low + high) / 2;
@@ -78,6 +82,7 @@ public:
                     high = middle;
             }
         });
+        keep_unique(lines, before);
     }
 
     std::size_t bytes() const override {
@@ -99,7 +104,7 @@ public:
 
     void stored(int x, int y, std::span<const float> depths, curves::Curve& out) const override {
         out.clear();
-        const std::span<const Node> ray = function(x, y);
+        const std::span<const Node> ray = place_of(x, y).nodes();
         if (!layout_.media) {
             float before = 1.0f;
             for (const Node& n : ray) {
@@ -119,14 +124,22 @@ public:
     }
 
 private:
-    std::span<const Node> function(int x, int y) const {
+    // Where the function of a ray stands.
+    struct Place {
+        const TileFunctions& tile;
+        std::size_t ray;
+        std::span<const Node> nodes() const {
+            return {tile.nodes.data() + tile.begin[ray], tile.nodes.data() + tile.begin[ray + 1]};
+        }
+    };
+    Place place_of(int x, int y) const {
         const int px = x / layout_.samples_x, py = y / layout_.samples_y;
         const TileFunctions& t =
             tiles_[static_cast<std::size_t>(py / layout_.tile_height) * layout_.tiles_x() + px / layout_.tile_width];
         const std::size_t pixel = static_cast<std::size_t>(py - t.y0) * t.width + (px - t.x0);
         const std::size_t ray =
             pixel * layout_.samples() + (y % layout_.samples_y) * layout_.samples_x + x % layout_.samples_x;
-        return {t.nodes.data() + t.begin[ray], t.nodes.data() + t.begin[ray + 1]};
+        return {t, ray};
     }
 
     float evaluate(std::span<const Node> ray, float z) const {
@@ -167,11 +180,11 @@ private:
             for (int x = x0; x <= x1; ++x) {
                 const rays::SamplePosition p = rays::sample_position(layout_, x, y);
                 if (std::abs(p.x - q.x) > half || std::abs(p.y - q.y) > half) continue;
-                visit(function(x, y));
+                visit(place_of(x, y));
                 ++count;
             }
         if (count == 0) {
-            visit(function(cx, cy));
+            visit(place_of(cx, cy));
             count = 1;
         }
         return count;
@@ -193,7 +206,10 @@ Technique uncompressed() {
             {},
             [](const ParameterValues&) -> std::unique_ptr<Map> { return std::make_unique<Uncompressed>(); },
             [](const ParameterValues&, const rays::MapLayout&) { return 1e-6; },
-            nullptr};
+            nullptr,
+            [](const ParameterValues&, const rays::MapLayout& layout) {
+                return make_cells(layout, Cells::sample).count() * sizeof(std::uint32_t);
+            }};
 }
 
 }  // namespace shadowbench::techniques
