@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -54,10 +56,34 @@ private:
     std::size_t number_ = 0;
 };
 
+// What stands in a line, for a message: the file may be a binary one, whose bytes a terminal would obey.
+std::string shown(std::string_view line) {
+    constexpr std::size_t most = 60;
+    std::string text(line.substr(0, most));
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < 0x20 || c > 0x7e; }, '?');
+    return line.size() > most ? text + "..." : text;
+}
+
+std::from_chars_result parse(const char* begin, const char* end, std::size_t& number) {
+    return std::from_chars(begin, end, number);
+}
+
+// std::from_chars refuses what is too small for a float like what is too large; only the latter is a fault.
+std::from_chars_result parse(const char* begin, const char* end, float& number) {
+    std::from_chars_result result = std::from_chars(begin, end, number);
+    if (result.ec != std::errc::result_out_of_range) return result;
+    const double value = std::strtod(std::string(begin, result.ptr).c_str(), nullptr);
+    if (std::abs(value) > 1.0) return result;
+    number = static_cast<float>(value);
+    result.ec = {};
+    return result;
+}
+
 // Reads a number at the front of `text` and takes it off, with the white space behind it.
 template <class Number>
 bool take(std::string_view& text, Number& number) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const auto [end, error] = parse(text.data(), text.data() + text.size(), number);
     if (error != std::errc{}) return false;
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     if (!text.empty() && text.front() != ' ' && text.front() != '\t') return false;
@@ -69,7 +95,7 @@ Vertex parse_vertex(std::string_view line, const Lines& lines) {
     Vertex vertex;
     std::string_view text = line;
     if (!take(text, vertex.z) || !take(text, vertex.value) || !text.empty())
-        lines.fail(fmt::format("expected two numbers `z T`, found `{}`", line));
+        lines.fail(fmt::format("expected two numbers `z T`, found `{}`", shown(line)));
     if (!std::isfinite(vertex.z)) lines.fail(fmt::format("depth {} is not finite", vertex.z));
     if (!(vertex.value >= 0.0f && vertex.value <= 1.0f))
         lines.fail(fmt::format("transmittance {} is outside [0, 1]", vertex.value));
@@ -80,7 +106,7 @@ Curve parse_record(std::string_view header, Lines& lines) {
     std::size_t count = 0;
     std::string_view text = header;
     if (!take(text, count) || !text.empty())
-        lines.fail(fmt::format("expected the number of vertices of a function, found `{}`", header));
+        lines.fail(fmt::format("expected the number of vertices of a function, found `{}`", shown(header)));
     // Before memory is reserved for it. A vertex takes several characters.
     if (count > lines.characters_left())
         lines.fail(fmt::format("{} vertices announced, but only {} characters follow", count, lines.characters_left()));

@@ -16,6 +16,10 @@ Light load_light(const nlohmann::json& from, std::size_t index, const Box3d& cas
 // Throws Error{bad_input} also for an object that holds nothing.
 Object load_object(const nlohmann::json& from, std::size_t index, const SearchPath& path, const std::string& where);
 
+// Merges consecutive equal points of a strand into one that keeps the larger radius, and drops strands of which a
+// single point is left: a segment without length has no direction, and ray intersectors disagree on whether it is hit.
+void merge_equal_points(Hair& hair);
+
 // Shapes that several object types share.
 Mesh load_mesh(const nlohmann::json& from, const SearchPath& path, const std::string& where);
 Mesh load_quad(const nlohmann::json& from, const SearchPath& path, const std::string& where);

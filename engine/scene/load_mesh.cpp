@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "scene/files.h"
 #include "scene/json_read.h"
 #include "scene/limits.h"
@@ -69,8 +70,15 @@ Mesh load_mesh(const json& from, const SearchPath& path, const std::string& wher
     if (from_file)
         for (const char* key : {"vertices", "triangles", "uvs"})
             if (from.contains(key)) refuse(fmt::format("{}/{}", where, key), "the mesh has a file already");
-    Mesh mesh = from_file ? read_mesh(find_file(path, from["file"].get<std::string>(), where + "/file"))
-                          : inline_mesh(from, where);
+    Mesh mesh;
+    if (from_file) {
+        const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
+        mesh = read_mesh(file);
+        if (mesh.triangles.empty())
+            throw base::Error(base::ErrorCode::bad_input, file.string(), "the mesh has no triangles");
+    } else {
+        mesh = inline_mesh(from, where);
+    }
     place(from, where, mesh);
     load_alpha(from, path, where, mesh);
     return mesh;

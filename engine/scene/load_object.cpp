@@ -54,14 +54,19 @@ Shape particles(const json& from, const SearchPath&, const std::string& where) {
     return shape;
 }
 
+Hair with_length(Hair hair) {
+    merge_equal_points(hair);
+    return hair;
+}
+
 Shape hair(const json& from, const SearchPath& path, const std::string& where) {
     const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
     double radius = 0.0;
     read(from, "radius", radius);
-    if (file.extension() == ".hair") return read_hair(file, static_cast<float>(radius));
+    if (file.extension() == ".hair") return with_length(read_hair(file, static_cast<float>(radius)));
     if (file.extension() != ".tfx") refuse(where + "/file", "hair files end in .tfx or .hair");
     if (radius == 0.0) refuse(where, "\"radius\" is missing: .tfx files do not say how wide hair is");
-    return read_tressfx(file, static_cast<float>(radius));
+    return with_length(read_tressfx(file, static_cast<float>(radius)));
 }
 
 Shape hair_ball(const json& from, const SearchPath&, const std::string& where) {
@@ -80,7 +85,7 @@ Shape hair_ball(const json& from, const SearchPath&, const std::string& where) {
         static_cast<std::uint64_t>(ball.strands) * static_cast<std::uint64_t>(ball.segments + 1);
     if (points > max_hair_points)
         refuse(where + "/strands", fmt::format("{} points of hair; the limit is {}", points, max_hair_points));
-    return make_hair_ball(ball);
+    return with_length(make_hair_ball(ball));
 }
 
 Shape volume(const json& from, const SearchPath& path, const std::string& where) {
@@ -128,7 +133,7 @@ const char* emptiness(const Particles& shape) {
 }
 
 const char* emptiness(const Hair& shape) {
-    if (shape.strand_begin.size() < 2) return "there are no strands";
+    if (shape.strand_begin.size() < 2) return "there are no strands that have a length";
     const bool wide = std::any_of(shape.radii.begin(), shape.radii.end(), [](float radius) { return radius > 0.0f; });
     return wide ? "" : "every strand has zero width; give a radius";
 }

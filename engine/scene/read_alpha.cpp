@@ -60,7 +60,12 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file) 
 }
 
 void refuse_image(const std::filesystem::path& file, const std::string& message) {
-    throw base::Error(base::ErrorCode::bad_input, file.string(), message);
+    // The library's messages often name the file, in quotes or not; the error's place does so already.
+    std::string rest = message;
+    for (const std::string& name : {'"' + file.string() + '"', file.string()})
+        for (std::size_t at = rest.find(name); at != std::string::npos; at = rest.find(name))
+            rest.replace(at, name.size(), "the file");
+    throw base::Error(base::ErrorCode::bad_input, file.string(), rest);
 }
 
 AlphaTexture read_alpha(const std::filesystem::path& file) {

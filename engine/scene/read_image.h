@@ -12,7 +12,7 @@ namespace shadowbench::scene {
 // Throws Error: no_such_file, or bad_input when no format reads it.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file);
 
-// Throws Error{bad_input} with the file as place.
+// Throws Error{bad_input} with the file as place, and nowhere else in the message.
 [[noreturn]] void refuse_image(const std::filesystem::path& file, const std::string& message);
 
 }  // namespace shadowbench::scene

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -26,7 +27,10 @@ std::string read_text(const std::filesystem::path& file) {
         throw Error(ErrorCode::no_such_file, file.string(), "there is no such file");
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream text;
-    if (!(text << stream.rdbuf())) throw Error(ErrorCode::io, file.string(), "reading failed, or the file is empty");
+    // Inserting nothing at all counts as a failure of the insertion.
+    if (std::filesystem::is_regular_file(file, ignored) && std::filesystem::file_size(file, ignored) == 0)
+        throw Error(ErrorCode::bad_input, file.string(), "the file is empty");
+    if (!(text << stream.rdbuf())) throw Error(ErrorCode::io, file.string(), "reading failed");
     return std::move(text).str();
 }
 
@@ -47,9 +51,19 @@ public:
     void check(std::string_view line) {
         ++number_;
         const std::string_view keyword = next_word(line);
-        if (keyword == "v") numbers(line, 3);
+        if (keyword == "v") {
+            numbers(line, 3);
+            ++vertices_;
+        }
         if (keyword == "vt") numbers(line, 1);
         if (keyword == "f") corners(line);
+    }
+
+    // Faces may stand before their vertices, so whether all of these are there is known at the end only.
+    void finish() {
+        if (highest_ <= vertices_) return;
+        number_ = highest_at_;
+        fail(fmt::format("a face names vertex {}, but there are {}", highest_, vertices_));
     }
 
 private:
@@ -69,18 +83,31 @@ private:
         if (count < least) fail(fmt::format("{} numbers where {} are needed", count, least));
     }
 
-    void corners(std::string_view line) const {
+    void corners(std::string_view line) {
         // The library holds a polygon's corners in a byte.
         constexpr int most = 255;
         int count = 0;
-        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++count)
-            if (word.find_first_not_of("0123456789-/") != std::string_view::npos)
+        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++count) {
+            std::int64_t vertex = 0;
+            const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), vertex);
+            if (fault != std::errc() || (end != word.data() + word.size() && *end != '/') ||
+                word.find_first_not_of("0123456789-/") != std::string_view::npos)
                 fail(fmt::format("\"{}\" is not a face's corner", word.substr(0, 40)));
+            // Negative numbers count back from the last vertex so far.
+            if (vertex == 0 || vertex < -vertices_)
+                fail(fmt::format("a face names vertex {}, but there are {} so far", vertex, vertices_));
+            if (vertex <= highest_) continue;
+            highest_ = vertex;
+            highest_at_ = number_;
+        }
         if (count < 3 || count > most) fail(fmt::format("a face of {} corners; 3 to {} are read", count, most));
     }
 
     const std::filesystem::path& file_;
     std::size_t number_ = 0;
+    std::int64_t vertices_ = 0;
+    std::int64_t highest_ = 0;  // vertex that a face names, and the line of that face
+    std::size_t highest_at_ = 0;
 };
 
 void check_lines(const std::string& text, const std::filesystem::path& file) {
@@ -90,6 +117,7 @@ void check_lines(const std::string& text, const std::filesystem::path& file) {
         check.check(std::string_view(text).substr(from, to - from));
         from = to + 1;
     }
+    check.finish();
 }
 
 class Converter {

@@ -5,11 +5,13 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <exception>
 #include <fstream>
 #include <mutex>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -27,12 +29,21 @@ using base::ErrorCode;
     throw Error(ErrorCode::bad_input, file.string(), message);
 }
 
+// Number of voxels in a box, which must not be over the limit.
+double check_box(const openvdb::Coord& lower, const openvdb::Coord& upper, const std::filesystem::path& file) {
+    double voxels = 1.0;
+    for (int axis = 0; axis < 3; ++axis) voxels *= std::max(0.0, static_cast<double>(upper[axis]) - lower[axis] + 1.0);
+    if (voxels > static_cast<double>(max_voxels))
+        fail(file, fmt::format("the active box has {} voxels; the limit is {}", voxels, max_voxels));
+    return voxels;
+}
+
 // The grids a file says it has. OpenVDB does not look whether its reads succeed: a file that is cut short would give a
 // grid with holes. So the ends of the grids, which stand in their descriptors, are held against the size of the file
 // first.
 class Contents : private openvdb::io::Archive {
 public:
-    explicit Contents(const std::filesystem::path& file) {
+    Contents(const std::filesystem::path& file, const std::string& wanted) {
         std::ifstream stream(file, std::ios::binary);
         if (!stream) throw Error(ErrorCode::io, file.string(), "cannot be opened");
         stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
@@ -50,6 +61,7 @@ public:
                             fmt::format("the file is cut short or damaged: the grid \"{}\" ends at byte {}",
                                         grid.gridName(), grid.getEndPos()));
             names_ += (names_.empty() ? "" : ", ") + grid.gridName();
+            if (grid.gridName() == wanted) check_claims(stream, grid, file);
             grid.seekToEnd(stream);
         }
     }
@@ -57,11 +69,42 @@ public:
     const std::string& names() const { return names_; }
 
 private:
+    // Refuses what the library would take memory for before it notices that the file does not hold it.
+    void check_claims(std::istream& stream, const openvdb::io::GridDescriptor& grid,
+                      const std::filesystem::path& file) {
+        // Older files have another order, other grids another tree; an instance has none.
+        if (openvdb::io::getFormatVersion(stream) < openvdb::OPENVDB_FILE_VERSION_GRID_INSTANCING ||
+            grid.gridType() != openvdb::FloatGrid::gridType() || grid.isInstance())
+            return;
+        grid.seekToGrid(stream);
+        readGridCompression(stream);
+        openvdb::MetaMap metadata;
+        metadata.readMeta(stream);
+        const auto lower = metadata.getMetadata<openvdb::Vec3IMetadata>(openvdb::GridBase::META_FILE_BBOX_MIN);
+        const auto upper = metadata.getMetadata<openvdb::Vec3IMetadata>(openvdb::GridBase::META_FILE_BBOX_MAX);
+        if (lower && upper) check_box(openvdb::Coord(lower->value()), openvdb::Coord(upper->value()), file);
+        openvdb::math::Transform().read(stream);
+        struct {
+            std::int32_t buffers;
+            float background;
+            std::uint32_t tiles, children;
+        } root;
+        static_assert(sizeof root == 16);
+        stream.read(reinterpret_cast<char*>(&root), sizeof root);
+        // A child begins with its place and two masks, a bit a slot each; a tile has its place, value and state.
+        constexpr std::uint64_t child_bytes = 12 + 2 * openvdb::FloatTree::RootNodeType::ChildNodeType::NUM_VALUES / 8;
+        constexpr std::uint64_t tile_bytes = 12 + 4 + 1;
+        const auto left = static_cast<std::uint64_t>(std::max<std::int64_t>(0, grid.getEndPos() - stream.tellg()));
+        if (root.children * child_bytes + root.tiles * tile_bytes > left)
+            fail(file, fmt::format("the file is damaged: the grid \"{}\" has {} nodes and {} tiles in {} bytes",
+                                   grid.gridName(), root.children, root.tiles, left));
+    }
+
     std::string names_;
 };
 
 openvdb::FloatGrid::Ptr read_grid(const std::filesystem::path& file, const std::string& name) {
-    const Contents contents(file);
+    const Contents contents(file, name);
     openvdb::io::File vdb(file.string());
     vdb.open(false);
     if (!vdb.hasGrid(name))
@@ -91,10 +134,7 @@ void check_transform(const openvdb::math::Transform& transform, const std::files
 GridVolume convert(const openvdb::FloatGrid& grid, const std::filesystem::path& file) {
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
     if (box.empty()) fail(file, "the grid has no active voxels");
-    double voxels = 1.0;
-    for (int axis = 0; axis < 3; ++axis) voxels *= static_cast<double>(box.max()[axis]) - box.min()[axis] + 1.0;
-    if (voxels > static_cast<double>(max_voxels))
-        fail(file, fmt::format("the active box has {} voxels; the limit is {}", voxels, max_voxels));
+    const double voxels = check_box(box.min(), box.max(), file);
 
     GridVolume volume;
     const openvdb::Coord size = box.dim();
@@ -130,6 +170,8 @@ GridVolume read_vdb(const std::filesystem::path& file, const std::string& grid) 
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
         throw Error(ErrorCode::no_such_file, file.string(), "there is no such file");
+    if (std::filesystem::is_regular_file(file, ignored) && std::filesystem::file_size(file, ignored) == 0)
+        fail(file, "the file is empty");
     try {
         const openvdb::FloatGrid::Ptr source = read_grid(file, grid);
         check_transform(source->transform(), file);
@@ -138,6 +180,8 @@ GridVolume read_vdb(const std::filesystem::path& file, const std::string& grid) 
         return volume;
     } catch (const Error&) {
         throw;
+    } catch (const std::bad_alloc&) {
+        fail(file, "the file is damaged or too large: there is not enough memory for what it says it holds");
     } catch (const std::ios_base::failure&) {
         fail(file, "the file is cut short or damaged");
     } catch (const std::exception& fault) {  // openvdb::Exception, and what a damaged file makes the library throw

@@ -23,7 +23,8 @@ nlohmann::json parse_json(const std::string& text, const std::string& origin);
 // The schema as committed, without the parameters of techniques (bench adds those from the registry).
 const nlohmann::json& scenario_schema();
 
-// Checks `document` against a draft-07 schema. Throws Error{bad_input} with the JSON pointer of the first fault.
+// Checks `document` against a draft-07 schema. Throws Error{bad_input} with the JSON pointer of the first fault; "/"
+// when the document is not even an object.
 void check_schema(const nlohmann::json& document, const nlohmann::json& schema);
 
 // Checks the document against the schema, reads its files, makes its procedural objects and returns the values.

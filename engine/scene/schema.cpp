@@ -38,7 +38,9 @@ void check_schema(const nlohmann::json& document, const nlohmann::json& schema) 
         for (std::size_t i = 1; i < first.context.size(); ++i)
             path.push_back(first.context[i].substr(1, first.context[i].size() - 2));
     const SchemaFault fault = explain_fault(document, schema, path, first.description);
-    throw base::Error(base::ErrorCode::bad_input, fault.pointer, fault.message);
+    // The pointer of a whole document is empty; a message that begins with nothing reads as if its place were unknown.
+    const bool whole = fault.pointer.empty() && !document.is_object();
+    throw base::Error(base::ErrorCode::bad_input, whole ? "/" : fault.pointer, fault.message);
 }
 
 }  // namespace shadowbench::scene

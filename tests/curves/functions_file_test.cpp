@@ -82,6 +82,19 @@ TEST(FunctionsFile, SaysWhereAndWhatIsWrong) {
     expect_refused("2\n1 0.5\n2 0.75\n", 3, "transmittance rises from 0.5 to 0.75");
 }
 
+TEST(FunctionsFile, TakesNumbersTooSmallForAFloatAsZero) {
+    EXPECT_EQ(read("3\n-1e-50 1\n1e-400 1e-42\n3 1e-50\n"), (std::vector<Curve>{{{0, 1}, {0, 1e-42f}, {3, 0}}}));
+    expect_refused("1\n-1e400 1\n", 2, "two numbers");
+}
+
+TEST(FunctionsFile, ShowsNoBytesOfABinaryFile) {
+    expect_refused(
+        "\x7f"
+        "E\x1b[2J\xff\n",
+        1, "found `?E?[2J?`");
+    expect_refused(std::string(1000, '\x01'), 1, std::string(60, '?') + "...`");
+}
+
 TEST(FunctionsFile, TellsAMissingFileFromOneThatCannotBeRead) {
     const Folder folder;
     try {

@@ -106,7 +106,9 @@ TEST(LoadMesh, PointsAtWhatDoesNotFit) {
 
 TEST(LoadMesh, RefusesAFileWithoutTriangles) {
     const auto folder = test::write_file("a.obj", "v 0 0 0\n").parent_path();
-    EXPECT_THAT(failure(R"({"type": "mesh", "file": "a.obj"})", {folder}).message(), HasSubstr("no triangles"));
+    const base::Error hollow = failure(R"({"type": "mesh", "file": "a.obj"})", {folder});
+    EXPECT_THAT(hollow.message(), HasSubstr("no triangles"));
+    EXPECT_EQ(hollow.where(), (folder / "a.obj").string());
     const base::Error missing = failure(R"({"type": "mesh", "file": "b.obj"})", {folder});
     EXPECT_EQ(missing.code(), base::ErrorCode::no_such_file);
     EXPECT_EQ(missing.where(), "/scene/objects/0/file");
@@ -114,7 +116,8 @@ TEST(LoadMesh, RefusesAFileWithoutTriangles) {
 
 TEST(LoadObject, HairNeedsAWidth) {
     std::string bytes = bytes_of(3.0f, 1u, 2u);
-    bytes.resize(296 + 24, '\0');
+    bytes.resize(296, '\0');
+    bytes += bytes_of(0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f);
     const auto folder = test::write_file("a.tfx", bytes).parent_path();
     EXPECT_THAT(failure(R"({"type": "hair", "file": "a.tfx"})", {folder}).message(),
                 HasSubstr("\"radius\" is missing"));
@@ -122,6 +125,9 @@ TEST(LoadObject, HairNeedsAWidth) {
               0.5f);
     test::write_file("none.tfx", bytes_of(3.0f, 0u, 2u) + std::string(300, '\0'));
     EXPECT_THAT(failure(R"({"type": "hair", "file": "none.tfx", "radius": 1})", {folder}).message(),
+                HasSubstr("no strands"));
+    test::write_file("points.tfx", bytes_of(3.0f, 1u, 2u) + std::string(400, '\0'));
+    EXPECT_THAT(failure(R"({"type": "hair", "file": "points.tfx", "radius": 1})", {folder}).message(),
                 HasSubstr("no strands"));
     test::write_file("a.abc", "");
     EXPECT_THAT(failure(R"({"type": "hair", "file": "a.abc", "radius": 1})", {folder}).message(),

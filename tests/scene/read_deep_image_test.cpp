@@ -121,6 +121,11 @@ TEST(ReadDeepImage, RefusesOtherFiles) {
 TEST(ReadDeepImage, RefusesAFileCutAnywhere) {
     const std::string bytes = test::read_bytes(write({"A", "Z"}, {{{0.5f, 4}}, {{0.5f, 5}}}));
     test::expect_cuts_refused(bytes, "cut.exr", bytes.size(), [](const auto& file) { read_deep_image(file); });
+    for (const std::size_t length : {std::size_t{0}, std::size_t{100}, bytes.size() - 1}) {
+        const auto file = test::write_file("cut.exr", bytes.substr(0, length));
+        // The place names the file already.
+        EXPECT_THAT(error_of([&] { read_deep_image(file); }).message(), testing::Not(HasSubstr(file.string())));
+    }
 }
 
 struct Real {

@@ -60,11 +60,24 @@ TEST(ReadObj, TellsTheLineOfWhatIsWrong) {
     EXPECT_EQ(where("vt x 0\n"), "1");
     EXPECT_EQ(where(corners + "f 1 2\n"), "5");
     EXPECT_EQ(where(corners + "f 1 2 x\n"), "5");
+    EXPECT_EQ(where(corners + "f 1 2 3\nf 1 2 5/1\nf 1 2 3\n"), "6");
+    EXPECT_EQ(where(corners + "f -5 1 2\n"), "5");
+    EXPECT_EQ(where(corners + "f 0 1 2\n"), "5");
 }
 
 TEST(ReadObj, RefusesIndicesThatAreNotThere) {
     for (const char* face : {"f 1 2 5\n", "f 0 1 2\n", "f -5 1 2\n", "f 1/1 2/1 3/1\n", "f 1 2 99999999999999\n"})
         EXPECT_EQ(error_of([&] { read(corners + face); }).code(), base::ErrorCode::bad_input) << face;
+}
+
+TEST(ReadObj, FacesMayStandBeforeTheirVertices) {
+    EXPECT_THAT(read("f 1 2 3\n" + corners).triangles, ElementsAre(Vec3i(0, 1, 2)));
+}
+
+TEST(ReadObj, AnEmptyFileIsBadInput) {
+    const base::Error error = error_of([] { read(""); });
+    EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
+    EXPECT_THAT(error.message(), HasSubstr("empty"));
 }
 
 TEST(ReadObj, NeverCrashesOnAFileCutAnywhere) {

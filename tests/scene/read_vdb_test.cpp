@@ -108,6 +108,33 @@ TEST(ReadVdb, RefusesAFileCutAnywhereAndOtherFiles) {
     EXPECT_EQ(error_of([] { read_vdb("/nowhere/a.vdb", "density"); }).code(), base::ErrorCode::no_such_file);
 }
 
+// What read_vdb says about the small grid's file with `from`, which it must hold, replaced by `to`.
+std::string message_with(const std::string& from, const std::string& to) {
+    std::string bytes = test::read_bytes(write({small_grid()}));
+    const std::size_t at = bytes.find(from);
+    EXPECT_NE(at, std::string::npos);
+    if (at != std::string::npos) bytes.replace(at, from.size(), to);
+    const auto file = test::write_file("claims.vdb", bytes);
+    const base::Error error = error_of([&] { read_vdb(file, "density"); });
+    EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
+    EXPECT_EQ(error.where(), file.string());
+    return error.message();
+}
+
+TEST(ReadVdb, RefusesClaimsBeforeMemoryIsTakenForThem) {
+    const std::string box = "file_bbox_max" + test::bytes_of(5u) + "vec3i" + test::bytes_of(12u);
+    EXPECT_THAT(message_with(box + test::bytes_of(1, 1, 5), box + test::bytes_of(20000, 20000, 20000)),
+                HasSubstr("limit is 1000000000"));
+    // One buffer, background, tiles, children, and where the first child is.
+    EXPECT_THAT(message_with(test::bytes_of(1, 0.0f, 0u, 2u, -4096, 0, 0),
+                             test::bytes_of(1, 0.0f, 0u, 0x7fffffffu, -4096, 0, 0)),
+                HasSubstr("2147483647 nodes"));
+}
+
+TEST(ReadVdb, SaysThatAFileIsEmpty) {
+    EXPECT_EQ(error_of([] { read_vdb(test::write_file("empty.vdb", ""), "density"); }).message(), "the file is empty");
+}
+
 TEST(ReadVdb, ReadsTheSmokeWholeOrNotAtAll) {
     SHADOWBENCH_NEED_DATA(file, "volumes/smoke.vdb");
     const GridVolume volume = read_vdb(file, "density");

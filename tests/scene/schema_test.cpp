@@ -55,19 +55,20 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     WrongTypes, WrongValue,
-    testing::Values(Wrong{"/rays", "3", "/rays", "expected object, got number 3"},
-                    Wrong{"/rays", R"({"resolution": "big"})", "/rays/resolution",
-                          "expected integer in [1, 16384] or array"},
-                    Wrong{"/rays", R"({"resolution": [1, 2, 3]})", "/rays/resolution", "got array of 3 items"},
-                    Wrong{"/rays", R"({"resolution": [1, "x"]})", "/rays/resolution/1", "got string \"x\""},
-                    Wrong{"/rays", R"({"samples_per_pixel": 1.5})", "/rays/samples_per_pixel", "expected integer"},
-                    Wrong{"/scene/objects/0/casts_shadow", "1", "/scene/objects/0/casts_shadow", "expected boolean"},
-                    Wrong{"/scene/objects/0/centre/2", "null", "/scene/objects/0/centre/2", "got null"},
-                    Wrong{"/scene/objects/0", "\"sphere\"", "/scene/objects/0", "expected object"},
-                    Wrong{"/scene/objects/0/opacity", "[1, 1]", "/scene/objects/0/opacity", "array of 3 items"},
-                    Wrong{"/lights", "{}", "/lights", "expected array"},
-                    Wrong{"/name", "\"a b\"", "/name", "A-Za-z0-9"},
-                    Wrong{"/name", "\"\"", "/name", "expected string that matches"}));
+    testing::Values(
+        Wrong{"/rays", "3", "/rays", "expected object, got number 3"},
+        Wrong{"/rays", R"({"resolution": "big"})", "/rays/resolution", "expected integer in [1, 16384] or array"},
+        Wrong{"/rays", R"({"resolution": [1, 2, 3]})", "/rays/resolution", "got array of 3 items"},
+        Wrong{"/rays", R"({"resolution": [1, "x"]})", "/rays/resolution/1", "got string \"x\""},
+        Wrong{"/rays", R"({"samples_per_pixel": 1.5})", "/rays/samples_per_pixel", "expected integer"},
+        Wrong{"/scene/objects/0/casts_shadow", "1", "/scene/objects/0/casts_shadow", "expected boolean"},
+        Wrong{"/scene/objects/0/centre/2", "null", "/scene/objects/0/centre/2", "got null"},
+        Wrong{"/scene/objects/0", "\"sphere\"", "/scene/objects/0", "expected object"},
+        Wrong{"/scene/objects/0/opacity", "[1, 1]", "/scene/objects/0/opacity", "array of 3 items"},
+        Wrong{"/lights", "{}", "/lights", "expected array"}, Wrong{"/name", "\"a b\"", "/name", "A-Za-z0-9"},
+        Wrong{"/name", "\"..\"", "/name", "expected string that matches"},
+        Wrong{"/name", "\".\"", "/name", "expected string that matches"}, Wrong{"", "[]", "/", "expected object"},
+        Wrong{"", "3", "/", "expected object"}, Wrong{"/name", "\"\"", "/name", "expected string that matches"}));
 
 INSTANTIATE_TEST_SUITE_P(
     OutOfRange, WrongValue,

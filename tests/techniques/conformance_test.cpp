@@ -183,10 +183,9 @@ TEST_P(Conformance, BytesAreWhatTheMapHolds) {
     EXPECT_GE(map->working_bytes(), map->bytes());
 }
 
-TEST_P(Conformance, LinesTouchedLieInTheMap) {
+TEST_P(Conformance, TouchedLinesAreWholeLines) {
     const Built b = build(row(), testing::hairy_scene(false), directional(), rays::testing::rays(32, 4));
     std::vector<const void*> lines;
-    unsigned sum = 0;
     std::size_t found = 0;
     for (int i = 0; i < 200; ++i) {
         base::Random random(i);
@@ -195,10 +194,9 @@ TEST_P(Conformance, LinesTouchedLieInTheMap) {
             {static_cast<float>(random.uniform(0, 32)), static_cast<float>(random.uniform(0, 32)), 1.0f, 1.0f}, lines);
         // Reading them must be allowed: the sanitizers know. A line may begin before the memory that it holds a part
         // of.
-        for (const void* line : lines) sum += reinterpret_cast<std::uintptr_t>(line) % 64;
+        for (const void* line : lines) EXPECT_EQ(reinterpret_cast<std::uintptr_t>(line) % 64, 0u);
         found += lines.size();
     }
-    EXPECT_EQ(sum, 0u) << "addresses of lines";
     EXPECT_EQ(found > 0, b.map->cells() != Cells::none);
 }
 
