@@ -20,12 +20,23 @@ constexpr std::size_t max_checked_cells = std::size_t{1} << 20;  // of one map: 
 constexpr std::size_t lookups_a_piece = 256;
 constexpr float rounding = 1e-6f;  // of an answer beyond [0, 1]
 
+// A layout that a technique cannot serve is bad input, not a fault of the technique: the message names its place.
+Maps begin_served(const Contender& contender, const techniques::BuildInput& input) {
+    try {
+        return begin_maps(*contender.row, contender.values, input);
+    } catch (const base::Error& error) {
+        if (error.code() != base::ErrorCode::bad_input) throw;
+        throw base::Error(base::ErrorCode::bad_input, contender.cell.where, error.message());
+    }
+}
+
 void begin_all(std::span<Contender> contenders, const techniques::BuildInput& input) {
     for (Contender& contender : contenders) {
         if (!contender.ok()) continue;
         try {
-            contender.maps = begin_maps(*contender.row, contender.values, input);
+            contender.maps = begin_served(contender, input);
         } catch (const base::Error& error) {
+            if (error.code() == base::ErrorCode::bad_input) throw;
             fail(contender, error.message());
         }
     }
@@ -123,6 +134,16 @@ void fail(Contender& contender, const std::string& reason) {
     contender.cell.status = CellStatus::failed;
     contender.cell.reason = reason;
     contender.maps = {};
+}
+
+void check_served(std::span<const Contender> contenders, const techniques::BuildInput& input) {
+    for (const Contender& contender : contenders) {
+        try {
+            begin_served(contender, input);
+        } catch (const base::Error& error) {
+            if (error.code() == base::ErrorCode::bad_input) throw;
+        }
+    }
 }
 
 void build_all(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input,

@@ -29,8 +29,13 @@ Contender make_contender(const scene::TechniqueRequest& request, const std::stri
 // The cell failed for this reason; its maps are given back. Only the first reason stays.
 void fail(Contender& contender, const std::string& reason);
 
-// Builds every map once, untimed, tiles in parallel; a technique that throws Error fails its own cell alone. A map that
-// grows beyond `memory_limit` bytes fails too. Fills in bytes and nodes.
+// Throws Error{bad_input} at the place of the first technique that cannot serve this layout. Begins each map for it and
+// drops it again: for small maps.
+void check_served(std::span<const Contender> contenders, const techniques::BuildInput& input);
+
+// Builds every map once, untimed, tiles in parallel; a technique that throws Error fails its own cell alone, but for
+// Error{bad_input} when it begins, which is thrown on as check_served does. A map that grows beyond `memory_limit`
+// bytes fails too. Fills in bytes and nodes.
 void build_all(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
                std::size_t memory_limit, const RaySource::Watch& watch);
 

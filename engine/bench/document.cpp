@@ -32,6 +32,13 @@ json::json_pointer read_path(const std::string& path, const std::string& assignm
     }
 }
 
+// What is set from outside holds, so no sweep over the same value may set it again.
+void drop_sweep(json& document, const json::json_pointer& pointer) {
+    const auto sweeps = document.find("sweeps");
+    if (sweeps == document.end() || !sweeps->is_object() || sweeps->erase(pointer.to_string()) == 0) return;
+    if (sweeps->empty()) document.erase("sweeps");
+}
+
 // {"if": {"type": id}, "then": the technique's own schema} for each technique.
 json technique_choices() {
     json choices = json::array();
@@ -58,6 +65,7 @@ void set_value(json& document, const std::string& assignment) {
         throw Error(ErrorCode::usage, "--set " + assignment,
                     fmt::format("the scenario has no {} to set a value in", pointer.parent_pointer().to_string()));
     *place = std::move(value);
+    drop_sweep(document, pointer);
 }
 
 json full_schema() {

@@ -26,7 +26,8 @@ struct LightJob {
     StageWatch watch;
 };
 
-// Throws Error{bad_input}: the light sees nothing, no receiver is in its map, or the memory limit is exceeded. A fault
+// Throws Error{bad_input}: the light sees nothing, no receiver is in its map, the memory limit is exceeded, or a
+// technique cannot serve this layout. A fault
 // of a technique is not an error: its cell is marked failed.
 LightResult run_light(const LightJob& job, std::vector<Contender> contenders);
 

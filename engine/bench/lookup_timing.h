@@ -23,7 +23,7 @@ struct LookupOrder {
 struct LookupPlan {
     LookupOrder image, random;
     int rounds = 1;     // a pass goes over its queries so often: more than once when once is too short for the clock
-    bool warm = false;  // each pass follows an untimed one, so that it finds in the cache what fits into it
+    bool warm = false;  // each pass follows untimed ones of its kind, so that it finds in the cache what fits into it
 };
 
 // Indices of `count` of `total` queries: all, or runs of 64 neighbours spread evenly.

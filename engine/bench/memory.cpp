@@ -6,52 +6,59 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "bench/reference.h"
+#include "rays/capture.h"
 
 namespace shadowbench::bench {
 namespace {
 
 constexpr double gib = 1024.0 * 1024.0 * 1024.0;
-constexpr double ray_bytes = 12.0;  // an offset and one surface
+constexpr double ray_bytes = 12.0;   // an offset and one surface
+constexpr double tile_bytes = 64.0;  // what the capture and the truth keep of every tile, rays or none
 
-double least_map_bytes(const Contender& contender, double pixels, double rays) {
-    switch (contender.row->create(contender.values)->cells()) {
-        case techniques::Cells::pixel:
-            return pixels * 8.0;
-        case techniques::Cells::centre:
-            return pixels * 4.0;
-        case techniques::Cells::sample:
-            return rays * 4.0;
-        case techniques::Cells::none:
-            break;
-    }
-    return 0.0;
+// Of the tiles that are captured at a time.
+double in_flight_bytes(const rays::MapLayout& layout) {
+    const double pixels = static_cast<double>(layout.width) * layout.height;
+    const double tile = static_cast<double>(layout.tile_width) * layout.tile_height;
+    return std::min(4.0 * base::thread_count() * tile, pixels) * layout.samples() * ray_bytes;
+}
+
+double all_tiles_bytes(const rays::MapLayout& layout) {
+    return tile_bytes * layout.tiles_x() * layout.tiles_y();
 }
 
 }  // namespace
 
-double least_bytes(const rays::MapLayout& layout, std::span<const Contender> contenders, const MemoryLimits& limits) {
-    const double pixels = static_cast<double>(layout.width) * layout.height;
-    const double rays = pixels * layout.samples();
-    const double tile = static_cast<double>(layout.tile_width) * layout.tile_height * layout.samples() * ray_bytes;
-    const double in_flight = 4.0 * base::thread_count() * tile;
+double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& reference,
+                   std::span<const Contender> contenders, const MemoryLimits& limits) {
+    const double rays = static_cast<double>(layout.width) * layout.height * layout.samples();
+    const double kept = std::min(rays * ray_bytes, static_cast<double>(limits.kept_rays));
     double maps = 0.0, largest = 0.0;
+    rays::MapLayout one_channel = layout;
+    one_channel.channels = 1;
     for (const Contender& contender : contenders) {
-        const double one = layout.channels * least_map_bytes(contender, pixels, rays);
+        const double one =
+            layout.channels * static_cast<double>(contender.row->least_bytes(contender.values, one_channel));
         maps += one;
         largest = std::max(largest, one);  // a second one while its build is timed
     }
-    return std::min(rays * ray_bytes, static_cast<double>(limits.kept_rays)) + std::min(in_flight, rays * ray_bytes) +
-           maps + largest;
+    // The truth is found before any map is built.
+    const double building = in_flight_bytes(layout) + maps + largest;
+    const double judging = in_flight_bytes(reference) + all_tiles_bytes(reference);
+    return kept + all_tiles_bytes(layout) + std::max(building, judging);
 }
 
-void check_memory(const rays::MapLayout& layout, std::span<const Contender> contenders, const MemoryLimits& limits,
-                  const std::string& where) {
-    const double need = least_bytes(layout, contenders, limits);
+void check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
+                  const MemoryLimits& limits, const std::string& where) {
+    const rays::MapLayout layout = rays::make_layout(scenario.scene, view, scenario.rays);
+    const rays::MapLayout reference = rays::make_layout(scenario.scene, view, reference_settings(scenario));
+    const double need = least_bytes(layout, reference, contenders, limits);
     if (need <= static_cast<double>(limits.all)) return;
-    throw base::Error(
-        base::ErrorCode::bad_input, where,
-        fmt::format("{} x {} pixels of {} samples need at least {:.3g} GiB; the memory limit is {:.3g} GiB",
-                    layout.width, layout.height, layout.samples(), need / gib, static_cast<double>(limits.all) / gib));
+    throw base::Error(base::ErrorCode::bad_input, where,
+                      fmt::format("{} x {} pixels of {} samples, and {} for the reference, need at least {:.3g} GiB; "
+                                  "the memory limit is {:.3g} GiB",
+                                  layout.width, layout.height, layout.samples(), reference.samples(), need / gib,
+                                  static_cast<double>(limits.all) / gib));
 }
 
 }  // namespace shadowbench::bench

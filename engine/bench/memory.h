@@ -7,6 +7,8 @@
 
 #include "bench/contender.h"
 #include "rays/light_rays.h"
+#include "rays/light_view.h"
+#include "scene/scene.h"
 
 namespace shadowbench::bench {
 
@@ -15,12 +17,13 @@ struct MemoryLimits {
     std::size_t kept_rays = std::size_t{4} << 30;  // light rays beyond this are captured anew for every pass
 };
 
-// Bytes that a run holds at least: the light rays that are kept or in flight with one crossing a ray, and the smallest
-// map that each technique can make of its cells.
-double least_bytes(const rays::MapLayout& layout, std::span<const Contender> contenders, const MemoryLimits& limits);
+// Bytes that a run holds at least: the light rays that are kept or in flight with one crossing a ray, what is kept of
+// every tile, and the larger of what finding the truth needs and what the maps surely hold.
+double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& reference,
+                   std::span<const Contender> contenders, const MemoryLimits& limits);
 
 // Throws Error{bad_input} at `where` when that is more than the limit.
-void check_memory(const rays::MapLayout& layout, std::span<const Contender> contenders, const MemoryLimits& limits,
-                  const std::string& where);
+void check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
+                  const MemoryLimits& limits, const std::string& where);
 
 }  // namespace shadowbench::bench

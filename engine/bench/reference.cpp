@@ -178,6 +178,15 @@ double standard_error(const Moments& moments, int channel) {
 
 }  // namespace
 
+scene::RaySettings reference_settings(const scene::Scenario& scenario) {
+    scene::RaySettings settings = scenario.rays;
+    if (scenario.scene.deep_image) return settings;
+    settings.samples_per_pixel = scenario.reference.samples_per_pixel;
+    settings.pattern = scene::Pattern::jittered;
+    settings.seed = scenario.reference.seed;
+    return settings;
+}
+
 Truth reference_visibility(const scene::Scene& scene, const rays::LightView& view, const scene::RaySettings& settings,
                            std::span<const Query> queries, const ReferenceWatch& watch) {
     const MapLayout layout = rays::make_layout(scene, view, settings);

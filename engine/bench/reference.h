@@ -22,6 +22,9 @@ struct Truth {
     std::vector<double> standard_error;
 };
 
+// The rays that the truth of a scenario is taken from: its own samples and seed; a deep image's rays are all there are.
+scene::RaySettings reference_settings(const scene::Scenario& scenario);
+
 using ReferenceWatch = std::function<void(std::size_t done, std::size_t total)>;
 
 // V*(x, y, z; w): the rays with |sx - x| <= w/2 and |sy - y| <= w/2 inside the map; the ray of the sample cell of (x,

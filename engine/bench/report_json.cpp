@@ -104,7 +104,8 @@ json to_json(const rays::MapLayout& layout) {
 
 json to_json(const std::optional<Agreement>& agreement) {
     if (!agreement) return nullptr;
-    return {{"rays", agreement->rays},
+    return {{"agrees", agrees(*agreement)},
+            {"rays", agreement->rays},
             {"other_crossings", agreement->other_crossings},
             {"other_transmittance", agreement->other_transmittance},
             {"times",
@@ -163,6 +164,7 @@ nlohmann::ordered_json to_json(const Result& result) {
             {"purpose", result.purpose},
             {"scenario_hash", result.hash},
             {"scenario", json::parse(result.document)},
+            {"only", result.only},
             {"program",
              {{"version", build.version},
               {"commit", build.commit},

@@ -97,6 +97,27 @@ std::string capture_lines(const LightResult& light, int threads) {
     return text + "\n";
 }
 
+// Empty where the capture and Embree agree.
+std::string warning_line(const LightResult& light) {
+    if (!light.agreement || agrees(*light.agreement)) return "";
+    const Agreement& a = *light.agreement;
+    return fmt::format(
+        "    WARNING: the captured rays are not those that Embree traces: of {} compared, {} differ in crossings and "
+        "{} "
+        "in transmittance. Do not rely on this light's numbers.\n",
+        count(a.rays), count(a.other_crossings), count(a.other_transmittance));
+}
+
+// Empty where every stored function was compared.
+std::string share_line(const LightResult& light) {
+    std::string names;
+    for (const Cell& cell : light.cells)
+        if (cell.curve && cell.curve->cells < cell.nodes.cells)
+            names += fmt::format("{}{} ({} of {})", names.empty() ? "" : ", ", title(cell), count(cell.curve->cells),
+                                 count(cell.nodes.cells));
+    return names.empty() ? "" : "    curve max of a share of the cells: " + names + "\n";
+}
+
 std::string reference_line(const LightResult& light) {
     const ReferenceReport& r = light.reference;
     std::string text = fmt::format(
@@ -117,11 +138,11 @@ std::string to_table(const Result& result) {
         for (const Setting& setting : variant.settings)
             text += fmt::format("{} = {}\n", setting.pointer, setting.value);
         for (const LightResult& light : variant.lights) {
-            text += capture_lines(light, result.times.threads) + reference_line(light);
+            text += capture_lines(light, result.times.threads) + warning_line(light) + reference_line(light);
             Table table({"technique", "build ms", "ns/seg", "image ns", "x floor", "random ns", "x floor", "bytes",
                          "nodes mean", "max", "curve max", "lookup rms", "p99", "max", "front", "status"});
             for (const Cell& cell : light.cells) table.add(row_of(cell));
-            text += table.text("    ");
+            text += table.text("    ") + share_line(light);
         }
     }
     return text + legend;

@@ -1,5 +1,6 @@
 #include "bench/result.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace shadowbench::bench {
@@ -11,6 +12,11 @@ Sample summarise(std::vector<double> raw) {
     sample.median = metrics::median(sample.raw);
     sample.interval = metrics::median_interval(sample.raw);
     return sample;
+}
+
+bool agrees(const Agreement& agreement) {
+    const double allowed = std::max(3.0, 1e-3 * static_cast<double>(agreement.rays));
+    return static_cast<double>(std::max(agreement.other_crossings, agreement.other_transmittance)) <= allowed;
 }
 
 bool any_failed(const Result& result) {

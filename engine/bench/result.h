@@ -90,6 +90,8 @@ struct Agreement {
     std::uint64_t other_transmittance = 0;  // rays whose whole transmittance differs by more than 1e-3
     AgreementTimes times;
 };
+// Whether no more rays differ, in either way, than grazed edges explain: 3, or 0.1 % of many.
+bool agrees(const Agreement& agreement);
 
 struct ReferenceReport {
     std::uint64_t judged = 0;  // receivers compared with the truth
@@ -137,8 +139,9 @@ struct RunTimes {
 
 struct Result {
     std::string name, purpose;
-    std::string document;  // JSON text of the scenario as run
-    std::string hash;      // of that text
+    std::string document;           // JSON text of the scenario as run
+    std::string hash;               // of that text
+    std::vector<std::string> only;  // ids of the techniques that the run was kept to; empty: all
     Machine machine;
     RunTimes times;
     std::vector<VariantResult> variants;

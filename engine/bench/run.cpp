@@ -72,6 +72,7 @@ Result run(const nlohmann::json& document, const RunOptions& options, const Prog
     result.purpose = document.value("purpose", "");
     result.document = document.dump();
     result.hash = hash_text(result.document);
+    result.only = options.only;
 
     ScenarioLoader loader(options.data);
     for (std::size_t v = 0; v < variants.size(); ++v) {
@@ -108,12 +109,14 @@ Validated validate(const nlohmann::json& document, const RunOptions& options) {
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
             const rays::LightView view = rays::make_light_view(scenario.lights[l], scenario.scene,
                                                                scenario.rays.resolution, pointer_of(scenario, l));
-            check_memory(rays::make_layout(scenario.scene, view, scenario.rays), contenders, options.limits, "/rays");
+            check_memory(scenario, view, contenders, options.limits, "/rays");
+            if (scenario.scene.deep_image)
+                check_served(contenders, {rays::make_layout(scenario.scene, view, scenario.rays), view, nullptr});
         }
+        if (validated.variants++ > 0) continue;
         validated.name = scenario.name;
-        ++validated.variants;
-        validated.lights += scenario.lights.size();
-        validated.techniques += contenders.size();
+        validated.lights = scenario.lights.size();
+        validated.techniques = contenders.size();
     }
     return validated;
 }

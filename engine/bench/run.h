@@ -26,10 +26,11 @@ Result run(const nlohmann::json& document, const RunOptions& options, const Prog
 
 struct Validated {
     std::string name;
-    std::size_t variants = 0, lights = 0, techniques = 0;  // lights and techniques: over all variants
+    std::size_t variants = 0, lights = 0, techniques = 0;  // lights and techniques: of the first variant
 };
 
-// All that run() checks before it works: the document, its files, what its lights see, the memory limit.
+// All that run() checks before it works: the document, its files, what its lights see, the memory limit,
+// and whether the techniques can take a deep image.
 Validated validate(const nlohmann::json& document, const RunOptions& options);
 
 }  // namespace shadowbench::bench

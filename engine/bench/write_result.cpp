@@ -18,23 +18,6 @@ namespace fs = std::filesystem;
 using base::Error;
 using base::ErrorCode;
 
-// Takes away what was made, newest first, unless it is told to keep it.
-class Undo {
-public:
-    Undo() = default;
-    Undo(const Undo&) = delete;
-    Undo& operator=(const Undo&) = delete;
-    ~Undo() {
-        std::error_code ignored;
-        for (auto path = made_.rbegin(); path != made_.rend(); ++path) fs::remove(*path, ignored);
-    }
-    void made(const fs::path& path) { made_.push_back(path); }
-    void keep() { made_.clear(); }
-
-private:
-    std::vector<fs::path> made_;
-};
-
 void make_folders(const fs::path& folder, Undo& undo) {
     std::error_code failed;
     if (folder.empty() || fs::is_directory(folder, failed)) return;
@@ -56,6 +39,11 @@ void write_one(const fs::path& path, const std::string& content) {
 
 }  // namespace
 
+Undo::~Undo() {
+    std::error_code ignored;
+    for (auto path = made_.rbegin(); path != made_.rend(); ++path) fs::remove(*path, ignored);
+}
+
 void write_files(const std::vector<NewFile>& files) {
     Undo undo;
     std::error_code failed;
@@ -74,16 +62,21 @@ void write_files(const std::vector<NewFile>& files) {
     undo.keep();
 }
 
-void check_writable(const fs::path& folder) {
-    std::error_code ignored;
-    fs::path there = folder.empty() ? fs::path(".") : folder;
-    while (!fs::exists(there, ignored) && there.has_parent_path() && there != there.parent_path())
-        there = there.parent_path();
-    if (!fs::exists(there, ignored)) there = ".";
-    if (!fs::is_directory(there, ignored))
-        throw Error(ErrorCode::io, folder.string(), "results cannot go there: " + there.string() + " is not a folder");
-    if (access(there.c_str(), W_OK | X_OK) != 0)
-        throw Error(ErrorCode::io, folder.string(), "results cannot go there: " + there.string() + " is not writable");
+void make_writable(const fs::path& folder, Undo& undo) {
+    try {
+        make_folders(folder, undo);
+    } catch (const Error& error) {
+        throw Error(ErrorCode::io, folder.string(), "results cannot go there: " + std::string(error.what()));
+    }
+    // Permissions do not tell root everything, nor of file systems that take no files: only trying does.
+    Undo attempt;
+    const fs::path file = temporary_name(folder / "result.json");
+    attempt.made(file);
+    try {
+        write_one(file, "");
+    } catch (const Error&) {
+        throw Error(ErrorCode::io, folder.string(), "results cannot be written there");
+    }
 }
 
 void write_result(const fs::path& folder, const Result& result) {

@@ -9,6 +9,20 @@
 
 namespace shadowbench::bench {
 
+// Takes away the files and empty folders that were made, newest first, unless it is told to keep them.
+class Undo {
+public:
+    Undo() = default;
+    Undo(const Undo&) = delete;
+    Undo& operator=(const Undo&) = delete;
+    ~Undo();
+    void made(const std::filesystem::path& path) { made_.push_back(path); }
+    void keep() { made_.clear(); }
+
+private:
+    std::vector<std::filesystem::path> made_;
+};
+
 // A file and all that it will hold.
 struct NewFile {
     std::filesystem::path path;
@@ -20,8 +34,9 @@ struct NewFile {
 // what was there before is as it was. Throws Error{io}.
 void write_files(const std::vector<NewFile>& files);
 
-// Throws Error{io} when files could not be made in this folder, before hours are spent on what goes there.
-void check_writable(const std::filesystem::path& folder);
+// Makes the folder where it is missing and tries to write in it, before hours are spent on what goes there. `undo`
+// takes away the folders that were made. Throws Error{io}.
+void make_writable(const std::filesystem::path& folder, Undo& undo);
 
 // result.json and result.csv, in this folder. Throws Error{io}.
 void write_result(const std::filesystem::path& folder, const Result& result);

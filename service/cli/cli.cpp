@@ -44,7 +44,7 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
     command.add_option("SCENARIO", arguments.scenario, "A scenario file, or its name")->required();
     repeatable(command.add_option("--set", arguments.set,
                                   "path=value: change one value of the scenario, as in rays.samples_per_pixel=64 or "
-                                  "/techniques/0/tolerance=0.01"));
+                                  "/techniques/0/tolerance=0.01; a sweep over it is dropped"));
     repeatable(command.add_option("--only", arguments.only, "Only techniques of this type"));
     repeatable(command.add_option("--data", arguments.data,
                                   "A folder to look for data in; before $SHADOWBENCH_DATA, the scenario's folder, its "
@@ -59,7 +59,8 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
 void add_commands(CLI::App& app, Arguments& arguments) {
     CLI::App* run = app.add_subcommand("run", "Run a scenario: print a table, write result.json and result.csv");
     add_scenario_options(*run, arguments.run);
-    run->add_option("--out", arguments.run.out, "Folder of the results [results/runs/<scenario name>]");
+    run->add_option("--out", arguments.run.out, "Folder of the results [results/runs/<scenario name>]")
+        ->check([](const std::string& folder) { return std::string(folder.empty() ? "the folder has no name" : ""); });
 
     CLI::App* validate = app.add_subcommand("validate", "Check a scenario and its files without running it");
     add_scenario_options(*validate, arguments.validate);

@@ -48,7 +48,8 @@ fs::path result_folder(const RunArguments& arguments, const nlohmann::json& docu
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
     const Job job = read_job(arguments);
     const fs::path folder = result_folder(arguments, job.document);
-    bench::check_writable(folder);
+    bench::Undo made;  // a run that fails leaves no folder
+    bench::make_writable(folder, made);
 
     std::unique_ptr<ProgressBar> bar;
     if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
@@ -57,6 +58,7 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
     });
     bar.reset();
     bench::write_result(folder, result);
+    made.keep();
     out << bench::to_table(result) << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
     return !bench::any_failed(result);
 }
@@ -64,7 +66,7 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
 void validate_command(const ScenarioArguments& arguments, std::ostream& out) {
     const Job job = read_job(arguments);
     const bench::Validated validated = bench::validate(job.document, job.options);
-    out << fmt::format("OK {}: {} variant{}, {} light{}, {} technique{}\n", validated.name, validated.variants,
+    out << fmt::format("OK {}: {} variant{} of {} light{} and {} technique{}\n", validated.name, validated.variants,
                        validated.variants == 1 ? "" : "s", validated.lights, validated.lights == 1 ? "" : "s",
                        validated.techniques, validated.techniques == 1 ? "" : "s");
 }

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "bench/errors.h"
 #include "bench/fake_map.h"
 #include "bench/half_covered.h"
 #include "bench/memory.h"
@@ -87,10 +88,15 @@ TEST_F(Contenders, that_answer_no_number_fail) {
     }
 }
 
-TEST_F(Contenders, that_refuse_the_layout_fail_alone) {
-    const Cell cell = judge({.function = true_function_, .refuses_begin = true});
-    EXPECT_EQ(cell.status, CellStatus::failed);
-    EXPECT_EQ(cell.reason, "this layout is not for me");
+TEST_F(Contenders, that_refuse_the_layout_are_bad_input) {
+    fake_answers = {.function = true_function_, .refuses_begin = true};
+    std::vector<Contender> contenders(1);
+    contenders[0].row = &fake_technique();
+    contenders[0].cell.where = "/techniques/3";
+    const techniques::BuildInput input{layout_, half_.view, nullptr};
+    error_of([&] { check_served(contenders, input); }, base::ErrorCode::bad_input, "/techniques/3");
+    error_of([&] { build_all(contenders, source_, input, MemoryLimits{}.all, {}); }, base::ErrorCode::bad_input,
+             "/techniques/3");
 }
 
 TEST_F(Contenders, are_judged_alike_when_the_rays_are_captured_anew) {

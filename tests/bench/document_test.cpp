@@ -45,6 +45,16 @@ TEST(SetValue, adds_a_part_that_the_document_leaves_out) {
     EXPECT_EQ(document["timing"]["repetitions"], 3);
 }
 
+TEST(SetValue, drops_a_sweep_over_the_same_value) {
+    json document = small_document();
+    document["sweeps"] = {{"/rays/samples_per_pixel", {1, 4}}, {"/techniques/1/nodes", {4, 8}}};
+    set_value(document, "rays.samples_per_pixel=64");
+    EXPECT_EQ(document["sweeps"], (json{{"/techniques/1/nodes", {4, 8}}}));
+    EXPECT_EQ((*expand(document).at(0).document)["rays"]["samples_per_pixel"], 64);
+    set_value(document, "/techniques/1/nodes=16");
+    EXPECT_FALSE(document.contains("sweeps"));
+}
+
 TEST(SetValue, refuses_a_path_that_leads_nowhere) {
     json document = small_document();
     for (const char* assignment : {"rayz.samples=3", "techniques.7.tolerance=1", "rays.resolution.x=4", "name"})

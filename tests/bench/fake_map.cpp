@@ -20,7 +20,8 @@ const techniques::Technique& fake_technique() {
             return std::make_unique<FakeMap>(fake_answers);
         },
         [](const techniques::ParameterValues&, const rays::MapLayout&) { return 0.01; },
-        nullptr};
+        nullptr,
+        [](const techniques::ParameterValues&, const rays::MapLayout&) { return std::size_t{100}; }};
     return row;
 }
 

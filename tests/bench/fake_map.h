@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <limits>
 #include <memory>
 
@@ -24,11 +25,13 @@ public:
     void add(const rays::LightRays&) override {}
     void finish() override {}
     void lookup(std::span<const techniques::Query>, std::span<float> visibility) const override {
+        ++lookups_;
         for (float& v : visibility) v = answers_.lookup;
     }
     void touched(const techniques::Query&, std::vector<const void*>& lines) const override {
         for (int i = 0; i < answers_.lines; ++i) lines.push_back(memory_.data() + 64 * i);
     }
+    int lookups() const { return lookups_; }  // calls so far
     std::size_t bytes() const override { return 100; }
     std::size_t working_bytes() const override { return 200; }
     techniques::NodeStats nodes() const override {
@@ -42,6 +45,7 @@ public:
 private:
     FakeAnswers answers_;
     std::array<unsigned char, 1024> memory_{};
+    mutable std::atomic<int> lookups_ = 0;
 };
 
 // What fake_technique() makes, until it is set anew.

@@ -69,6 +69,18 @@ TEST(LookupPlan, keeps_one_time_and_one_floor_a_repetition) {
     EXPECT_DOUBLE_EQ(times.ratio->raw[2], times.ns.raw[2] / times.floor->raw[2]);
 }
 
+TEST(LookupPlan, warms_up_at_least_twice_whichever_goes_first) {
+    const Maps maps = fake_maps(3);
+    const auto& map = static_cast<const FakeMap&>(*maps.channel[0]);
+    LookupPlan plan = plan_lookups(maps, some_queries(100), 100, 3);
+    plan.warm = true;
+    for (const bool floor_first : {false, true}) {
+        const int before = map.lookups();
+        time_repetition(maps, plan, floor_first);
+        EXPECT_GE(map.lookups() - before, 2 * (2 + plan.rounds));
+    }
+}
+
 TEST(LookupPlan, has_no_floor_for_a_technique_without_a_map) {
     const Maps maps = fake_maps(0);
     LookupPlan plan = plan_lookups(maps, some_queries(100), 100, 3);

@@ -95,6 +95,33 @@ TEST(ResultTable, shows_dashes_for_the_times_of_a_failed_cell) {
     EXPECT_EQ(line->find("7.50"), std::string::npos) << *line;
 }
 
+TEST(ResultTable, warns_where_the_capture_and_embree_disagree) {
+    Result result = small_result();
+    LightResult& light = result.variants[0].lights[0];
+    const auto agreed = [&] {
+        return to_json(result)["variants"][0]["lights"][0]["capture"]["embree_check"]["agrees"].get<bool>();
+    };
+    light.agreement = Agreement{20000, 20, 3, {}};
+    EXPECT_TRUE(agreed());
+    EXPECT_EQ(to_table(result).find("WARNING"), std::string::npos);
+    light.agreement->other_transmittance = 21;
+    EXPECT_FALSE(agreed());
+    EXPECT_NE(to_table(result).find("WARNING"), std::string::npos);
+    light.agreement = Agreement{100, 3, 3, {}};
+    EXPECT_TRUE(agreed()) << "three rays are few, whatever their share";
+}
+
+TEST(ResultTable, says_which_errors_are_of_a_share_of_the_cells) {
+    Result result = small_result();
+    Cell& cell = result.variants[0].lights[0].cells[0];
+    cell.curve = CurveErrors{};
+    cell.curve->cells = cell.nodes.cells = 1000;
+    EXPECT_EQ(to_table(result).find("of a share"), std::string::npos);
+    cell.nodes.cells = 4000;
+    EXPECT_NE(to_table(result).find("of a share of the cells: deep tolerance=0.02 (1,000 of 4,000)"),
+              std::string::npos);
+}
+
 TEST(Table, aligns_its_columns) {
     Table table({"name", "n", "note"});
     table.add({"a", "10", "x"});

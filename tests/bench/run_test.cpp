@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -112,10 +113,33 @@ TEST(Run, refuses_more_memory_than_allowed_before_it_works) {
     error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/rays");
 }
 
+TEST(Run, counts_the_maps_and_the_reference_against_the_memory_limit) {
+    json document = two_layers();
+    document["rays"] = {{"resolution", 16384}, {"samples_per_pixel", 1}};
+    document["techniques"] = {{{"type", "shadow_map"}}};
+    document["reference"]["samples_per_pixel"] = 65536;
+    error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
+    document["reference"]["samples_per_pixel"] = 16;
+    EXPECT_NO_THROW(validate(document, {}));
+    document["techniques"] = {{{"type", "avsm"}, {"nodes", 64}}};
+    error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
+}
+
 TEST(Run, refuses_a_camera_that_looks_past_the_lights_map) {
     json document = two_layers();
     document["receivers"] = {{"type", "camera"}, {"position", {0, 5, 5}}, {"target", {0, 50, 5}}, {"up", {0, 0, 1}}};
     error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
+}
+
+TEST(Run, refuses_a_technique_that_a_deep_image_cannot_serve) {
+    const std::filesystem::path data = std::string(SHADOWBENCH_SOURCE_DIR) + "/../shared/data";
+    if (!std::filesystem::exists(data / "deep/leaves.exr")) GTEST_SKIP() << "deep/leaves.exr is not there";
+    const json document = json::parse(R"({"name": "deep", "scene": {"deep_image": {"file": "deep/leaves.exr"}},
+        "receivers": {"type": "probes", "count": 100}, "techniques": [{"type": "deep"}, {"type": "ray_traced"}]})");
+    RunOptions options;
+    options.data = {data};
+    error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/techniques/1");
+    error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/techniques/1");
 }
 
 TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {

@@ -59,10 +59,23 @@ TEST_F(WriteFiles, refuses_a_folder_in_a_files_place_before_replacing_others) {
 
 TEST_F(WriteFiles, tells_beforehand_that_a_folder_cannot_be_made) {
     write_files({{folder_ / "file", ""}});
-    EXPECT_NO_THROW(check_writable(folder_ / "not/yet/there"));
-    EXPECT_NO_THROW(check_writable("relative/not/there"));
-    error_of([&] { check_writable(folder_ / "file/sub"); }, ErrorCode::io, (folder_ / "file/sub").string());
-    EXPECT_EQ(entries(), 1u) << "looking makes nothing";
+    Undo undo;
+    error_of([&] { make_writable(folder_ / "file/sub", undo); }, ErrorCode::io, (folder_ / "file/sub").string());
+    EXPECT_THROW(make_writable("/proc", undo), base::Error) << "which is there, and takes no files even of root";
+    EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(WriteFiles, makes_the_folder_beforehand_and_takes_it_away_unless_kept) {
+    {
+        Undo undo;
+        make_writable(folder_ / "not/yet/there", undo);
+        EXPECT_EQ(entries(), 3u) << "the folders, no file";
+    }
+    EXPECT_EQ(entries(), 0u);
+    Undo undo;
+    make_writable(folder_ / "kept", undo);
+    undo.keep();
+    EXPECT_EQ(entries(), 1u);
 }
 
 }  // namespace

@@ -100,6 +100,7 @@ TEST_F(Cli, refuses_wrong_usage) {
     fails({"list", "everything"}, 64, "techniques");
     fails({"run", path("tiny.json"), "--set", "rays.seed"}, 64, "--set rays.seed");
     fails({"run", path("tiny.json"), "--set", "rayz.seed=3"}, 64, "rayz.seed=3");
+    fails({"run", path("tiny.json"), "--out", ""}, 64, "--out");
     fails({"run", path("tiny.json"), "--only", "pcf"}, 64, "deep uncompressed");
 }
 
@@ -164,7 +165,12 @@ TEST_F(Cli, refuses_what_exceeds_the_memory_limit_before_it_works) {
 TEST_F(Cli, validates_without_running) {
     const Outcome outcome = cli({"validate", path("tiny.json")});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(outcome.out, "OK tiny: 1 variant, 1 light, 2 techniques\n");
+    EXPECT_EQ(outcome.out, "OK tiny: 1 variant of 1 light and 2 techniques\n");
+}
+
+TEST_F(Cli, counts_what_each_variant_has) {
+    const Outcome outcome = cli({"validate", path("tiny.json"), "--set", "sweeps={\"/rays/seed\":[1,2,3]}"});
+    EXPECT_EQ(outcome.out, "OK tiny: 3 variants of 1 light and 2 techniques\n") << outcome.err;
 }
 
 TEST_F(Cli, runs_and_writes_json_and_csv) {
@@ -175,6 +181,7 @@ TEST_F(Cli, runs_and_writes_json_and_csv) {
     EXPECT_NE(outcome.out.find("uncompressed"), std::string::npos);
     const nlohmann::json result = nlohmann::json::parse(read(path("out/deep/result.json")));
     EXPECT_EQ(result["scenario"]["rays"]["seed"], 9);
+    EXPECT_EQ(result["only"], std::vector<std::string>{"uncompressed"});
     EXPECT_EQ(result["variants"][0]["lights"][0]["cells"].size(), 1u);
     EXPECT_EQ(result["variants"][0]["lights"][0]["cells"][0]["status"], "ok");
     EXPECT_EQ(read(path("out/deep/result.csv")).rfind("scenario,", 0), 0u);
