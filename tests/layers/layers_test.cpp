@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,18 +18,30 @@ struct Include {
     bool system;       // in angle brackets
 };
 
+// The name in an include line, and whether it stands in angle brackets; nothing of other lines.
+bool parse_include(std::string line, std::string& path, bool& system) {
+    std::erase_if(line, [](char c) { return c == ' ' || c == '\t'; });
+    const std::string start = "#include";
+    if (line.rfind(start, 0) != 0 || line.size() < start.size() + 2) return false;
+    const char open = line[start.size()];
+    const std::size_t end = line.find(open == '<' ? '>' : '"', start.size() + 1);
+    if ((open != '<' && open != '"') || end == std::string::npos) return false;
+    path = line.substr(start.size() + 1, end - start.size() - 1);
+    system = open == '<';
+    return true;
+}
+
 std::vector<Include> read_includes() {
     std::vector<Include> result;
     const fs::path top = SHADOWBENCH_SOURCE_DIR;
-    const std::regex line_of(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
     for (const char* folder : {"engine", "service"})
         for (const auto& entry : fs::recursive_directory_iterator(top / folder)) {
             const std::string extension = entry.path().extension().string();
             if (extension != ".h" && extension != ".cpp") continue;
             std::ifstream in(entry.path());
+            Include include{fs::relative(entry.path(), top).generic_string(), {}, false};
             for (std::string line; std::getline(in, line);)
-                if (std::smatch match; std::regex_match(line, match, line_of))
-                    result.push_back({fs::relative(entry.path(), top).generic_string(), match[2], match[1] == "<"});
+                if (parse_include(line, include.path, include.system)) result.push_back(include);
         }
     return result;
 }
