@@ -1,30 +1,27 @@
 #include "techniques/live_bytes.h"
 
+#include <malloc.h>
+
 #include <atomic>
 #include <cstdlib>
 #include <new>
 
-// Every block carries its size in front of it, as far in front as it is aligned.
 namespace {
 
 std::atomic<std::size_t> live{0};
 
 void* allocate(std::size_t size, std::size_t alignment) {
-    const std::size_t head = alignment < 16 ? 16 : alignment;
-    const std::size_t total = (size + head + head - 1) / head * head;
-    auto* block = static_cast<char*>(std::aligned_alloc(head, total));
+    void* block = alignment <= 16 ? std::malloc(size)
+                                  : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
     if (!block) throw std::bad_alloc();
-    live += size;
-    *reinterpret_cast<std::size_t*>(block + head - 16) = size;
-    *reinterpret_cast<std::size_t*>(block + head - 8) = head;
-    return block + head;
+    live += malloc_usable_size(block);
+    return block;
 }
 
-void release(void* pointer) noexcept {
-    if (!pointer) return;
-    auto* p = static_cast<char*>(pointer);
-    live -= *reinterpret_cast<std::size_t*>(p - 16);
-    std::free(p - *reinterpret_cast<std::size_t*>(p - 8));
+void release(void* block) noexcept {
+    if (!block) return;
+    live -= malloc_usable_size(block);
+    std::free(block);
 }
 
 }  // namespace
