@@ -91,18 +91,21 @@ inline CellRange footprint(const CellGrid& grid, const Query& q) {
     return r;
 }
 
-// Appends the 64-byte lines of [first, first + bytes).
+// Appends an address in each 64-byte line of [first, first + bytes); every address lies in that memory.
 inline void touch_lines(const void* first, std::size_t bytes, std::vector<const void*>& lines) {
-    const auto begin = reinterpret_cast<std::uintptr_t>(first) & ~std::uintptr_t{63};
-    const auto end = reinterpret_cast<std::uintptr_t>(first) + bytes;
-    for (std::uintptr_t line = begin; line < end; line += 64) lines.push_back(reinterpret_cast<const void*>(line));
+    const auto begin = reinterpret_cast<std::uintptr_t>(first), end = begin + bytes;
+    for (std::uintptr_t at = begin; at < end; at = (at / 64 + 1) * 64)
+        lines.push_back(reinterpret_cast<const void*>(at));
 }
 
-// Each line counts once in a lookup, however often it is read: sorts the lines from `first` on and drops repetitions.
+// Each line counts once in a lookup, however often it is read: drops further addresses of a line from `first` on.
 inline void keep_unique(std::vector<const void*>& lines, std::size_t first) {
+    const auto same_line = [](const void* a, const void* b) {
+        return reinterpret_cast<std::uintptr_t>(a) / 64 == reinterpret_cast<std::uintptr_t>(b) / 64;
+    };
     const auto begin = lines.begin() + static_cast<std::ptrdiff_t>(first);
     std::sort(begin, lines.end());
-    lines.erase(std::unique(begin, lines.end()), lines.end());
+    lines.erase(std::unique(begin, lines.end(), same_line), lines.end());
 }
 
 }  // namespace shadowbench::techniques

@@ -69,7 +69,7 @@ public:
     // visibility[i] in [0, 1] answers queries[i]; both have the same size. Thread-safe. Outside the map: lit.
     virtual void lookup(std::span<const Query> queries, std::span<float> visibility) const = 0;
 
-    // Appends the address of every 64-byte line of the map's memory that this lookup reads: what the floor of the
+    // Appends an address in every 64-byte line of the map's memory that this lookup reads: what the floor of the
     // lookup time reads, and nothing else. Techniques without a map append nothing.
     virtual void touched(const Query& query, std::vector<const void*>& lines) const = 0;
 
