@@ -8,13 +8,13 @@
 #include <cstdlib>
 #include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "base/error.h"
+#include "base/read_text.h"
 
 namespace shadowbench::curves {
 
@@ -133,16 +133,7 @@ void append(std::string& text, float number, char end) {
 }  // namespace
 
 std::vector<Curve> read_functions(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
-        throw Error(ErrorCode::no_such_file, file.string(), "no such file of functions");
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream content;
-    if (!std::filesystem::is_directory(file, ignored)) content << stream.rdbuf();
-    if (!stream || std::filesystem::is_directory(file, ignored))
-        throw Error(ErrorCode::io, file.string(), "cannot be read");
-    const std::string text = std::move(content).str();
-
+    const std::string text = base::read_text(file);
     std::vector<Curve> functions;
     Lines lines(file.string(), text);
     for (std::string_view line; lines.next(line);) functions.push_back(parse_record(line, lines));

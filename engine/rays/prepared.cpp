@@ -24,8 +24,8 @@ void to_view_space(const LightView& view, const std::vector<Vec3f>& world, std::
 }  // namespace
 
 HairSegment hair_segment(const Prepared& p, const scene::Hair& hair, std::uint32_t segment) {
-    const std::uint32_t a = p.segments[segment];
-    return {p.points[a], p.points[a + 1], hair.radii[a], hair.radii[a + 1], p.joined[segment] != 0};
+    const std::uint32_t a = p.segments.first[segment];
+    return {p.points[a], p.points[a + 1], hair.radii[a], hair.radii[a + 1], p.segments.joined[segment] != 0};
 }
 
 Prepared prepare(const scene::Object& object, const LightView& view, const MapLayout& layout) {
@@ -42,12 +42,8 @@ Prepared prepare(const scene::Object& object, const LightView& view, const MapLa
         });
     } else if (const auto* hair = std::get_if<scene::Hair>(&object.shape)) {
         to_view_space(view, hair->points, p.points);
-        for (std::size_t s = 0; s + 1 < hair->strand_begin.size(); ++s)
-            for (std::uint32_t a = hair->strand_begin[s]; a + 1 < hair->strand_begin[s + 1]; ++a) {
-                p.segments.push_back(a);
-                p.joined.push_back(a > hair->strand_begin[s]);
-            }
-        p.bins = make_bins(view, layout, p.segments.size(), [&](std::size_t i) {
+        p.segments = segments(*hair);
+        p.bins = make_bins(view, layout, p.segments.first.size(), [&](std::size_t i) {
             const HairSegment s = hair_segment(p, *hair, static_cast<std::uint32_t>(i));
             PlaneBox box;
             // Through the near plane, where slopes grow without bound.

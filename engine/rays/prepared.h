@@ -12,27 +12,22 @@
 #include "rays/light_view.h"
 #include "rays/march.h"
 #include "rays/primitives.h"
-
-namespace shadowbench::scene {
-struct Hair;
-struct Object;
-}  // namespace shadowbench::scene
+#include "scene/scene.h"
 
 namespace shadowbench::rays {
 
 // One object that casts shadows, in view space.
 struct Prepared {
     const scene::Object* object = nullptr;
-    float transmittance[3] = {0, 0, 0};   // of an untextured surface
-    std::vector<base::Vec3f> points;      // mesh corners, hair points, sphere centres
-    std::vector<std::uint32_t> segments;  // hair: index of each segment's first point
-    std::vector<unsigned char> joined;    // hair: whether the segment continues a strand
+    float transmittance[3] = {0, 0, 0};  // of an untextured surface
+    std::vector<base::Vec3f> points;     // mesh corners, hair points, sphere centres
+    scene::HairSegments segments;        // hair
     Bins bins;
     std::unique_ptr<VolumeMarcher> marcher;
 
     std::size_t bytes() const {
-        return points.capacity() * sizeof(base::Vec3f) + segments.capacity() * sizeof(std::uint32_t) +
-               joined.capacity() + bins.bytes() + (marcher ? marcher->bytes() : 0);
+        return points.capacity() * sizeof(base::Vec3f) + segments.bytes() + bins.bytes() +
+               (marcher ? marcher->bytes() : 0);
     }
 };
 

@@ -21,8 +21,7 @@ using base::Vec3f;
 // One Embree geometry, and what its primitives mean.
 struct Traced {
     const scene::Object* object;
-    std::vector<std::uint32_t> segments;  // hair: first point of each segment
-    std::vector<unsigned char> joined;    // hair: whether an earlier segment ends there
+    scene::HairSegments segments;  // hair
 };
 
 // Embree hands this back in its callbacks: what one query collects.
@@ -40,7 +39,7 @@ double length_of(const Query& q) {
 
 // Perpendicular distance test at a joint, and the depth of a strand's axis: the ray's closest approach, in double.
 bool hair_crossing(const Traced& traced, const scene::Hair& hair, unsigned segment, const Query& q, double& t) {
-    const std::uint32_t first = traced.segments[segment];
+    const std::uint32_t first = traced.segments.first[segment];
     const double length2 = q.direction.dot(q.direction);
     const auto across = [&](const Vec3f& point, double& along) {
         const Vec3d p = Vec3d(point) - q.origin;
@@ -50,7 +49,7 @@ bool hair_crossing(const Traced& traced, const scene::Hair& hair, unsigned segme
     double ta, tb;
     const Vec3d a = across(hair.points[first], ta), b = across(hair.points[first + 1], tb);
     const double radius = hair.radii[first];
-    if (traced.joined[segment] && a.dot(a) <= radius * radius) return false;  // the earlier segment has it
+    if (traced.segments.joined[segment] && a.dot(a) <= radius * radius) return false;  // the earlier segment has it
     const Vec3d d = b - a;
     const double d2 = d.dot(d);
     const double u = d2 > 0.0 ? std::clamp(-a.dot(d) / d2, 0.0, 1.0) : 0.0;
@@ -184,7 +183,7 @@ struct Tracer::State {
 };
 
 void Tracer::State::add(const scene::Object& object) {
-    auto traced = std::make_unique<Traced>(Traced{&object, {}, {}});
+    auto traced = std::make_unique<Traced>(Traced{&object, {}});
     if (const auto* mesh = std::get_if<scene::Mesh>(&object.shape)) {
         RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         void* points =
@@ -196,11 +195,7 @@ void Tracer::State::add(const scene::Object& object) {
         rtcSetGeometryIntersectFilterFunction(g, collect);
         attach(g, std::move(traced));
     } else if (const auto* hair = std::get_if<scene::Hair>(&object.shape)) {
-        for (std::size_t s = 0; s + 1 < hair->strand_begin.size(); ++s)
-            for (std::uint32_t a = hair->strand_begin[s]; a + 1 < hair->strand_begin[s + 1]; ++a) {
-                traced->segments.push_back(a);
-                traced->joined.push_back(a > hair->strand_begin[s]);
-            }
+        traced->segments = segments(*hair);
         for (const float radius : hair->radii) widest_hair = std::max<double>(widest_hair, radius);
         RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE);
         auto* points = static_cast<float*>(
@@ -209,8 +204,9 @@ void Tracer::State::add(const scene::Object& object) {
             for (int a = 0; a < 3; ++a) points[4 * i + a] = hair->points[i][a];
             points[4 * i + 3] = hair->radii[i];
         }
-        void* index = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, 4, traced->segments.size());
-        std::copy(traced->segments.begin(), traced->segments.end(), static_cast<std::uint32_t*>(index));
+        void* index =
+            rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, 4, traced->segments.first.size());
+        std::copy(traced->segments.first.begin(), traced->segments.first.end(), static_cast<std::uint32_t*>(index));
         rtcSetGeometryIntersectFilterFunction(g, collect);
         attach(g, std::move(traced));
     } else if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 
@@ -12,6 +11,7 @@
 #include <tiny_obj_loader.h>
 
 #include "base/error.h"
+#include "base/read_text.h"
 #include "scene/limits.h"
 #include "scene/read_mesh.h"
 
@@ -20,19 +20,6 @@ namespace {
 
 using base::Error;
 using base::ErrorCode;
-
-std::string read_text(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
-        throw Error(ErrorCode::no_such_file, file.string(), "there is no such file");
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    // Inserting nothing at all counts as a failure of the insertion.
-    if (std::filesystem::is_regular_file(file, ignored) && std::filesystem::file_size(file, ignored) == 0)
-        throw Error(ErrorCode::bad_input, file.string(), "the file is empty");
-    if (!(text << stream.rdbuf())) throw Error(ErrorCode::io, file.string(), "reading failed");
-    return std::move(text).str();
-}
 
 // The words of a line, taken one by one; empty at its end.
 std::string_view next_word(std::string_view& line) {
@@ -174,7 +161,8 @@ private:
 }  // namespace
 
 Mesh read_obj(const std::filesystem::path& file) {
-    std::string text = read_text(file);
+    std::string text = base::read_text(file);
+    if (text.empty()) throw Error(ErrorCode::bad_input, file.string(), "the file is empty");
     check_lines(text, file);
     tinyobj::attrib_t attributes;
     std::vector<tinyobj::shape_t> shapes;

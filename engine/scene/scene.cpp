@@ -105,4 +105,17 @@ bool has_media(const Scene& scene) {
     return false;
 }
 
+HairSegments segments(const Hair& hair) {
+    HairSegments s;
+    const std::size_t strands = hair.strand_begin.empty() ? 0 : hair.strand_begin.size() - 1;
+    s.first.reserve(hair.points.size());
+    s.joined.reserve(hair.points.size());
+    for (std::size_t strand = 0; strand < strands; ++strand)
+        for (std::uint32_t a = hair.strand_begin[strand]; a + 1 < hair.strand_begin[strand + 1]; ++a) {
+            s.first.push_back(a);
+            s.joined.push_back(a > hair.strand_begin[strand]);
+        }
+    return s;
+}
+
 }  // namespace shadowbench::scene

@@ -49,6 +49,15 @@ struct Hair {
     std::vector<std::uint32_t> strand_begin;  // strands + 1 indices into points
 };
 
+// The segments of all strands: each runs from its first point to the next one.
+struct HairSegments {
+    std::vector<std::uint32_t> first;
+    std::vector<unsigned char> joined;  // whether an earlier segment of the strand ends where this one starts
+
+    std::size_t bytes() const { return first.capacity() * sizeof(std::uint32_t) + joined.capacity(); }
+};
+HairSegments segments(const Hair& hair);
+
 // Density on a regular grid, trilinear between voxel centres, 0 outside [lower, upper].
 struct GridVolume {
     Vec3i size{0, 0, 0};                   // voxels

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/read_text.h"
 #include "scene/scenario.h"
 #include "service/cli/commands.h"
 #include "service/cli/scenario_files.h"
@@ -47,7 +48,7 @@ struct Listed {
 Listed describe(const fs::path& file) {
     Listed listed{file.stem().string(), "", file.string()};
     try {
-        const nlohmann::json document = scene::parse_json(read_text(file), file.string());
+        const nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
         if (document.is_object()) {
             listed.name = document.value("name", listed.name);
             listed.purpose = document.value("purpose", "");

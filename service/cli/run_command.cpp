@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/read_text.h"
 #include "bench/document.h"
 #include "bench/report.h"
 #include "bench/run.h"
@@ -25,7 +26,7 @@ struct Job {
 Job read_job(const ScenarioArguments& arguments) {
     const fs::path file = find_scenario(arguments.scenario);
     Job job;
-    job.document = scene::parse_json(read_text(file), file.string());
+    job.document = scene::parse_json(base::read_text(file), file.string());
     for (const std::string& assignment : arguments.set) bench::set_value(job.document, assignment);
     job.options.data = data_path(arguments.data, file);
     job.options.only = arguments.only;

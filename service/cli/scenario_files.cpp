@@ -1,8 +1,6 @@
 #include "service/cli/scenario_files.h"
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "base/error.h"
@@ -56,16 +54,6 @@ scene::SearchPath data_path(const std::vector<std::string>& given, const fs::pat
     const fs::path own = scenario.has_parent_path() ? scenario.parent_path() : fs::path(".");
     path.insert(path.end(), {own, own / "data", "scenarios/data", "../shared/data"});
     return path;
-}
-
-std::string read_text(const fs::path& file) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored))
-        throw Error(ErrorCode::no_such_file, file.string(), "there is no such file");
-    std::ifstream stream(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream) throw Error(ErrorCode::io, file.string(), "cannot read the file");
-    return text;
 }
 
 }  // namespace shadowbench::service

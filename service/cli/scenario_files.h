@@ -19,7 +19,4 @@ std::filesystem::path find_scenario(const std::string& name);
 // ../shared/data. Throws Error{no_such_file} when one of those given is not there.
 scene::SearchPath data_path(const std::vector<std::string>& given, const std::filesystem::path& scenario);
 
-// The whole file. Throws Error: no_such_file, io.
-std::string read_text(const std::filesystem::path& file);
-
 }  // namespace shadowbench::service

@@ -308,15 +308,9 @@ TEST(Capture, AParticleDarkensByItsChord) {
 
 TEST(Capture, AUniformSlabFollowsTheExponentialAtEveryDepth) {
     // In perspective too: there a ray is longer than the depth it covers.
-    scene::GridVolume grid;
-    grid.size = {4, 4, 4};
-    grid.density.assign(64, 2.0f);
-    grid.lower = {-3, -3, -0.5};
-    grid.upper = {3, 3, 0.5};
-    grid.step = 0.1;
     scene::Scene scene;
     scene.objects.emplace_back();
-    scene.objects[0].shape = grid;
+    scene.objects[0].shape = testing::slab();
     scene.objects[0].extinction = base::Vec3f(1.5f);
     for (const auto& light : {testing::directional(), testing::spot({0, 0, 2}, 40)}) {
         const Captured c = capture(scene, light, testing::rays(8, 4));
@@ -332,16 +326,10 @@ TEST(Capture, AUniformSlabFollowsTheExponentialAtEveryDepth) {
 }
 
 TEST(Capture, PixelsThatAreWantedGetTheSameRays) {
-    scene::GridVolume grid;
-    grid.size = {4, 4, 4};
-    grid.density.assign(64, 2.0f);
-    grid.lower = {-3, -3, -0.5};
-    grid.upper = {3, 3, 0.5};
-    grid.step = 0.1;
     scene::Scene scene;
     scene.objects.push_back(testing::curly_hair(100, 20, 0.02f, 2));
     scene.objects.emplace_back();
-    scene.objects[1].shape = grid;
+    scene.objects[1].shape = testing::slab();
     const Captured c = capture(scene, testing::directional(), testing::rays(16, 4));
     std::vector<unsigned char> wanted(256, 0);
     wanted[17] = wanted[200] = 1;

@@ -20,6 +20,17 @@ inline scene::Object quad(base::Vec3f corner, base::Vec3f u, base::Vec3f v, floa
     return object;
 }
 
+// Density 2 throughout |z| <= 0.5, wider than the view of the lights below.
+inline scene::GridVolume slab() {
+    scene::GridVolume grid;
+    grid.size = {4, 4, 4};
+    grid.density.assign(64, 2.0f);
+    grid.lower = {-3, -3, -0.5};
+    grid.upper = {3, 3, 0.5};
+    grid.step = 0.1;
+    return grid;
+}
+
 // Looks along -z of the world at [-1, 1]^2; world z = 1 is far above everything.
 inline scene::Light directional(double extent = 2.0) {
     scene::Light light;

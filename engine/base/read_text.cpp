@@ -1,0 +1,23 @@
+#include "base/read_text.h"
+
+#include <fstream>
+#include <iterator>
+
+#include "base/error.h"
+
+namespace shadowbench::base {
+
+std::string read_text(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw Error(ErrorCode::no_such_file, file.string(), "there is no such file");
+    if (std::filesystem::is_directory(file, ignored))
+        throw Error(ErrorCode::io, file.string(), "a folder cannot be read as a file");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw Error(ErrorCode::io, file.string(), "cannot open the file");
+    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (!stream) throw Error(ErrorCode::io, file.string(), "cannot read the file");
+    return text;
+}
+
+}  // namespace shadowbench::base

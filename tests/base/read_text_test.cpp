@@ -1,0 +1,40 @@
+#include "base/read_text.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "base/error.h"
+
+namespace shadowbench::base {
+namespace {
+
+const std::filesystem::path folder = ::testing::TempDir();
+
+TEST(ReadText, EveryByteComesBack) {
+    const auto file = folder / ("read_text_" + std::to_string(getpid()));
+    const std::string bytes("a\r\n\0\xff b", 8);
+    std::ofstream(file, std::ios::binary) << bytes;
+    EXPECT_EQ(read_text(file), bytes);
+    std::ofstream(file, std::ios::trunc).flush();
+    EXPECT_EQ(read_text(file), "");
+    std::filesystem::remove(file);
+}
+
+TEST(ReadText, FoldersAndMissingFilesAreToldApart) {
+    const auto code = [](const std::filesystem::path& file) {
+        try {
+            read_text(file);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.where(), file.string());
+            return error.code();
+        }
+        return ErrorCode::internal;
+    };
+    EXPECT_EQ(code(folder), ErrorCode::io);
+    EXPECT_EQ(code(folder / "there/is/nothing"), ErrorCode::no_such_file);
+}
+
+}  // namespace
+}  // namespace shadowbench::base
