@@ -97,7 +97,7 @@ bool is_checked(const CellRays& cell, std::uint64_t share) {
 
 void check_cell(const Pass& pass, const CheckedMap& checked, const techniques::Map& map, const CellRays& cell,
                 PixelScratch& scratch, TileErrors& errors) {
-    map.stored(cell.x, cell.y, scratch.depths, scratch.stored);
+    map.stored(cell.x, cell.y, 0, scratch.depths, scratch.stored);
     const curves::Distance d =
         curves::distance(scratch.stored, scratch.reference, pass.layout.z_min, pass.layout.z_max);
     errors.max.push_back(d.max);

@@ -47,7 +47,7 @@ void check(const Map& map, std::span<const Curve> functions, FunctionResult& res
     std::uint64_t over = 0;
     for (std::size_t i = 0; i < functions.size(); ++i) {
         Curve& stored = result.stored.emplace_back();
-        map.stored(static_cast<int>(i), 0, depths_of(functions[i]), stored);
+        map.stored(static_cast<int>(i), 0, 0, depths_of(functions[i]), stored);
         errors.push_back(curves::distance(stored, functions[i], 0.0, 0.0).max);
         over += !(errors.back() <= result.tolerance.value_or(0.0) + rounding);
         result.broken += !curves::is_visibility(stored, static_cast<float>(rounding));

@@ -133,21 +133,44 @@ void weighted_sum(std::span<const WeightedCurve> terms, SweepScratch& scratch, C
     sweep.run(out);
 }
 
+namespace {
+
+// Of the rays ray(0) to ray(count - 1), with weights weight(i).
+template <class Ray, class Weight>
+void sweep_rays(const rays::LightRays& rays, std::size_t count, const Ray& ray, const Weight& weight,
+                double linearisation, SweepScratch& scratch, Curve& out) {
+    Extent extent;
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t s = rays.begin[ray(i)]; s < rays.begin[ray(i) + 1]; ++s) extent.add(rays.z_front[s]);
+    Sweep sweep(count, extent.origin(), scratch);
+    for (std::size_t i = 0; i < count; ++i) {
+        composite(rays, ray(i), 0, scratch.nodes);
+        scratch.ray.clear();
+        linearise(scratch.nodes, linearisation, scratch.ray);
+        sweep.add_term(i, scratch.ray, weight(i));
+    }
+    sweep.run(out);
+}
+
+}  // namespace
+
 void visibility(const rays::LightRays& rays, std::size_t first, std::size_t count, double linearisation,
                 SweepScratch& scratch, Curve& out) {
     out.clear();
     if (count == 0) return;
     if (surfaces_only(rays, first, count)) return visibility_of_surfaces(rays, first, count, scratch, out);
-    Extent extent;
-    for (std::size_t s = rays.begin[first]; s < rays.begin[first + count]; ++s) extent.add(rays.z_front[s]);
-    Sweep sweep(count, extent.origin(), scratch);
-    for (std::size_t i = 0; i < count; ++i) {
-        composite(rays, first + i, 0, scratch.nodes);
-        scratch.ray.clear();
-        linearise(scratch.nodes, linearisation, scratch.ray);
-        sweep.add_term(i, scratch.ray, 1.0 / static_cast<double>(count));
-    }
-    sweep.run(out);
+    sweep_rays(
+        rays, count, [&](std::size_t i) { return first + i; },
+        [&](std::size_t) { return 1.0 / static_cast<double>(count); }, linearisation, scratch, out);
+}
+
+void visibility(const rays::LightRays& rays, std::span<const WeightedRay> chosen, double linearisation,
+                SweepScratch& scratch, Curve& out) {
+    out.clear();
+    if (chosen.empty()) return;
+    sweep_rays(
+        rays, chosen.size(), [&](std::size_t i) { return chosen[i].ray; },
+        [&](std::size_t i) { return chosen[i].weight; }, linearisation, scratch, out);
 }
 
 }  // namespace shadowbench::curves

@@ -9,6 +9,7 @@
 
 #include "curves/composite.h"
 #include "curves/curve.h"
+#include "curves/weighted_ray.h"
 
 namespace shadowbench::rays {
 struct LightRays;
@@ -54,6 +55,10 @@ void weighted_sum(std::span<const WeightedCurve> terms, SweepScratch& scratch, C
 // many points between them that joining them by lines errs by at most `linearisation` (> 0; infinity: segment ends
 // only, as published).
 void visibility(const rays::LightRays& rays, std::size_t first, std::size_t count, double linearisation,
+                SweepScratch& scratch, Curve& out);
+
+// The same of rays with weights above 0, which should sum to 1.
+void visibility(const rays::LightRays& rays, std::span<const WeightedRay> chosen, double linearisation,
                 SweepScratch& scratch, Curve& out);
 
 }  // namespace shadowbench::curves

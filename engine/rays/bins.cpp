@@ -78,7 +78,8 @@ Bins make_bins(const LightView& view, const MapLayout& layout, std::size_t primi
             PlaneBox box = bounds(i);
             if (box.empty()) continue;
             // A hundredth of a sample cell on every side outweighs any rounding of the bounds.
-            const double ex = 0.01 * view.pixel.x / layout.samples_x, ey = 0.01 * view.pixel.y / layout.samples_y;
+            const double ex = (layout.apron + 0.01 / layout.samples_x) * view.pixel.x;
+            const double ey = (layout.apron + 0.01 / layout.samples_y) * view.pixel.y;
             const double x0 = (box.x_low - ex - view.lower.x) / tile_x, x1 = (box.x_high + ex - view.lower.x) / tile_x;
             const double y0 = (box.y_low - ey - view.lower.y) / tile_y, y1 = (box.y_high + ey - view.lower.y) / tile_y;
             if (x1 < 0 || y1 < 0 || x0 > layout.tiles_x() || y0 > layout.tiles_y()) continue;

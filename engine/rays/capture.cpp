@@ -184,6 +184,7 @@ MapLayout make_layout(const scene::Scene& scene, const LightView& view, const sc
     } else {
         layout.channels = scene::channels(scene);
         layout.media = scene::has_media(scene);
+        layout.moving = scene::has_motion(scene);
         set_samples(layout, settings.samples_per_pixel);
     }
     int size = 64;
@@ -223,14 +224,15 @@ Capture::Capture(const scene::Scene& scene, const LightView& view, const MapLayo
 
 Capture::~Capture() = default;
 
-LightRays Capture::tile(int index, std::span<const unsigned char> wanted) const {
+LightRays Capture::tile(int index, std::span<const unsigned char> wanted, int apron) const {
     const MapLayout& layout = state_->layout;
     LightRays rays;
     rays.tile = index;
-    rays.x0 = index % layout.tiles_x() * layout.tile_width;
-    rays.y0 = index / layout.tiles_x() * layout.tile_height;
-    rays.width = std::min(layout.tile_width, layout.width - rays.x0);
-    rays.height = std::min(layout.tile_height, layout.height - rays.y0);
+    const int x0 = index % layout.tiles_x() * layout.tile_width, y0 = index / layout.tiles_x() * layout.tile_height;
+    rays.x0 = std::max(x0 - apron, 0);
+    rays.y0 = std::max(y0 - apron, 0);
+    rays.width = std::min(x0 + layout.tile_width + apron, layout.width) - rays.x0;
+    rays.height = std::min(y0 + layout.tile_height + apron, layout.height) - rays.y0;
     rays.samples = layout.samples();
     rays.channels = layout.channels;
     if (state_->scene.deep_image)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/random.h"
 
@@ -24,6 +25,22 @@ SamplePosition sample_position(const MapLayout& layout, int i, int j) {
         v = static_cast<double>(bits & 0xffffffffu) * 0x1p-32;
     }
     return {(i + u) / layout.samples_x, (j + v) / layout.samples_y};
+}
+
+double sample_time(const MapLayout& layout, int i, int j) {
+    if (!layout.moving) return 0.0;
+    const std::uint64_t samples = static_cast<std::uint64_t>(layout.samples());
+    const std::uint64_t pixel =
+        static_cast<std::uint64_t>(i / layout.samples_x) << 32 | static_cast<std::uint32_t>(j / layout.samples_y);
+    const std::uint64_t order = base::hash(layout.seed ^ 0x74696d65u, pixel);  // of the parts of the shutter
+    std::uint64_t step = 1 + (order >> 32) % samples;
+    while (std::gcd(step, samples) != 1) ++step;
+    const std::uint64_t sample =
+        static_cast<std::uint64_t>(j % layout.samples_y * layout.samples_x + i % layout.samples_x);
+    const std::uint64_t part = (sample * step + (order & 0xffffffffu)) % samples;
+    double within = 0.5;
+    if (layout.jittered) within = static_cast<double>(base::hash(order, sample) >> 32) * 0x1p-32;
+    return (static_cast<double>(part) + within) / static_cast<double>(samples);
 }
 
 LightRays channel(const LightRays& rays, int channel) {

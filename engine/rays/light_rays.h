@@ -19,6 +19,9 @@ struct MapLayout {
     std::uint64_t seed = 0;               // of the jitter
     float z_min = 0.0f, z_max = 1.0f;     // bounds of every depth that occurs
     int tile_width = 1, tile_height = 1;  // pixels; tiles at the right and top edge may be smaller
+    bool moving = false;                  // something that casts shadows moves: each ray has its own time
+    int apron = 0;                        // pixels around a tile that may be asked for with it
+    bool submission = false;              // tiles tell the order in which their segments were found
 
     int samples() const { return samples_x * samples_y; }
     int tiles_x() const { return (width + tile_width - 1) / tile_width; }
@@ -35,6 +38,12 @@ struct SamplePosition {
 };
 SamplePosition sample_position(const MapLayout& layout, int i, int j);
 
+// When in the shutter, [0, 1), the ray in sample cell (i, j) sees the scene: the rays of a pixel stand one each in
+// samples() equal parts of the shutter, in an order of the pixel's own. 0 unless the layout is moving.
+double sample_time(const MapLayout& layout, int i, int j);
+
+// A tile may be asked for with an apron: then it covers a larger rectangle of pixels, clipped to the map, and `tile`
+// still names the tile that it was asked for.
 // Rays are ordered by pixel (row after row of the tile), then by sample cell (row after row of the pixel).
 // The segments of a ray are sorted by z_front, then z_back; those of one pixel are contiguous.
 // A surface has z_front == z_back. A medium's segment has constant extinction between its ends. Segments may overlap:
@@ -49,12 +58,15 @@ struct LightRays {
     std::vector<float> z_front;
     std::vector<float> z_back;         // empty when the tile holds surfaces only
     std::vector<float> transmittance;  // channels a segment, in [0, 1]
+    // Where the layout asks for it: the ray's segments in the order in which primitives were submitted. Entry k of a
+    // ray, counted from begin[ray], is the segment that came k-th.
+    std::vector<std::uint32_t> submission;
 
     std::size_t rays() const { return begin.empty() ? 0 : begin.size() - 1; }
     std::size_t segments() const { return z_front.size(); }
     float back(std::size_t segment) const { return z_back.empty() ? z_front[segment] : z_back[segment]; }
     std::size_t bytes() const {
-        return begin.capacity() * sizeof(std::uint32_t) +
+        return (begin.capacity() + submission.capacity()) * sizeof(std::uint32_t) +
                (z_front.capacity() + z_back.capacity() + transmittance.capacity()) * sizeof(float);
     }
 };

@@ -105,6 +105,11 @@ bool has_media(const Scene& scene) {
     return false;
 }
 
+bool has_motion(const Scene& scene) {
+    return std::any_of(scene.objects.begin(), scene.objects.end(),
+                       [](const Object& object) { return object.casts_shadow && object.motion != Vec3f(0, 0, 0); });
+}
+
 HairSegments segments(const Hair& hair) {
     HairSegments s;
     const std::size_t strands = hair.strand_begin.empty() ? 0 : hair.strand_begin.size() - 1;

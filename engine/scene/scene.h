@@ -78,6 +78,8 @@ struct Object {
     bool casts_shadow = true;
     Vec3f opacity{1.0f, 1.0f, 1.0f};     // surfaces: a crossing transmits 1 - opacity, each in [0, 1]
     Vec3f extinction{1.0f, 1.0f, 1.0f};  // media: extinction per unit of density and of length, each >= 0
+    Vec3f motion{0.0f, 0.0f,
+                 0.0f};  // what the object moves by while the shutter is open: at time t it is at t * motion
     std::variant<Mesh, Spheres, Hair, GridVolume, Particles> shape;
 };
 
@@ -171,7 +173,8 @@ Box3d bounds(const Scene& scene, bool casters_only);
 // 3 when the scene's opacities or extinctions that cast shadows differ between channels, else 1.
 int channels(const Scene& scene);
 
-// Whether anything that casts a shadow is a medium.
+// Whether anything that casts a shadow is a medium; or moves.
 bool has_media(const Scene& scene);
+bool has_motion(const Scene& scene);
 
 }  // namespace shadowbench::scene

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "curves/curve.h"
+#include "curves/weighted_ray.h"
 #include "rays/light_rays.h"
 #include "techniques/parameters.h"
 
@@ -40,10 +41,17 @@ struct NodeStats {
 
 // Which rays one stored function stands for.
 enum class Cells {
-    pixel,   // all rays of a pixel, averaged
-    sample,  // every ray has its own function; the map is samples_x by samples_y times as large
-    centre,  // one ray of each pixel, the one in its middle sample cell
-    none,    // nothing is stored
+    pixel,     // all rays of a pixel, averaged
+    sample,    // every ray has its own function; the map is samples_x by samples_y times as large
+    centre,    // one ray of each pixel, the one in its middle sample cell
+    filtered,  // rays of a pixel and of its neighbours, weighted: see Map::weights
+    none,      // nothing is stored
+};
+
+// What a map needs of the light rays beyond the pixels of each tile.
+struct RayNeeds {
+    int apron = 0;            // pixels around a tile that its LightRays cover too (clipped to the map)
+    bool submission = false;  // LightRays::submission
 };
 
 // Where the light rays come from; all of it outlives the map.
@@ -51,13 +59,17 @@ struct BuildInput {
     const rays::MapLayout& layout;
     const rays::LightView& view;
     const rays::Tracer* tracer;  // for techniques that trace; null where there is no scene to trace
-    int channel = 0;             // which channel of a coloured scene the map holds
+    int channel = 0;             // which channel of a coloured scene the map holds, of rows that are not `coloured`
 };
 
-// A map under construction, then a map. All techniques see one channel: of a coloured scene a map a channel is made.
+// A map under construction, then a map. Most techniques see one channel: of a coloured scene a map a channel is made.
+// Those whose row says `coloured` are given all channels at once.
 class Map {
 public:
     virtual ~Map() = default;
+
+    // Asked before begin.
+    virtual RayNeeds needs() const { return {}; }
 
     // Called once, first. Throws Error{bad_input} when the technique cannot serve this layout.
     virtual void begin(const BuildInput& input) = 0;
@@ -66,7 +78,9 @@ public:
     // Called once, last. After it the map does not change.
     virtual void finish() = 0;
 
-    // visibility[i] in [0, 1] answers queries[i]; both have the same size. Thread-safe. Outside the map: lit.
+    // Values that a lookup answers with: 1, or the channels of the layout that it was begun with.
+    virtual int channels() const { return 1; }
+    // visibility[c * queries.size() + i] in [0, 1] answers queries[i] in channel c. Thread-safe. Outside the map: lit.
     virtual void lookup(std::span<const Query> queries, std::span<float> visibility) const = 0;
 
     // Appends an address in every 64-byte line of the map's memory that this lookup reads: what the floor of the
@@ -78,9 +92,12 @@ public:
     virtual NodeStats nodes() const = 0;
 
     virtual Cells cells() const = 0;
-    // The function stored in cell (x, y) as vertices; `out` is replaced. One that is not piecewise linear is sampled at
-    // its own nodes and at `depths` (sorted).
-    virtual void stored(int x, int y, std::span<const float> depths, curves::Curve& out) const = 0;
+    // The function stored in cell (x, y) for a channel (below channels()) as vertices; `out` is replaced. One that is
+    // not piecewise linear is sampled at its own nodes and at `depths` (sorted).
+    virtual void stored(int x, int y, int channel, std::span<const float> depths, curves::Curve& out) const = 0;
+    // Cells::filtered alone: which rays of its tile, given with the apron asked for, cell (x, y) stands for. `out` is
+    // replaced; weights are above 0 and sum to 1.
+    virtual void weights(int, int, const rays::LightRays&, std::vector<curves::WeightedRay>& out) const { out.clear(); }
 };
 
 // What a technique promises of every stored function, whatever the scene (of opaque ones alone if opaque_only).
@@ -105,6 +122,7 @@ struct Technique {
     std::unique_ptr<Map> (*from_curves)(const ParameterValues& values, std::span<const curves::Curve> functions);
     // What the finished map of this layout surely holds, in bytes: for refusing what cannot fit before work starts.
     std::size_t (*least_bytes)(const ParameterValues& values, const rays::MapLayout& layout);
+    bool coloured = false;  // one map holds all channels of a coloured scene
 };
 
 // The registry: one row a technique, in the order of the papers.

@@ -40,7 +40,7 @@ public:
         return stats;
     }
     techniques::Cells cells() const override { return techniques::Cells::pixel; }
-    void stored(int, int, std::span<const float>, curves::Curve& out) const override { out = answers_.function; }
+    void stored(int, int, int, std::span<const float>, curves::Curve& out) const override { out = answers_.function; }
 
 private:
     FakeAnswers answers_;

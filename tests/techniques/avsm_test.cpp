@@ -133,7 +133,7 @@ double mean_curve_error(const testing::Built& b) {
     curves::Curve exact, stored;
     rays::testing::for_each_ray(b.rays, [&](const rays::LightRays& tile, std::size_t ray, int i, int j) {
         curves::visibility(tile, ray, 1, 1e-5, scratch, exact);
-        b.map->stored(i, j, {}, stored);
+        b.map->stored(i, j, 0, {}, stored);
         sum += curves::distance(stored, exact, 0, 4).max;
     });
     return sum;

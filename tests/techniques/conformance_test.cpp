@@ -121,7 +121,7 @@ TEST_P(Conformance, StoredFunctionsKeepThePromises) {
             const curves::Curve exact = reference(b, x, y, 1e-5);
             depths.clear();
             for (const curves::Vertex& v : exact) depths.push_back(v.z);
-            b.map->stored(x, y, depths, stored);
+            b.map->stored(x, y, 0, depths, stored);
             worst = std::max(worst, curves::distance(stored, exact, 0, 4).max);
             broken += !curves::is_visibility(stored);
             ++cells;

@@ -24,7 +24,7 @@ double curve_error(const testing::Built& b) {
     for (const rays::LightRays& tile : b.rays.tiles)
         for (int p = 0; p < tile.width * tile.height; ++p) {
             curves::visibility(tile, static_cast<std::size_t>(p) * tile.samples, tile.samples, 1e-6, scratch, exact);
-            b.map->stored(tile.x0 + p % tile.width, tile.y0 + p / tile.width, {}, stored);
+            b.map->stored(tile.x0 + p % tile.width, tile.y0 + p / tile.width, 0, {}, stored);
             worst = std::max(worst, curves::distance(stored, exact, 0, 4).max);
         }
     return worst;
@@ -60,7 +60,7 @@ TEST(Deep, ALookupOfOnePixelIsItsStoredFunction) {
     for (int i = 0; i < 2000; ++i) {
         const float x = static_cast<float>(random.uniform(0, 16)), y = static_cast<float>(random.uniform(0, 16));
         const float z = static_cast<float>(random.uniform(0, 2));
-        b.map->stored(static_cast<int>(x), static_cast<int>(y), {}, stored);
+        b.map->stored(static_cast<int>(x), static_cast<int>(y), 0, {}, stored);
         EXPECT_NEAR(b.lookup(x, y, z), curves::evaluate(stored, z), 1e-6f);
         for (const curves::Vertex& v : stored)  // at vertices and steps exactly
             EXPECT_EQ(b.lookup(x, y, v.z), curves::evaluate(stored, v.z));

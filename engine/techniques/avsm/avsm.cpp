@@ -114,7 +114,7 @@ public:
         return stats;
     }
     Cells cells() const override { return kind_; }
-    void stored(int x, int y, std::span<const float>, curves::Curve& out) const override {
+    void stored(int x, int y, int, std::span<const float>, curves::Curve& out) const override {
         const std::size_t cell = grid_.index(x, y);
         const float* t = texel(cell);
         out.clear();

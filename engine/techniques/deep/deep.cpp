@@ -69,7 +69,9 @@ public:
     std::size_t working_bytes() const override { return map_.peak_bytes; }
     NodeStats nodes() const override { return map_.stats(); }
     Cells cells() const override { return Cells::pixel; }
-    void stored(int x, int y, std::span<const float>, curves::Curve& out) const override { map_.stored(x, y, out); }
+    void stored(int x, int y, int, std::span<const float>, curves::Curve& out) const override {
+        map_.stored(x, y, out);
+    }
 
 private:
     ParameterValues values_;

@@ -36,7 +36,9 @@ public:
     std::size_t working_bytes() const override { return map_.bytes(); }
     NodeStats nodes() const override { return map_.nodes(); }
     Cells cells() const override { return map_.kind; }
-    void stored(int x, int y, std::span<const float>, curves::Curve& out) const override { map_.stored(x, y, out); }
+    void stored(int x, int y, int, std::span<const float>, curves::Curve& out) const override {
+        map_.stored(x, y, out);
+    }
 
 private:
     DepthMap map_;

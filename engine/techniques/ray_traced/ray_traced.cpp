@@ -61,7 +61,7 @@ public:
     std::size_t working_bytes() const override { return 0; }
     NodeStats nodes() const override { return {}; }
     Cells cells() const override { return Cells::none; }
-    void stored(int, int, std::span<const float>, curves::Curve& out) const override { out.clear(); }
+    void stored(int, int, int, std::span<const float>, curves::Curve& out) const override { out.clear(); }
 
 private:
     rays::MapLayout pattern_;

@@ -102,7 +102,7 @@ public:
 
     Cells cells() const override { return Cells::sample; }
 
-    void stored(int x, int y, std::span<const float> depths, curves::Curve& out) const override {
+    void stored(int x, int y, int, std::span<const float> depths, curves::Curve& out) const override {
         out.clear();
         const std::span<const Node> ray = place_of(x, y).nodes();
         if (!layout_.media) {

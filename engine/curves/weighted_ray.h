@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+
+namespace shadowbench::curves {
+
+// One light ray of a tile as a term of a weighted sum.
+struct WeightedRay {
+    std::size_t ray;
+    double weight;
+};
+
+}  // namespace shadowbench::curves
