@@ -84,7 +84,8 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"techniques", {"base", "rays", "curves", "techniques"}},
         {"metrics", {"base", "metrics"}},
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
-        {"service", {"base", "scene", "curves", "techniques", "bench", "service"}},
+        {"render", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench", "render"}},
+        {"service", {"base", "scene", "curves", "techniques", "bench", "render", "service"}},
     };
     for (const Include& include : includes()) {
         if (include.system) continue;
