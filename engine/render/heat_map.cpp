@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "render/digits.h"
-#include "render/image_file.h"
 
 namespace shadowbench::render {
 namespace {
@@ -30,8 +29,6 @@ std::vector<Vec3f> colours(const std::vector<float>& unit_values, int width, int
     std::vector<Vec3f> result(unit_values.size());
     if (mapped.has_error() || !mapped.get_pixels(mapped.roi(), OIIO::TypeDesc::FLOAT, result.data()))
         throw base::Error(base::ErrorCode::internal, "", "OpenImageIO has no colour map: " + mapped.geterror());
-    for (Vec3f& colour : result)
-        for (int c = 0; c < 3; ++c) colour[c] = static_cast<float>(to_linear(colour[c]));
     return result;
 }
 
@@ -44,7 +41,7 @@ void fill(Image& image, int x0, int x1, int y0, int y1, const Vec3f& colour) {
 void label(Image& image, int x, int y, double value) {
     const std::string text = fmt::format("{:g}", value);
     const int width = text_width(text, text_scale);
-    draw_digits(image, std::clamp(x - width / 2, 0, image.width - width), y, text_scale, text, ink);
+    draw_digits(image, std::clamp(x - width / 2, margin, image.width - width - margin), y, text_scale, text, ink);
 }
 
 void add_legend(Image& image, int top_row, double top) {
@@ -59,7 +56,7 @@ void add_legend(Image& image, int top_row, double top) {
     const double numbers[] = {0.0, 0.5 * top, top};
     int needed = 0;
     for (const double n : numbers) needed += text_width(fmt::format("{:g}", n), text_scale) + 2 * text_scale;
-    if (needed > image.width) return;
+    if (needed + 2 * margin > image.width) return;
     const int tick = bar + bar_height, text = tick + tick_height + 1;
     for (int i = 0; i < 3; ++i) {
         const int x = left + i * (right - left - 1) / 2;

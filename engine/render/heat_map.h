@@ -12,7 +12,7 @@ double legend_top(double error);
 
 // One value a pixel, row after row; 0 to `top` run through the map "viridis" (Smith and van der Walt, matplotlib 1.5),
 // larger ones stay at its end. Below stand the map as a bar and the numbers 0, top / 2 and top, when the picture is
-// wide enough for them. The colours come out on the display as the map means them.
+// wide enough for them. The colours are linear, so that a display shows the map as it was made.
 Image heat_map(std::span<const float> values, int width, int height, double top);
 
 // Rows that the legend adds.

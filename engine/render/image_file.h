@@ -7,9 +7,8 @@
 
 namespace shadowbench::render {
 
-// sRGB's transfer function, IEC 61966-2-1: linear [0, 1] to display [0, 1] and back.
+// sRGB's transfer function, IEC 61966-2-1: linear [0, 1] to display [0, 1].
 double to_display(double linear);
-double to_linear(double display);
 
 // OpenEXR, half, linear values as they are.
 std::string encode_exr(const Image& image);

@@ -144,16 +144,18 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
         std::max(result.reference_standard_error, metrics::error_norms(truth.standard_error).rms);
 }
 
+// The legend of the heat maps reaches to the 99th percentile of the middle technique's errors: one that is far off does
+// not hide how the others differ.
 void compare_all(Rendering& result) {
-    double largest = 0.0;
+    std::vector<double> tops;
     for (TechniquePictures& one : result.techniques) {
         if (one.cell.status == bench::CellStatus::failed) continue;
         one.shaded = compare(one.picture.shaded, result.reference.shaded);
         one.shadow = compare(one.picture.shadow, result.reference.shadow);
         const std::vector<float> errors = pixel_errors(one.picture.shadow, result.reference.shadow);
-        largest = std::max(largest, metrics::error_norms(std::vector<double>(errors.begin(), errors.end())).p99);
+        tops.push_back(metrics::error_norms(std::vector<double>(errors.begin(), errors.end())).p99);
     }
-    result.heat_top = legend_top(largest);
+    if (!tops.empty()) result.heat_top = legend_top(metrics::median(tops));
 }
 
 Rendering describe(const scene::Scenario& scenario, const bench::Variant& variant, const RenderOptions& options) {
