@@ -81,27 +81,29 @@ void finish_all(std::span<Contender> contenders) {
 }
 
 // All answers, channel after channel, in pieces of a fixed size so that the threads do not change them.
-std::vector<float> answers(const Maps& maps, std::span<const Query> queries) {
-    std::vector<float> visibility(queries.size() * maps.channel.size());
-    const std::size_t pieces = (queries.size() + lookups_a_piece - 1) / lookups_a_piece;
+std::vector<float> answers(const Maps& maps, const Asked& asked) {
+    const std::size_t all = asked.queries.size();
+    std::vector<float> visibility(all * maps.channel.size());
+    const std::size_t pieces = (all + lookups_a_piece - 1) / lookups_a_piece;
     base::parallel_for(pieces, [&](std::size_t piece) {
         const std::size_t first = piece * lookups_a_piece;
-        const std::size_t count = std::min(lookups_a_piece, queries.size() - first);
+        const std::size_t count = std::min(lookups_a_piece, all - first);
+        std::vector<float> piece_answers(count * maps.channel.size());
+        lookup(maps, asked.part(first, count), piece_answers);
         for (std::size_t c = 0; c < maps.channel.size(); ++c)
-            maps.channel[c]->lookup(queries.subspan(first, count),
-                                    std::span(visibility).subspan(c * queries.size() + first, count));
+            std::copy_n(piece_answers.data() + c * count, count, visibility.data() + c * all + first);
     });
     return visibility;
 }
 
-void judge(Contender& contender, std::span<const Query> judged, const Truth& truth) {
+void judge(Contender& contender, const Asked& judged, const Truth& truth) {
     const std::vector<float> visibility = answers(contender.maps, judged);
     std::vector<double> errors(visibility.size());
     LookupErrors result;
     for (std::size_t i = 0; i < visibility.size(); ++i) {
         const float v = visibility[i];
         if (!(v >= -rounding && v <= 1.0f + rounding)) {
-            const Query& q = judged[i % judged.size()];
+            const Query& q = judged.queries[i % judged.queries.size()];
             return fail(contender,
                         fmt::format("the lookup at ({}, {}, {}) answers {}, which is not in [0, 1]", q.x, q.y, q.z, v));
         }
@@ -179,7 +181,7 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
     }
 }
 
-void check_lookups(std::span<Contender> contenders, std::span<const Query> judged, const Truth& truth) {
+void check_lookups(std::span<Contender> contenders, const Asked& judged, const Truth& truth) {
     for (Contender& contender : contenders)
         if (contender.ok()) judge(contender, judged, truth);
 }

@@ -27,19 +27,30 @@ void finish(Maps& maps) {
     for (const auto& map : maps.channel) map->finish();
 }
 
-void lookup(const Maps& maps, std::span<const techniques::Query> queries, std::span<float> visibility) {
-    for (std::size_t c = 0; c < maps.channel.size(); ++c)
-        maps.channel[c]->lookup(queries, visibility.subspan(c * queries.size(), queries.size()));
+void lookup(const Maps& maps, const Asked& asked, std::span<float> visibility) {
+    const std::size_t count = asked.queries.size();
+    for (std::size_t c = 0; c < maps.channel.size(); ++c) {
+        const std::span<float> answers = visibility.subspan(c * count, count);
+        if (asked.footprints.empty())
+            maps.channel[c]->lookup(asked.queries, answers);
+        else
+            maps.channel[c]->lookup_shaped(asked.queries, asked.footprints, answers);
+    }
 }
 
-std::size_t touched(const Maps& maps, std::span<const techniques::Query> queries, std::size_t limit,
-                    std::vector<const void*>& lines) {
+std::size_t touched(const Maps& maps, const Asked& asked, std::size_t limit, std::vector<const void*>& lines) {
     const std::size_t before = lines.size();
+    const auto touch = [&](const Map& map, std::size_t q) {
+        if (asked.footprints.empty())
+            map.touched(asked.queries[q], lines);
+        else
+            map.touched_shaped(asked.queries[q], asked.footprints[q], lines);
+    };
     std::size_t covered = 0;
-    while (covered < queries.size() && (lines.size() - before) * maps.channel.size() < limit)
-        maps.channel[0]->touched(queries[covered++], lines);
+    while (covered < asked.queries.size() && (lines.size() - before) * maps.channel.size() < limit)
+        touch(*maps.channel[0], covered++);
     for (std::size_t c = 1; c < maps.channel.size(); ++c)
-        for (std::size_t q = 0; q < covered; ++q) maps.channel[c]->touched(queries[q], lines);
+        for (std::size_t q = 0; q < covered; ++q) touch(*maps.channel[c], q);
     return covered;
 }
 

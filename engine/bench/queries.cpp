@@ -12,6 +12,7 @@ namespace shadowbench::bench {
 namespace {
 
 using base::Vec3d;
+using techniques::Footprint;
 using techniques::Query;
 
 constexpr double behind = 0.05;  // of the depth range: how far probes reach behind what casts shadows
@@ -64,7 +65,7 @@ void spread(const std::vector<Span>& spans, int count, std::vector<double>& dist
     }
 }
 
-void append_if_seen(const Vec3d& place, float width, const rays::LightView& view, QuerySet& set) {
+bool append_if_seen(const Vec3d& place, float width, const rays::LightView& view, QuerySet& set) {
     const Query query{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z), width};
     const bool seen = query.x >= 0.0f && query.y >= 0.0f && query.x < static_cast<float>(view.resolution.x) &&
                       query.y < static_cast<float>(view.resolution.y) && place.z > view.z_near &&
@@ -73,20 +74,49 @@ void append_if_seen(const Vec3d& place, float width, const rays::LightView& view
         set.queries.push_back(query);
     else
         ++set.dropped;
+    return seen;
+}
+
+// Where the rays through the neighbouring pixels meet the plane through the point, to first order in the pixel.
+CameraPoint seen_at(const ImagePlane& plane, const Vec3d& through, const Vec3d& point, const Vec3d& normal) {
+    const double scale = (point - plane.origin).length() / through.length();
+    const auto edge = [&](const Vec3d& step) {
+        return (step - through * (normal.dot(step) / normal.dot(through))) * scale;
+    };
+    return {point, edge(plane.across), edge(plane.down)};
+}
+
+// `place` is the point in light space, before any bias.
+Footprint footprint_of(const rays::LightView& view, const Vec3d& place, const CameraPoint& point) {
+    const auto in_map = [&](const Vec3d& edge, float& x, float& y) {
+        double dx = edge.dot(view.right), dy = edge.dot(view.up);
+        if (view.perspective) {  // of the slope (x / z, y / z)
+            const double dz = edge.dot(view.forward);
+            dx = (dx - (view.lower.x + place.x * view.pixel.x) * dz) / place.z;
+            dy = (dy - (view.lower.y + place.y * view.pixel.y) * dz) / place.z;
+        }
+        x = static_cast<float>(dx / view.pixel.x);
+        y = static_cast<float>(dy / view.pixel.y);
+    };
+    Footprint f;
+    in_map(point.across, f.ux, f.uy);
+    in_map(point.down, f.vx, f.vy);
+    return f;
 }
 
 }  // namespace
 
-std::vector<Vec3d> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer) {
+std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer) {
     const base::Vec2i resolution = receivers.resolution;
     const ImagePlane plane = image_plane(*receivers.camera, resolution);
-    std::vector<std::vector<Vec3d>> rows(static_cast<std::size_t>(resolution.y));
+    std::vector<std::vector<CameraPoint>> rows(static_cast<std::size_t>(resolution.y));
     base::parallel_for(rows.size(), [&](std::size_t row) {
         std::vector<rays::TracedSegment> segments;
         std::vector<double> distances;
         for (int x = 0; x < resolution.x; ++x) {
-            const Vec3d direction =
-                (plane.corner + plane.across * (x + 0.5) + plane.down * (static_cast<double>(row) + 0.5)).normalized();
+            const Vec3d through =
+                plane.corner + plane.across * (x + 0.5) + plane.down * (static_cast<double>(row) + 0.5);
+            const Vec3d direction = through.normalized();
             rays::SurfaceHit hit;
             const bool surface = tracer.nearest(plane.origin, direction, hit);
             const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
@@ -95,26 +125,29 @@ std::vector<Vec3d> camera_points(const scene::Receivers& receivers, const rays::
                 tracer.all_segments(plane.origin, direction, 0.0, end, segments);
                 spread(media_spans(segments), receivers.media_lookups, distances);
             }
-            for (const double t : distances) rows[row].push_back(plane.origin + direction * t);
-            if (surface) rows[row].push_back(hit.position);
+            for (const double t : distances)
+                rows[row].push_back(seen_at(plane, through, plane.origin + direction * t, direction));
+            if (surface) rows[row].push_back(seen_at(plane, through, hit.position, hit.normal));
         }
     });
-    std::vector<Vec3d> points;
-    for (const std::vector<Vec3d>& row : rows) points.insert(points.end(), row.begin(), row.end());
+    std::vector<CameraPoint> points;
+    for (const std::vector<CameraPoint>& row : rows) points.insert(points.end(), row.begin(), row.end());
     return points;
 }
 
-QuerySet queries_of_points(const std::vector<Vec3d>& points, const scene::Receivers& receivers,
+QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Receivers& receivers,
                            const rays::LightView& view) {
     QuerySet set;
-    for (const Vec3d& point : points) {
-        Vec3d place = rays::to_light(view, point);
+    for (const CameraPoint& point : points) {
+        Vec3d place = rays::to_light(view, point.position);
         if (view.perspective && !(place.z > view.z_near)) {
             ++set.dropped;
             continue;
         }
+        const Footprint footprint = footprint_of(view, place, point);
         if (receivers.bias > 0.0) place.z -= receivers.bias / rays::length_per_depth(view, place.x, place.y);
-        append_if_seen(place, static_cast<float>(receivers.filter_width), view, set);
+        if (append_if_seen(place, static_cast<float>(receivers.filter_width), view, set))
+            set.footprints.push_back(footprint);
     }
     return set;
 }
@@ -142,6 +175,15 @@ std::vector<std::size_t> choose_judged(std::size_t total, std::size_t count, std
         chosen[i] = first + base::Random(base::hash(seed, i)).below(last - first);
     }
     return chosen;
+}
+
+QuerySet pick(const Asked& asked, std::span<const std::size_t> indices) {
+    QuerySet set;
+    for (const std::size_t i : indices) {
+        set.queries.push_back(asked.queries[i]);
+        if (!asked.footprints.empty()) set.footprints.push_back(asked.footprints[i]);
+    }
+    return set;
 }
 
 }  // namespace shadowbench::bench
