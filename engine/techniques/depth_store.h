@@ -40,10 +40,21 @@ struct DepthBounds {
 
 // The three ways to read. All have:
 //   at(x, y)       the depths of a cell inside the grid
+//   window(range)  the part of the memory that holds all cells of a range, if there is one: then those are read faster
 //   bounds(range)  of the cells of a range inside the grid, told without reading cells; where `bounded` alone
 //   touch...       the lines that the two read
 inline constexpr float empty_cell[most_depths] = {no_depth, no_depth, no_depth, no_depth,
                                                   no_depth, no_depth, no_depth, no_depth};
+
+// Depths of cells whose rows are `stride` cells apart, from cell (x0, y0) on.
+struct DepthWindow {
+    const float* depths = nullptr;
+    int stride = 0, x0 = 0, y0 = 0, per_cell = 1;
+
+    const float* at(int x, int y) const {
+        return depths + (static_cast<std::ptrdiff_t>(y - y0) * stride + (x - x0)) * per_cell;
+    }
+};
 
 struct RawDepths {
     static constexpr bool bounded = false;
@@ -51,6 +62,10 @@ struct RawDepths {
     int width, per_cell;
 
     const float* at(int x, int y) const { return depths + (static_cast<std::size_t>(y) * width + x) * per_cell; }
+    bool window(const CellRange&, DepthWindow& out) const {
+        out = {depths, width, 0, 0, per_cell};
+        return true;
+    }
     void touch(int x, int y, std::vector<const void*>& lines) const {
         touch_lines(at(x, y), per_cell * sizeof(float), lines);
     }
@@ -67,6 +82,11 @@ struct BoxedDepths {
         if (!holds(x, y)) return empty_cell;
         return depths + (static_cast<std::size_t>(y - box.y0) * (box.x1 - box.x0) + (x - box.x0)) * per_cell;
     }
+    bool window(const CellRange& r, DepthWindow& out) const {
+        out = {depths, box.x1 - box.x0, box.x0, box.y0, per_cell};
+        return r.x0 >= box.x0 && r.x1 <= box.x1 && r.y0 >= box.y0 && r.y1 <= box.y1;
+    }
+    DepthBounds bounds(int x, int y) const { return {holds(x, y) ? -no_depth : no_depth, no_depth}; }
     DepthBounds bounds(const CellRange& r) const {
         const bool apart = r.x1 <= box.x0 || r.x0 >= box.x1 || r.y1 <= box.y0 || r.y0 >= box.y1;
         return {apart ? no_depth : -no_depth, no_depth};
@@ -91,16 +111,29 @@ struct TiledDepths {
     const DepthTile* tiles;
     int tiles_x, per_cell;
 
+    // Unsigned: divisions by a power of two are shifts then.
+    static unsigned tile_of(int cell) { return static_cast<unsigned>(cell) / tile_side; }
+    static unsigned inside_tile(int cell) { return static_cast<unsigned>(cell) % tile_side; }
     const DepthTile& tile(int x, int y) const {
-        return tiles[static_cast<std::size_t>(y / tile_side) * tiles_x + x / tile_side];
+        return tiles[static_cast<std::size_t>(tile_of(y)) * tiles_x + tile_of(x)];
     }
     const float* at(int x, int y) const {
         const DepthTile& t = tile(x, y);
         if (t.number == DepthTile::nowhere) return empty_cell;
-        const std::size_t row = static_cast<std::size_t>(t.number) * tile_side + y % tile_side;
-        return depths + (row * tile_side + x % tile_side) * per_cell;
+        const std::size_t row = static_cast<std::size_t>(t.number) * tile_side + inside_tile(y);
+        return depths + (row * tile_side + inside_tile(x)) * per_cell;
     }
+    bool window(const CellRange& r, DepthWindow& out) const {
+        const DepthTile& t = tile(r.x0, r.y0);
+        if (!one_tile(r) || t.number == DepthTile::nowhere) return false;
+        const std::size_t first = static_cast<std::size_t>(t.number) * tile_side * tile_side * per_cell;
+        out = {depths + first, tile_side, r.x0 - static_cast<int>(inside_tile(r.x0)),
+               r.y0 - static_cast<int>(inside_tile(r.y0)), per_cell};
+        return true;
+    }
+    DepthBounds bounds(int x, int y) const { return tile(x, y).bounds; }
     DepthBounds bounds(const CellRange& r) const {
+        if (one_tile(r)) return tile(r.x0, r.y0).bounds;
         DepthBounds found{no_depth, -no_depth};
         for_each_tile(r, [&](const DepthTile& t) {
             found.least = std::min(found.least, t.bounds.least);
@@ -117,10 +150,13 @@ struct TiledDepths {
     }
 
 private:
+    static bool one_tile(const CellRange& r) {
+        return tile_of(r.x0) == tile_of(r.x1 - 1) && tile_of(r.y0) == tile_of(r.y1 - 1);
+    }
     template <class Visit>
     void for_each_tile(const CellRange& r, const Visit& visit) const {
-        for (int y = r.y0 / tile_side; y <= (r.y1 - 1) / tile_side; ++y)
-            for (int x = r.x0 / tile_side; x <= (r.x1 - 1) / tile_side; ++x)
+        for (unsigned y = tile_of(r.y0); y <= tile_of(r.y1 - 1); ++y)
+            for (unsigned x = tile_of(r.x0); x <= tile_of(r.x1 - 1); ++x)
                 visit(tiles[static_cast<std::size_t>(y) * tiles_x + x]);
     }
 };

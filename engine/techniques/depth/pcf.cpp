@@ -162,17 +162,20 @@ private:
     // only, which would shift every shadow. Those outside the map are lit.
     template <Placement placement, class Depths>
     int count_shadowed(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
+        if (p.known >= 0) return p.known;
+        if (DepthWindow window; p.inside && depths.window(p.range, window))
+            return sample<placement, true>(window, region, q, p);
+        return sample<placement, false>(depths, region, q, p);
+    }
+
+    template <Placement placement, bool inside, class Depths>
+    int sample(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
         int shadowed = 0;
-        const auto compare = [&](float x, float y, float u) {
+        for_each_sample<placement>(region, p.x, p.y, key_of(q), [&](float x, float y, float u) {
+            if (!inside && !holds(x, y)) return;
             const float bias = settings_.bias0 + u * bias_range_;
             shadowed += q.z > *depths.at(static_cast<int>(x), static_cast<int>(y)) + bias;
-        };
-        if (p.inside)
-            for_each_sample<placement>(region, p.x, p.y, key_of(q), compare);
-        else
-            for_each_sample<placement>(region, p.x, p.y, key_of(q), [&](float x, float y, float u) {
-                if (holds(x, y)) compare(x, y, u);
-            });
+        });
         return shadowed;
     }
 
@@ -191,7 +194,7 @@ private:
             Place p;
             visibility[i] = 1.0f;
             if (!find(depths, region, q, p)) continue;
-            const int shadowed = p.known >= 0 ? p.known : count_shadowed<placement>(depths, region, q, p);
+            const int shadowed = count_shadowed<placement>(depths, region, q, p);
             visibility[i] = 1.0f - static_cast<float>(shadowed) / static_cast<float>(region.ns * region.nt);
         }
     }

@@ -26,7 +26,10 @@ Region box_region(const PcfSettings& settings, float sres, float tres) {
 // else num_samples, divided between the sides as the region is.
 Partition partition(const PcfSettings& settings, float sres, float tres) {
     const float most = std::max(settings.num_samples, settings.min_samples);
-    const auto whole = [&](float n) { return std::clamp(std::floor(n + 0.5f), settings.min_samples, most); };
+    const auto whole = [&](float n) {  // n >= 0; cut to what an int holds first
+        const float cut = static_cast<float>(static_cast<int>(std::min(n + 0.5f, most)));
+        return std::max(cut, settings.min_samples);
+    };
     float ns, nt;
     if (sres * tres * 4.0f < settings.num_samples) {
         ns = whole(sres * 2.0f);
@@ -56,7 +59,7 @@ bool footprint_region(const PcfSettings& settings, const CellGrid& grid, const F
     }
     const float stretch_x = to_x * (sres / half_x), stretch_y = to_y * (tres / half_y);
     const float ux = f.ux * stretch_x, uy = f.uy * stretch_y, vx = f.vx * stretch_x, vy = f.vy * stretch_y;
-    const Partition p = partition(settings, 0.5f * std::hypot(ux, uy), 0.5f * std::hypot(vx, vy));
+    const Partition p = partition(settings, 0.5f * std::sqrt(ux * ux + uy * uy), 0.5f * std::sqrt(vx * vx + vy * vy));
     const float ns = static_cast<float>(p.ns), nt = static_cast<float>(p.nt);
     out = {-0.5f * (ux + vx), -0.5f * (uy + vy), ux / ns, uy / ns, vx / nt, vy / nt, p.ns, p.nt};
     return true;

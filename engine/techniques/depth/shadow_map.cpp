@@ -34,9 +34,8 @@ public:
         const std::size_t before = lines.size();
         depths_.store.read([&](const auto& depths) {
             if constexpr (std::decay_t<decltype(depths)>::bounded) {
-                const CellRange cell{x, x + 1, y, y + 1};
-                depths.touch_bounds(cell, lines);
-                const DepthBounds bounds = depths.bounds(cell);
+                depths.touch_bounds({x, x + 1, y, y + 1}, lines);
+                const DepthBounds bounds = depths.bounds(x, y);
                 if (!(q.z > bounds.least + bias_) || q.z > bounds.greatest + bias_) return;
             }
             depths.touch(x, y, lines);
@@ -58,7 +57,7 @@ private:
     template <class Depths>
     bool shadowed(const Depths& depths, int x, int y, float z) const {
         if constexpr (Depths::bounded) {
-            const DepthBounds bounds = depths.bounds({x, x + 1, y, y + 1});
+            const DepthBounds bounds = depths.bounds(x, y);
             if (!(z > bounds.least + bias_)) return false;
             if (z > bounds.greatest + bias_) return true;
         }

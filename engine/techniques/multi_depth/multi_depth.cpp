@@ -152,12 +152,16 @@ private:
     template <class Depths>
     int count_shadowed(const Depths& depths, const Kernel& kernel, float z) const {
         if (const int sum = known(depths, kernel, z); sum >= 0) return sum;
-        int sum = 0;
-        kernel.for_each([&](int x, int y) {
-            const float* depth = depths.at(x, y);
-            for (int i = 0; i < n_; ++i) sum += z > depth[i] + bias_;
-        });
-        return sum;
+        const auto count = [&](const auto& read) {
+            int sum = 0;
+            kernel.for_each([&](int x, int y) {
+                const float* depth = read.at(x, y);
+                for (int i = 0; i < n_; ++i) sum += z > depth[i] + bias_;
+            });
+            return sum;
+        };
+        if (DepthWindow window; depths.window(kernel.range(), window)) return count(window);
+        return count(depths);
     }
 
     int n_, q_, side_;

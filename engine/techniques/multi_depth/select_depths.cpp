@@ -55,6 +55,10 @@ std::vector<Offset> search_region(int q) {
 void select_depths(Selection selection, std::span<float> samples, std::span<float> chosen) {
     const float own = samples[0];
     const std::size_t others = chosen.size() - 1;
+    if (std::all_of(samples.begin(), samples.end(), [own](float z) { return z == own; })) {
+        std::fill(chosen.begin(), chosen.end(), own);
+        return;
+    }
     if (selection == Selection::sorted) {
         std::sort(samples.begin(), samples.end());
         choose_of_groups(samples, own, chosen);
@@ -71,14 +75,26 @@ void select_depths(Selection selection, std::span<float> samples, std::span<floa
 std::vector<float> select_all(Selection selection, int q, int n, const CellGrid& grid, std::span<const float> base) {
     if (n == 1) return {base.begin(), base.end()};
     const std::vector<Offset> offsets = search_region(q);
+    std::vector<std::ptrdiff_t> steps;  // the same in cells of the base map
+    int rings = 0;
+    for (const Offset& o : offsets) {
+        steps.push_back(static_cast<std::ptrdiff_t>(o.y) * grid.width + o.x);
+        rings = std::max({rings, std::abs(o.x), std::abs(o.y)});
+    }
     std::vector<float> all(grid.count() * static_cast<std::size_t>(n));
     base::parallel_for(static_cast<std::size_t>(grid.height), [&](std::size_t row) {
         std::vector<float> samples(offsets.size());
         const int y = static_cast<int>(row);
+        const bool row_inside = y >= rings && y < grid.height - rings;
         for (int x = 0; x < grid.width; ++x) {
-            for (std::size_t s = 0; s < offsets.size(); ++s)
-                samples[s] = base[grid.index(std::clamp(x + offsets[s].x, 0, grid.width - 1),
-                                             std::clamp(y + offsets[s].y, 0, grid.height - 1))];
+            if (row_inside && x >= rings && x < grid.width - rings) {
+                const float* own = base.data() + grid.index(x, y);
+                for (std::size_t s = 0; s < steps.size(); ++s) samples[s] = own[steps[s]];
+            } else {
+                for (std::size_t s = 0; s < offsets.size(); ++s)
+                    samples[s] = base[grid.index(std::clamp(x + offsets[s].x, 0, grid.width - 1),
+                                                 std::clamp(y + offsets[s].y, 0, grid.height - 1))];
+            }
             select_depths(selection, samples,
                           {all.data() + grid.index(x, y) * static_cast<std::size_t>(n), static_cast<std::size_t>(n)});
         }
