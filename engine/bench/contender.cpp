@@ -80,14 +80,14 @@ void finish_all(std::span<Contender> contenders) {
     }
 }
 
-void judge(Contender& contender, std::span<const Query> judged, const Truth& truth) {
+void judge(Contender& contender, const Asked& judged, const Truth& truth) {
     const std::vector<float> visibility = lookup_all(contender.maps, judged);
     std::vector<double> errors(visibility.size());
     LookupErrors result;
     for (std::size_t i = 0; i < visibility.size(); ++i) {
         const float v = visibility[i];
         if (!(v >= -rounding && v <= 1.0f + rounding)) {
-            const Query& q = judged[i % judged.size()];
+            const Query& q = judged.queries[i % judged.queries.size()];
             return fail(contender,
                         fmt::format("the lookup at ({}, {}, {}) answers {}, which is not in [0, 1]", q.x, q.y, q.z, v));
         }
@@ -184,7 +184,7 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
     }
 }
 
-void check_lookups(std::span<Contender> contenders, std::span<const Query> judged, const Truth& truth) {
+void check_lookups(std::span<Contender> contenders, const Asked& judged, const Truth& truth) {
     for (Contender& contender : contenders)
         if (contender.ok()) judge(contender, judged, truth);
 }

@@ -14,7 +14,8 @@ struct ImagePlane {
     base::Vec3d origin;
     base::Vec3d corner, across, down;  // the ray of (x, y) runs along corner + x * across + y * down
 
-    base::Vec3d direction(double x, double y) const { return (corner + across * x + down * y).normalized(); }
+    base::Vec3d through(double x, double y) const { return corner + across * x + down * y; }
+    base::Vec3d direction(double x, double y) const { return through(x, y).normalized(); }
 };
 
 // Pixels are square; the camera's angle is that of the image's height.
