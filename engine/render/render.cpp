@@ -166,6 +166,7 @@ Rendering describe(const scene::Scenario& scenario, const bench::Variant& varian
     result.default_camera = !scenario.receivers.camera;
     result.camera = result.default_camera ? default_camera(scenario.scene) : *scenario.receivers.camera;
     result.size = options.size.value_or(scenario.receivers.resolution);
+    result.rays_per_side = options.rays_per_side;
     result.reference_samples = scenario.reference.samples_per_pixel;
     return result;
 }
@@ -176,6 +177,7 @@ ShadingPoints see(const scene::Scenario& scenario, const RenderOptions& options,
     settings.camera = result.camera;
     settings.size = result.size;
     settings.media_lookups = options.media_lookups;
+    settings.rays_per_side = options.rays_per_side;
     settings.memory_limit = options.run.limits.all / 2;
     const rays::Tracer all(scenario.scene, false);
     ShadingPoints points =

@@ -70,24 +70,38 @@ void add_surface_point(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d&
     }
 }
 
-Row trace_row(const Eye& eye, int y, int width) {
-    Row row;
+// What the view rays of a thread reuse.
+struct Scratch {
     std::vector<rays::TracedSegment> segments;
     ViewMarch march;
+};
+
+// The view ray through image position (x, y), which stands for `part` of its pixel.
+void trace(const Eye& eye, double x, double y, double part, Scratch& scratch, Row& row) {
+    const Vec3d direction = eye.plane.direction(x, y);
+    rays::SurfaceHit hit;
+    const bool surface = eye.tracer.nearest(eye.plane.origin, direction, hit);
+    Vec3d left(part);
+    if (eye.media) {
+        const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
+        eye.tracer.all_segments(eye.plane.origin, direction, 0.0, end, scratch.segments);
+        march_view_ray(scratch.segments, eye.step, scratch.march);
+        for (const ViewStep& step : scratch.march.steps)
+            add_medium_point(eye, eye.plane.origin + direction * step.t, step.share * part, row);
+        left *= scratch.march.transmittance;
+    }
+    if (surface) add_surface_point(eye, hit, -direction, left, row);
+}
+
+Row trace_row(const Eye& eye, int y, int width, int rays_per_side) {
+    Row row;
+    Scratch scratch;
+    const double spacing = 1.0 / rays_per_side;
     for (int x = 0; x < width; ++x) {
         const std::size_t before = row.place.size();
-        const Vec3d direction = eye.plane.direction(x + 0.5, y + 0.5);
-        rays::SurfaceHit hit;
-        const bool surface = eye.tracer.nearest(eye.plane.origin, direction, hit);
-        march.transmittance = Vec3d(1.0);
-        if (eye.media) {
-            const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
-            eye.tracer.all_segments(eye.plane.origin, direction, 0.0, end, segments);
-            march_view_ray(segments, eye.step, march);
-            for (const ViewStep& step : march.steps)
-                add_medium_point(eye, eye.plane.origin + direction * step.t, step.share, row);
-        }
-        if (surface) add_surface_point(eye, hit, -direction, march.transmittance, row);
+        for (int j = 0; j < rays_per_side; ++j)
+            for (int i = 0; i < rays_per_side; ++i)
+                trace(eye, x + (i + 0.5) * spacing, y + (j + 0.5) * spacing, spacing * spacing, scratch, row);
         row.count.push_back(static_cast<std::uint32_t>(row.place.size() - before));
     }
     return row;
@@ -119,7 +133,7 @@ ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const sce
     for (std::size_t first = 0; first < height; first += rows_at_a_time) {
         std::vector<Row> rows(std::min(rows_at_a_time, height - first));
         base::parallel_for(rows.size(), [&](std::size_t i) {
-            rows[i] = trace_row(eye, static_cast<int>(first + i), settings.size.x);
+            rows[i] = trace_row(eye, static_cast<int>(first + i), settings.size.x, settings.rays_per_side);
         });
         std::size_t count = points.points();
         for (const Row& row : rows) count += row.place.size();

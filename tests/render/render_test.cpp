@@ -122,6 +122,27 @@ TEST(Render, adds_the_lights_in_their_colours) {
     EXPECT_NEAR(result.techniques[0].picture.shaded.at(column(2.0), 20).x, lit, 1e-3);
 }
 
+// Four columns of view rays a pixel: what a pixel shows is the share of its rays that are not shadowed.
+TEST(Render, with_more_view_rays_a_pixel_averages_them) {
+    RenderOptions coarse, fine;
+    coarse.size = base::Vec2i(20, 10);
+    coarse.rays_per_side = 4;
+    fine.size = base::Vec2i(80, 40);
+    const Rendering few = render(quad_over_plane(), coarse, {}), many = render(quad_over_plane(), fine, {});
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 20; ++x) {
+            double shaded = 0.0, shadow = 0.0;
+            for (int j = 0; j < 4; ++j)
+                for (int i = 0; i < 4; ++i) {
+                    shaded += many.reference.shaded.at(4 * x + i, 4 * y + j).y / 16.0;
+                    shadow += many.reference.shadow.at(4 * x + i, 4 * y + j).y / 16.0;
+                }
+            ASSERT_NEAR(few.reference.shaded.at(x, y).y, shaded, 1e-6) << x << " " << y;
+            ASSERT_NEAR(few.reference.shadow.at(x, y).y, shadow, 1e-6) << x << " " << y;
+        }
+    EXPECT_EQ(few.points, many.points);
+}
+
 TEST(Render, is_the_same_on_one_thread_and_on_two) {
     std::ifstream file(std::string(SHADOWBENCH_SOURCE_DIR) + "/scenarios/quickstart.json");
     json document = json::parse(file);
