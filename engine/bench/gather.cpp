@@ -20,13 +20,13 @@ struct PartsByPixel {
 };
 
 template <class Visit>
-void for_each_pixel(const LightRays& tile, const Footprint& f, const Visit& visit) {
+void for_each_pixel(const LightRays& tile, const FilterBox& f, const Visit& visit) {
     for (int y = std::max(f.y0, tile.y0); y <= std::min(f.y1, tile.y0 + tile.height - 1); ++y)
         for (int x = std::max(f.x0, tile.x0); x <= std::min(f.x1, tile.x0 + tile.width - 1); ++x)
             visit(static_cast<std::size_t>(y - tile.y0) * tile.width + (x - tile.x0));
 }
 
-PartsByPixel sort_parts(const LightRays& tile, const std::vector<Footprint>& footprints, std::span<const Query> queries,
+PartsByPixel sort_parts(const LightRays& tile, const std::vector<FilterBox>& footprints, std::span<const Query> queries,
                         std::span<const Part> parts) {
     std::vector<std::uint32_t> order(parts.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -35,7 +35,7 @@ PartsByPixel sort_parts(const LightRays& tile, const std::vector<Footprint>& foo
     });
     PartsByPixel result;
     result.begin.assign(static_cast<std::size_t>(tile.width) * tile.height + 1, 0);
-    for (const Footprint& f : footprints) for_each_pixel(tile, f, [&](std::size_t p) { ++result.begin[p + 1]; });
+    for (const FilterBox& f : footprints) for_each_pixel(tile, f, [&](std::size_t p) { ++result.begin[p + 1]; });
     std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
     result.part.resize(result.begin.back());
     std::vector<std::uint32_t> next(result.begin.begin(), result.begin.end() - 1);
@@ -94,9 +94,9 @@ private:
 
 }  // namespace
 
-Footprint footprint(const Query& query, const MapLayout& layout) {
+FilterBox filter_box(const Query& query, const MapLayout& layout) {
     const double half = 0.5 * query.width;
-    Footprint f{query.x - half, query.x + half, query.y - half, query.y + half, 0, 0, 0, 0};
+    FilterBox f{query.x - half, query.x + half, query.y - half, query.y + half, 0, 0, 0, 0};
     const auto pixel = [](double place, int pixels) {
         return static_cast<int>(std::clamp(std::floor(place), 0.0, pixels - 1.0));
     };
@@ -109,9 +109,9 @@ Footprint footprint(const Query& query, const MapLayout& layout) {
 
 void gather_footprints(const LightRays& tile, const MapLayout& layout, std::span<const Query> queries,
                        std::span<Part> parts) {
-    std::vector<Footprint> footprints;
+    std::vector<FilterBox> footprints;
     footprints.reserve(parts.size());
-    for (const Part& part : parts) footprints.push_back(footprint(queries[part.query], layout));
+    for (const Part& part : parts) footprints.push_back(filter_box(queries[part.query], layout));
     const PartsByPixel sorted = sort_parts(tile, footprints, queries, parts);
     RayWalk walk;
     for (std::size_t ray = 0; ray < tile.rays(); ++ray) {
@@ -124,7 +124,7 @@ void gather_footprints(const LightRays& tile, const MapLayout& layout, std::span
                                   y * layout.samples_y + static_cast<int>(sample) / layout.samples_x);
         walk.start(tile, ray);
         for (std::uint32_t k = sorted.begin[pixel]; k < sorted.begin[pixel + 1]; ++k) {
-            const Footprint& f = footprints[sorted.part[k]];
+            const FilterBox& f = footprints[sorted.part[k]];
             if (place.x < f.left || place.x > f.right || place.y < f.low || place.y > f.high) continue;
             Part& part = parts[sorted.part[k]];
             const double z = queries[part.query].z;

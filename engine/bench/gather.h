@@ -12,11 +12,11 @@
 namespace shadowbench::bench {
 
 // Pixels [x0, x1] x [y0, y1] that hold every ray of a query's footprint.
-struct Footprint {
+struct FilterBox {
     double left, right, low, high;
     int x0, x1, y0, y1;
 };
-Footprint footprint(const techniques::Query& query, const rays::MapLayout& layout);
+FilterBox filter_box(const techniques::Query& query, const rays::MapLayout& layout);
 
 struct Moments {
     double sum[3] = {0.0, 0.0, 0.0}, squares[3] = {0.0, 0.0, 0.0};

@@ -21,7 +21,7 @@ using techniques::Query;
 std::vector<std::vector<Part>> parts_by_tile(const MapLayout& layout, std::span<const Query> queries) {
     std::vector<std::vector<Part>> parts(static_cast<std::size_t>(layout.tiles()));
     for (std::size_t q = 0; q < queries.size(); ++q) {
-        const Footprint f = footprint(queries[q], layout);
+        const FilterBox f = filter_box(queries[q], layout);
         for (int ty = f.y0 / layout.tile_height; ty <= f.y1 / layout.tile_height; ++ty)
             for (int tx = f.x0 / layout.tile_width; tx <= f.x1 / layout.tile_width; ++tx)
                 parts[static_cast<std::size_t>(ty) * layout.tiles_x() + tx].push_back({q, {}});
@@ -52,7 +52,7 @@ std::vector<unsigned char> wanted_pixels(int tile, const MapLayout& layout, std:
     const int height = std::min(layout.tile_height, layout.height - y0);
     std::vector<unsigned char> wanted(static_cast<std::size_t>(width) * height, 0);
     for (const Part& part : parts) {
-        const Footprint f = footprint(queries[part.query], layout);
+        const FilterBox f = filter_box(queries[part.query], layout);
         for (int y = std::max(f.y0, y0); y <= std::min(f.y1, y0 + height - 1); ++y)
             for (int x = std::max(f.x0, x0); x <= std::min(f.x1, x0 + width - 1); ++x)
                 wanted[static_cast<std::size_t>(y - y0) * width + (x - x0)] = 1;

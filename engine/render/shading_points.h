@@ -17,8 +17,10 @@ namespace shadowbench::render {
 
 struct ShadingPoints {
     base::Vec2i size{0, 0};
-    std::vector<std::uint32_t> begin;   // pixels + 1 offsets into the points; pixels in image order
-    std::vector<base::Vec3d> place;     // world; of one view ray from front to back
+    std::vector<std::uint32_t> begin;  // pixels + 1 offsets into the points; pixels in image order
+    std::vector<base::Vec3d> place;    // world; of one view ray from front to back
+    std::vector<base::Vec3f> across;   // edges of what a view ray stands for at its point, as bench::CameraPoint's
+    std::vector<base::Vec3f> down;
     std::vector<base::Vec3f> coverage;  // share of the pixel that the point stands for; a pixel's sum is at most 1
     std::vector<base::Vec3f> radiance;  // light after light: what light l adds to the pixel when nothing shadows it,
                                         // at [l * points + i]
