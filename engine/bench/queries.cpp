@@ -66,8 +66,10 @@ void append(const std::optional<Query>& query, QuerySet& set) {
         ++set.dropped;
 }
 
-// Where the rays through the neighbouring pixels meet the plane through the point, to first order in the pixel.
-CameraPoint seen_at(const rays::ImagePlane& plane, const Vec3d& through, const Vec3d& point, const Vec3d& normal) {
+}  // namespace
+
+// Where the rays through the neighbouring pixels meet the plane through the point.
+CameraPoint camera_point(const rays::ImagePlane& plane, const Vec3d& through, const Vec3d& point, const Vec3d& normal) {
     const double scale = (point - plane.origin).length() / through.length();
     const auto edge = [&](const Vec3d& step) {
         return (step - through * (normal.dot(step) / normal.dot(through))) * scale;
@@ -75,8 +77,8 @@ CameraPoint seen_at(const rays::ImagePlane& plane, const Vec3d& through, const V
     return {point, edge(plane.across), edge(plane.down)};
 }
 
-// `place` is the point in light space, before any bias.
-Footprint footprint_of(const rays::LightView& view, const Vec3d& place, const CameraPoint& point) {
+Footprint footprint_of(const CameraPoint& point, const rays::LightView& view) {
+    const Vec3d place = rays::to_light(view, point.position);
     const auto in_map = [&](const Vec3d& edge, float& x, float& y) {
         double dx = edge.dot(view.right), dy = edge.dot(view.up);
         if (view.perspective) {  // of the slope (x / z, y / z)
@@ -92,8 +94,6 @@ Footprint footprint_of(const rays::LightView& view, const Vec3d& place, const Ca
     in_map(point.down, f.vx, f.vy);
     return f;
 }
-
-}  // namespace
 
 std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer) {
     const base::Vec2i resolution = receivers.resolution;
@@ -114,8 +114,8 @@ std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const 
                 spread(media_spans(segments), receivers.media_lookups, distances);
             }
             for (const double t : distances)
-                rows[row].push_back(seen_at(plane, through, plane.origin + direction * t, direction));
-            if (surface) rows[row].push_back(seen_at(plane, through, hit.position, hit.normal));
+                rows[row].push_back(camera_point(plane, through, plane.origin + direction * t, direction));
+            if (surface) rows[row].push_back(camera_point(plane, through, hit.position, hit.normal));
         }
     });
     std::vector<CameraPoint> points;
@@ -137,7 +137,7 @@ QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Rec
     for (const CameraPoint& point : points) {
         const std::optional<Query> query = query_of_point(point.position, receivers, view);
         append(query, set);
-        if (query) set.footprints.push_back(footprint_of(view, rays::to_light(view, point.position), point));
+        if (query) set.footprints.push_back(footprint_of(point, view));
     }
     return set;
 }

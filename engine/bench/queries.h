@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/maps.h"
+#include "rays/image_plane.h"
 #include "rays/light_view.h"
 #include "rays/tracer.h"
 #include "scene/scene.h"
@@ -32,6 +33,11 @@ struct CameraPoint {
     base::Vec3d across{0, 0, 0}, down{0, 0, 0};
 };
 
+// What the pixel whose ray runs along `through` (of the plane) sees at `point`, where the plane that touches it has
+// this normal: its edges to first order in the pixel.
+CameraPoint camera_point(const rays::ImagePlane& plane, const base::Vec3d& through, const base::Vec3d& point,
+                         const base::Vec3d& normal);
+
 // For each pixel of the image, `media_lookups` places spread evenly over the media that its view ray
 // passes before the nearest surface, then the place on that surface. `tracer` sees all objects.
 std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer);
@@ -39,6 +45,9 @@ std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const 
 // A world point as a query of one light, moved towards it by the bias; nothing when it is outside the light's map.
 std::optional<techniques::Query> query_of_point(const base::Vec3d& point, const scene::Receivers& receivers,
                                                 const rays::LightView& view);
+
+// The pixel of a point as it lies in the light's map.
+techniques::Footprint footprint_of(const CameraPoint& point, const rays::LightView& view);
 
 // All points as queries, in their order, and their pixels as they lie in the map: the edges under the derivative of the
 // projection at the point.

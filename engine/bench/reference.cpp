@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "bench/gather.h"
 #include "rays/capture.h"
 #include "rays/light_rays.h"
 
@@ -16,83 +17,11 @@ using rays::LightRays;
 using rays::MapLayout;
 using techniques::Query;
 
-// Pixels [x0, x1] x [y0, y1] that hold every ray of a query's footprint.
-struct Footprint {
-    double left, right, low, high;
-    int x0, x1, y0, y1;
-};
-
-Footprint footprint(const Query& query, const MapLayout& layout) {
-    const double half = 0.5 * query.width;
-    Footprint f{query.x - half, query.x + half, query.y - half, query.y + half, 0, 0, 0, 0};
-    const auto pixel = [](double place, int pixels) {
-        return static_cast<int>(std::clamp(std::floor(place), 0.0, pixels - 1.0));
-    };
-    f.x0 = pixel(f.left, layout.width);
-    f.x1 = pixel(f.right, layout.width);
-    f.y0 = pixel(f.low, layout.height);
-    f.y1 = pixel(f.high, layout.height);
-    return f;
-}
-
-struct Moments {
-    double sum[3] = {0.0, 0.0, 0.0}, squares[3] = {0.0, 0.0, 0.0};
-    std::uint64_t count = 0;
-};
-
-// What one tile adds to one query.
-struct Part {
-    std::size_t query;
-    Moments moments;
-};
-
-std::size_t ray_of(const LightRays& tile, const MapLayout& layout, int i, int j) {
-    const int x = i / layout.samples_x - tile.x0, y = j / layout.samples_y - tile.y0;
-    const int sample = (j % layout.samples_y) * layout.samples_x + i % layout.samples_x;
-    return (static_cast<std::size_t>(y) * tile.width + x) * tile.samples + sample;
-}
-
-void add_ray(const LightRays& tile, std::size_t ray, double z, Moments& moments) {
-    for (int c = 0; c < tile.channels; ++c) {
-        const double value = rays::transmittance(tile, ray, c, z);
-        moments.sum[c] += value;
-        moments.squares[c] += value * value;
-    }
-    ++moments.count;
-}
-
-Moments gather(const LightRays& tile, const MapLayout& layout, const Query& query) {
-    const Footprint f = footprint(query, layout);
-    const int i0 = std::max(f.x0, tile.x0) * layout.samples_x;
-    const int i1 = std::min(f.x1 + 1, tile.x0 + tile.width) * layout.samples_x;
-    const int j0 = std::max(f.y0, tile.y0) * layout.samples_y;
-    const int j1 = std::min(f.y1 + 1, tile.y0 + tile.height) * layout.samples_y;
-    Moments moments;
-    for (int j = j0; j < j1; ++j)
-        for (int i = i0; i < i1; ++i) {
-            const rays::SamplePosition place = rays::sample_position(layout, i, j);
-            if (place.x >= f.left && place.x <= f.right && place.y >= f.low && place.y <= f.high)
-                add_ray(tile, ray_of(tile, layout, i, j), query.z, moments);
-        }
-    return moments;
-}
-
-// The one ray of the sample cell that holds (x, y), if it is this tile's.
-Moments gather_nearest(const LightRays& tile, const MapLayout& layout, const Query& query) {
-    const int i = static_cast<int>(query.x * static_cast<double>(layout.samples_x));
-    const int j = static_cast<int>(query.y * static_cast<double>(layout.samples_y));
-    const int x = i / layout.samples_x - tile.x0, y = j / layout.samples_y - tile.y0;
-    Moments moments;
-    if (x >= 0 && x < tile.width && y >= 0 && y < tile.height)
-        add_ray(tile, ray_of(tile, layout, i, j), query.z, moments);
-    return moments;
-}
-
 // For each tile, the queries whose footprint touches it.
 std::vector<std::vector<Part>> parts_by_tile(const MapLayout& layout, std::span<const Query> queries) {
     std::vector<std::vector<Part>> parts(static_cast<std::size_t>(layout.tiles()));
     for (std::size_t q = 0; q < queries.size(); ++q) {
-        const Footprint f = footprint(queries[q], layout);
+        const FilterBox f = filter_box(queries[q], layout);
         for (int ty = f.y0 / layout.tile_height; ty <= f.y1 / layout.tile_height; ++ty)
             for (int tx = f.x0 / layout.tile_width; tx <= f.x1 / layout.tile_width; ++tx)
                 parts[static_cast<std::size_t>(ty) * layout.tiles_x() + tx].push_back({q, {}});
@@ -123,7 +52,7 @@ std::vector<unsigned char> wanted_pixels(int tile, const MapLayout& layout, std:
     const int height = std::min(layout.tile_height, layout.height - y0);
     std::vector<unsigned char> wanted(static_cast<std::size_t>(width) * height, 0);
     for (const Part& part : parts) {
-        const Footprint f = footprint(queries[part.query], layout);
+        const FilterBox f = filter_box(queries[part.query], layout);
         for (int y = std::max(f.y0, y0); y <= std::min(f.y1, y0 + height - 1); ++y)
             for (int x = std::max(f.x0, x0); x <= std::min(f.x1, x0 + width - 1); ++x)
                 wanted[static_cast<std::size_t>(y - y0) * width + (x - x0)] = 1;
@@ -131,10 +60,10 @@ std::vector<unsigned char> wanted_pixels(int tile, const MapLayout& layout, std:
     return wanted;
 }
 
-using Gather = Moments (*)(const LightRays&, const MapLayout&, const Query&);
+using Gather = void (*)(const LightRays&, const MapLayout&, std::span<const Query>, std::span<Part>);
 
 std::vector<Moments> gather_all(const rays::Capture& capture, const MapLayout& layout, std::span<const Query> queries,
-                                Gather gather_one, const ReferenceWatch& watch) {
+                                Gather gather, const ReferenceWatch& watch) {
     std::vector<std::vector<Part>> parts = parts_by_tile(layout, queries);
     std::vector<std::size_t> tiles;
     for (std::size_t t = 0; t < parts.size(); ++t)
@@ -146,7 +75,7 @@ std::vector<Moments> gather_all(const rays::Capture& capture, const MapLayout& l
             std::vector<Part>& tile_parts = parts[tiles[first + i]];
             const int index = static_cast<int>(tiles[first + i]);
             const LightRays tile = capture.tile(index, wanted_pixels(index, layout, queries, tile_parts));
-            for (Part& part : tile_parts) part.moments = gather_one(tile, layout, queries[part.query]);
+            gather(tile, layout, queries, tile_parts);
         });
         if (watch) watch(std::min(first + in_flight, tiles.size()), tiles.size());
     }
@@ -191,7 +120,7 @@ Truth reference_visibility(const scene::Scene& scene, const rays::LightView& vie
                            std::span<const Query> queries, const ReferenceWatch& watch) {
     const MapLayout layout = rays::make_layout(scene, view, settings);
     const rays::Capture capture(scene, view, layout);
-    std::vector<Moments> moments = gather_all(capture, layout, queries, gather, watch);
+    std::vector<Moments> moments = gather_all(capture, layout, queries, gather_footprints, watch);
     fill_empty(capture, layout, queries, moments);
 
     Truth truth;

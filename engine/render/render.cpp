@@ -49,16 +49,21 @@ auto watch(const Work& work, const scene::Light& light, const char* stage, std::
 // The shading points inside a light's map.
 struct LightQueries {
     std::vector<Query> queries;
+    std::vector<techniques::Footprint> footprints;
     std::vector<std::uint32_t> point;  // of each query
 };
 
 LightQueries make_queries(const Work& work, const rays::LightView& view) {
     LightQueries result;
-    for (std::size_t i = 0; i < work.points.points(); ++i)
-        if (const auto query = bench::query_of_point(work.points.place[i], work.scenario.receivers, view)) {
+    const ShadingPoints& points = work.points;
+    for (std::size_t i = 0; i < points.points(); ++i) {
+        const bench::CameraPoint point{points.place[i], Vec3d(points.across[i]), Vec3d(points.down[i])};
+        if (const auto query = bench::query_of_point(point.position, work.scenario.receivers, view)) {
             result.queries.push_back(*query);
+            result.footprints.push_back(bench::footprint_of(point, view));
             result.point.push_back(static_cast<std::uint32_t>(i));
         }
+    }
     return result;
 }
 
@@ -129,7 +134,7 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
         TechniquePictures& out = result.techniques[i];
         if (out.cell.status == bench::CellStatus::failed) continue;
         if (contenders[i].ok()) {
-            const std::vector<float> answers = bench::lookup_all(contenders[i].maps, asked.queries);
+            const std::vector<float> answers = bench::lookup_all(contenders[i].maps, {asked.queries, asked.footprints});
             check_answers(contenders[i], answers);
             if (contenders[i].ok()) add_answers(work, index, asked, answers, out.picture);
         }
@@ -166,6 +171,7 @@ Rendering describe(const scene::Scenario& scenario, const bench::Variant& varian
     result.default_camera = !scenario.receivers.camera;
     result.camera = result.default_camera ? default_camera(scenario.scene) : *scenario.receivers.camera;
     result.size = options.size.value_or(scenario.receivers.resolution);
+    result.rays_per_side = options.rays_per_side;
     result.reference_samples = scenario.reference.samples_per_pixel;
     return result;
 }
@@ -176,6 +182,7 @@ ShadingPoints see(const scene::Scenario& scenario, const RenderOptions& options,
     settings.camera = result.camera;
     settings.size = result.size;
     settings.media_lookups = options.media_lookups;
+    settings.rays_per_side = options.rays_per_side;
     settings.memory_limit = options.run.limits.all / 2;
     const rays::Tracer all(scenario.scene, false);
     ShadingPoints points =

@@ -18,6 +18,7 @@ namespace shadowbench::render {
 struct RenderOptions {
     bench::RunOptions run;
     std::optional<base::Vec2i> size;  // pixels; absent: the scenario's own
+    int rays_per_side = 1;            // squared: view rays a pixel, 1 to 8
     int media_lookups = 128;          // of a view ray through all media, 1 to 256: see ViewSettings
 };
 
@@ -40,6 +41,7 @@ struct Rendering {
     scene::Camera camera;
     bool default_camera = false;
     base::Vec2i size{0, 0};
+    int rays_per_side = 1;
     std::size_t points = 0;  // at which light was looked up, per light and technique
     Picture reference;
     int reference_samples = 0;              // rays a map pixel

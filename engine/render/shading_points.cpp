@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "bench/queries.h"
 #include "rays/image_plane.h"
 #include "render/shading.h"
 #include "render/view_march.h"
@@ -41,26 +42,31 @@ double step_length(const scene::Scene& scene, int lookups) {
 struct Row {
     std::vector<std::uint32_t> count;  // a pixel
     std::vector<Vec3d> place;
+    std::vector<Vec3f> across, down;
     std::vector<Vec3f> coverage, radiance;  // radiance: point after point, its lights together
 };
 
 struct Eye {
     std::span<const scene::Light> lights;
     const rays::Tracer& tracer;
-    rays::ImagePlane plane;
+    rays::ImagePlane plane;  // one step of it is a view ray
     double step;
     bool media;
 };
 
-void add_medium_point(const Eye& eye, const Vec3d& place, const Vec3d& share, Row& row) {
-    row.place.push_back(place);
+void add_place(const bench::CameraPoint& point, Row& row) {
+    row.place.push_back(point.position);
+    row.across.push_back(Vec3f(point.across));
+    row.down.push_back(Vec3f(point.down));
+}
+
+void add_medium_point(const Eye& eye, const Vec3d& share, Row& row) {
     row.coverage.push_back(Vec3f(share));
     for (const scene::Light& light : eye.lights)
         row.radiance.push_back(Vec3f(share * medium_albedo * Vec3d(light.colour)));
 }
 
 void add_surface_point(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d& to_eye, const Vec3d& left, Row& row) {
-    row.place.push_back(hit.position);
     row.coverage.push_back(Vec3f(left));
     for (const scene::Light& light : eye.lights) {
         const Vec3d to_light = towards(light, hit.position);
@@ -70,24 +76,42 @@ void add_surface_point(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d&
     }
 }
 
-Row trace_row(const Eye& eye, int y, int width) {
-    Row row;
+// What the view rays of a thread reuse.
+struct Scratch {
     std::vector<rays::TracedSegment> segments;
     ViewMarch march;
+};
+
+// The view ray through position (x, y) of the plane, which stands for `part` of its pixel.
+void trace(const Eye& eye, double x, double y, double part, Scratch& scratch, Row& row) {
+    const Vec3d through = eye.plane.through(x, y), direction = through.normalized();
+    rays::SurfaceHit hit;
+    const bool surface = eye.tracer.nearest(eye.plane.origin, direction, hit);
+    Vec3d left(part);
+    if (eye.media) {
+        const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
+        eye.tracer.all_segments(eye.plane.origin, direction, 0.0, end, scratch.segments);
+        march_view_ray(scratch.segments, eye.step, scratch.march);
+        for (const ViewStep& step : scratch.march.steps) {
+            add_place(bench::camera_point(eye.plane, through, eye.plane.origin + direction * step.t, direction), row);
+            add_medium_point(eye, step.share * part, row);
+        }
+        left *= scratch.march.transmittance;
+    }
+    if (!surface) return;
+    add_place(bench::camera_point(eye.plane, through, hit.position, hit.normal), row);
+    add_surface_point(eye, hit, -direction, left, row);
+}
+
+Row trace_row(const Eye& eye, int y, int width, int rays_per_side) {
+    Row row;
+    Scratch scratch;
+    const double part = 1.0 / (rays_per_side * rays_per_side);
     for (int x = 0; x < width; ++x) {
         const std::size_t before = row.place.size();
-        const Vec3d direction = eye.plane.direction(x + 0.5, y + 0.5);
-        rays::SurfaceHit hit;
-        const bool surface = eye.tracer.nearest(eye.plane.origin, direction, hit);
-        march.transmittance = Vec3d(1.0);
-        if (eye.media) {
-            const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
-            eye.tracer.all_segments(eye.plane.origin, direction, 0.0, end, segments);
-            march_view_ray(segments, eye.step, march);
-            for (const ViewStep& step : march.steps)
-                add_medium_point(eye, eye.plane.origin + direction * step.t, step.share, row);
-        }
-        if (surface) add_surface_point(eye, hit, -direction, march.transmittance, row);
+        for (int j = 0; j < rays_per_side; ++j)
+            for (int i = 0; i < rays_per_side; ++i)
+                trace(eye, x * rays_per_side + i + 0.5, y * rays_per_side + j + 0.5, part, scratch, row);
         row.count.push_back(static_cast<std::uint32_t>(row.place.size() - before));
     }
     return row;
@@ -95,12 +119,14 @@ Row trace_row(const Eye& eye, int y, int width) {
 
 // The points, the queries and truth of one light, and one technique's answers.
 std::size_t bytes_a_point(std::size_t lights) {
-    return sizeof(Vec3d) + sizeof(Vec3f) * (1 + 2 * lights) + 48;
+    return sizeof(Vec3d) + sizeof(Vec3f) * (3 + 2 * lights) + 64;
 }
 
 void append(const Row& row, std::size_t lights, ShadingPoints& points, std::vector<std::vector<Vec3f>>& radiance) {
     for (const std::uint32_t n : row.count) points.begin.push_back(points.begin.back() + n);
     points.place.insert(points.place.end(), row.place.begin(), row.place.end());
+    points.across.insert(points.across.end(), row.across.begin(), row.across.end());
+    points.down.insert(points.down.end(), row.down.begin(), row.down.end());
     points.coverage.insert(points.coverage.end(), row.coverage.begin(), row.coverage.end());
     for (std::size_t i = 0; i < row.radiance.size(); ++i) radiance[i % lights].push_back(row.radiance[i]);
 }
@@ -110,7 +136,8 @@ void append(const Row& row, std::size_t lights, ShadingPoints& points, std::vect
 ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const scene::Light> lights,
                                   const ViewSettings& settings, const rays::Tracer& tracer, const ViewWatch& watch) {
     const double step = step_length(scene, settings.media_lookups);
-    const Eye eye{lights, tracer, rays::make_image_plane(settings.camera, settings.size), step, std::isfinite(step)};
+    const rays::ImagePlane plane = rays::make_image_plane(settings.camera, settings.size * settings.rays_per_side);
+    const Eye eye{lights, tracer, plane, step, std::isfinite(step)};
     ShadingPoints points;
     points.size = settings.size;
     points.begin.push_back(0);
@@ -119,7 +146,7 @@ ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const sce
     for (std::size_t first = 0; first < height; first += rows_at_a_time) {
         std::vector<Row> rows(std::min(rows_at_a_time, height - first));
         base::parallel_for(rows.size(), [&](std::size_t i) {
-            rows[i] = trace_row(eye, static_cast<int>(first + i), settings.size.x);
+            rows[i] = trace_row(eye, static_cast<int>(first + i), settings.size.x, settings.rays_per_side);
         });
         std::size_t count = points.points();
         for (const Row& row : rows) count += row.place.size();

@@ -17,8 +17,10 @@ namespace shadowbench::render {
 
 struct ShadingPoints {
     base::Vec2i size{0, 0};
-    std::vector<std::uint32_t> begin;   // pixels + 1 offsets into the points; pixels in image order
-    std::vector<base::Vec3d> place;     // world; of one pixel from front to back
+    std::vector<std::uint32_t> begin;  // pixels + 1 offsets into the points; pixels in image order
+    std::vector<base::Vec3d> place;    // world; of one view ray from front to back
+    std::vector<base::Vec3f> across;   // edges of what a view ray stands for at its point, as bench::CameraPoint's
+    std::vector<base::Vec3f> down;
     std::vector<base::Vec3f> coverage;  // share of the pixel that the point stands for; a pixel's sum is at most 1
     std::vector<base::Vec3f> radiance;  // light after light: what light l adds to the pixel when nothing shadows it,
                                         // at [l * points + i]
@@ -33,12 +35,13 @@ struct ViewSettings {
     // A view ray through the whole of the scene's media has this many steps; rays that miss parts of them have fewer,
     // and gaps between media add at most as many again (at most 512 in all).
     int media_lookups = 128;
+    int rays_per_side = 1;  // view rays a pixel: this many squared, on a regular grid; more smooth edges and hair
     std::size_t memory_limit = std::size_t{8} << 30;  // bytes
 };
 
 using ViewWatch = std::function<void(std::size_t rows, std::size_t total)>;
 
-// For each pixel's middle: the steps through media, then the nearest surface. A surface of half opacity or more counts
+// For each view ray: the steps through media, then the nearest surface. A surface of half opacity or more counts
 // as opaque, others are not there (as in Tracer::nearest). `tracer` sees all objects. Throws Error{bad_input} at
 // /receivers/resolution when the points would take more than the limit. The same on any number of threads.
 ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const scene::Light> lights,

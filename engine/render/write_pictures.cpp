@@ -105,6 +105,7 @@ json to_json(const Rendering& rendering) {
               {"up", to_json(rendering.camera.up)},
               {"fov", rendering.camera.fov},
               {"of_scenario", !rendering.default_camera}}},
+            {"view_rays_per_pixel", rendering.rays_per_side * rendering.rays_per_side},
             {"shading", shading_json()},
             {"lookups", rendering.points},
             {"reference",

@@ -76,6 +76,9 @@ void add_commands(CLI::App& app, Arguments& arguments) {
     add_scenario_options(*render, arguments.render);
     add_folder_option(*render, arguments.render.out, "Folder of the pictures [results/images/<scenario name>]");
     render->add_option("--size", arguments.render.size, "WIDTHxHEIGHT in pixels [the scenario's own]");
+    render->add_option("--view-rays", arguments.render.rays_per_side, "N x N view rays a pixel: smooth edges and hair")
+        ->check(CLI::Range(1, 8))
+        ->capture_default_str();
     render
         ->add_option("--media-lookups", arguments.render.media_lookups,
                      "Lookups along a view ray through all media of the scene")

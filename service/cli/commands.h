@@ -23,6 +23,7 @@ struct RunArguments : ScenarioArguments {
 struct RenderArguments : ScenarioArguments {
     std::string out;          // folder; empty: results/images/<scenario name>
     std::string size;         // WIDTHxHEIGHT; empty: the scenario's own
+    int rays_per_side = 1;    // squared: view rays a pixel
     int media_lookups = 128;  // of a view ray through all media
 };
 

@@ -50,6 +50,7 @@ bool render_command(const RenderArguments& arguments, std::ostream& out, std::os
     render::RenderOptions options;
     options.run = job.options;
     if (!arguments.size.empty()) options.size = read_size(arguments.size);
+    options.rays_per_side = arguments.rays_per_side;
     options.media_lookups = arguments.media_lookups;
     const fs::path folder = output_folder(arguments.out, "results/images", *job.document);
     bench::Undo made;  // a rendering that fails leaves no folder

@@ -122,6 +122,54 @@ TEST(Render, adds_the_lights_in_their_colours) {
     EXPECT_NEAR(result.techniques[0].picture.shaded.at(column(2.0), 20).x, lit, 1e-3);
 }
 
+// Four columns of view rays a pixel: what a pixel shows is the share of its rays that are not shadowed.
+TEST(Render, with_more_view_rays_a_pixel_averages_them) {
+    RenderOptions coarse, fine;
+    coarse.size = base::Vec2i(20, 10);
+    coarse.rays_per_side = 4;
+    fine.size = base::Vec2i(80, 40);
+    const Rendering few = render(quad_over_plane(), coarse, {}), many = render(quad_over_plane(), fine, {});
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 20; ++x) {
+            double shaded = 0.0, shadow = 0.0;
+            for (int j = 0; j < 4; ++j)
+                for (int i = 0; i < 4; ++i) {
+                    shaded += many.reference.shaded.at(4 * x + i, 4 * y + j).y / 16.0;
+                    shadow += many.reference.shadow.at(4 * x + i, 4 * y + j).y / 16.0;
+                }
+            ASSERT_NEAR(few.reference.shaded.at(x, y).y, shaded, 1e-6) << x << " " << y;
+            ASSERT_NEAR(few.reference.shadow.at(x, y).y, shadow, 1e-6) << x << " " << y;
+        }
+    EXPECT_EQ(few.points, many.points);
+}
+
+// On a plane seen at a slant, the edges lead from one view ray's point to its neighbours'.
+TEST(ShadingPoints, know_the_edges_of_what_a_view_ray_stands_for) {
+    scene::Mesh plane;
+    plane.positions = {{-50, 0, -50}, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}};
+    plane.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene::Object object;
+    object.shape = plane;
+    scene::Scene scene;
+    scene.objects.push_back(object);
+    ViewSettings settings;
+    settings.camera.position = {0, 6, 8};
+    settings.camera.fov = 1.0;
+    settings.size = {8, 8};
+    settings.rays_per_side = 2;
+    const std::vector<scene::Light> lights(1);
+    const ShadingPoints points = find_shading_points(scene, lights, settings, rays::Tracer(scene, false), {});
+    ASSERT_EQ(points.points(), 8u * 8 * 4);
+    for (std::size_t pixel = 0; pixel < 64; ++pixel) {
+        const std::size_t first = 4 * pixel;  // right of it stands the second, below it the third
+        const base::Vec3d right = points.place[first + 1] - points.place[first];
+        const base::Vec3d down = points.place[first + 2] - points.place[first];
+        EXPECT_NEAR((base::Vec3d(points.across[first]) - right).length(), 0.0, 0.01 * right.length());
+        EXPECT_NEAR((base::Vec3d(points.down[first]) - down).length(), 0.0, 0.01 * down.length());
+        EXPECT_NEAR(points.coverage[first].x, 0.25, 1e-6);
+    }
+}
+
 TEST(Render, is_the_same_on_one_thread_and_on_two) {
     std::ifstream file(std::string(SHADOWBENCH_SOURCE_DIR) + "/scenarios/quickstart.json");
     json document = json::parse(file);

@@ -1,0 +1,46 @@
+// Sums of the exact transmittance of all light rays of a tile over the footprints of queries. Internal to
+// reference.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "rays/light_rays.h"
+#include "techniques/technique.h"
+
+namespace shadowbench::bench {
+
+// Pixels [x0, x1] x [y0, y1] that hold every ray of a query's footprint.
+struct FilterBox {
+    double left, right, low, high;
+    int x0, x1, y0, y1;
+};
+FilterBox filter_box(const techniques::Query& query, const rays::MapLayout& layout);
+
+struct Moments {
+    double sum[3] = {0.0, 0.0, 0.0}, squares[3] = {0.0, 0.0, 0.0};
+    std::uint64_t count = 0;
+
+    void add(int channel, double value) {
+        sum[channel] += value;
+        squares[channel] += value * value;
+    }
+};
+
+// What one tile adds to one query.
+struct Part {
+    std::size_t query;
+    Moments moments;
+};
+
+// Adds to each part the rays of this tile inside its query's footprint. Each ray is walked once for all queries that it
+// answers, front to back.
+void gather_footprints(const rays::LightRays& tile, const rays::MapLayout& layout,
+                       std::span<const techniques::Query> queries, std::span<Part> parts);
+
+// Adds the one ray of the sample cell that holds (x, y), if it is this tile's.
+void gather_nearest(const rays::LightRays& tile, const rays::MapLayout& layout,
+                    std::span<const techniques::Query> queries, std::span<Part> parts);
+
+}  // namespace shadowbench::bench
