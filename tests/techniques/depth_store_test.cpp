@@ -49,6 +49,11 @@ TEST_P(StorageOf, NeverChangesAnAnswer) {
             const auto stored = map_of(type.c_str(), parameters, width, height, depths);
             stored.map->lookup_shaped(queries, footprints, other);
             EXPECT_EQ(raw, other) << storage;
+            std::vector<const void*> lines;
+            for (std::size_t i = 0; i < 500; ++i) stored.map->touched_shaped(queries[i], footprints[i], lines);
+            std::size_t sum = 0;  // reading them must be allowed: the address sanitizer knows
+            for (const void* line : lines) sum += *static_cast<const volatile unsigned char*>(line);
+            EXPECT_GT(lines.size(), 100u) << sum;
             EXPECT_EQ(map.map->nodes().histogram, stored.map->nodes().histogram);
             curves::Curve a, b;
             for (int i = 0; i < 500; ++i) {

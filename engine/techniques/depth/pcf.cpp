@@ -164,16 +164,18 @@ private:
     int count_shadowed(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
         if (p.known >= 0) return p.known;
         if (DepthWindow window; p.inside && depths.window(p.range, window))
-            return sample<placement, true>(window, region, q, p);
-        return sample<placement, false>(depths, region, q, p);
+            return bias_range_ > 0.0f ? sample<placement, true, true>(window, region, q, p)
+                                      : sample<placement, true, false>(window, region, q, p);
+        return sample<placement, false, true>(depths, region, q, p);
     }
 
-    template <Placement placement, bool inside, class Depths>
+    // `drawn`: the bias of each sample is, else all have one.
+    template <Placement placement, bool inside, bool drawn, class Depths>
     int sample(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
         int shadowed = 0;
         for_each_sample<placement>(region, p.x, p.y, key_of(q), [&](float x, float y, float u) {
             if (!inside && !holds(x, y)) return;
-            const float bias = settings_.bias0 + u * bias_range_;
+            const float bias = drawn ? settings_.bias0 + u * bias_range_ : settings_.bias0;
             shadowed += q.z > *depths.at(static_cast<int>(x), static_cast<int>(y)) + bias;
         });
         return shadowed;
