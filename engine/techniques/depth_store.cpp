@@ -20,7 +20,7 @@ void DepthStore::keep(Storage way, const CellGrid& grid, int per_cell, std::vect
     way_ = way;
     grid_ = grid;
     per_cell_ = per_cell;
-    const std::vector<float> taken = std::move(depths);
+    std::vector<float> taken = std::move(depths);
     switch (way) {
         case Storage::raw:
             depths_ = std::move(taken);

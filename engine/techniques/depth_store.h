@@ -77,16 +77,20 @@ struct BoxedDepths {
     CellRange box;
     int per_cell;
 
-    bool holds(int x, int y) const { return x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1; }
+    // Without branches, which queries in random order would mispredict.
+    bool holds(int x, int y) const {
+        return (static_cast<unsigned>(x - box.x0) < static_cast<unsigned>(box.x1 - box.x0)) &
+               (static_cast<unsigned>(y - box.y0) < static_cast<unsigned>(box.y1 - box.y0));
+    }
     const float* at(int x, int y) const {
-        if (!holds(x, y)) return empty_cell;
-        return depths + (static_cast<std::size_t>(y - box.y0) * (box.x1 - box.x0) + (x - box.x0)) * per_cell;
+        const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y - box.y0) * (box.x1 - box.x0);
+        const std::ptrdiff_t offset = (row + (x - box.x0)) * per_cell;
+        return (holds(x, y) ? depths : empty_cell) + (holds(x, y) ? offset : 0);
     }
     bool window(const CellRange& r, DepthWindow& out) const {
         out = {depths, box.x1 - box.x0, box.x0, box.y0, per_cell};
         return r.x0 >= box.x0 && r.x1 <= box.x1 && r.y0 >= box.y0 && r.y1 <= box.y1;
     }
-    DepthBounds bounds(int x, int y) const { return {holds(x, y) ? -no_depth : no_depth, no_depth}; }
     DepthBounds bounds(const CellRange& r) const {
         const bool apart = r.x1 <= box.x0 || r.x0 >= box.x1 || r.y1 <= box.y0 || r.y0 >= box.y1;
         return {apart ? no_depth : -no_depth, no_depth};
@@ -131,7 +135,6 @@ struct TiledDepths {
                r.y0 - static_cast<int>(inside_tile(r.y0)), per_cell};
         return true;
     }
-    DepthBounds bounds(int x, int y) const { return tile(x, y).bounds; }
     DepthBounds bounds(const CellRange& r) const {
         if (one_tile(r)) return tile(r.x0, r.y0).bounds;
         DepthBounds found{no_depth, -no_depth};

@@ -49,6 +49,11 @@ TEST_P(StorageOf, NeverChangesAnAnswer) {
             const auto stored = map_of(type.c_str(), parameters, width, height, depths);
             stored.map->lookup_shaped(queries, footprints, other);
             EXPECT_EQ(raw, other) << storage;
+            std::vector<const void*> lines;
+            for (std::size_t i = 0; i < 500; ++i) stored.map->touched_shaped(queries[i], footprints[i], lines);
+            std::size_t sum = 0;  // reading them must be allowed: the address sanitizer knows
+            for (const void* line : lines) sum += *static_cast<const volatile unsigned char*>(line);
+            EXPECT_GT(lines.size(), 100u) << sum;
             EXPECT_EQ(map.map->nodes().histogram, stored.map->nodes().histogram);
             curves::Curve a, b;
             for (int i = 0; i < 500; ++i) {
@@ -61,8 +66,10 @@ TEST_P(StorageOf, NeverChangesAnAnswer) {
     }
 }
 
+class TilesOfFilters : public ::testing::TestWithParam<const char*> {};
+
 // What a tile's bounds tell is not sampled: of a lookup before or behind everything, the directory alone is read.
-TEST_P(StorageOf, TilesSpareTheCellsThatTheirBoundsTellOf) {
+TEST_P(TilesOfFilters, SpareTheCellsThatTheirBoundsTellOf) {
     json parameters = json::parse(GetParam());
     const std::string type = parameters["type"];
     parameters["storage"] = "tiles";
@@ -92,6 +99,12 @@ INSTANTIATE_TEST_SUITE_P(
                       R"({"type": "multi_depth", "bias": 0.05})",
                       R"({"type": "multi_depth", "n": 2, "select": "maximum"})",
                       R"({"type": "multi_depth", "n": 8, "select": "sorted", "q": 25, "region": "query"})"));
+
+INSTANTIATE_TEST_SUITE_P(Techniques, TilesOfFilters,
+                         ::testing::Values(R"({"type": "pcf"})", R"({"type": "pcf", "bias0": 0.05, "bias1": 0.3})",
+                                           R"({"type": "pcf", "placement": "gaussian"})",
+                                           R"({"type": "multi_depth", "bias": 0.05})",
+                                           R"({"type": "multi_depth", "n": 8, "select": "sorted", "q": 25})"));
 
 TEST(DepthStore, ReadsEveryCellAsItWasGiven) {
     const CellGrid grid{70, 45, 1.0f, 1.0f};

@@ -185,6 +185,23 @@ TEST(MultiDepth, WhereNothingIsStandsFurtherThanEverything) {
     EXPECT_EQ(map.lookup(0.5f, 0.5f, far), 0.0f) << "the map's border is no shadow's border";
 }
 
+TEST(MultiDepth, ItsTestAnswersWhatTheStoredFunctionSays) {
+    constexpr int width = 50, height = 41;
+    const auto map = map_of("multi_depth", {{"kernel", 1}, {"n", 5}, {"select", "sorted"}, {"storage", "tiles"}}, width,
+                            height, patchy_depths(width, height, 8));
+    curves::Curve stored;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            map.map->stored(x, y, 0, {}, stored);
+            ASSERT_TRUE(curves::is_visibility(stored));
+            std::vector<float> depths{0.5f, 1.5f, 3.0f};
+            for (const curves::Vertex& v : stored) depths.push_back(v.z);
+            for (const float z : depths)
+                ASSERT_NEAR(map.lookup(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, z),
+                            curves::evaluate(stored, z), 1e-6);
+        }
+}
+
 TEST(MultiDepth, SpreadsItsKernelOverTheWidthAskedFor) {
     constexpr int side = 64;
     std::vector<float> depths;

@@ -1,4 +1,5 @@
 #include <bit>
+#include <type_traits>
 
 #include "techniques/depth/depth.h"
 #include "techniques/depth/pcf_samples.h"
@@ -61,7 +62,7 @@ public:
                     static_cast<float>(v.number("bias0")),       static_cast<float>(v.number("bias1"))},
           bias_range_(std::max(settings_.bias1 - settings_.bias0, 0.0f)),
           placement_(read_placement(v)),
-          pixel_(v.is_word("region") && std::get<std::string>(v.values.find("region")->second) == "pixel"),
+          pixel_(v.is_word("region") && v.word("region") == "pixel"),
           width_(v.is_word("region") ? 0.0f : static_cast<float>(v.number("region"))),
           depths_(v) {}
 
@@ -74,35 +75,15 @@ public:
     }
     void lookup_shaped(std::span<const Query> queries, std::span<const Footprint> footprints,
                        std::span<float> visibility) const override {
-        depths_.store.read([&](const auto& depths) {
-            switch (placement_) {
-                case Placement::uniform:
-                    return answer<Placement::uniform>(depths, queries, footprints, visibility);
-                case Placement::gaussian:
-                    return answer<Placement::gaussian>(depths, queries, footprints, visibility);
-                case Placement::jittered:
-                    return answer<Placement::jittered>(depths, queries, footprints, visibility);
-                case Placement::shape:
-                    return answer<Placement::shape>(depths, queries, footprints, visibility);
-            }
+        read([&](const auto& depths, auto placement) {
+            answer<placement.value>(depths, queries, footprints, visibility);
         });
     }
 
     void touched(const Query& q, std::vector<const void*>& lines) const override { touched_shaped(q, {}, lines); }
     void touched_shaped(const Query& q, const Footprint& footprint, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();
-        depths_.store.read([&](const auto& depths) {
-            switch (placement_) {
-                case Placement::uniform:
-                    return touch<Placement::uniform>(depths, q, footprint, lines);
-                case Placement::gaussian:
-                    return touch<Placement::gaussian>(depths, q, footprint, lines);
-                case Placement::jittered:
-                    return touch<Placement::jittered>(depths, q, footprint, lines);
-                case Placement::shape:
-                    return touch<Placement::shape>(depths, q, footprint, lines);
-            }
-        });
+        read([&](const auto& depths, auto placement) { touch<placement.value>(depths, q, footprint, lines); });
         keep_unique(lines, before);
     }
 
@@ -124,6 +105,25 @@ private:
     };
 
     const CellGrid& grid() const { return depths_.store.grid(); }
+
+    // visit(a way to read the depths, a way to place samples as a constant)
+    template <class Visit>
+    void read(const Visit& visit) const {
+        depths_.store.read([&](const auto& depths) {
+            switch (placement_) {
+                case Placement::uniform:
+                    return visit(depths, constant<Placement::uniform>);
+                case Placement::gaussian:
+                    return visit(depths, constant<Placement::gaussian>);
+                case Placement::jittered:
+                    return visit(depths, constant<Placement::jittered>);
+                case Placement::shape:
+                    return visit(depths, constant<Placement::shape>);
+            }
+        });
+    }
+    template <Placement placement>
+    static constexpr std::integral_constant<Placement, placement> constant{};
 
     Region region_of(float width, const Footprint& footprint) const {
         Region region;
@@ -164,16 +164,18 @@ private:
     int count_shadowed(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
         if (p.known >= 0) return p.known;
         if (DepthWindow window; p.inside && depths.window(p.range, window))
-            return sample<placement, true>(window, region, q, p);
-        return sample<placement, false>(depths, region, q, p);
+            return bias_range_ > 0.0f ? sample<placement, true, true>(window, region, q, p)
+                                      : sample<placement, true, false>(window, region, q, p);
+        return sample<placement, false, true>(depths, region, q, p);
     }
 
-    template <Placement placement, bool inside, class Depths>
+    // `drawn`: the bias of each sample is, else all have one.
+    template <Placement placement, bool inside, bool drawn, class Depths>
     int sample(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
         int shadowed = 0;
         for_each_sample<placement>(region, p.x, p.y, key_of(q), [&](float x, float y, float u) {
             if (!inside && !holds(x, y)) return;
-            const float bias = settings_.bias0 + u * bias_range_;
+            const float bias = drawn ? settings_.bias0 + u * bias_range_ : settings_.bias0;
             shadowed += q.z > *depths.at(static_cast<int>(x), static_cast<int>(y)) + bias;
         });
         return shadowed;

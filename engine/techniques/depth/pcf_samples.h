@@ -65,6 +65,15 @@ struct GaussianTable {
 };
 const GaussianTable& gaussian_table();
 
+// The next 64 random bits of a key that is random itself: wyrand (Wang Yi, wyhash final version 4), one multiplication a
+// sample, where base::mix takes two.
+inline std::uint64_t sample_bits(std::uint64_t& key) {
+    __extension__ using Wide = unsigned __int128;
+    key += 0xa0761d6478bd642full;
+    const Wide product = static_cast<Wide>(key) * (key ^ 0xe7037ed1a0b428dbull);
+    return static_cast<std::uint64_t>(product >> 64) ^ static_cast<std::uint64_t>(product);
+}
+
 // Calls visit(x, y, u) for the samples of a lookup at (x, y), all in cells; u is uniform in [0, 1), for the bias.
 // Random numbers depend on the key and the number of the sample alone.
 template <Placement placement, class Visit>
@@ -78,7 +87,7 @@ void for_each_sample(const Region& r, float x, float y, std::uint64_t key, const
     // Whole numbers as float: counting them up costs less than to convert them.
     for (float j = 0.0f; j < nt; j += 1.0f)
         for (float i = 0.0f; i < ns; i += 1.0f) {
-            const std::uint64_t bits = base::mix(key++);
+            const std::uint64_t bits = sample_bits(key);
             float s = unit(bits), t = unit(bits >> 21);
             if constexpr (placement == Placement::uniform) {
                 s *= ns;

@@ -19,28 +19,20 @@ public:
     void add(const rays::LightRays& tile) override { depths_.map.add(tile); }
     void finish() override { depths_.finish(); }
 
+    // One cell is read sooner than its tile's bounds are weighed: their branches cost more, in random order.
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
         depths_.store.read([&](const auto& depths) {
             for (std::size_t i = 0; i < queries.size(); ++i) {
                 const Query& q = queries[i];
                 int x, y;
-                visibility[i] = grid().find(q.x, q.y, x, y) && shadowed(depths, x, y, q.z) ? 0.0f : 1.0f;
+                visibility[i] = grid().find(q.x, q.y, x, y) && q.z > *depths.at(x, y) + bias_ ? 0.0f : 1.0f;
             }
         });
     }
     void touched(const Query& q, std::vector<const void*>& lines) const override {
         int x, y;
         if (!grid().find(q.x, q.y, x, y)) return;
-        const std::size_t before = lines.size();
-        depths_.store.read([&](const auto& depths) {
-            if constexpr (std::decay_t<decltype(depths)>::bounded) {
-                depths.touch_bounds({x, x + 1, y, y + 1}, lines);
-                const DepthBounds bounds = depths.bounds(x, y);
-                if (!(q.z > bounds.least + bias_) || q.z > bounds.greatest + bias_) return;
-            }
-            depths.touch(x, y, lines);
-        });
-        keep_unique(lines, before);
+        depths_.store.read([&](const auto& depths) { depths.touch(x, y, lines); });
     }
 
     std::size_t bytes() const override { return depths_.store.bytes(); }
@@ -53,16 +45,6 @@ public:
 
 private:
     const CellGrid& grid() const { return depths_.store.grid(); }
-
-    template <class Depths>
-    bool shadowed(const Depths& depths, int x, int y, float z) const {
-        if constexpr (Depths::bounded) {
-            const DepthBounds bounds = depths.bounds(x, y);
-            if (!(z > bounds.least + bias_)) return false;
-            if (z > bounds.greatest + bias_) return true;
-        }
-        return z > *depths.at(x, y) + bias_;
-    }
 
     float bias_;
     StoredDepths depths_;
