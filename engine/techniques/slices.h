@@ -40,7 +40,9 @@ struct Slices {
     void spread(float front, float back, double depth_of_segment, const Add& add) const {
         const int first = interval(place(front));
         if (front == back) return add(first, depth_of_segment);
-        const int last = interval(place(back));
+        const float end = place(back);
+        int last = interval(end);
+        if (last > first && end == static_cast<float>(last)) --last;  // it ends where that interval begins
         if (first == last) return add(first, depth_of_segment);
         const double u0 = (static_cast<double>(front) - near) * scale, u1 = (static_cast<double>(back) - near) * scale;
         const double rate = depth_of_segment / (u1 - u0);
