@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
+
 namespace shadowbench::bench {
 
 using techniques::Map;
@@ -31,6 +33,23 @@ void lookup(const Maps& maps, std::span<const techniques::Query> queries, std::s
     const std::size_t each = queries.size() * static_cast<std::size_t>(maps.parts[0]->channels());
     for (std::size_t p = 0; p < maps.parts.size(); ++p)
         maps.parts[p]->lookup(queries, visibility.subspan(p * each, each));
+}
+
+std::vector<float> lookup_all(const Maps& maps, std::span<const techniques::Query> queries) {
+    // In pieces of a fixed size, so that the number of threads does not change them.
+    constexpr std::size_t piece_size = 256;
+    std::vector<float> visibility(queries.size() * maps.channels());
+    const std::size_t pieces = (queries.size() + piece_size - 1) / piece_size;
+    base::parallel_for(pieces, [&](std::size_t piece) {
+        const std::size_t first = piece * piece_size;
+        const std::size_t count = std::min(piece_size, queries.size() - first);
+        std::vector<float> answers(count * maps.channels());
+        lookup(maps, queries.subspan(first, count), answers);
+        for (std::size_t c = 0; c < maps.channels(); ++c)
+            std::copy_n(answers.begin() + static_cast<std::ptrdiff_t>(c * count), count,
+                        visibility.begin() + static_cast<std::ptrdiff_t>(c * queries.size() + first));
+    });
+    return visibility;
 }
 
 std::size_t touched(const Maps& maps, std::span<const techniques::Query> queries, std::size_t limit,

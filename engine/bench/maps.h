@@ -28,6 +28,8 @@ void finish(Maps& maps);
 
 // Answers stand channel after channel: visibility has queries.size() * channels() places.
 void lookup(const Maps& maps, std::span<const techniques::Query> queries, std::span<float> visibility);
+// The same for many queries, on all threads.
+std::vector<float> lookup_all(const Maps& maps, std::span<const techniques::Query> queries);
 
 // Appends the lines that a lookup of all these queries reads, in the order in which it reads them, until there are
 // `limit` or more. Returns how many queries were covered in every channel.

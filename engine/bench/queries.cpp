@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "rays/image_plane.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -15,21 +15,6 @@ using base::Vec3d;
 using techniques::Query;
 
 constexpr double behind = 0.05;  // of the depth range: how far probes reach behind what casts shadows
-
-struct ImagePlane {
-    Vec3d origin, corner, across, down;  // direction of pixel (x, y): corner + x * across + y * down
-};
-
-ImagePlane image_plane(const scene::Camera& camera, base::Vec2i resolution) {
-    const Vec3d forward = (camera.target - camera.position).normalized();
-    Vec3d right = forward.cross(camera.up);
-    if (right.length() < 1e-9 * camera.up.length()) right = forward.cross(Vec3d(forward.z, forward.x, forward.y));
-    right.normalize();
-    const Vec3d up = right.cross(forward);
-    const double pixel = 2.0 * std::tan(camera.fov * std::numbers::pi / 360.0) / resolution.y;
-    return {camera.position, forward - right * (0.5 * pixel * resolution.x) + up * (0.5 * pixel * resolution.y),
-            right * pixel, -up * pixel};
-}
 
 struct Span {
     double front, back;
@@ -64,13 +49,18 @@ void spread(const std::vector<Span>& spans, int count, std::vector<double>& dist
     }
 }
 
-void append_if_seen(const Vec3d& place, float width, const rays::LightView& view, QuerySet& set) {
-    const Query query{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z), width};
+std::optional<Query> query_if_seen(const Vec3d& place, double width, const rays::LightView& view) {
+    const Query query{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z),
+                      static_cast<float>(width)};
     const bool seen = query.x >= 0.0f && query.y >= 0.0f && query.x < static_cast<float>(view.resolution.x) &&
                       query.y < static_cast<float>(view.resolution.y) && place.z > view.z_near &&
                       std::isfinite(query.z);
-    if (seen)
-        set.queries.push_back(query);
+    return seen ? std::optional(query) : std::nullopt;
+}
+
+void append(const std::optional<Query>& query, QuerySet& set) {
+    if (query)
+        set.queries.push_back(*query);
     else
         ++set.dropped;
 }
@@ -79,14 +69,13 @@ void append_if_seen(const Vec3d& place, float width, const rays::LightView& view
 
 std::vector<Vec3d> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer) {
     const base::Vec2i resolution = receivers.resolution;
-    const ImagePlane plane = image_plane(*receivers.camera, resolution);
+    const rays::ImagePlane plane = rays::make_image_plane(*receivers.camera, resolution);
     std::vector<std::vector<Vec3d>> rows(static_cast<std::size_t>(resolution.y));
     base::parallel_for(rows.size(), [&](std::size_t row) {
         std::vector<rays::TracedSegment> segments;
         std::vector<double> distances;
         for (int x = 0; x < resolution.x; ++x) {
-            const Vec3d direction =
-                (plane.corner + plane.across * (x + 0.5) + plane.down * (static_cast<double>(row) + 0.5)).normalized();
+            const Vec3d direction = plane.direction(x + 0.5, static_cast<double>(row) + 0.5);
             rays::SurfaceHit hit;
             const bool surface = tracer.nearest(plane.origin, direction, hit);
             const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
@@ -104,18 +93,18 @@ std::vector<Vec3d> camera_points(const scene::Receivers& receivers, const rays::
     return points;
 }
 
+std::optional<Query> query_of_point(const Vec3d& point, const scene::Receivers& receivers,
+                                    const rays::LightView& view) {
+    Vec3d place = rays::to_light(view, point);
+    if (view.perspective && !(place.z > view.z_near)) return std::nullopt;
+    if (receivers.bias > 0.0) place.z -= receivers.bias / rays::length_per_depth(view, place.x, place.y);
+    return query_if_seen(place, receivers.filter_width, view);
+}
+
 QuerySet queries_of_points(const std::vector<Vec3d>& points, const scene::Receivers& receivers,
                            const rays::LightView& view) {
     QuerySet set;
-    for (const Vec3d& point : points) {
-        Vec3d place = rays::to_light(view, point);
-        if (view.perspective && !(place.z > view.z_near)) {
-            ++set.dropped;
-            continue;
-        }
-        if (receivers.bias > 0.0) place.z -= receivers.bias / rays::length_per_depth(view, place.x, place.y);
-        append_if_seen(place, static_cast<float>(receivers.filter_width), view, set);
-    }
+    for (const Vec3d& point : points) append(query_of_point(point, receivers, view), set);
     return set;
 }
 
@@ -128,7 +117,7 @@ QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView&
         place.x = random.uniform(0.0, view.resolution.x);
         place.y = random.uniform(0.0, view.resolution.y);
         place.z = random.uniform(view.z_min, view.z_max + behind * range);
-        append_if_seen(place, static_cast<float>(receivers.filter_width), view, set);
+        append(query_if_seen(place, receivers.filter_width, view), set);
     }
     return set;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,10 @@ struct QuerySet {
 // passes before the nearest surface, then the place on that surface. `tracer` sees all objects.
 std::vector<base::Vec3d> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer);
 
-// The points as queries of one light, moved towards it by the bias.
+// A world point as a query of one light, moved towards it by the bias; nothing when it is outside the light's map.
+std::optional<techniques::Query> query_of_point(const base::Vec3d& point, const scene::Receivers& receivers,
+                                                const rays::LightView& view);
+// All of them, in their order.
 QuerySet queries_of_points(const std::vector<base::Vec3d>& points, const scene::Receivers& receivers,
                            const rays::LightView& view);
 

@@ -8,6 +8,7 @@
 #include "curves/sweep.h"
 #include "techniques/avsm/order.h"
 #include "techniques/avsm/stream.h"
+#include "techniques/avsm/texel.h"
 #include "techniques/built.h"
 #include "techniques/live_bytes.h"
 #include "techniques/one_ray.h"
@@ -142,8 +143,8 @@ TEST(AvsmStream, OverlappingMediaInAnyOrderGiveTheExactProductWithExponentialSam
     for (int seed = 0; seed < 300; ++seed) {
         base::Random random(seed);
         std::vector<Segment> segments = testing::random_segments(base::hash(seed), 30, 1, 90);
-        if (seed % 3 == 0) segments[0].through = 0.0f;  // something opaque, surface or medium
-        if (seed % 5 == 0) segments[1].back = segments[1].front = segments[2].front;  // ends at one depth
+        if (seed % 3 == 0) segments[0] = {segments[0].front, segments[0].front, 0.0f};  // a wall
+        if (seed % 5 == 0) segments[1].back = segments[1].front = segments[2].front;    // ends at one depth
         if (seed % 7 == 0) segments[3] = segments[4];
         if (seed % 11 == 0) segments[5].front = segments[6].back;
         if (segments[5].front > segments[5].back) segments[5].back = segments[5].front;
@@ -176,7 +177,7 @@ TEST(AvsmStream, SurfacesAndWholeStepsInAnyOrderGiveTheExactProductWithLinearSam
             const auto front = static_cast<float>(1 + random.below(25));
             const float back = random.uniform() < 0.5 ? front : front + 1;
             const auto through = static_cast<float>(random.uniform(0.5, 1.0));
-            segments.push_back({front, back, random.uniform() < 0.01 ? 0.0f : through});
+            segments.push_back({front, back, front == back && random.uniform() < 0.02 ? 0.0f : through});
         }
         const auto found = run(64, segments);
         ASSERT_LT(found.size(), 64u);

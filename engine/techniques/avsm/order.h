@@ -29,7 +29,7 @@ private:
     std::uint64_t rounds(std::uint64_t at) const {
         const std::uint64_t mask = (std::uint64_t{1} << half_) - 1;
         std::uint64_t left = at >> half_, right = at & mask;
-        for (std::uint64_t round = 0; round < 4; ++round) {
+        for (std::uint64_t round = 0; round < 8; ++round) {
             const std::uint64_t next = left ^ (base::hash(key_, round, right) & mask);
             left = right;
             right = next;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace shadowbench::techniques {
@@ -17,6 +18,23 @@ const Harmonics& reciprocals() {
         return result;
     }();
     return table;
+}
+
+// 2 / (2 pi k); 0 for k = 0.
+const std::array<float, most_terms>& weight_scales() {
+    static const std::array<float, most_terms> table = [] {
+        std::array<float, most_terms> result{};
+        for (int k = 1; k < most_terms; ++k) result[k] = static_cast<float>(1.0 / (pi * k));
+        return result;
+    }();
+    return table;
+}
+
+// sin(2 pi t) for t in [-1/4, 1/4]: the odd polynomial of degree 9 whose largest error is least (3.3e-9, found by
+// Remez's exchange); within 1.9e-7 in float.
+inline float sine_of_turn(float t) {
+    const float u = t * t;
+    return t * (6.28318501f + u * (-41.3416557f + u * (81.6010056f + u * (-76.5497818f + u * 39.536705f))));
 }
 
 }  // namespace
@@ -78,13 +96,17 @@ void Series::store(int terms, float* texel) const {
     std::fill(texel + 2 * terms, texel + padded(terms), 0.0f);
 }
 
+// Without a call of the library. The angles are counted in turns of 2^32 steps, so that k d loses its whole turns
+// without error: with r the rest, in [-1/2, 1/2), sin(2 pi k d) = 2 sin(pi r) cos(pi r) and 1 - cos(2 pi k d) =
+// 2 sin(pi r)^2, which keeps its digits where it is small.
 void make_weights(double d, int terms, Weights& weights) {
-    Harmonics cosines, sines;
-    harmonics(2.0 * pi * d, terms, cosines, sines);
-    const Harmonics& reciprocal = reciprocals();
+    const auto step = static_cast<std::uint32_t>(static_cast<std::uint64_t>(d * 0x1p32 + 0.5));
+    const std::array<float, most_terms>& scale = weight_scales();
     for (int k = 0; k < terms; ++k) {
-        weights.of[k] = static_cast<float>(sines[k] * reciprocal[k]);
-        weights.of[terms + k] = static_cast<float>((1.0 - cosines[k]) * reciprocal[k]);
+        const float r = static_cast<float>(static_cast<std::int32_t>(step * static_cast<std::uint32_t>(k))) * 0x1p-32f;
+        const float sine = sine_of_turn(0.5f * r), cosine = sine_of_turn(0.25f - 0.5f * std::abs(r));
+        weights.of[k] = scale[k] * (sine * cosine);
+        weights.of[terms + k] = scale[k] * (sine * sine);
     }
     weights.of[0] = static_cast<float>(0.5 * d);
     std::fill(weights.of.begin() + 2 * terms, weights.of.begin() + padded(terms), 0.0f);

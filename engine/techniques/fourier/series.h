@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <experimental/simd>
 
 namespace shadowbench::techniques {
 
@@ -47,10 +48,12 @@ void make_weights(double d, int terms, Weights& weights);
 
 // The integral: the sum of the products, `lanes` partial sums side by side.
 inline float integral(const float* texel, const Weights& weights, int floats) {
-    std::array<float, lanes> sums{};
+    namespace simd = std::experimental;
+    using Lanes = simd::fixed_size_simd<float, lanes>;
+    Lanes sums = 0.0f;
     for (int i = 0; i < floats; i += lanes)
-        for (int l = 0; l < lanes; ++l) sums[l] += texel[i + l] * weights.of[i + l];
-    return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+        sums += Lanes(texel + i, simd::element_aligned) * Lanes(weights.of.data() + i, simd::element_aligned);
+    return simd::reduce(sums);
 }
 
 }  // namespace shadowbench::techniques
