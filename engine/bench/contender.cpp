@@ -84,12 +84,13 @@ void judge(Contender& contender, const Asked& judged, const Truth& truth) {
     const std::vector<float> visibility = lookup_all(contender.maps, judged);
     std::vector<double> errors(visibility.size());
     LookupErrors result;
+    const bool bounded = techniques::promises(*contender.row, contender.values).unit_range;
     for (std::size_t i = 0; i < visibility.size(); ++i) {
         const float v = visibility[i];
-        if (!(v >= -rounding && v <= 1.0f + rounding)) {
+        if (!(bounded ? v >= -rounding && v <= 1.0f + rounding : std::isfinite(v))) {
             const Query& q = judged.queries[i % judged.queries.size()];
-            return fail(contender,
-                        fmt::format("the lookup at ({}, {}, {}) answers {}, which is not in [0, 1]", q.x, q.y, q.z, v));
+            return fail(contender, fmt::format("the lookup at ({}, {}, {}) answers {}, which is not {}", q.x, q.y, q.z,
+                                               v, bounded ? "in [0, 1]" : "finite"));
         }
         errors[i] = v - truth.value[i];
         result.signed_mean += errors[i];
@@ -152,7 +153,8 @@ void build_all(std::span<Contender> contenders, const RaySource& source, const t
                std::size_t memory_limit, const RaySource::Watch& watch) {
     for (Contender& contender : contenders) {
         contender.cell.error_bound = contender.row->error_bound(contender.values, input.layout);
-        contender.cell.outside_promise = contender.row->promises.opaque_only && source.translucent();
+        const techniques::Promises promises = techniques::promises(*contender.row, contender.values);
+        contender.cell.outside_promise = promises.opaque_only && source.translucent();
     }
     begin_all(contenders, input);
     const std::vector<int> aprons = aprons_of(contenders);
@@ -173,8 +175,8 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
     std::vector<Contender*> owners;
     for (Contender& contender : contenders) {
         if (!contender.ok()) continue;
-        checked.push_back({&contender.maps, contender.row->promises, contender.cell.error_bound,
-                           !contender.cell.outside_promise, contender.needs.apron});
+        checked.push_back({&contender.maps, techniques::promises(*contender.row, contender.values),
+                           contender.cell.error_bound, !contender.cell.outside_promise, contender.needs.apron});
         owners.push_back(&contender);
     }
     const std::vector<CurveVerdict> verdicts = check_curves(source, layout, checked, max_checked_cells, watch);

@@ -22,6 +22,7 @@ const Paper papers[] = {
     {"reeves1987", "Reeves, Salesin, Cook: Rendering Antialiased Shadows with Depth Maps (1987)", measure_reeves},
     {"lokovic2000", "Lokovic, Veach: Deep Shadow Maps (2000)", measure_lokovic},
     {"pagot2004", "Pagot, Comba, Oliveira: Multiple-Depth Shadow Maps (2004)", measure_pagot},
+    {"volume", "Deep Shadow Maps from Volumetric Data: three depths and the maximum opacity a texel", measure_volume},
     {"salvi2010", "Salvi, Vidimce, Lauritzen, Lefohn: Adaptive Volumetric Shadow Maps (2010)", measure_salvi},
 };
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/parallel.h"
 #include "base/random.h"
+#include "scene/fill_grid.h"
 #include "scene/procedural.h"
 
 namespace shadowbench::scene {
@@ -73,34 +73,13 @@ float upper_quantile(const std::vector<float>& values, float outside, double sha
 
 GridVolume make_cloud(const Cloud& parameters) {
     constexpr float outside = -1e30f;
-    const Vec3i size = parameters.size;
-    const auto width = static_cast<std::size_t>(size.x), height = static_cast<std::size_t>(size.y);
-    const auto depth = static_cast<std::size_t>(size.z);
     const Vec3d extent = parameters.upper - parameters.lower;
     const double longest = std::max({extent.x, extent.y, extent.z});
-
-    GridVolume volume;
-    volume.size = size;
-    volume.lower = parameters.lower;
-    volume.upper = parameters.upper;
-    volume.step = 0.5 * std::min({extent.x / size.x, extent.y / size.y, extent.z / size.z});
-    volume.density.resize(width * height * depth);
-    base::parallel_for(depth, [&](std::size_t z) {
-        for (std::size_t y = 0; y < height; ++y)
-            for (std::size_t x = 0; x < width; ++x) {
-                // Voxel centres, the box being [-1, 1]^3.
-                const Vec3d at((2.0 * static_cast<double>(x) + 1.0) / size.x - 1.0,
-                               (2.0 * static_cast<double>(y) + 1.0) / size.y - 1.0,
-                               (2.0 * static_cast<double>(z) + 1.0) / size.z - 1.0);
-                const double square = at.length2();
-                // Points outside cost nothing.
-                float& out = volume.density[(z * height + y) * width + x];
-                out = outside;
-                if (square > 1.0) continue;
-                const double value =
-                    fractal(parameters.seed, at * extent * (first_frequency / longest), parameters.octaves);
-                out = static_cast<float>(value - outward_thinning * square);
-            }
+    GridVolume volume = fill_grid(parameters.size, parameters.lower, parameters.upper, [&](const Vec3d& at) {
+        const double square = at.length2();
+        if (square > 1.0) return outside;  // costs nothing
+        const double value = fractal(parameters.seed, at * extent * (first_frequency / longest), parameters.octaves);
+        return static_cast<float>(value - outward_thinning * square);
     });
 
     const float clear = upper_quantile(volume.density, outside, parameters.coverage);

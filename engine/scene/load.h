@@ -25,5 +25,7 @@ Mesh load_mesh(const nlohmann::json& from, const SearchPath& path, const std::st
 Mesh load_quad(const nlohmann::json& from, const SearchPath& path, const std::string& where);
 GridVolume load_volume(const nlohmann::json& from, const SearchPath& path, const std::string& where);
 GridVolume load_cloud(const nlohmann::json& from, const std::string& where);
+GridVolume load_density_box(const nlohmann::json& from, const std::string& where);
+GridVolume load_crossed_rods(const nlohmann::json& from, const std::string& where);
 
 }  // namespace shadowbench::scene

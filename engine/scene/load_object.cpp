@@ -96,6 +96,14 @@ Shape cloud(const json& from, const SearchPath&, const std::string& where) {
     return load_cloud(from, where);
 }
 
+Shape density_box(const json& from, const SearchPath&, const std::string& where) {
+    return load_density_box(from, where);
+}
+
+Shape crossed_rods(const json& from, const SearchPath&, const std::string& where) {
+    return load_crossed_rods(from, where);
+}
+
 Shape smoke_column(const json& from, const SearchPath&, const std::string&) {
     SmokeColumn column;
     read(from, "particles", column.particles);
@@ -114,11 +122,18 @@ struct Row {
     Shape (*load)(const json& from, const SearchPath& path, const std::string& where);
 };
 constexpr std::array rows{
-    Row{"mesh", mesh},           Row{"sphere", sphere},
-    Row{"spheres", spheres},     Row{"quad", quad},
-    Row{"hair", hair},           Row{"hair_ball", hair_ball},
-    Row{"volume", volume},       Row{"cloud", cloud},
-    Row{"particles", particles}, Row{"smoke_column", smoke_column},
+    Row{"mesh", mesh},
+    Row{"sphere", sphere},
+    Row{"spheres", spheres},
+    Row{"quad", quad},
+    Row{"hair", hair},
+    Row{"hair_ball", hair_ball},
+    Row{"volume", volume},
+    Row{"cloud", cloud},
+    Row{"density_box", density_box},
+    Row{"crossed_rods", crossed_rods},
+    Row{"particles", particles},
+    Row{"smoke_column", smoke_column},
 };
 
 // What is wrong with a shape that light would never meet; empty when nothing is.

@@ -51,6 +51,18 @@ GridVolume load_raw(const json& from, const std::filesystem::path& file, const s
     return volume;
 }
 
+// What all procedural grids have: a size, a box and a step.
+template <class Parameters>
+GridVolume load_procedural(const json& from, const std::string& where, Parameters& parameters,
+                           GridVolume (*make)(const Parameters&)) {
+    read(from, "size", parameters.size);
+    check_voxels(parameters.size, where + "/size");
+    read_box(from, where, parameters.lower, parameters.upper);
+    GridVolume volume = make(parameters);
+    read_step(from, where, volume);
+    return volume;
+}
+
 }  // namespace
 
 GridVolume load_volume(const json& from, const SearchPath& path, const std::string& where) {
@@ -71,15 +83,21 @@ GridVolume load_volume(const json& from, const SearchPath& path, const std::stri
 
 GridVolume load_cloud(const json& from, const std::string& where) {
     Cloud cloud;
-    read(from, "size", cloud.size);
     read(from, "octaves", cloud.octaves);
     read(from, "coverage", cloud.coverage);
     read(from, "seed", cloud.seed);
-    check_voxels(cloud.size, where + "/size");
-    read_box(from, where, cloud.lower, cloud.upper);
-    GridVolume volume = make_cloud(cloud);
-    read_step(from, where, volume);
-    return volume;
+    return load_procedural(from, where, cloud, make_cloud);
+}
+
+GridVolume load_density_box(const json& from, const std::string& where) {
+    DensityBox box;
+    return load_procedural(from, where, box, make_density_box);
+}
+
+GridVolume load_crossed_rods(const json& from, const std::string& where) {
+    CrossedRods rods;
+    read(from, "radius", rods.radius);
+    return load_procedural(from, where, rods, make_crossed_rods);
 }
 
 }  // namespace shadowbench::scene

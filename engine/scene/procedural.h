@@ -32,6 +32,23 @@ struct Cloud {
 };
 GridVolume make_cloud(const Cloud& parameters);
 
+// A box whose density falls from nearly 1 at its middle to nearly 0 at its faces, in proportion to the distance from
+// the nearest of them (the box measured as a cube): the first data set of the paper on deep shadow maps of volumes.
+struct DensityBox {
+    Vec3i size{64, 64, 64};
+    Vec3d lower{-1, -1, -1}, upper{1, 1, 1};
+};
+GridVolume make_density_box(const DensityBox& parameters);
+
+// Three rods, one along each axis, that cross in the middle of the box: 1 inside them, 0 outside. The third data set of
+// the same paper.
+struct CrossedRods {
+    Vec3i size{64, 64, 64};
+    Vec3d lower{-1, -1, -1}, upper{1, 1, 1};
+    double radius = 0.25;  // of a rod, world length
+};
+GridVolume make_crossed_rods(const CrossedRods& parameters);
+
 // A rising column of puffs that widens and thins out, as in Salvi et al. 2010.
 struct SmokeColumn {
     int particles = 2000;

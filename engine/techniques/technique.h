@@ -89,7 +89,8 @@ public:
 
     // Values that a lookup answers with: 1, or the channels of the layout that it was begun with.
     virtual int channels() const { return 1; }
-    // visibility[c * queries.size() + i] in [0, 1] answers queries[i] in channel c. Thread-safe. Outside the map: lit.
+    // visibility[c * queries.size() + i] answers queries[i] in channel c; in [0, 1] where Promises::unit_range is
+    // promised, else finite. Thread-safe. Outside the map: lit.
     virtual void lookup(std::span<const Query> queries, std::span<float> visibility) const = 0;
     // The same where the footprints of the queries are given, one each: for techniques that can filter over them.
     virtual void lookup_shaped(std::span<const Query> queries, std::span<const Footprint>,
@@ -122,6 +123,8 @@ struct Promises {
     bool monotone = true;      // never rises with depth
     bool unit_range = true;    // stays in [0, 1]
     bool opaque_only = false;  // takes every crossing as opaque: errors are promised for opaque scenes alone
+    bool localised = true;     // a lone surface or slab is felt at its own depths; else only before and behind all
+    double leak = 0.0;         // what may be left behind something opaque
 };
 
 struct Technique {
@@ -140,7 +143,13 @@ struct Technique {
     // What the finished map of this layout surely holds, in bytes: for refusing what cannot fit before work starts.
     std::size_t (*least_bytes)(const ParameterValues& values, const rays::MapLayout& layout);
     bool coloured = false;  // one map holds all channels of a coloured scene
+    // What these values promise, of rows whose promises depend on them; `promises` is then what the defaults promise.
+    Promises (*promises_of)(const ParameterValues& values) = nullptr;
 };
+
+inline Promises promises(const Technique& row, const ParameterValues& values) {
+    return row.promises_of ? row.promises_of(values) : row.promises;
+}
 
 // The registry: one row a technique, in the order of the papers.
 std::span<const Technique> all();

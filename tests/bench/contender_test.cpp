@@ -88,6 +88,19 @@ TEST_F(Contenders, that_answer_no_number_fail) {
     }
 }
 
+TEST_F(Contenders, whose_values_promise_no_range_may_leave_it) {
+    const FakeAnswers raw{.function = {{1.0f, 1.0f}, {1.0f, 1.005f}, {1.0f, 0.4f}, {3.0f, 0.4f}, {3.0f, 0.0f}},
+                          .lookup = 1.2f,
+                          .promises = {.monotone = false, .unit_range = false}};
+    const Cell cell = judge(raw);
+    EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+    ASSERT_TRUE(cell.lookup);
+    EXPECT_NEAR(cell.lookup->norms.max, 0.8, 1e-6);
+    FakeAnswers infinite = raw;
+    infinite.lookup = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(judge(infinite).status, CellStatus::failed);
+}
+
 TEST_F(Contenders, that_refuse_the_layout_are_bad_input) {
     fake_answers = {.function = true_function_, .refuses_begin = true};
     std::vector<Contender> contenders(1);

@@ -21,7 +21,9 @@ const techniques::Technique& fake_technique() {
         },
         [](const techniques::ParameterValues&, const rays::MapLayout&) { return 0.01; },
         nullptr,
-        [](const techniques::ParameterValues&, const rays::MapLayout&) { return std::size_t{100}; }};
+        [](const techniques::ParameterValues&, const rays::MapLayout&) { return std::size_t{100}; },
+        false,
+        [](const techniques::ParameterValues&) { return fake_answers.promises; }};
     return row;
 }
 

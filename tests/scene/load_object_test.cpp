@@ -160,9 +160,48 @@ TEST(LoadVolume, PointsAtWhatIsMissingOrWrong) {
     EXPECT_THAT(message(R"("lower": [0, 0, 0])").message(), HasSubstr("\"upper\" is missing"));
     EXPECT_EQ(message(R"("lower": [0, 0, 0], "upper": [1, 0, 1])").where(), "/scene/objects/0/upper");
     EXPECT_THAT(message(R"("lower": [0, 0, 0], "upper": [1, 1, 1])").message(), HasSubstr("0 everywhere"));
-    EXPECT_THAT(failure(R"({"type": "cloud", "size": [2000, 2000, 2000]})").message(),
-                HasSubstr("limit is 1000000000"));
-    EXPECT_EQ(failure(R"({"type": "cloud", "lower": [0, 0, 2]})").where(), "/scene/objects/0/upper");
+}
+
+class ProceduralVolume : public testing::TestWithParam<const char*> {
+protected:
+    static base::Error refusal(const std::string& rest) {
+        return failure(std::string(R"({"type": ")") + GetParam() + "\", " + rest + "}");
+    }
+};
+
+TEST_P(ProceduralVolume, RefusesSizesBoxesAndStepsThatCannotBe) {
+    EXPECT_THAT(refusal(R"("size": [2000, 2000, 2000])").message(), HasSubstr("limit is 1000000000"));
+    EXPECT_EQ(refusal(R"("size": [2000, 2000, 2000])").where(), "/scene/objects/0/size");
+    EXPECT_EQ(refusal(R"("lower": [0, 0, 2])").where(), "/scene/objects/0/upper");
+    EXPECT_EQ(refusal(R"("step": 1e-6)").where(), "/scene/objects/0/step");
+}
+
+TEST_P(ProceduralVolume, TakesItsSizeBoxAndStep) {
+    const std::string text = std::string(R"({"type": ")") + GetParam() +
+                             R"(", "size": [8, 9, 10], "lower": [0, 1, 2], "upper": [4, 5, 6], "step": 0.125,
+                                 "extinction": 3})";
+    const Object object = load(text);
+    const auto& volume = std::get<GridVolume>(object.shape);
+    EXPECT_EQ(volume.size, base::Vec3i(8, 9, 10));
+    EXPECT_EQ(volume.lower, Vec3d(0, 1, 2));
+    EXPECT_EQ(volume.upper, Vec3d(4, 5, 6));
+    EXPECT_EQ(volume.step, 0.125);
+    EXPECT_EQ(object.extinction, Vec3f(3));
+}
+
+INSTANTIATE_TEST_SUITE_P(Objects, ProceduralVolume, testing::Values("cloud", "density_box", "crossed_rods"));
+
+TEST(LoadVolume, TakesTheRadiusOfRodsAndRefusesRodsThatReachNoVoxel) {
+    const auto filled = [](const std::string& radius) {
+        const auto rods = std::get<GridVolume>(load(R"({"type": "crossed_rods", "radius": )" + radius + "}").shape);
+        return std::count(rods.density.begin(), rods.density.end(), 1.0f);
+    };
+    EXPECT_LT(filled("0.1"), filled("0.2"));
+    EXPECT_THAT(failure(R"({"type": "crossed_rods", "radius": 0.01})").message(), HasSubstr("0 everywhere"));
+}
+
+GridVolume default_volume(const std::string& type) {
+    return type == "cloud" ? make_cloud({}) : type == "density_box" ? make_density_box({}) : make_crossed_rods({});
 }
 
 // Objects whose every key is written at the default that the schema documents equal those without any key.
@@ -185,8 +224,8 @@ TEST_P(Procedural, SchemaDocumentsTheDefaultsOfTheStruct) {
         EXPECT_EQ(hair->radii, make_hair_ball(HairBall{}).radii);
     } else if (const auto* volume = std::get_if<GridVolume>(&a.shape)) {
         EXPECT_EQ(volume->density, std::get<GridVolume>(b.shape).density);
-        EXPECT_EQ(volume->density, make_cloud(Cloud{}).density);
-        EXPECT_EQ(volume->step, make_cloud(Cloud{}).step);
+        EXPECT_EQ(volume->density, default_volume(GetParam()).density);
+        EXPECT_EQ(volume->step, default_volume(GetParam()).step);
     } else {
         EXPECT_EQ(std::get<Particles>(a.shape).centres, make_smoke_column(SmokeColumn{}).centres);
         EXPECT_EQ(std::get<Particles>(a.shape).radii, make_smoke_column(SmokeColumn{}).radii);
@@ -194,7 +233,8 @@ TEST_P(Procedural, SchemaDocumentsTheDefaultsOfTheStruct) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Objects, Procedural, testing::Values("hair_ball", "cloud", "smoke_column"));
+INSTANTIATE_TEST_SUITE_P(Objects, Procedural,
+                         testing::Values("hair_ball", "cloud", "density_box", "crossed_rods", "smoke_column"));
 
 }  // namespace
 }  // namespace shadowbench::scene

@@ -154,6 +154,90 @@ TEST(Cloud, OfOneVoxelStaysInRange) {
     EXPECT_LE(volume.density[0], 1.0f);
 }
 
+// Density at voxel (x, y, z).
+float voxel(const GridVolume& volume, int x, int y, int z) {
+    return volume.density[static_cast<std::size_t>((z * volume.size.y + y) * volume.size.x + x)];
+}
+
+// Whether turning each axis round leaves the values as they are.
+void expect_mirrored(const GridVolume& volume) {
+    const base::Vec3i last = volume.size - base::Vec3i(1);
+    for (int z = 0; z <= last.z; ++z)
+        for (int y = 0; y <= last.y; ++y)
+            for (int x = 0; x <= last.x; ++x) {
+                const float value = voxel(volume, x, y, z);
+                ASSERT_FLOAT_EQ(voxel(volume, last.x - x, y, z), value);
+                ASSERT_FLOAT_EQ(voxel(volume, x, last.y - y, z), value);
+                ASSERT_FLOAT_EQ(voxel(volume, x, y, last.z - z), value);
+            }
+}
+
+TEST(DensityBox, FallsEvenlyFromItsMiddleToEveryFace) {
+    DensityBox box;
+    box.size = {40, 20, 10};
+    box.lower = Vec3d(-2, 0, 1);
+    box.upper = Vec3d(2, 2, 2);
+    const GridVolume volume = make_density_box(box);
+    EXPECT_EQ(volume.size, box.size);
+    EXPECT_EQ(volume.lower, box.lower);
+    EXPECT_EQ(volume.upper, box.upper);
+    EXPECT_EQ(volume.step, 0.05);
+    expect_mirrored(volume);
+    for (int z = 0; z < 10; ++z)
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 40; ++x) {
+                // From the nearest face, in halves of the box.
+                const double left = std::min(x + 0.5, 39.5 - x) / 20, down = std::min(y + 0.5, 19.5 - y) / 10;
+                const double near = std::min(z + 0.5, 9.5 - z) / 5;
+                ASSERT_NEAR(voxel(volume, x, y, z), std::min({left, down, near}), 1e-6);
+            }
+}
+
+TEST(DensityBox, IsDensestInTheMiddleOfThePapersSize) {
+    const GridVolume volume = make_density_box({});
+    ASSERT_EQ(volume.size, base::Vec3i(64));
+    const auto [least, most] = std::minmax_element(volume.density.begin(), volume.density.end());
+    EXPECT_FLOAT_EQ(*least, 1.0f / 64.0f);
+    EXPECT_FLOAT_EQ(*most, 63.0f / 64.0f);
+    EXPECT_EQ(voxel(volume, 31, 32, 31), *most);
+}
+
+TEST(CrossedRods, AreSolidInsideThreeCylindersAndEmptyOutside) {
+    CrossedRods rods;
+    rods.size = {40, 20, 32};
+    rods.lower = Vec3d(-2, 0, 1);
+    rods.upper = Vec3d(2, 2, 2);
+    rods.radius = 0.3;
+    const GridVolume volume = make_crossed_rods(rods);
+    EXPECT_EQ(volume.size, rods.size);
+    EXPECT_EQ(volume.lower, rods.lower);
+    EXPECT_EQ(volume.upper, rods.upper);
+    EXPECT_EQ(volume.step, 0.5 / 32);
+    expect_mirrored(volume);
+    for (int z = 0; z < 32; ++z)
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 40; ++x) {
+                // World distances from the three axes.
+                const double dx = (x + 0.5) * 0.1 - 2.0, dy = (y + 0.5) * 0.1 - 1.0, dz = (z + 0.5) / 32 - 0.5;
+                const double distance = std::min({std::hypot(dy, dz), std::hypot(dz, dx), std::hypot(dx, dy)});
+                if (std::abs(distance - 0.3) < 1e-9) continue;
+                ASSERT_EQ(voxel(volume, x, y, z), distance < 0.3 ? 1.0f : 0.0f) << x << " " << y << " " << z;
+            }
+}
+
+TEST(CrossedRods, FillTheShareOfTheBoxThatCylindersFill) {
+    CrossedRods rods;
+    EXPECT_EQ(rods.size, base::Vec3i(64));
+    rods.size = base::Vec3i(128);
+    rods.radius = 0.4;
+    double filled = 0.0;
+    for (const float value : make_crossed_rods(rods).density) filled += value;
+    // Three cylinders of length 2, less what two and three of them share (Steinmetz: 16/3 r^3 and (16 - 8 sqrt 2) r^3).
+    const double r = rods.radius, pi = 3.14159265358979;
+    const double solid = 3 * 2 * pi * r * r + (-3 * 16.0 / 3.0 + 16.0 - 8.0 * std::sqrt(2.0)) * r * r * r;
+    EXPECT_NEAR(filled / (128.0 * 128.0 * 128.0), solid / 8.0, 0.01 * solid / 8.0);
+}
+
 TEST(SmokeColumn, WidensAndThinsOutUpwards) {
     SmokeColumn column;
     column.base = Vec3d(5, 1, 0);

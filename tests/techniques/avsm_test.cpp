@@ -3,10 +3,15 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "curves/norms.h"
 #include "curves/sweep.h"
+#include "techniques/avsm/order.h"
 #include "techniques/avsm/stream.h"
+#include "techniques/avsm/texel.h"
 #include "techniques/built.h"
+#include "techniques/live_bytes.h"
+#include "techniques/one_ray.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -16,9 +21,7 @@ using ::testing::Pair;
 
 constexpr float far_plane = 100.0f;
 
-struct Segment {
-    float front, back, through;
-};
+using testing::Segment;
 
 template <class Stream>
 std::vector<std::pair<float, float>> nodes(const Stream& stream) {
@@ -127,6 +130,88 @@ TEST(AvsmStream, NothingIsAddedBehindAnOpaqueSurface) {
                 ElementsAre(Pair(5.0f, 1.0f), Pair(5.0f, 0.0f), Pair(far_plane, 0.0f)));
 }
 
+// The product of all segments at z, in double.
+double product(const std::vector<Segment>& segments, double z) {
+    return rays::transmittance(testing::ray_of(segments), 0, 0, z);
+}
+
+void shuffle(std::vector<Segment>& segments, base::Random& random) {
+    for (std::size_t k = segments.size(); k > 1; --k) std::swap(segments[k - 1], segments[random.below(k)]);
+}
+
+TEST(AvsmStream, OverlappingMediaInAnyOrderGiveTheExactProductWithExponentialSampling) {
+    for (int seed = 0; seed < 300; ++seed) {
+        base::Random random(seed);
+        std::vector<Segment> segments = testing::random_segments(base::hash(seed), 30, 1, 90);
+        if (seed % 3 == 0) segments[0] = {segments[0].front, segments[0].front, 0.0f};  // a wall
+        if (seed % 5 == 0) segments[1].back = segments[1].front = segments[2].front;    // ends at one depth
+        if (seed % 7 == 0) segments[3] = segments[4];
+        if (seed % 11 == 0) segments[5].front = segments[6].back;
+        if (segments[5].front > segments[5].back) segments[5].back = segments[5].front;
+        shuffle(segments, random);
+        TransmittanceStream<64, Sampling::exponential> stream(64, far_plane);
+        for (const Segment& s : segments) stream.insert(s.front, s.back, s.through);
+        const auto found = nodes(stream);
+        ASSERT_LE(found.size(), 61u) << "everything fits";
+        std::vector<float> texel;
+        for (const auto& node : found) texel.push_back(node.first);
+        for (const auto& node : found) texel.push_back(node.second);
+        const auto count = static_cast<int>(found.size());
+        const TexelEvaluator evaluate = texel_evaluator(count, Sampling::exponential);
+        for (float z = 0.0f; z < far_plane; z += 0.37f)
+            EXPECT_NEAR(evaluate(texel.data(), count, z), product(segments, z), 1e-5) << "z " << z << " seed " << seed;
+        for (const Segment& s : segments)
+            for (const float z :
+                 {s.front, std::nextafter(s.front, far_plane), s.back, std::nextafter(s.back, far_plane)})
+                EXPECT_NEAR(evaluate(texel.data(), count, z), product(segments, z), 1e-5)
+                    << "z " << z << " seed " << seed;
+    }
+}
+
+TEST(AvsmStream, SurfacesAndWholeStepsInAnyOrderGiveTheExactProductWithLinearSampling) {
+    for (int seed = 0; seed < 300; ++seed) {
+        // Media of a grid: their ends lie on whole numbers, so that no node falls inside a medium. Surfaces there too.
+        base::Random random(seed);
+        std::vector<Segment> segments;
+        for (int i = 0; i < 60; ++i) {
+            const auto front = static_cast<float>(1 + random.below(25));
+            const float back = random.uniform() < 0.5 ? front : front + 1;
+            const auto through = static_cast<float>(random.uniform(0.5, 1.0));
+            segments.push_back({front, back, front == back && random.uniform() < 0.02 ? 0.0f : through});
+        }
+        const auto found = run(64, segments);
+        ASSERT_LT(found.size(), 64u);
+        curves::Curve curve;
+        for (const auto& [z, t] : found) curve.push_back({z, t});
+        for (int z = 0; z < 30; ++z) {
+            EXPECT_NEAR(curves::evaluate(curve, static_cast<float>(z)), product(segments, z), 1e-5) << z;
+            const float behind = std::nextafter(static_cast<float>(z), far_plane);
+            EXPECT_NEAR(curves::evaluate_behind(curve, static_cast<float>(z)), product(segments, behind), 1e-5) << z;
+        }
+    }
+}
+
+TEST(AvsmShuffle, IsAPermutationOfEveryLength) {
+    for (std::uint32_t count = 1; count < 300; ++count) {
+        const Shuffle shuffle(count, count);
+        std::vector<int> met(count, 0);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            ASSERT_LT(shuffle(k), count);
+            ++met[shuffle(k)];
+        }
+        EXPECT_THAT(met, ::testing::Each(1)) << count;
+    }
+}
+
+TEST(AvsmShuffle, PutsEveryEntryAnywhere) {
+    constexpr std::uint32_t count = 5;
+    int met[count][count] = {};
+    for (std::uint64_t key = 0; key < 5000; ++key)
+        for (std::uint32_t k = 0; k < count; ++k) ++met[k][Shuffle(base::mix(key), count)(k)];
+    for (const auto& row : met)
+        for (const int times : row) EXPECT_NEAR(times, 1000, 150);
+}
+
 double mean_curve_error(const testing::Built& b) {
     double sum = 0.0;
     curves::SweepScratch scratch;
@@ -156,22 +241,153 @@ TEST(Avsm, MoreNodesLeaveLessError) {
     }
 }
 
-TEST(Avsm, BilinearLookupsBlendFourTexels) {
-    const auto b = testing::build(find("avsm", ""), testing::hairy_scene(true), rays::testing::directional(),
-                                  rays::testing::rays(16, 1), R"({"filter": "bilinear"})");
-    const auto point = testing::build(find("avsm", ""), testing::hairy_scene(true), rays::testing::directional(),
-                                      rays::testing::rays(16, 1), R"({"filter": "point"})");
-    for (const auto& [x, y] : {std::pair{8.5f, 8.5f}, {8.75f, 6.0f}, {3.2f, 9.9f}, {0.1f, 15.9f}}) {
-        const float fx = std::clamp(x - 0.5f, 0.0f, 15.0f), fy = std::clamp(y - 0.5f, 0.0f, 15.0f);
-        const int i = static_cast<int>(fx), j = static_cast<int>(fy);
-        const float wx = fx - static_cast<float>(i), wy = fy - static_cast<float>(j);
-        const auto at = [&](int dx, int dy) {
-            return point.lookup(static_cast<float>(std::min(i + dx, 15)) + 0.5f,
-                                static_cast<float>(std::min(j + dy, 15)) + 0.5f, 1.0f);
-        };
-        const float expected =
-            (1 - wy) * ((1 - wx) * at(0, 0) + wx * at(1, 0)) + wy * ((1 - wx) * at(0, 1) + wx * at(1, 1));
-        EXPECT_NEAR(b.lookup(x, y, 1.0f), expected, 1e-6f);
+// The same rays in several orders of insertion; `submission` is filled back to front.
+struct Orders {
+    testing::Built sorted;
+    Orders(int nodes, const char* sampling) : nodes_(nodes), sampling_(sampling) {
+        sorted = testing::build(find("avsm", ""), testing::hairy_scene(true), rays::testing::directional(),
+                                rays::testing::rays(24, 4), parameters("sorted", 1).c_str());
+    }
+    std::unique_ptr<Map> map(const char* order, int seed, bool reversed) const {
+        const Technique& row = find("avsm", "");
+        auto result = row.create(
+            read_parameters(row.parameters, nlohmann::json::parse(parameters(order, seed)), "/techniques/0"));
+        result->begin({sorted.rays.layout, sorted.rays.view, nullptr, 0});
+        for (rays::LightRays tile : sorted.rays.tiles) {
+            if (result->needs().submission) fill(tile, reversed);
+            result->add(tile);
+        }
+        result->finish();
+        return result;
+    }
+    // Largest difference to the sorted map, over depths and texels.
+    double difference(const Map& other) const {
+        double largest = 0.0;
+        std::vector<Query> queries;
+        for (float y = 0.25f; y < 24.0f; y += 0.5f)
+            for (float x = 0.25f; x < 24.0f; x += 0.5f)
+                for (float z = 0.0f; z < 2.5f; z += 0.05f) queries.push_back({x, y, z, 0.1f});
+        std::vector<float> a(queries.size()), b(queries.size());
+        sorted.map->lookup(queries, a);
+        other.lookup(queries, b);
+        for (std::size_t i = 0; i < a.size(); ++i) largest = std::max<double>(largest, std::abs(a[i] - b[i]));
+        return largest;
+    }
+
+private:
+    std::string parameters(const char* order, int seed) const {
+        return "{\"nodes\": " + std::to_string(nodes_) + ", \"order\": \"" + order + "\", \"sampling\": \"" +
+               sampling_ + "\", \"seed\": " + std::to_string(seed) + "}";
+    }
+    static void fill(rays::LightRays& tile, bool reversed) {
+        tile.submission.resize(tile.segments());
+        for (std::size_t r = 0; r < tile.rays(); ++r)
+            for (std::uint32_t s = tile.begin[r]; s < tile.begin[r + 1]; ++s)
+                tile.submission[s] = reversed ? tile.begin[r] + tile.begin[r + 1] - 1 - s : s;
+    }
+
+    int nodes_;
+    const char* sampling_;
+};
+
+TEST(Avsm, TheOrderChangesNothingWhileAllNodesFit) {
+    const Orders orders(64, "exponential");
+    EXPECT_LE(orders.difference(*orders.map("captured", 1, true)), 1e-5);
+    for (const int seed : {1, 2, 3}) EXPECT_LE(orders.difference(*orders.map("shuffled", seed, false)), 1e-5);
+}
+
+TEST(Avsm, TheOrderChangesResultsWhenNodesAreFew) {
+    for (const char* sampling : {"linear", "exponential"}) {
+        const Orders orders(4, sampling);
+        const auto captured = orders.map("captured", 1, true), shuffled = orders.map("shuffled", 1, false);
+        EXPECT_GT(orders.difference(*captured), 0.01);
+        EXPECT_GT(orders.difference(*shuffled), 0.01);
+        const auto again = orders.map("shuffled", 1, false), other = orders.map("shuffled", 2, false);
+        EXPECT_EQ(orders.difference(*again), orders.difference(*shuffled)) << "one seed, one order";
+        EXPECT_NE(orders.difference(*other), orders.difference(*shuffled));
+    }
+}
+
+TEST(Avsm, SegmentsSubmittedInOrderOfDepthGiveTheSortedMap) {
+    const Orders orders(4, "linear");
+    EXPECT_EQ(orders.difference(*orders.map("captured", 1, false)), 0.0);
+}
+
+TEST(Avsm, SubmissionOrderIsAskedForAndMissed) {
+    const Technique& row = find("avsm", "");
+    const auto make = [&](const char* parameters) {
+        return row.create(read_parameters(row.parameters, nlohmann::json::parse(parameters), ""));
+    };
+    EXPECT_FALSE(make("{}")->needs().submission);
+    EXPECT_FALSE(make(R"({"order": "shuffled"})")->needs().submission);
+    EXPECT_TRUE(make(R"({"order": "captured"})")->needs().submission);
+    try {
+        testing::OneRay("avsm", R"({"order": "captured"})", {{1, 2, 0.5f}}, 0, 10);
+        FAIL() << "rays without an order were taken";
+    } catch (const base::Error& error) {
+        EXPECT_EQ(error.code(), base::ErrorCode::internal);
+    }
+}
+
+TEST(Avsm, BuildingInAnyOrderNeedsNoMemoryButTheMap) {
+    const Orders orders(8, "linear");
+    for (const char* order : {"sorted", "captured", "shuffled"}) {
+        const Technique& row = find("avsm", "");
+        const ParameterValues values =
+            read_parameters(row.parameters, nlohmann::json::parse(std::string("{\"order\": \"") + order + "\"}"), "");
+        std::vector<rays::LightRays> tiles = orders.sorted.rays.tiles;
+        for (rays::LightRays& tile : tiles)
+            for (std::uint32_t s = 0; s < tile.segments(); ++s) tile.submission.push_back(s);
+        const std::size_t before = testing::live_bytes();
+        testing::forget_peak();
+        const auto map = row.create(values);
+        map->begin({orders.sorted.rays.layout, orders.sorted.rays.view, nullptr, 0});
+        for (const rays::LightRays& tile : tiles) map->add(tile);
+        map->finish();
+        EXPECT_LE(testing::peak_bytes() - before, map->bytes() + 1024) << order;
+        EXPECT_EQ(map->working_bytes(), map->bytes());
+    }
+}
+
+TEST(Avsm, ExponentialSamplingFollowsAMediumWithItsEndsAlone) {
+    const std::vector<Segment> slab = {{2, 8, 0.05f}};
+    const testing::OneRay exponential("avsm", R"({"nodes": 4, "sampling": "exponential"})", slab, 0, 10);
+    const testing::OneRay linear("avsm", R"({"nodes": 4})", slab, 0, 10);
+    for (float z = 0.0f; z < 12.0f; z += 0.1f) EXPECT_NEAR(exponential(z), exponential.exact(z), 1e-6) << z;
+    EXPECT_NEAR(linear(5), (1 + 0.05) / 2, 1e-6);
+}
+
+TEST(Avsm, ExponentialSamplingTakesATransmittanceOfZero) {
+    for (const std::vector<Segment>& segments : {std::vector<Segment>{{2, 8, 0.0f}},
+                                                 {{3, 3, 0.0f}},
+                                                 {{2, 8, 0.5f}, {5, 6, 0.0f}},
+                                                 {{2, 8, 1e-38f}, {8, 8, 0.0f}},
+                                                 {{1, 2, 0.5f}, {2.5f, 2.6f, 0.5f}, {3, 3, 0.0f}, {4, 5, 0.5f}}})
+        for (const char* parameters :
+             {R"({"sampling": "exponential"})", R"({"nodes": 2, "sampling": "exponential"})"}) {
+            const testing::OneRay ray("avsm", parameters, segments, 0, 10);
+            float before = 1.0f;
+            for (float z = 0.0f; z < 12.0f; z += 0.01f) {
+                const float v = ray(z);
+                ASSERT_TRUE(v >= 0.0f && v <= before) << z << ": " << v << " after " << before;
+                before = v;
+            }
+            EXPECT_EQ(before, 0.0f) << "black behind";
+            if (parameters[2] == 's') {
+                for (float z = 0.0f; z < 12.0f; z += 0.1f) EXPECT_NEAR(ray(z), ray.exact(z), 1e-5) << z;
+            }
+        }
+}
+
+TEST(Avsm, AnExponentialFunctionIsStoredAsLookupsAnswer) {
+    for (const char* parameters : {R"({"sampling": "exponential", "nodes": 5})", R"({"nodes": 5})"}) {
+        const testing::OneRay ray("avsm", parameters, testing::random_segments(3, 12, 1, 9), 0, 10);
+        std::vector<float> depths;
+        for (float z = -0.5f; z < 12.0f; z += 0.25f) depths.push_back(z);
+        curves::Curve stored;
+        ray.map->stored(0, 0, 0, depths, stored);
+        EXPECT_TRUE(curves::is_visibility(stored));
+        for (const float z : depths) EXPECT_EQ(curves::evaluate(stored, z), ray(z)) << z;
     }
 }
 

@@ -8,13 +8,16 @@
 
 namespace {
 
-std::atomic<std::size_t> live{0};
+std::atomic<std::size_t> live{0}, peak{0};
 
 void* allocate(std::size_t size, std::size_t alignment) {
     void* block = alignment <= 16 ? std::malloc(size)
                                   : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
     if (!block) throw std::bad_alloc();
-    live += malloc_usable_size(block);
+    const std::size_t now = live += malloc_usable_size(block);
+    std::size_t most = peak;
+    while (now > most && !peak.compare_exchange_weak(most, now)) {
+    }
     return block;
 }
 
@@ -67,6 +70,12 @@ namespace shadowbench::techniques::testing {
 
 std::size_t live_bytes() {
     return live;
+}
+std::size_t peak_bytes() {
+    return peak;
+}
+void forget_peak() {
+    peak = live.load();
 }
 
 }  // namespace shadowbench::techniques::testing

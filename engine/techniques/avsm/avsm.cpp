@@ -1,52 +1,67 @@
 #include "techniques/avsm/avsm.h"
 
-#include <memory>
-#include <new>
-
+#include "base/error.h"
+#include "techniques/avsm/order.h"
 #include "techniques/avsm/stream.h"
 #include "techniques/avsm/texel.h"
-#include "techniques/cells.h"
+#include "techniques/texels.h"
 
 namespace shadowbench::techniques {
 namespace {
 
 const Parameter parameters[] = {
     {"nodes", ParameterKind::integer, "nodes a texel", 8, 2, 64},
-    {"filter",
+    {"order",
      ParameterKind::choice,
-     "texels of a lookup: the nearest, four bilinearly, or all of the query's footprint",
+     "in which a ray's segments are inserted: by depth, as they were submitted, or at random",
      0,
      0,
      0,
-     "footprint",
-     {"point", "bilinear", "footprint"}},
+     "sorted",
+     {"sorted", "captured", "shuffled"}},
+    {"seed", ParameterKind::integer, "of the random order", 1, 0, 1e9},
+    {"sampling",
+     ParameterKind::choice,
+     "between two nodes transmittance is linear, or falls exponentially",
+     0,
+     0,
+     0,
+     "linear",
+     {"linear", "exponential"}},
+    filter_parameter,
     cells_parameter,
 };
 
-enum class Filter { point, bilinear, footprint };
-Filter read_filter(const ParameterValues& values) {
-    const std::string& word = values.word("filter");
-    return word == "point" ? Filter::point : word == "bilinear" ? Filter::bilinear : Filter::footprint;
+enum class Order { sorted, captured, shuffled };
+Order read_order(const ParameterValues& values) {
+    const std::string& word = values.word("order");
+    return word == "sorted" ? Order::sorted : word == "captured" ? Order::captured : Order::shuffled;
+}
+Sampling read_sampling(const ParameterValues& values) {
+    return values.word("sampling") == "linear" ? Sampling::linear : Sampling::exponential;
 }
 
-// Texels one after the other, each of 2 * nodes floats: depths, then values. Aligned to cache lines.
+// A texel is 2 * nodes floats: depths, then values. Each is made by streaming its ray's segments through one curve of a
+// fixed size and written once: besides the map, nothing grows with the scene.
 class Avsm final : public Map {
 public:
     explicit Avsm(const ParameterValues& values)
-        : nodes_(values.integer("nodes")),
-          filter_(read_filter(values)),
-          kind_(read_cells(values)),
-          evaluate_(texel_evaluator(nodes_)) {}
+        : texels_(values),
+          nodes_(values.integer("nodes")),
+          order_(read_order(values)),
+          seed_(static_cast<std::uint64_t>(values.integer("seed"))),
+          sampling_(read_sampling(values)),
+          evaluate_(texel_evaluator(nodes_, sampling_)) {}
 
     Avsm(const ParameterValues& values, std::span<const curves::Curve> functions) : Avsm(values) {
-        kind_ = Cells::centre;
+        texels_.kind = Cells::centre;
         float far_plane = 0.0f;
         for (const curves::Curve& f : functions)
             if (!f.empty()) far_plane = std::max(far_plane, f.back().z);
         far_plane = std::nextafter(far_plane, std::numeric_limits<float>::infinity());
         layout_.width = static_cast<int>(functions.size());
         layout_.z_max = far_plane;
-        start();
+        texels_.allocate(layout_, 2 * nodes_);
         with_stream([&](auto& stream) {
             for (std::size_t f = 0; f < functions.size(); ++f) {
                 stream.clear(far_plane);
@@ -56,21 +71,27 @@ public:
         });
     }
 
+    RayNeeds needs() const override { return {.submission = order_ == Order::captured}; }
+
     void begin(const BuildInput& input) override {
         layout_ = input.layout;
-        start();
+        texels_.allocate(layout_, 2 * nodes_);
     }
 
     void add(const rays::LightRays& rays) override {
+        if (order_ == Order::captured && rays.submission.size() != rays.segments())
+            throw base::Error(base::ErrorCode::internal, "/techniques",
+                              "avsm: the light rays do not tell the order of their segments");
         with_stream([&](auto& stream) {
-            for_each_cell(layout_, grid_, kind_, rays, [&](std::size_t cell, std::size_t ray) {
+            for_each_cell(layout_, texels_.grid, texels_.kind, rays, [&](std::size_t cell, std::size_t ray) {
                 if (rays.begin[ray] == rays.begin[ray + 1]) {
                     store_empty(cell);
                     return;
                 }
                 stream.clear(layout_.z_max);
-                for (std::uint32_t s = rays.begin[ray]; s < rays.begin[ray + 1]; ++s)
+                for_each_segment(rays, ray, cell, [&](std::uint32_t s) {
                     stream.insert(rays.z_front[s], rays.back(s), rays.transmittance[s]);
+                });
                 store(stream, cell);
             });
         });
@@ -78,63 +99,54 @@ public:
     void finish() override {}
 
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
-        if (filter_ == Filter::point) {
-            for (std::size_t i = 0; i < queries.size(); ++i) {
-                int x, y;
-                visibility[i] = grid_.find(queries[i].x, queries[i].y, x, y)
-                                    ? evaluate_(texel(grid_.index(x, y)), nodes_, queries[i].z)
-                                    : 1.0f;
-            }
-            return;
-        }
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            float sum = 0.0f, weights = 0.0f;
-            for_each_texel(queries[i], [&](std::size_t cell, float weight) {
-                sum += weight * evaluate_(texel(cell), nodes_, queries[i].z);
-                weights += weight;
-            });
-            visibility[i] = weights > 0.0f ? std::min(sum / weights, 1.0f) : 1.0f;
-        }
+        texels_.lookup(
+            queries, visibility, [](float z) { return z; },
+            [&](const float* texel, float z) { return evaluate_(texel, nodes_, z); });
     }
-
     void touched(const Query& query, std::vector<const void*>& lines) const override {
-        const auto touch = [&](std::size_t cell, float) { touch_lines(texel(cell), 8 * nodes_, lines); };
-        int x, y;
-        if (filter_ != Filter::point)
-            for_each_texel(query, touch);
-        else if (grid_.find(query.x, query.y, x, y))
-            touch(grid_.index(x, y), 1.0f);
+        texels_.for_each(query, [&](std::size_t cell, float) { touch_lines(texels_.at(cell), 8 * nodes_, lines); });
     }
 
-    std::size_t bytes() const override { return grid_.count() * 8 * nodes_; }
-    std::size_t working_bytes() const override { return bytes() + sizeof(TransmittanceStream<64>); }
+    std::size_t bytes() const override { return texels_.bytes(); }
+    std::size_t working_bytes() const override { return bytes(); }
     NodeStats nodes() const override {
         NodeStats stats;
-        for (std::size_t cell = 0; cell < grid_.count(); ++cell) stats.add(used(cell));
+        for (std::size_t cell = 0; cell < texels_.grid.count(); ++cell) stats.add(used(cell));
         return stats;
     }
-    Cells cells() const override { return kind_; }
-    void stored(int x, int y, int, std::span<const float>, curves::Curve& out) const override {
-        const std::size_t cell = grid_.index(x, y);
-        const float* t = texel(cell);
+    Cells cells() const override { return texels_.kind; }
+    void stored(int x, int y, int, std::span<const float> depths, curves::Curve& out) const override {
+        const std::size_t cell = texels_.grid.index(x, y);
+        const float* t = texels_.at(cell);
+        const std::uint32_t n = used(cell);
         out.clear();
-        if (const std::uint32_t n = used(cell); n > 1)
-            for (std::uint32_t i = 0; i < n; ++i) out.push_back({t[i], t[nodes_ + i]});
+        if (n < 2) return;
+        const bool sampled = sampling_ == Sampling::exponential;
+        std::size_t k = 0;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            for (; k < depths.size() && depths[k] <= t[i]; ++k)
+                if (sampled && i > 0 && depths[k] < t[i]) out.push_back({depths[k], evaluate_(t, nodes_, depths[k])});
+            out.push_back({t[i], t[nodes_ + i]});
+        }
     }
 
 private:
-    struct Free {
-        void operator()(float* p) const { ::operator delete[](p, std::align_val_t{64}); }
-    };
-
-    void start() {
-        grid_ = make_cells(layout_, kind_);
-        texels_.reset(static_cast<float*>(::operator new[](bytes(), std::align_val_t{64})));
+    // Segment numbers of a ray, in the order of insertion.
+    template <class Visit>
+    void for_each_segment(const rays::LightRays& rays, std::size_t ray, std::size_t cell, const Visit& visit) const {
+        const std::uint32_t begin = rays.begin[ray], end = rays.begin[ray + 1];
+        if (order_ == Order::sorted) {
+            for (std::uint32_t s = begin; s < end; ++s) visit(s);
+        } else if (order_ == Order::captured) {
+            for (std::uint32_t s = begin; s < end; ++s) visit(rays.submission[s]);
+        } else {
+            const Shuffle shuffle(base::hash(seed_, cell), end - begin);
+            for (std::uint32_t k = 0; k < end - begin; ++k) visit(begin + shuffle(k));
+        }
     }
-    float* texel(std::size_t cell) const { return texels_.get() + cell * 2 * nodes_; }
 
     void store_empty(std::size_t cell) {
-        float* t = texel(cell);
+        float* t = texels_.at(cell);
         std::fill_n(t, nodes_, layout_.z_max);
         std::fill_n(t + nodes_, nodes_, 1.0f);
     }
@@ -142,7 +154,7 @@ private:
     // Nodes not needed stand at the far plane with the last value.
     template <class Stream>
     void store(const Stream& stream, std::size_t cell) {
-        float* t = texel(cell);
+        float* t = texels_.at(cell);
         int i = 0;
         stream.for_each([&](float depth, float value) {
             t[i] = depth;
@@ -158,8 +170,15 @@ private:
     // Calls work(stream) with a stream of the smallest sufficient size.
     template <class Work>
     void with_stream(const Work& work) {
+        if (sampling_ == Sampling::linear)
+            with_sampled_stream<Sampling::linear>(work);
+        else
+            with_sampled_stream<Sampling::exponential>(work);
+    }
+    template <Sampling sampling, class Work>
+    void with_sampled_stream(const Work& work) {
         const auto run = [&]<int size>() {
-            TransmittanceStream<size> stream(nodes_, layout_.z_max);
+            TransmittanceStream<size, sampling> stream(nodes_, layout_.z_max);
             work(stream);
         };
         if (nodes_ <= 4)
@@ -174,38 +193,19 @@ private:
 
     // Nodes before the far plane and one there; an empty texel has 0.
     std::uint32_t used(std::size_t cell) const {
-        const float* t = texel(cell);
+        const float* t = texels_.at(cell);
         std::uint32_t n = 0;
         while (n < static_cast<std::uint32_t>(nodes_) && t[n] < layout_.z_max) ++n;
         return n == 0 ? 0 : std::min<std::uint32_t>(n + 1, nodes_);
     }
 
-    template <class Visit>
-    void for_each_texel(const Query& q, const Visit& visit) const {
-        if (filter_ == Filter::footprint) {
-            const CellRange r = footprint(grid_, q);
-            for (int y = r.y0; y < r.y1; ++y)
-                for (int x = r.x0; x < r.x1; ++x) visit(grid_.index(x, y), 1.0f);
-            return;
-        }
-        int cx, cy;
-        if (!grid_.find(q.x, q.y, cx, cy)) return;
-        const float fx = q.x * grid_.per_pixel_x - 0.5f, fy = q.y * grid_.per_pixel_y - 0.5f;
-        const int x0 = static_cast<int>(std::floor(fx)), y0 = static_cast<int>(std::floor(fy));
-        const float wx = fx - static_cast<float>(x0), wy = fy - static_cast<float>(y0);
-        for (int j = 0; j < 2; ++j)
-            for (int i = 0; i < 2; ++i)
-                visit(grid_.index(std::clamp(x0 + i, 0, grid_.width - 1), std::clamp(y0 + j, 0, grid_.height - 1)),
-                      (i ? wx : 1.0f - wx) * (j ? wy : 1.0f - wy));
-    }
-
+    Texels texels_;
     int nodes_;
-    Filter filter_;
-    Cells kind_;
+    Order order_;
+    std::uint64_t seed_;
+    Sampling sampling_;
     TexelEvaluator evaluate_;
     rays::MapLayout layout_;
-    CellGrid grid_;
-    std::unique_ptr<float[], Free> texels_;
 };
 
 }  // namespace
@@ -214,7 +214,7 @@ Technique avsm() {
     return {"avsm",
             "adaptive volumetric shadow map: a fixed number of nodes a texel",
             "Salvi et al. 2010",
-            1,
+            2,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Avsm>(values); },
@@ -223,7 +223,7 @@ Technique avsm() {
                 return std::make_unique<Avsm>(values, functions);
             },
             [](const ParameterValues& values, const rays::MapLayout& layout) {
-                return make_cells(layout, read_cells(values)).count() * 8 * values.integer("nodes");
+                return Texels::bytes(values, layout, 2 * values.integer("nodes"));
             }};
 }
 

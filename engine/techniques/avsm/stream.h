@@ -8,15 +8,21 @@
 #include <cstdint>
 #include <limits>
 
+#include "techniques/avsm/sampling.h"
+
 namespace shadowbench::techniques {
 
-// A transmittance curve of at most `capacity` nodes, 2 to max_capacity, linear between them. The last one is always at
-// the far plane; depths do not decrease, values neither increase nor leave [0, 1]; the value before the first node is
-// its own.
+// A transmittance curve of at most `capacity` nodes, 2 to max_capacity, sampled between them as lookups will. The last
+// one is always at the far plane; depths do not decrease, values neither increase nor leave [0, 1]; the value before
+// the first node is its own.
+//
+// Segments may come in any order. While no node has been dropped, the order changes the curve by rounding alone as long
+// as everything between two nodes is what the sampling takes it for: always for surfaces, and for overlapping media
+// with exponential sampling. With linear sampling, a node that a later segment puts inside a medium lies on its chord.
 //
 // Nodes stay in their slots, linked in order of depth, so that nothing moves when one goes: a segment behind all
 // others, which is what sorted input brings, costs the same few steps however many nodes there are.
-template <int max_capacity>
+template <int max_capacity, Sampling sampling = Sampling::linear>
 class TransmittanceStream {
 public:
     TransmittanceStream(int capacity, float far_plane) : capacity_(capacity) { clear(far_plane); }
@@ -122,17 +128,20 @@ private:
     float value_before_far(float z) const {
         const int last = previous_[far_slot];
         if (last == far_slot) return 1.0f;
-        const float u = (z - depth_[last]) / (depth_[far_slot] - depth_[last]);
-        return value_[last] + u * (value_[far_slot] - value_[last]);
+        return value_between(last, far_slot, z);
     }
 
     // Value at z, where `node` is the first that is not before z.
     float value_at(int node, float z) const {
         if (node == next_[far_slot]) return 1.0f;
         if (depth_[node] == z) return value_[node];
-        const int before = previous_[node];
-        const float u = (z - depth_[before]) / (depth_[node] - depth_[before]);
-        return value_[before] + u * (value_[node] - value_[before]);
+        return value_between(previous_[node], node, z);
+    }
+
+    float value_between(int before, int behind, float z) const {
+        const float u = (z - depth_[before]) / (depth_[behind] - depth_[before]);
+        if constexpr (sampling == Sampling::exponential) return decay(value_[before], value_[behind], u);
+        return value_[before] + u * (value_[behind] - value_[before]);
     }
 
     int link_before(int node, float depth, float value) {

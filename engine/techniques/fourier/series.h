@@ -1,0 +1,59 @@
+// The truncated Fourier series of the absorption along a ray, and its integral (Jansen and Bavoil 2010, section 3).
+//
+// Depth is normalised to d in [0, 1]; the absorption is a density w(d), a surface of it a delta:
+//   a_k = 2 integral w(x) cos(2 pi k x) dx,   b_k = 2 integral w(x) sin(2 pi k x) dx,   k = 0 .. terms - 1
+//   integral of the series from 0 to d
+//       = a_0 d / 2 + sum_{k >= 1} a_k sin(2 pi k d) / (2 pi k) + b_k (1 - cos(2 pi k d)) / (2 pi k)
+// A term is the pair a_k, b_k.
+#pragma once
+
+#include <array>
+#include <experimental/simd>
+
+namespace shadowbench::techniques {
+
+constexpr int most_terms = 64;
+constexpr int lanes = 8;  // numbers that a loop takes at once; rows are padded to a multiple of them with zeros
+
+using Harmonics = std::array<double, most_terms>;
+
+// Floats of a texel of so many terms: all a_k, all b_k, zeros.
+constexpr int padded(int terms) {
+    return (2 * terms + lanes - 1) / lanes * lanes;
+}
+
+// cosines[k] = cos(k x), sines[k] = sin(k x) for k below `terms` (and on up to the next multiple of `lanes`). One call
+// of the library; the rest by rotations, at most terms / 8 + 3 after each other, so that errors stay near 1e-15.
+void harmonics(double x, int terms, Harmonics& cosines, Harmonics& sines);
+
+// Sums of a ray under construction.
+struct Series {
+    Harmonics a, b;
+
+    void clear() {
+        a.fill(0.0);
+        b.fill(0.0);
+    }
+    // Absorption spread evenly over [front, back]; all of it at one place when they are equal.
+    void add(double front, double back, double absorption, int terms);
+    // Writes padded(terms) floats.
+    void store(int terms, float* texel) const;
+};
+
+// By what a texel's floats are multiplied to give the integral to one depth.
+struct Weights {
+    alignas(64) std::array<float, 2 * most_terms> of;
+};
+void make_weights(double d, int terms, Weights& weights);
+
+// The integral: the sum of the products, `lanes` partial sums side by side.
+inline float integral(const float* texel, const Weights& weights, int floats) {
+    namespace simd = std::experimental;
+    using Lanes = simd::fixed_size_simd<float, lanes>;
+    Lanes sums = 0.0f;
+    for (int i = 0; i < floats; i += lanes)
+        sums += Lanes(texel + i, simd::element_aligned) * Lanes(weights.of.data() + i, simd::element_aligned);
+    return simd::reduce(sums);
+}
+
+}  // namespace shadowbench::techniques
