@@ -88,11 +88,11 @@ std::vector<Vec3d> camera_points(const scene::Receivers& receivers, const rays::
             const Vec3d direction =
                 (plane.corner + plane.across * (x + 0.5) + plane.down * (static_cast<double>(row) + 0.5)).normalized();
             rays::SurfaceHit hit;
-            const bool surface = tracer.nearest(plane.origin, direction, hit);
+            const bool surface = tracer.nearest(plane.origin, direction, hit, scene::mid_shutter);
             const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
             distances.clear();
             if (receivers.media_lookups > 0) {
-                tracer.all_segments(plane.origin, direction, 0.0, end, segments);
+                tracer.all_segments(plane.origin, direction, 0.0, end, segments, scene::mid_shutter);
                 spread(media_spans(segments), receivers.media_lookups, distances);
             }
             for (const double t : distances) rows[row].push_back(plane.origin + direction * t);

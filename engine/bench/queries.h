@@ -19,7 +19,7 @@ struct QuerySet {
 };
 
 // World points: for each pixel of the image, `media_lookups` places spread evenly over the media that its view ray
-// passes before the nearest surface, then the place on that surface. `tracer` sees all objects.
+// passes before the nearest surface, then the place on that surface, at mid-shutter. `tracer` sees all objects.
 std::vector<base::Vec3d> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer);
 
 // The points as queries of one light, moved towards it by the bias.

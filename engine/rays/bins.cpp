@@ -25,7 +25,7 @@ void PlaneBox::add_all() {
     x_high = y_high = std::numeric_limits<double>::infinity();
 }
 
-void add_sphere(const LightView& view, const base::Vec3f& c, double radius, PlaneBox& box) {
+void add_sphere(const LightView& view, const Vec3d& c, double radius, PlaneBox& box) {
     if (!view.perspective) {
         box.add(c.x - radius, c.y - radius);
         box.add(c.x + radius, c.y + radius);
@@ -44,19 +44,18 @@ void add_sphere(const LightView& view, const base::Vec3f& c, double radius, Plan
     }
 }
 
-void add_triangle(const LightView& view, const base::Vec3f& a, const base::Vec3f& b, const base::Vec3f& c,
-                  PlaneBox& box) {
-    const base::Vec3f* v[3] = {&a, &b, &c};
+void add_triangle(const LightView& view, const Vec3d& a, const Vec3d& b, const Vec3d& c, PlaneBox& box) {
+    const Vec3d* v[3] = {&a, &b, &c};
     for (int i = 0; i < 3; ++i) {
-        const base::Vec3f& p = *v[i];
+        const Vec3d& p = *v[i];
         if (!view.perspective) {
             box.add(p.x, p.y);
             continue;
         }
-        if (p.z > view.z_near) box.add(p.x / static_cast<double>(p.z), p.y / static_cast<double>(p.z));
-        const base::Vec3f& q = *v[(i + 1) % 3];
+        if (p.z > view.z_near) box.add(p.x / p.z, p.y / p.z);
+        const Vec3d& q = *v[(i + 1) % 3];
         if ((p.z > view.z_near) != (q.z > view.z_near)) {  // the edge passes the near plane
-            const double u = (view.z_near - p.z) / (static_cast<double>(q.z) - p.z);
+            const double u = (view.z_near - p.z) / (q.z - p.z);
             box.add((p.x + u * (q.x - p.x)) / view.z_near, (p.y + u * (q.y - p.y)) / view.z_near);
         }
     }

@@ -23,9 +23,8 @@ struct PlaneBox {
 };
 
 // Bounds of what a ray sees of it: a sphere (surface or not), a triangle. Parts at z <= z_near are left out.
-void add_sphere(const LightView& view, const base::Vec3f& centre, double radius, PlaneBox& box);
-void add_triangle(const LightView& view, const base::Vec3f& a, const base::Vec3f& b, const base::Vec3f& c,
-                  PlaneBox& box);
+void add_sphere(const LightView& view, const Vec3d& centre, double radius, PlaneBox& box);
+void add_triangle(const LightView& view, const Vec3d& a, const Vec3d& b, const Vec3d& c, PlaneBox& box);
 
 // One list of primitives a tile.
 struct Bins {
