@@ -2,28 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/parallel.h"
 
 namespace shadowbench::rays {
-
-void PlaneBox::add(double x, double y) {
-    if (empty()) {
-        x_low = x_high = x;
-        y_low = y_high = y;
-    } else {
-        x_low = std::min(x_low, x);
-        x_high = std::max(x_high, x);
-        y_low = std::min(y_low, y);
-        y_high = std::max(y_high, y);
-    }
-}
-
-void PlaneBox::add_all() {
-    x_low = y_low = -std::numeric_limits<double>::infinity();
-    x_high = y_high = std::numeric_limits<double>::infinity();
-}
 
 void add_sphere(const LightView& view, const Vec3d& c, double radius, PlaneBox& box) {
     if (!view.perspective) {
@@ -38,9 +20,9 @@ void add_sphere(const LightView& view, const Vec3d& c, double radius, PlaneBox& 
         return;
     }
     // Slopes of the box around the sphere: each is extreme at a corner.
-    for (const double z : {front, back}) {
-        box.add((c.x - radius) / z, (c.y - radius) / z);
-        box.add((c.x + radius) / z, (c.y + radius) / z);
+    for (const double per_z : {1.0 / front, 1.0 / back}) {
+        box.add((c.x - radius) * per_z, (c.y - radius) * per_z);
+        box.add((c.x + radius) * per_z, (c.y + radius) * per_z);
     }
 }
 

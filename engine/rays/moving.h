@@ -3,6 +3,7 @@
 // time 0; an offset is what they have moved by, in view space.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "base/vec.h"
@@ -25,6 +26,14 @@ struct MovedRayMetric : RayMetric<perspective> {
             offset = {moved.x, moved.y};
     }
     base::Vec2d flat(const base::Vec3f& p) const { return RayMetric<perspective>::flat(p) + offset; }
+
+    // Whether the segment surely passes the ray by: both ends on one side of it, farther than `reach` (half-width times
+    // the ray's length per depth: distances in the plane are at most so much longer than across the ray).
+    bool misses(const HairSegment& s, double reach) const {
+        const base::Vec2d a = flat(s.a), b = flat(s.b);
+        return std::min(a.x, b.x) > reach || std::max(a.x, b.x) < -reach || std::min(a.y, b.y) > reach ||
+               std::max(a.y, b.y) < -reach;
+    }
 };
 
 // The edge functions of a triangle grow linearly with time: det(a + m t, b + m t, d) = det(a, b, d) + t det(m, b - a,
@@ -62,27 +71,37 @@ inline TriangleSetup at_time(const MovingTriangle& triangle, double time) {
     return t;
 }
 
-// View-plane bounds of all that a primitive covers on its way from one offset to another. Where it meets the near plane
-// on its way they are the whole plane.
-PlaneBox swept_sphere(const LightView& view, const base::Vec3f& centre, double radius, const Vec3d& from,
-                      const Vec3d& to);
-PlaneBox swept_triangle(const LightView& view, const base::Vec3f& a, const base::Vec3f& b, const base::Vec3f& c,
-                        const Vec3d& from, const Vec3d& to);
-PlaneBox swept_hair(const LightView& view, const HairSegment& segment, const Vec3d& from, const Vec3d& to);
+// Where a primitive is seen once it has moved by an offset: its view-plane bounds, which mean something where all of it
+// lies behind the near plane's depth, and its depths.
+struct Placed {
+    PlaneBox box;
+    double z_low, z_high;
+};
+Placed place_sphere(const LightView& view, const base::Vec3f& centre, double radius, const Vec3d& offset);
+Placed place_triangle(const LightView& view, const base::Vec3f& a, const base::Vec3f& b, const base::Vec3f& c,
+                      const Vec3d& offset);
+Placed place_hair(const LightView& view, const HairSegment& segment, const Vec3d& offset);
 
-// Calls visit(ray, offset at the ray's time) for every ray that may meet a primitive whose bounds on the way from one
-// offset to another are bounds(from, to). The shutter is taken part by part, with one ray of each pixel, so that the
-// work depends little on how far things move (as the interval algorithm of Fatahalian et al., Data-Parallel
-// Rasterization of Micropolygons with Defocus and Motion Blur, 2009).
-template <class Bounds, class Visit>
-void visit_moving(const TileGrid& grid, const Vec3d& motion, const Bounds& bounds, const Visit& visit) {
+// View-plane bounds of all that a primitive covers on its straight way between two places: the whole plane where it
+// meets the near plane on its way.
+PlaneBox swept(const LightView& view, const Placed& from, const Placed& to);
+
+// Calls visit(ray, offset at the ray's time) for every ray that may meet a primitive; place(offset) says where it is.
+// The shutter is taken part by part, with one ray of each pixel, so that the work depends little on how far things move
+// (as the interval algorithm of Fatahalian et al., Data-Parallel Rasterization of Micropolygons with Defocus and Motion
+// Blur, 2009).
+template <class Place, class Visit>
+void visit_moving(const LightView& view, const TileGrid& grid, const Vec3d& motion, const Place& place,
+                  const Visit& visit) {
     constexpr double margin = 1e-3;  // of a sample cell: outweighs any rounding of the bounds
     const int across = grid.nx / grid.samples_x, down = grid.ny / grid.samples_y;
     const int parts = grid.samples_x * grid.samples_y;
     const TimedRay* rays = grid.timed.data();
+    Placed from = place(Vec3d(0, 0, 0));
     for (int part = 0; part < parts; ++part, rays += static_cast<std::size_t>(across) * down) {
-        const PlaneBox box =
-            bounds(motion * (part / static_cast<double>(parts)), motion * ((part + 1) / static_cast<double>(parts)));
+        const Placed to = place(motion * ((part + 1) / static_cast<double>(parts)));
+        const PlaneBox box = swept(view, from, to);
+        from = to;
         if (box.empty()) continue;
         const double x_low = grid.cells_x(box.x_low) - margin, x_high = grid.cells_x(box.x_high) + margin;
         const double y_low = grid.cells_y(box.y_low) - margin, y_high = grid.cells_y(box.y_high) + margin;

@@ -41,7 +41,8 @@ Prepared prepare(const scene::Object& object, const LightView& view, const MapLa
         p.bins = make_bins(view, layout, mesh->triangles.size(), [&](std::size_t i) {
             const Vec3f &a = p.points[mesh->triangles[i].x], &b = p.points[mesh->triangles[i].y];
             const Vec3f& c = p.points[mesh->triangles[i].z];
-            if (p.moving) return swept_triangle(view, a, b, c, still, p.motion);
+            if (p.moving)
+                return swept(view, place_triangle(view, a, b, c, still), place_triangle(view, a, b, c, p.motion));
             PlaneBox box;
             add_triangle(view, Vec3d(a), Vec3d(b), Vec3d(c), box);
             return box;
@@ -51,7 +52,7 @@ Prepared prepare(const scene::Object& object, const LightView& view, const MapLa
         p.segments = segments(*hair);
         p.bins = make_bins(view, layout, p.segments.first.size(), [&](std::size_t i) {
             const HairSegment s = hair_segment(p, *hair, static_cast<std::uint32_t>(i));
-            if (p.moving) return swept_hair(view, s, still, p.motion);
+            if (p.moving) return swept(view, place_hair(view, s, still), place_hair(view, s, p.motion));
             PlaneBox box;
             // Through the near plane, where slopes grow without bound.
             if (view.perspective && std::min(s.a.z - s.radius_a, s.b.z - s.radius_b) <= view.z_near &&
@@ -69,9 +70,11 @@ Prepared prepare(const scene::Object& object, const LightView& view, const MapLa
         const std::vector<float>& radii = spheres ? spheres->radii : particles->radii;
         to_view_space(view, spheres ? spheres->centres : particles->centres, p.points);
         p.bins = make_bins(view, layout, p.points.size(), [&](std::size_t i) {
-            if (p.moving) return swept_sphere(view, p.points[i], radii[i], still, p.motion);
+            const Vec3f& c = p.points[i];
+            if (p.moving)
+                return swept(view, place_sphere(view, c, radii[i], still), place_sphere(view, c, radii[i], p.motion));
             PlaneBox box;
-            add_sphere(view, Vec3d(p.points[i]), radii[i], box);
+            add_sphere(view, Vec3d(c), radii[i], box);
             return box;
         });
     }

@@ -28,6 +28,15 @@ inline ViewLine view_line(const LightView& view, double x, double y) {
     return {{x, y, 0}, {0, 0, 1}, 1.0};
 }
 
+// A little more than the largest scale of a tile's rays, which one at a corner has.
+inline double longest_ray(const LightView& view, const TileGrid& grid) {
+    double scale = 1.0;
+    for (const double x : {grid.plane_x, grid.plane_x + grid.nx / grid.per_cell_x})
+        for (const double y : {grid.plane_y, grid.plane_y + grid.ny / grid.per_cell_y})
+            scale = std::max(scale, view_line(view, x, y).scale);
+    return scale * 1.000001;
+}
+
 inline bool transmits_all(const float* t) {
     return t[0] == 1.0f && t[1] == 1.0f && t[2] == 1.0f;
 }
@@ -38,7 +47,13 @@ class TileProjection {
 public:
     TileProjection(const LightView& view, const TileGrid& grid, const LightRays& rays,
                    std::span<const unsigned char> wanted, Sink& sink)
-        : view_(view), grid_(grid), tile_(rays.tile), samples_(rays.samples), wanted_(wanted), sink_(sink) {}
+        : view_(view),
+          grid_(grid),
+          tile_(rays.tile),
+          samples_(rays.samples),
+          wanted_(wanted),
+          sink_(sink),
+          longest_(longest_ray(view, grid)) {}
 
     void project(const std::vector<Prepared>& objects) {
         for (const Prepared& p : objects)
@@ -59,11 +74,12 @@ private:
         for (const std::uint32_t i : p.bins.of(tile_)) {
             const HairSegment s = hair_segment(p, hair, i);
             if constexpr (moving) {
-                const auto bounds = [&](const Vec3d& from, const Vec3d& to) { return swept_hair(view_, s, from, to); };
-                visit_moving(grid_, p.motion, bounds, [&](const TimedRay& ray, const Vec3d& moved) {
+                const auto place = [&](const Vec3d& offset) { return place_hair(view_, s, offset); };
+                const double reach = std::max(s.radius_a, s.radius_b) * longest_;
+                visit_moving(view_, grid_, p.motion, place, [&](const TimedRay& ray, const Vec3d& moved) {
+                    const MovedRayMetric<perspective> metric(ray.x, ray.y, moved);
                     double z;
-                    if (cross_hair(s, MovedRayMetric<perspective>(ray.x, ray.y, moved), z) &&
-                        z + moved.z > view_.z_near)
+                    if (!metric.misses(s, reach) && cross_hair(s, metric, z) && z + moved.z > view_.z_near)
                         sink_.surface(ray.ray, z + moved.z, p.transmittance);
                 });
             } else {
@@ -83,11 +99,9 @@ private:
                 return mesh.alpha ? this->shade(p, mesh, i, weight, textured) : p.transmittance;
             };
             if constexpr (moving) {
-                const auto bounds = [&](const Vec3d& from, const Vec3d& to) {
-                    return swept_triangle(view_, a, b, c, from, to);
-                };
+                const auto place = [&](const Vec3d& offset) { return place_triangle(view_, a, b, c, offset); };
                 const MovingTriangle triangle = set_up_moving_triangle<perspective>(a, b, c, p.motion);
-                visit_moving(grid_, p.motion, bounds, [&](const TimedRay& ray, const Vec3d&) {
+                visit_moving(view_, grid_, p.motion, place, [&](const TimedRay& ray, const Vec3d&) {
                     double z, weight[3];
                     if (!cross_triangle(at_time(triangle, ray.time), ray.x, ray.y, z, weight) || !(z > view_.z_near))
                         return;
@@ -126,10 +140,10 @@ private:
                 visit(ray, front, back, line.scale);
         };
         if constexpr (moving) {
-            const auto bounds = [&](const Vec3d& from, const Vec3d& to) {
-                return swept_sphere(view_, p.points[sphere], radius, from, to);
+            const auto place = [&](const Vec3d& offset) {
+                return place_sphere(view_, p.points[sphere], radius, offset);
             };
-            visit_moving(grid_, p.motion, bounds,
+            visit_moving(view_, grid_, p.motion, place,
                          [&](const TimedRay& ray, const Vec3d& moved) { pass(ray.ray, ray.x, ray.y, centre + moved); });
         } else {
             PlaneBox box;
@@ -204,6 +218,7 @@ private:
     const int samples_;  // rays a pixel
     const std::span<const unsigned char> wanted_;
     Sink& sink_;
+    const double longest_;  // at least every ray's length per depth in this tile
     std::vector<MediumSegment> steps_;
 };
 

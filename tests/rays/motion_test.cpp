@@ -225,18 +225,19 @@ struct Kind {
 class MovingKind : public ::testing::TestWithParam<Kind> {};
 
 // Compares every ray with Embree at the ray's time: as many segments, at the same depths, with the same transmittance.
-void expect_agreement(const scene::Scene& scene, const scene::Light& light, int least_hits) {
+void expect_agreement(scene::Scene scene, const scene::Light& light) {
+    scene.objects.push_back(testing::quad({-3, -3, -1.5f}, {6, 0, 0.1f}, {0, 6, 0}, 0.5f));  // stands still, behind all
     const Tracer tracer(scene, true);
     const Captured c = capture(scene, light, testing::rays(64, 16));
     ASSERT_GT(c.tiles.size(), 1u);
     std::vector<TracedSegment> traced;
-    int rays = 0, hit = 0, differing = 0;
+    int rays = 0, met = 0, differing = 0;
     double worst = 0.0;
     for_each_ray(c, [&](const LightRays& t, std::size_t ray, int i, int j) {
         const SamplePosition p = sample_position(c.layout, i, j);
         const double through = tracer.transmittance(c.view, p.x, p.y, 1e9, traced, sample_time(c.layout, i, j)).x;
         ++rays;
-        hit += !traced.empty();
+        met += traced.size() > 1;
         if (traced.size() != segments_of(t, ray)) {
             ++differing;
             return;
@@ -245,7 +246,7 @@ void expect_agreement(const scene::Scene& scene, const scene::Light& light, int 
         for (std::size_t s = 0; s < traced.size(); ++s)
             worst = std::max(worst, std::abs(traced[s].front - t.z_front[t.begin[ray] + s]));
     });
-    EXPECT_GT(hit, least_hits);
+    EXPECT_GT(met, 1000) << "rays that meet what moves";
     EXPECT_LE(differing, rays / 2000) << "of " << rays;
     EXPECT_LT(worst, 2e-5);
 }
@@ -256,20 +257,18 @@ TEST_P(MovingKind, AgreesWithEmbreeRayByRay) {
             scene::Scene scene;
             scene.objects.push_back(GetParam().make());
             scene.objects[0].motion = motion;
-            scene.objects.push_back(testing::quad({-0.2f, -0.3f, -0.4f}, {0.6f, 0, 0.1f}, {0, 0.6f, 0}, 0.5f));
-            expect_agreement(scene, light, 3000);
+            expect_agreement(scene, light);
         }
 }
 
 TEST_P(MovingKind, ThatPassesTheLightIsNotLost) {
     // From behind a spot to in front of it, through its near plane.
-    scene::Light light = testing::spot({0, 0, 0.5}, 70);
+    scene::Light light = testing::spot({0, 0, 0.8}, 70);
     light.near = 0.3;
     scene::Scene scene;
     scene.objects.push_back(GetParam().make());
-    scene.objects[0].motion = {0.1f, -0.1f, 2.5f};
-    scene.objects.push_back(testing::quad({-2, -2, -1.5f}, {4, 0, 0}, {0, 4, 0}, 0.5f));
-    expect_agreement(scene, light, 60000);
+    scene.objects[0].motion = {0.1f, -0.1f, 1.0f};
+    expect_agreement(scene, light);
 }
 
 INSTANTIATE_TEST_SUITE_P(
