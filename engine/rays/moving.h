@@ -93,7 +93,6 @@ PlaneBox swept(const LightView& view, const Placed& from, const Placed& to);
 template <class Place, class Visit>
 void visit_moving(const LightView& view, const TileGrid& grid, const Vec3d& motion, const Place& place,
                   const Visit& visit) {
-    constexpr double margin = 1e-3;  // of a sample cell: outweighs any rounding of the bounds
     const int across = grid.nx / grid.samples_x, down = grid.ny / grid.samples_y;
     const int parts = grid.samples_x * grid.samples_y;
     const TimedRay* rays = grid.timed.data();

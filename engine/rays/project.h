@@ -1,6 +1,5 @@
 // Projecting primitives into the sample grid of a tile: each sample that a primitive may cover is tested exactly.
-// `Sink` is SurfaceHits or SegmentHits (hits.h). Internal to capture.cpp, as is
-// tile_projection.h, which says what is projected.
+// `Sink` is SurfaceHits or SegmentHits (hits.h). Internal to tile_projection.h, which says what is projected.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +9,6 @@
 #include "rays/tile_grid.h"
 
 namespace shadowbench::rays {
-
-constexpr double margin = 1e-3;  // of a sample cell, around all bounds: outweighs any rounding of them
 
 template <bool perspective, class Sink>
 void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, const float* transmittance, Sink& sink) {

@@ -9,6 +9,8 @@
 
 namespace shadowbench::rays {
 
+constexpr double margin = 1e-3;  // of a sample cell, around all bounds: outweighs any rounding of them
+
 // A ray of a layout that moves.
 struct TimedRay {
     double x, y;  // on the view plane
