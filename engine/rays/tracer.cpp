@@ -6,7 +6,10 @@
 #include <limits>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
+#include "base/parallel.h"
 #include "rays/march.h"
 #include "rays/traced_geometry.h"
 #include "scene/scene.h"
@@ -59,7 +62,7 @@ struct Tracer::State {
 };
 
 Tracer::Tracer(const scene::Scene& scene, bool casters_only) : state_(std::make_unique<State>()) {
-    state_->device = rtcNewDevice(nullptr);
+    state_->device = rtcNewDevice(fmt::format("threads={}", base::library_threads()).c_str());
     if (!state_->device) throw base::Error(base::ErrorCode::internal, "", "Embree could not start");
     state_->scene = rtcNewScene(state_->device);
     rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);

@@ -24,6 +24,7 @@ constexpr const char* examples = R"(Examples:
   shadowbench run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64
   shadowbench validate smoke_vdb --data ~/volumes
   shadowbench list techniques
+  shadowbench reproduce lokovic2000 --quick
   shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
 SCENARIO is a file, or the name of one in ./scenarios or in the folders of $SHADOWBENCH_SCENARIOS.
 Exit codes: 0 ok; 2 a technique broke what it promises; 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
@@ -33,6 +34,7 @@ struct Arguments {
     ScenarioArguments validate;
     std::string list;
     CurveArguments curve;
+    ReproduceArguments reproduce;
 };
 
 // One value an option, as often as the option is given: a following positional argument stays one.
@@ -86,6 +88,18 @@ void add_commands(CLI::App& app, Arguments& arguments) {
         ->capture_default_str();
 }
 
+void add_reproduce(CLI::App& app, ReproduceArguments& arguments) {
+    CLI::App* reproduce =
+        app.add_subcommand("reproduce", "Measure the claims of the papers again: a report with a verdict a claim");
+    reproduce->add_option("PAPER", arguments.paper, "reeves1987, lokovic2000, pagot2004, volume, salvi2010, or all")
+        ->capture_default_str();
+    reproduce->add_option("--out", arguments.out, "Folder of the report, its plots in plots/ [results]");
+    repeatable(reproduce->add_option("--data", arguments.data, "A folder to look for data in"));
+    reproduce->add_flag("--quick", arguments.quick, "Smaller sizes, under five minutes for all; marked as such");
+    reproduce->add_option("--threads", arguments.threads, "Threads of capture and checks; 0: all (times are of one)")
+        ->check(CLI::Range(0, 4096));
+}
+
 // The exit code.
 int dispatch(const CLI::App& app, Arguments& arguments, std::ostream& out, std::ostream& err) {
     if (app.got_subcommand("run") && !run_command(arguments.run, out, err)) return promise_broken;
@@ -96,6 +110,7 @@ int dispatch(const CLI::App& app, Arguments& arguments, std::ostream& out, std::
         else
             list_scenarios(out);
     }
+    if (app.got_subcommand("reproduce")) reproduce_command(arguments.reproduce, out, err);
     if (app.got_subcommand("curve")) {
         if (arguments.curve.techniques.empty()) arguments.curve.techniques = {"deep:tolerance=0.02", "avsm:nodes=8"};
         curve_command(arguments.curve, out);
@@ -113,8 +128,9 @@ int report(std::ostream& err, ErrorCode code, std::string message) {
 // What CLI11 says of wrong arguments, but for an unknown command, which it calls a missing one.
 std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
     if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-')
-        return fmt::format("unknown command \"{}\"; there are: run, validate, list, curve (see shadowbench --help)",
-                           argv[1]);
+        return fmt::format(
+            "unknown command \"{}\"; there are: run, validate, list, curve, reproduce (see shadowbench --help)",
+            argv[1]);
     return std::string(error.what()) + " (see shadowbench --help)";
 }
 
@@ -127,6 +143,7 @@ int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ost
     app.footer(examples);
     Arguments arguments;
     add_commands(app, arguments);
+    add_reproduce(app, arguments.reproduce);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

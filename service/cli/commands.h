@@ -28,11 +28,20 @@ struct CurveArguments {
     int repetitions = 7;
 };
 
+struct ReproduceArguments {
+    std::string paper = "all";      // a paper's id, or all
+    std::string out;                // folder; empty: results
+    std::vector<std::string> data;  // folders
+    bool quick = false;
+    int threads = 0;  // 0: all processors
+};
+
 // Whether every technique kept its promises.
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
 void validate_command(const ScenarioArguments& arguments, std::ostream& out);
 void list_techniques(std::ostream& out);
 void list_scenarios(std::ostream& out);
+void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, std::ostream& err);
 void curve_command(const CurveArguments& arguments, std::ostream& out);
 
 }  // namespace shadowbench::service

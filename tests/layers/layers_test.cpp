@@ -84,7 +84,8 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"techniques", {"base", "rays", "curves", "techniques"}},
         {"metrics", {"base", "metrics"}},
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
-        {"service", {"base", "scene", "curves", "techniques", "bench", "service"}},
+        {"claims", {"base", "scene", "rays", "curves", "techniques", "bench", "claims"}},
+        {"service", {"base", "scene", "curves", "techniques", "bench", "claims", "service"}},
     };
     for (const Include& include : includes()) {
         if (include.system) continue;
