@@ -72,7 +72,10 @@ struct Capture::State {
 
     template <class Sink>
     void project(LightRays& rays, std::span<const unsigned char> wanted) const {
-        const TileGrid grid = make_tile_grid(view, layout, rays);
+        const bool moving = std::any_of(objects.begin(), objects.end(), [&](const Prepared& p) {
+            return p.moving && (p.marcher || !p.bins.of(rays.tile).empty());
+        });
+        const TileGrid grid = make_tile_grid(view, layout, rays, moving);
         thread_local Sink sink;  // its memory serves tile after tile
         sink.hits.clear();
         if (view.perspective)

@@ -19,7 +19,7 @@ void add_times(const MapLayout& layout, TileGrid& grid) {
 
 }  // namespace
 
-TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const LightRays& tile) {
+TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const LightRays& tile, bool timed) {
     TileGrid grid;
     grid.i0 = tile.x0 * layout.samples_x;
     grid.j0 = tile.y0 * layout.samples_y;
@@ -48,7 +48,7 @@ TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const Li
     for (int j = 0; j < grid.ny; ++j)
         grid.ray_row[j] =
             (j / layout.samples_y) * tile.width * layout.samples() + (j % layout.samples_y) * layout.samples_x;
-    if (layout.moving) add_times(layout, grid);
+    if (timed) add_times(layout, grid);
     return grid;
 }
 

@@ -28,8 +28,8 @@ struct TileGrid {
     // number of each column and row: ray = ray_row[j] + ray_column[i].
     std::vector<double> x, y;
     std::vector<std::uint32_t> ray_column, ray_row;
-    // Where the layout moves, the same rays by their time: for each of samples() equal parts of the shutter, one ray of
-    // every pixel, row after row of pixels. Else empty.
+    // Where asked for, the same rays by their time: for each of samples() equal parts of the shutter, one ray of every
+    // pixel, row after row of pixels. Else empty.
     std::vector<TimedRay> timed;
 
     // View-plane place in cells of this tile, and the nearest column and row of the tile to such a place.
@@ -44,6 +44,7 @@ private:
     }
 };
 
-TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const LightRays& tile);
+// `timed` only where the tile meets something that moves.
+TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const LightRays& tile, bool timed);
 
 }  // namespace shadowbench::rays

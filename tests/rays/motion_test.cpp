@@ -311,12 +311,33 @@ TEST(Motion, AStillSceneStoresNoTimes) {
     scene.objects[1].motion = {1, 0, 0};
     const Captured c = capture(scene, testing::directional(), testing::rays(8, 4));
     EXPECT_FALSE(c.layout.moving) << "what casts no shadow may move";
-    EXPECT_TRUE(make_tile_grid(c.view, c.layout, c.tiles[0]).timed.empty());
+    EXPECT_EQ(make_tile_grid(c.view, c.layout, c.tiles[0], false).timed.capacity(), 0u);
     EXPECT_TRUE(c.tiles[0].submission.empty());
     scene.objects[1].casts_shadow = true;
     const Captured moving = capture(scene, testing::directional(), testing::rays(8, 4));
     EXPECT_TRUE(moving.layout.moving);
-    EXPECT_EQ(make_tile_grid(moving.view, moving.layout, moving.tiles[0]).timed.size(), moving.tiles[0].rays());
+}
+
+TEST(Motion, ATilesRaysByTimeAreTheSameRays) {
+    scene::Scene scene;
+    scene.objects.push_back(testing::quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}));
+    scene.objects[0].motion = {1, 0, 0};
+    const Captured c = capture(scene, testing::directional(), testing::rays(8, 4));
+    const TileGrid grid = make_tile_grid(c.view, c.layout, c.tiles[0], true);
+    std::vector<const TimedRay*> ray_of(c.tiles[0].rays(), nullptr);
+    ASSERT_EQ(grid.timed.size(), ray_of.size());
+    for (std::size_t i = 0; i < grid.timed.size(); ++i) {
+        EXPECT_EQ(static_cast<std::size_t>(grid.timed[i].time * 4), i / 64) << "part after part";
+        EXPECT_EQ(grid.timed[i].ray / 4, i % 64) << "one ray of every pixel";
+        ray_of[grid.timed[i].ray] = &grid.timed[i];
+    }
+    for_each_ray(c, [&](const LightRays&, std::size_t ray, int i, int j) {
+        ASSERT_NE(ray_of[ray], nullptr);
+        const SamplePosition p = sample_position(c.layout, i, j);
+        EXPECT_EQ(ray_of[ray]->x, c.view.lower.x + p.x * c.view.pixel.x);
+        EXPECT_EQ(ray_of[ray]->y, c.view.lower.y + p.y * c.view.pixel.y);
+        EXPECT_EQ(ray_of[ray]->time, sample_time(c.layout, i, j));
+    });
 }
 
 TEST(Motion, WhatStandsStillIsCrossedAtTheSamePlacesBesideSomethingThatMoves) {
