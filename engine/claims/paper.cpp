@@ -19,6 +19,7 @@ using base::ErrorCode;
 using nlohmann::json;
 
 const Paper papers[] = {
+    {"reeves1987", "Reeves, Salesin, Cook: Rendering Antialiased Shadows with Depth Maps (1987)", measure_reeves},
     {"lokovic2000", "Lokovic, Veach: Deep Shadow Maps (2000)", measure_lokovic},
     {"pagot2004", "Pagot, Comba, Oliveira: Multiple-Depth Shadow Maps (2004)", measure_pagot},
     {"salvi2010", "Salvi, Vidimce, Lauritzen, Lefohn: Adaptive Volumetric Shadow Maps (2010)", measure_salvi},

@@ -195,6 +195,14 @@ Query make_query(const TracedRay& ray, std::vector<TracedSegment>* out) {
     return q;
 }
 
+// 0 for what is not hair.
+Vec3d strand_direction(const Traced& traced, unsigned primitive) {
+    const auto* hair = std::get_if<scene::Hair>(&traced.object->shape);
+    if (!hair) return Vec3d(0.0);
+    const std::uint32_t first = traced.segments.first[primitive];
+    return (Vec3d(hair->points[first + 1]) - Vec3d(hair->points[first])).normalized();
+}
+
 }  // namespace
 
 RTCGeometryTy* make_geometry(RTCDeviceTy* device, Traced& traced) {
@@ -243,6 +251,8 @@ bool trace_nearest(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, 
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     out.t = found.ray.tfar - q.back_off;
     out.normal = Vec3d(found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z);
+    const void* traced = rtcGetGeometryUserData(rtcGetGeometry(scene, found.hit.geomID));
+    out.tangent = strand_direction(*static_cast<const Traced*>(traced), found.hit.primID);
     return true;
 }
 

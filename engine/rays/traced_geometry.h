@@ -34,7 +34,8 @@ RTCGeometryTy* make_geometry(RTCDeviceTy* device, Traced& traced);
 // Appends all crossings, unsorted. `widest_hair` is the largest half-width in the scene.
 void trace_all(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, std::vector<TracedSegment>& out);
 
-// The nearest surface that is more there than not; false when there is none. Its normal need not be of unit length.
+// The nearest surface that is more there than not; false when there is none. Fills `t`, `tangent`, and `normal` as
+// Embree has it: of any length and side.
 bool trace_nearest(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, SurfaceHit& out);
 
 // What is left of light after an optical depth of one unit of extinction.

@@ -92,6 +92,7 @@ bool Tracer::nearest(const Vec3d& origin, const Vec3d& direction, SurfaceHit& ou
     const TracedRay ray{origin, direction, time, 0.0, std::numeric_limits<double>::infinity()};
     if (!trace_nearest(state_->scene, state_->widest_hair, ray, out)) return false;
     out.position = origin + direction * out.t;
+    if (out.tangent != Vec3d(0.0)) out.normal = out.tangent * out.tangent.dot(direction) - direction;
     if (out.normal.dot(direction) > 0.0) out.normal = -out.normal;
     const double length = out.normal.length();
     out.normal = length > 0.0 ? out.normal / length : -direction.normalized();

@@ -22,6 +22,7 @@ constexpr int promise_broken = 2;  // less accurate than it says
 constexpr const char* examples = R"(Examples:
   shadowbench run scenarios/quickstart.json
   shadowbench run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64
+  shadowbench render quickstart --size 512x384 --out pictures
   shadowbench validate smoke_vdb --data ~/volumes
   shadowbench list techniques
   shadowbench reproduce lokovic2000 --quick
@@ -31,6 +32,7 @@ Exit codes: 0 ok; 2 a technique broke what it promises; 64 wrong usage; 65 bad i
 
 struct Arguments {
     RunArguments run;
+    RenderArguments render;
     ScenarioArguments validate;
     std::string list;
     CurveArguments curve;
@@ -58,11 +60,27 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
         ->capture_default_str();
 }
 
+void add_folder_option(CLI::App& command, std::string& folder, const char* text) {
+    command.add_option("--out", folder, text)->check([](const std::string& name) {
+        return std::string(name.empty() ? "the folder has no name" : "");
+    });
+}
+
 void add_commands(CLI::App& app, Arguments& arguments) {
     CLI::App* run = app.add_subcommand("run", "Run a scenario: print a table, write result.json and result.csv");
     add_scenario_options(*run, arguments.run);
-    run->add_option("--out", arguments.run.out, "Folder of the results [results/runs/<scenario name>]")
-        ->check([](const std::string& folder) { return std::string(folder.empty() ? "the folder has no name" : ""); });
+    add_folder_option(*run, arguments.run.out, "Folder of the results [results/runs/<scenario name>]");
+
+    CLI::App* render = app.add_subcommand(
+        "render", "Render what the camera sees through every technique: pictures as EXR and PNG, and images.json");
+    add_scenario_options(*render, arguments.render);
+    add_folder_option(*render, arguments.render.out, "Folder of the pictures [results/images/<scenario name>]");
+    render->add_option("--size", arguments.render.size, "WIDTHxHEIGHT in pixels [the scenario's own]");
+    render
+        ->add_option("--media-lookups", arguments.render.media_lookups,
+                     "Lookups along a view ray through all media of the scene")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
 
     CLI::App* validate = app.add_subcommand("validate", "Check a scenario and its files without running it");
     add_scenario_options(*validate, arguments.validate);
@@ -103,6 +121,7 @@ void add_reproduce(CLI::App& app, ReproduceArguments& arguments) {
 // The exit code.
 int dispatch(const CLI::App& app, Arguments& arguments, std::ostream& out, std::ostream& err) {
     if (app.got_subcommand("run") && !run_command(arguments.run, out, err)) return promise_broken;
+    if (app.got_subcommand("render") && !render_command(arguments.render, out, err)) return promise_broken;
     if (app.got_subcommand("validate")) validate_command(arguments.validate, out);
     if (app.got_subcommand("list")) {
         if (arguments.list == "techniques")
@@ -127,10 +146,12 @@ int report(std::ostream& err, ErrorCode code, std::string message) {
 
 // What CLI11 says of wrong arguments, but for an unknown command, which it calls a missing one.
 std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
-    if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-')
-        return fmt::format(
-            "unknown command \"{}\"; there are: run, validate, list, curve, reproduce (see shadowbench --help)",
-            argv[1]);
+    if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
+        std::string names;
+        for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+            names += ", " + command->get_name();
+        return fmt::format("unknown command \"{}\"; there are: {} (see shadowbench --help)", argv[1], names.substr(2));
+    }
     return std::string(error.what()) + " (see shadowbench --help)";
 }
 

@@ -20,6 +20,12 @@ struct RunArguments : ScenarioArguments {
     std::string out;  // folder; empty: results/runs/<scenario name>
 };
 
+struct RenderArguments : ScenarioArguments {
+    std::string out;          // folder; empty: results/images/<scenario name>
+    std::string size;         // WIDTHxHEIGHT; empty: the scenario's own
+    int media_lookups = 128;  // of a view ray through all media
+};
+
 struct CurveArguments {
     std::string functions;
     std::vector<std::string> techniques;
@@ -38,6 +44,8 @@ struct ReproduceArguments {
 
 // Whether every technique kept its promises.
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
+// Whether every technique answered with visibilities.
+bool render_command(const RenderArguments& arguments, std::ostream& out, std::ostream& err);
 void validate_command(const ScenarioArguments& arguments, std::ostream& out);
 void list_techniques(std::ostream& out);
 void list_scenarios(std::ostream& out);

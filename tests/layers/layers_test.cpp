@@ -84,8 +84,9 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"techniques", {"base", "rays", "curves", "techniques"}},
         {"metrics", {"base", "metrics"}},
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
-        {"claims", {"base", "scene", "rays", "curves", "techniques", "bench", "claims"}},
-        {"service", {"base", "scene", "curves", "techniques", "bench", "claims", "service"}},
+        {"render", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench", "render"}},
+        {"claims", {"base", "scene", "rays", "curves", "techniques", "bench", "render", "claims"}},
+        {"service", {"base", "scene", "curves", "techniques", "bench", "render", "claims", "service"}},
     };
     for (const Include& include : includes()) {
         if (include.system) continue;
