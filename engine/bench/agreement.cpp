@@ -24,16 +24,21 @@ constexpr double same_transmittance = 1e-3;  // a texture's place is a float: 1e
 struct TracedRay {
     Vec3d origin, direction;  // unit length
     double t_min, t_max;
+    double time;  // in the shutter
 };
 
 // The ray at a map position, from just before the first caster to just behind the last.
-TracedRay ray_at(const rays::LightView& view, double x, double y) {
+TracedRay ray_at(const rays::LightView& view, double x, double y, double time) {
     const double margin = 1e-3 * (view.z_max - view.z_min) + 1e-9;
     const double start = view.perspective ? view.z_near : view.z_min - margin;
     const double stretch = rays::length_per_depth(view, x, y);
     const Vec3d at = rays::to_world(view, rays::unproject(view, x, y, start));
     const Vec3d ahead = rays::to_world(view, rays::unproject(view, x, y, start + (view.z_max - view.z_min) + 1.0));
-    return {at, (ahead - at).normalized(), 0.0, (view.z_max + margin - start) * stretch};
+    return {at, (ahead - at).normalized(), 0.0, (view.z_max + margin - start) * stretch, time};
+}
+
+void trace(const rays::Tracer& tracer, const TracedRay& ray, std::vector<rays::TracedSegment>& out) {
+    tracer.all_segments(ray.origin, ray.direction, ray.t_min, ray.t_max, out, ray.time);
 }
 
 struct Crossed {
@@ -81,14 +86,13 @@ ChosenRay choose(const LightRays& tile, const MapLayout& layout, const rays::Lig
     const int i = (tile.x0 + pixel % tile.width) * layout.samples_x + sample % layout.samples_x;
     const int j = (tile.y0 + pixel / tile.width) * layout.samples_y + sample / layout.samples_x;
     const rays::SamplePosition place = rays::sample_position(layout, i, j);
-    return {&tile, ray, ray_at(view, place.x, place.y)};
+    return {&tile, ray, ray_at(view, place.x, place.y, rays::sample_time(layout, i, j))};
 }
 
 void compare(const std::vector<ChosenRay>& chosen, const rays::Tracer& tracer, Agreement& agreement) {
     std::vector<rays::TracedSegment> segments;
     for (const ChosenRay& one : chosen) {
-        const TracedRay& ray = one.traced;
-        tracer.all_segments(ray.origin, ray.direction, ray.t_min, ray.t_max, segments);
+        trace(tracer, one.traced, segments);
         const Crossed ours = crossed(*one.tile, one.ray), theirs = crossed(segments);
         bool differs = false;
         for (int c = 0; c < 3; ++c)
@@ -102,8 +106,7 @@ void compare(const std::vector<ChosenRay>& chosen, const rays::Tracer& tracer, A
 double rate_of_tracer(const std::vector<ChosenRay>& chosen, const rays::Tracer& tracer) {
     std::vector<rays::TracedSegment> segments;
     const Stopwatch stopwatch;
-    for (const ChosenRay& one : chosen)
-        tracer.all_segments(one.traced.origin, one.traced.direction, one.traced.t_min, one.traced.t_max, segments);
+    for (const ChosenRay& one : chosen) trace(tracer, one.traced, segments);
     return static_cast<double>(chosen.size()) / stopwatch.seconds();
 }
 

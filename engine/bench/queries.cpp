@@ -106,11 +106,11 @@ std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const 
             const Vec3d through = plane.through(x + 0.5, static_cast<double>(row) + 0.5);
             const Vec3d direction = through.normalized();
             rays::SurfaceHit hit;
-            const bool surface = tracer.nearest(plane.origin, direction, hit);
+            const bool surface = tracer.nearest(plane.origin, direction, hit, scene::mid_shutter);
             const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
             distances.clear();
             if (receivers.media_lookups > 0) {
-                tracer.all_segments(plane.origin, direction, 0.0, end, segments);
+                tracer.all_segments(plane.origin, direction, 0.0, end, segments, scene::mid_shutter);
                 spread(media_spans(segments), receivers.media_lookups, distances);
             }
             for (const double t : distances)

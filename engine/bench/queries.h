@@ -38,8 +38,8 @@ struct CameraPoint {
 CameraPoint camera_point(const rays::ImagePlane& plane, const base::Vec3d& through, const base::Vec3d& point,
                          const base::Vec3d& normal);
 
-// For each pixel of the image, `media_lookups` places spread evenly over the media that its view ray
-// passes before the nearest surface, then the place on that surface. `tracer` sees all objects.
+// For each pixel of the image, `media_lookups` places spread evenly over the media that its view ray passes before the
+// nearest surface, then the place on that surface, all at mid-shutter. `tracer` sees all objects.
 std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer);
 
 // A world point as a query of one light, moved towards it by the bias; nothing when it is outside the light's map.

@@ -2,30 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/parallel.h"
 
 namespace shadowbench::rays {
 
-void PlaneBox::add(double x, double y) {
-    if (empty()) {
-        x_low = x_high = x;
-        y_low = y_high = y;
-    } else {
-        x_low = std::min(x_low, x);
-        x_high = std::max(x_high, x);
-        y_low = std::min(y_low, y);
-        y_high = std::max(y_high, y);
-    }
-}
-
-void PlaneBox::add_all() {
-    x_low = y_low = -std::numeric_limits<double>::infinity();
-    x_high = y_high = std::numeric_limits<double>::infinity();
-}
-
-void add_sphere(const LightView& view, const base::Vec3f& c, double radius, PlaneBox& box) {
+void add_sphere(const LightView& view, const Vec3d& c, double radius, PlaneBox& box) {
     if (!view.perspective) {
         box.add(c.x - radius, c.y - radius);
         box.add(c.x + radius, c.y + radius);
@@ -38,25 +20,24 @@ void add_sphere(const LightView& view, const base::Vec3f& c, double radius, Plan
         return;
     }
     // Slopes of the box around the sphere: each is extreme at a corner.
-    for (const double z : {front, back}) {
-        box.add((c.x - radius) / z, (c.y - radius) / z);
-        box.add((c.x + radius) / z, (c.y + radius) / z);
+    for (const double per_z : {1.0 / front, 1.0 / back}) {
+        box.add((c.x - radius) * per_z, (c.y - radius) * per_z);
+        box.add((c.x + radius) * per_z, (c.y + radius) * per_z);
     }
 }
 
-void add_triangle(const LightView& view, const base::Vec3f& a, const base::Vec3f& b, const base::Vec3f& c,
-                  PlaneBox& box) {
-    const base::Vec3f* v[3] = {&a, &b, &c};
+void add_triangle(const LightView& view, const Vec3d& a, const Vec3d& b, const Vec3d& c, PlaneBox& box) {
+    const Vec3d* v[3] = {&a, &b, &c};
     for (int i = 0; i < 3; ++i) {
-        const base::Vec3f& p = *v[i];
+        const Vec3d& p = *v[i];
         if (!view.perspective) {
             box.add(p.x, p.y);
             continue;
         }
-        if (p.z > view.z_near) box.add(p.x / static_cast<double>(p.z), p.y / static_cast<double>(p.z));
-        const base::Vec3f& q = *v[(i + 1) % 3];
+        if (p.z > view.z_near) box.add(p.x / p.z, p.y / p.z);
+        const Vec3d& q = *v[(i + 1) % 3];
         if ((p.z > view.z_near) != (q.z > view.z_near)) {  // the edge passes the near plane
-            const double u = (view.z_near - p.z) / (static_cast<double>(q.z) - p.z);
+            const double u = (view.z_near - p.z) / (q.z - p.z);
             box.add((p.x + u * (q.x - p.x)) / view.z_near, (p.y + u * (q.y - p.y)) / view.z_near);
         }
     }

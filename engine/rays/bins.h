@@ -1,9 +1,11 @@
 // Which primitives may touch which tile.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,17 +17,32 @@ namespace shadowbench::rays {
 
 // Bounds on the view plane; empty until add() is called.
 struct PlaneBox {
-    double x_low = 1, y_low = 1, x_high = 0, y_high = 0;
+    double x_low = infinity, y_low = infinity, x_high = -infinity, y_high = -infinity;
 
     bool empty() const { return x_low > x_high; }
-    void add(double x, double y);
-    void add_all();  // the whole plane
+    void add(double x, double y) {
+        x_low = std::min(x_low, x);
+        x_high = std::max(x_high, x);
+        y_low = std::min(y_low, y);
+        y_high = std::max(y_high, y);
+    }
+    void add(const PlaneBox& box) {
+        if (box.empty()) return;
+        add(box.x_low, box.y_low);
+        add(box.x_high, box.y_high);
+    }
+    void add_all() {  // the whole plane
+        add(-infinity, -infinity);
+        add(infinity, infinity);
+    }
+
+private:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
 };
 
 // Bounds of what a ray sees of it: a sphere (surface or not), a triangle. Parts at z <= z_near are left out.
-void add_sphere(const LightView& view, const base::Vec3f& centre, double radius, PlaneBox& box);
-void add_triangle(const LightView& view, const base::Vec3f& a, const base::Vec3f& b, const base::Vec3f& c,
-                  PlaneBox& box);
+void add_sphere(const LightView& view, const Vec3d& centre, double radius, PlaneBox& box);
+void add_triangle(const LightView& view, const Vec3d& a, const Vec3d& b, const Vec3d& c, PlaneBox& box);
 
 // One list of primitives a tile.
 struct Bins {

@@ -5,6 +5,7 @@
 //    Homogeneous Coordinates, 1997).
 //  - Hair: ribbons that face the ray with round ends; at a joint the disc around the shared point belongs to the
 //    earlier segment, so a ray crosses a strand once there.
+//  - What moves: each ray tests it where it stands at the ray's time, with edge functions that are linear in time.
 //  - Grid volumes: marched at regular steps, joined by the trapezoid rule (Lokovic and Veach 2000, section 3.2).
 #pragma once
 

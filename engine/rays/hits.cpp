@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "base/error.h"
@@ -36,9 +38,24 @@ void sort_ray(T* first, T* last, Less less) {
     }
 }
 
+// `found` holds the hits ray after ray, each ray's in the order found.
+template <class T, class Less>
+void find_submission(const std::vector<T>& found, Less less, LightRays& tile) {
+    tile.submission.resize(found.size());
+    std::vector<std::uint32_t> sorted;
+    for (std::size_t r = 0; r + 1 < tile.begin.size(); ++r) {
+        const std::uint32_t first = tile.begin[r], count = tile.begin[r + 1] - first;
+        sorted.resize(count);
+        std::iota(sorted.begin(), sorted.end(), first);
+        std::stable_sort(sorted.begin(), sorted.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return less(found[a], found[b]); });
+        for (std::uint32_t place = 0; place < count; ++place) tile.submission[sorted[place]] = first + place;
+    }
+}
+
 }  // namespace
 
-void sort_hits(const SurfaceHits& hits, std::size_t rays, LightRays& tile) {
+void sort_hits(const SurfaceHits& hits, std::size_t rays, bool submission, LightRays& tile) {
     count(hits, rays, tile.begin);
     // Depths are not negative, so their bits sort as they do; the transmittance behind settles ties.
     thread_local std::vector<std::uint64_t> keys;
@@ -47,6 +64,7 @@ void sort_hits(const SurfaceHits& hits, std::size_t rays, LightRays& tile) {
     for (const auto& hit : hits.hits)
         keys[next[hit.ray]++] = static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(hit.z)) << 32 |
                                 std::bit_cast<std::uint32_t>(hit.transmittance);
+    if (submission) find_submission(keys, std::less<>(), tile);
     for (std::size_t r = 0; r < rays; ++r)
         sort_ray(keys.data() + tile.begin[r], keys.data() + tile.begin[r + 1], std::less<>());
     tile.z_front.resize(keys.size());
@@ -58,7 +76,7 @@ void sort_hits(const SurfaceHits& hits, std::size_t rays, LightRays& tile) {
     }
 }
 
-void sort_hits(const SegmentHits& hits, std::size_t rays, LightRays& tile) {
+void sort_hits(const SegmentHits& hits, std::size_t rays, bool submission, LightRays& tile) {
     count(hits, rays, tile.begin);
     thread_local std::vector<SegmentHits::Hit> sorted;
     sorted.resize(hits.hits.size());
@@ -67,10 +85,11 @@ void sort_hits(const SegmentHits& hits, std::size_t rays, LightRays& tile) {
     const auto key = [](const SegmentHits::Hit& h) {
         return std::tie(h.z_front, h.z_back, h.transmittance[0], h.transmittance[1], h.transmittance[2]);
     };
+    const auto less = [&](const SegmentHits::Hit& a, const SegmentHits::Hit& b) { return key(a) < key(b); };
+    if (submission) find_submission(sorted, less, tile);
     bool media = false;
     for (std::size_t r = 0; r < rays; ++r)
-        sort_ray(sorted.data() + tile.begin[r], sorted.data() + tile.begin[r + 1],
-                 [&](const auto& a, const auto& b) { return key(a) < key(b); });
+        sort_ray(sorted.data() + tile.begin[r], sorted.data() + tile.begin[r + 1], less);
     for (const auto& hit : sorted) media |= hit.z_back > hit.z_front;
 
     const std::size_t channels = tile.channels;

@@ -38,8 +38,9 @@ struct SegmentHits {
     }
 };
 
-// Fills begin, z_front, z_back and transmittance of `tile`, whose other fields are set, for `rays` rays.
-void sort_hits(const SurfaceHits& hits, std::size_t rays, LightRays& tile);
-void sort_hits(const SegmentHits& hits, std::size_t rays, LightRays& tile);
+// Fills begin, z_front, z_back, transmittance and, if asked for, submission of `tile`, whose other fields are set, for
+// `rays` rays. Hits that are alike in everything keep their order.
+void sort_hits(const SurfaceHits& hits, std::size_t rays, bool submission, LightRays& tile);
+void sort_hits(const SegmentHits& hits, std::size_t rays, bool submission, LightRays& tile);
 
 }  // namespace shadowbench::rays

@@ -64,8 +64,9 @@ struct LightRays {
     std::vector<float> z_front;
     std::vector<float> z_back;         // empty when the tile holds surfaces only
     std::vector<float> transmittance;  // channels a segment, in [0, 1]
-    // Where the layout asks for it: the ray's segments in the order in which primitives were submitted. Entry k of a
-    // ray, counted from begin[ray], is the segment that came k-th.
+    // Where the layout asks for it: the ray's segments in the order in which primitives were submitted (object by
+    // object, primitive by primitive, each from front to back). Entry k of a ray, counted from begin[ray], is the index
+    // of the segment that came k-th.
     std::vector<std::uint32_t> submission;
 
     std::size_t rays() const { return begin.empty() ? 0 : begin.size() - 1; }

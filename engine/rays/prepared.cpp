@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "base/parallel.h"
+#include "rays/moving.h"
 #include "scene/scene.h"
 
 namespace shadowbench::rays {
@@ -32,12 +33,18 @@ Prepared prepare(const scene::Object& object, const LightView& view, const MapLa
     Prepared p;
     p.object = &object;
     for (int c = 0; c < 3; ++c) p.transmittance[c] = 1.0f - object.opacity[c];
+    p.moving = layout.moving && object.motion != Vec3f(0, 0, 0);
+    if (p.moving) p.motion = to_view(view, view.origin + Vec3d(object.motion));
+    const Vec3d still(0, 0, 0);
     if (const auto* mesh = std::get_if<scene::Mesh>(&object.shape)) {
         to_view_space(view, mesh->positions, p.points);
         p.bins = make_bins(view, layout, mesh->triangles.size(), [&](std::size_t i) {
-            const base::Vec3i& t = mesh->triangles[i];
+            const Vec3f &a = p.points[mesh->triangles[i].x], &b = p.points[mesh->triangles[i].y];
+            const Vec3f& c = p.points[mesh->triangles[i].z];
+            if (p.moving)
+                return swept(view, place_triangle(view, a, b, c, still), place_triangle(view, a, b, c, p.motion));
             PlaneBox box;
-            add_triangle(view, p.points[t.x], p.points[t.y], p.points[t.z], box);
+            add_triangle(view, Vec3d(a), Vec3d(b), Vec3d(c), box);
             return box;
         });
     } else if (const auto* hair = std::get_if<scene::Hair>(&object.shape)) {
@@ -45,13 +52,14 @@ Prepared prepare(const scene::Object& object, const LightView& view, const MapLa
         p.segments = segments(*hair);
         p.bins = make_bins(view, layout, p.segments.first.size(), [&](std::size_t i) {
             const HairSegment s = hair_segment(p, *hair, static_cast<std::uint32_t>(i));
+            if (p.moving) return swept(view, place_hair(view, s, still), place_hair(view, s, p.motion));
             PlaneBox box;
             // Through the near plane, where slopes grow without bound.
             if (view.perspective && std::min(s.a.z - s.radius_a, s.b.z - s.radius_b) <= view.z_near &&
                 std::max(s.a.z + s.radius_a, s.b.z + s.radius_b) > view.z_near)
                 box.add_all();
-            add_sphere(view, s.a, s.radius_a, box);
-            add_sphere(view, s.b, s.radius_b, box);
+            add_sphere(view, Vec3d(s.a), s.radius_a, box);
+            add_sphere(view, Vec3d(s.b), s.radius_b, box);
             return box;
         });
     } else if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {
@@ -62,8 +70,11 @@ Prepared prepare(const scene::Object& object, const LightView& view, const MapLa
         const std::vector<float>& radii = spheres ? spheres->radii : particles->radii;
         to_view_space(view, spheres ? spheres->centres : particles->centres, p.points);
         p.bins = make_bins(view, layout, p.points.size(), [&](std::size_t i) {
+            const Vec3f& c = p.points[i];
+            if (p.moving)
+                return swept(view, place_sphere(view, c, radii[i], still), place_sphere(view, c, radii[i], p.motion));
             PlaneBox box;
-            add_sphere(view, p.points[i], radii[i], box);
+            add_sphere(view, Vec3d(c), radii[i], box);
             return box;
         });
     }

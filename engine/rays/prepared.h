@@ -19,6 +19,8 @@ namespace shadowbench::rays {
 // One object that casts shadows, in view space.
 struct Prepared {
     const scene::Object* object = nullptr;
+    bool moving = false;
+    Vec3d motion{0, 0, 0};               // in view space; all else here is as the object stands at time 0
     float transmittance[3] = {0, 0, 0};  // of an untextured surface
     std::vector<base::Vec3f> points;     // mesh corners, hair points, sphere centres
     scene::HairSegments segments;        // hair
@@ -31,7 +33,7 @@ struct Prepared {
     }
 };
 
-// Keeps a reference to the object.
+// Keeps a reference to the object. Its bins hold wherever it moves to.
 Prepared prepare(const scene::Object& object, const LightView& view, const MapLayout& layout);
 
 // One segment of an object that is hair, in view space.

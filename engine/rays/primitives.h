@@ -52,8 +52,8 @@ struct HairSegment {
 // The ribbon faces the ray and has round ends. Writes the depth at which the ray passes its axis. The disc around a
 // joint belongs to the earlier segment: the same arithmetic on the same shared point decides for both, so no ray
 // crosses twice or never.
-template <bool perspective>
-bool cross_hair(const HairSegment& s, const RayMetric<perspective>& ray, double& z) {
+template <class Metric>
+bool cross_hair(const HairSegment& s, const Metric& ray, double& z) {
     const base::Vec2d a = ray.flat(s.a), b = ray.flat(s.b);
     const double ra = s.radius_a, rb = s.radius_b;
     const bool in_a = ray.dot(a, a) <= ra * ra;

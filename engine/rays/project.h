@@ -1,5 +1,5 @@
 // Projecting primitives into the sample grid of a tile: each sample that a primitive may cover is tested exactly.
-// `Sink` is SurfaceHits or SegmentHits (hits.h). Internal to capture.cpp.
+// `Sink` is SurfaceHits or SegmentHits (hits.h). Internal to tile_projection.h, which says what is projected.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,6 @@
 #include "rays/tile_grid.h"
 
 namespace shadowbench::rays {
-
-constexpr double margin = 1e-3;  // of a sample cell, around all bounds: outweighs any rounding of them
 
 template <bool perspective, class Sink>
 void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, const float* transmittance, Sink& sink) {
@@ -86,8 +84,9 @@ void project_triangle(const TriangleSetup& t, double x_low, double x_high, doubl
 // Calls visit(ray, x, y) for every sample inside the view-plane bounds.
 template <class Visit>
 void visit_samples(double x_low, double x_high, double y_low, double y_high, const TileGrid& grid, const Visit& visit) {
-    const int i_low = grid.column(grid.cells_x(x_low)), i_high = grid.column(grid.cells_x(x_high));
-    for (int j = grid.row(grid.cells_y(y_low)), j_high = grid.row(grid.cells_y(y_high)); j <= j_high; ++j)
+    const int i_low = grid.column(grid.cells_x(x_low) - margin), i_high = grid.column(grid.cells_x(x_high) + margin);
+    const int j_low = grid.row(grid.cells_y(y_low) - margin), j_high = grid.row(grid.cells_y(y_high) + margin);
+    for (int j = j_low; j <= j_high; ++j)
         for (int i = i_low; i <= i_high; ++i) {
             const std::size_t sample = static_cast<std::size_t>(j) * grid.nx + i;
             visit(grid.ray_row[j] + grid.ray_column[i], grid.x[sample], grid.y[sample]);

@@ -1,13 +1,32 @@
 #include "rays/tile_grid.h"
 
 namespace shadowbench::rays {
+namespace {
 
-TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const LightRays& tile) {
+void add_times(const MapLayout& layout, TileGrid& grid) {
+    const std::size_t across = static_cast<std::size_t>(grid.nx / layout.samples_x);
+    const std::size_t pixels = across * static_cast<std::size_t>(grid.ny / layout.samples_y);
+    grid.timed.resize(grid.x.size());
+    std::size_t s = 0;
+    for (int j = 0; j < grid.ny; ++j)
+        for (int i = 0; i < grid.nx; ++i, ++s) {
+            const double time = sample_time(layout, grid.i0 + i, grid.j0 + j);
+            const std::size_t part = static_cast<std::size_t>(time * layout.samples());
+            const std::size_t pixel = j / layout.samples_y * across + i / layout.samples_x;
+            grid.timed[part * pixels + pixel] = {grid.x[s], grid.y[s], time, grid.ray_row[j] + grid.ray_column[i]};
+        }
+}
+
+}  // namespace
+
+TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const LightRays& tile, bool timed) {
     TileGrid grid;
     grid.i0 = tile.x0 * layout.samples_x;
     grid.j0 = tile.y0 * layout.samples_y;
     grid.nx = tile.width * layout.samples_x;
     grid.ny = tile.height * layout.samples_y;
+    grid.samples_x = layout.samples_x;
+    grid.samples_y = layout.samples_y;
     grid.per_cell_x = layout.samples_x / view.pixel.x;
     grid.per_cell_y = layout.samples_y / view.pixel.y;
     grid.plane_x = view.lower.x + tile.x0 * view.pixel.x;
@@ -29,6 +48,7 @@ TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const Li
     for (int j = 0; j < grid.ny; ++j)
         grid.ray_row[j] =
             (j / layout.samples_y) * tile.width * layout.samples() + (j % layout.samples_y) * layout.samples_x;
+    if (timed) add_times(layout, grid);
     return grid;
 }
 

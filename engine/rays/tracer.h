@@ -28,7 +28,8 @@ struct SurfaceHit {
     base::Vec3d tangent;  // unit length, along the strand; 0 for what is not hair
 };
 
-// Thread-safe once made. Keeps a reference to the scene.
+// Thread-safe once made. Keeps a reference to the scene. `time`, in [0, 1], is when in the shutter a ray sees the
+// scene.
 class Tracer {
 public:
     Tracer(const scene::Scene& scene, bool casters_only);
@@ -38,15 +39,15 @@ public:
 
     // Everything between t_min and t_max, sorted by front; crossings at equal depth are all kept.
     void all_segments(const base::Vec3d& origin, const base::Vec3d& direction, double t_min, double t_max,
-                      std::vector<TracedSegment>& out) const;
+                      std::vector<TracedSegment>& out, double time = 0.0) const;
 
     // The nearest surface; false when there is none.
-    bool nearest(const base::Vec3d& origin, const base::Vec3d& direction, SurfaceHit& out) const;
+    bool nearest(const base::Vec3d& origin, const base::Vec3d& direction, SurfaceHit& out, double time = 0.0) const;
 
     // Exact transmittance per channel of the light ray at map position (x, y) up to depth z (surfaces strictly before).
     // `scratch` is reused between calls.
-    base::Vec3d transmittance(const LightView& view, double x, double y, double z,
-                              std::vector<TracedSegment>& scratch) const;
+    base::Vec3d transmittance(const LightView& view, double x, double y, double z, std::vector<TracedSegment>& scratch,
+                              double time = 0.0) const;
 
 private:
     struct State;

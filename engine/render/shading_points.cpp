@@ -86,11 +86,11 @@ struct Scratch {
 void trace(const Eye& eye, double x, double y, double part, Scratch& scratch, Row& row) {
     const Vec3d through = eye.plane.through(x, y), direction = through.normalized();
     rays::SurfaceHit hit;
-    const bool surface = eye.tracer.nearest(eye.plane.origin, direction, hit);
+    const bool surface = eye.tracer.nearest(eye.plane.origin, direction, hit, scene::mid_shutter);
     Vec3d left(part);
     if (eye.media) {
         const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
-        eye.tracer.all_segments(eye.plane.origin, direction, 0.0, end, scratch.segments);
+        eye.tracer.all_segments(eye.plane.origin, direction, 0.0, end, scratch.segments, scene::mid_shutter);
         march_view_ray(scratch.segments, eye.step, scratch.march);
         for (const ViewStep& step : scratch.march.steps) {
             add_place(bench::camera_point(eye.plane, through, eye.plane.origin + direction * step.t, direction), row);

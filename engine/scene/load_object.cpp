@@ -168,6 +168,7 @@ Object load_object(const json& from, std::size_t index, const SearchPath& path, 
     read(from, "casts_shadow", object.casts_shadow);
     read(from, "opacity", object.opacity);
     read(from, "extinction", object.extinction);
+    read(from, "motion", object.motion);
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& each) { return each.type == type; });
     if (row == rows.end()) refuse(where + "/type", fmt::format("no object has type \"{}\"", type));
     object.shape = row->load(from, path, where);

@@ -82,7 +82,11 @@ Box3d bounds(const Scene& scene, bool casters_only) {
     Box3d box;
     for (const Object& object : scene.objects) {
         if (casters_only && !object.casts_shadow) continue;
-        std::visit([&](const auto& shape) { extend(box, shape); }, object.shape);
+        Box3d still;
+        std::visit([&](const auto& shape) { extend(still, shape); }, object.shape);
+        if (still.isEmpty()) continue;
+        box.extendBy(still);
+        box.extendBy(Box3d(still.min + wide(object.motion), still.max + wide(object.motion)));
     }
     return box;
 }

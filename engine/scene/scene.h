@@ -78,8 +78,7 @@ struct Object {
     bool casts_shadow = true;
     Vec3f opacity{1.0f, 1.0f, 1.0f};     // surfaces: a crossing transmits 1 - opacity, each in [0, 1]
     Vec3f extinction{1.0f, 1.0f, 1.0f};  // media: extinction per unit of density and of length, each >= 0
-    Vec3f motion{0.0f, 0.0f,
-                 0.0f};  // what the object moves by while the shutter is open: at time t it is at t * motion
+    Vec3f motion{0.0f, 0.0f, 0.0f};      // while the shutter is open: at time t in [0, 1) it stands at t * motion
     std::variant<Mesh, Spheres, Hair, GridVolume, Particles> shape;
 };
 
@@ -167,7 +166,9 @@ struct Scenario {
     std::vector<TechniqueRequest> techniques;
 };
 
-// World bounds of the objects that cast shadows (or of all); empty when there are none.
+constexpr double mid_shutter = 0.5;  // the time at which cameras see the scene
+
+// World bounds of the objects that cast shadows (or of all), wherever they move to; empty when there are none.
 Box3d bounds(const Scene& scene, bool casters_only);
 
 // 3 when the scene's opacities or extinctions that cast shadows differ between channels, else 1.

@@ -61,6 +61,10 @@ TEST(CommittedScenarios, QuickstartKeepsWhatTheTechniquesPromise) {
     check_promises(measure("quickstart", {"receivers.resolution=[128,96]"}));
 }
 
+TEST(CommittedScenarios, MovingFanKeepsWhatTheTechniquesPromise) {
+    check_promises(measure("moving_fan", {"receivers.resolution=[128,96]"}));
+}
+
 TEST(CommittedScenarios, SmokeVdbKeepsWhatTheTechniquesPromise) {
     const char* data = std::getenv("SHADOWBENCH_DATA");
     const auto file = std::filesystem::path("volumes") / "smoke.vdb";

@@ -147,6 +147,24 @@ TEST(QueriesOfPoints, keep_footprints_beside_their_queries_when_some_are_dropped
     EXPECT_EQ(one.footprints[0].ux, 8.0f);
 }
 
+TEST(CameraPoints, show_what_moves_where_it_stands_at_mid_shutter) {
+    scene::Scene scene;
+    scene.objects.emplace_back();
+    scene.objects[0].shape = scene::Spheres{{{0, -4, 0}}, {1.0f}};
+    scene.objects[0].motion = {0, -2, 0};
+    scene.objects.emplace_back();
+    scene.objects[1].shape = scene::Particles{{{0, -2, 0}}, {0.5f}, {1.0f}};
+    scene.objects[1].motion = {0, 1, 0};
+    scene::Receivers receivers;
+    receivers.camera = scene::Camera{{0, 0, 0}, {0, -1, 0}, {0, 0, -1}, 0.01};
+    receivers.resolution = {1, 1};
+    receivers.media_lookups = 1;
+    const std::vector<CameraPoint> points = camera_points(receivers, rays::Tracer(scene, false));
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_NEAR(points[0].position.y, -1.5, 1e-3);
+    EXPECT_NEAR(points[1].position.y, -4.0, 1e-3);
+}
+
 TEST(CameraPoints, spread_over_the_media_before_the_surface) {
     scene::Scene scene;
     scene::Particles puffs;  // on the view ray from 1 to 2, and from 3 to 6

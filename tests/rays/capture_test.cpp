@@ -14,32 +14,6 @@ using testing::capture;
 using testing::Captured;
 using testing::for_each_ray;
 
-// A grid of triangles over [-1, 1]^2 whose inner vertices are moved about in all directions.
-scene::Object crumpled_sheet(int cells) {
-    base::Random random(3);
-    scene::Mesh mesh;
-    for (int y = 0; y <= cells; ++y)
-        for (int x = 0; x <= cells; ++x) {
-            const bool inner = x > 0 && y > 0 && x < cells && y < cells;
-            const double s = inner ? 0.45 / cells : 0.0;
-            mesh.positions.emplace_back(static_cast<float>(2.0 * x / cells - 1 + random.uniform(-s, s)),
-                                        static_cast<float>(2.0 * y / cells - 1 + random.uniform(-s, s)),
-                                        static_cast<float>(random.uniform(-0.01, 0.01)));
-        }
-    const auto at = [&](int x, int y) { return y * (cells + 1) + x; };
-    for (int y = 0; y < cells; ++y)
-        for (int x = 0; x < cells; ++x) {
-            mesh.triangles.emplace_back(at(x, y), at(x + 1, y), at(x, y + 1));
-            if ((x + y) % 2)  // both windings occur
-                mesh.triangles.emplace_back(at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
-            else
-                mesh.triangles.emplace_back(at(x + 1, y), at(x + 1, y + 1), at(x, y + 1));
-        }
-    scene::Object object;
-    object.shape = mesh;
-    return object;
-}
-
 int rays_without_one_crossing(const Captured& c) {
     int wrong = 0;
     for_each_ray(c,
@@ -49,7 +23,7 @@ int rays_without_one_crossing(const Captured& c) {
 
 TEST(Capture, ACrumpledSheetIsCrossedExactlyOnceByEveryRay) {
     scene::Scene scene;
-    scene.objects.push_back(crumpled_sheet(37));
+    scene.objects.push_back(testing::crumpled_sheet(37));
     EXPECT_EQ(rays_without_one_crossing(capture(scene, testing::directional(1.9), testing::rays(96, 16))), 0);
     EXPECT_EQ(rays_without_one_crossing(capture(scene, testing::spot({0.3, 0.1, 1.5}, 40), testing::rays(96, 16))), 0);
 }
@@ -143,7 +117,7 @@ TEST(Capture, AStrandIsCrossedOnceAtItsJoints) {
 TEST(Capture, AgreesWithEmbree) {
     scene::Scene scene;
     scene.objects.push_back(testing::curly_hair(400, 20, 0.012f, 1));
-    scene.objects.push_back(crumpled_sheet(9));
+    scene.objects.push_back(testing::crumpled_sheet(9));
     scene.objects.emplace_back();
     scene.objects.back().opacity = base::Vec3f(0.25f);
     scene.objects.back().shape = scene::Spheres{{{0.2f, 0.1f, 0.3f}, {-0.4f, 0.2f, -0.2f}}, {0.3f, 0.2f}};

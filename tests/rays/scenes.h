@@ -73,6 +73,13 @@ inline Captured capture(const scene::Scene& scene, const scene::Light& light, co
     return c;
 }
 
+inline Captured capture_all(const scene::Scene& scene, const LightView& view, const MapLayout& layout, int apron = 0) {
+    Captured c{view, layout, {}};
+    const Capture capture(scene, view, layout);
+    for (int t = 0; t < layout.tiles(); ++t) c.tiles.push_back(capture.tile(t, {}, apron));
+    return c;
+}
+
 // Calls visit(tile, ray, sample cell i, j) for every ray.
 template <class Visit>
 void for_each_ray(const Captured& c, const Visit& visit) {
@@ -109,6 +116,32 @@ inline scene::Object curly_hair(int strands, int segments, float radius, std::ui
     object.name = "hair";
     object.opacity = base::Vec3f(0.5f);
     object.shape = hair;
+    return object;
+}
+
+// A grid of triangles over [-1, 1]^2 whose inner vertices are moved about in all directions.
+inline scene::Object crumpled_sheet(int cells) {
+    base::Random random(3);
+    scene::Mesh mesh;
+    for (int y = 0; y <= cells; ++y)
+        for (int x = 0; x <= cells; ++x) {
+            const bool inner = x > 0 && y > 0 && x < cells && y < cells;
+            const double s = inner ? 0.45 / cells : 0.0;
+            mesh.positions.emplace_back(static_cast<float>(2.0 * x / cells - 1 + random.uniform(-s, s)),
+                                        static_cast<float>(2.0 * y / cells - 1 + random.uniform(-s, s)),
+                                        static_cast<float>(random.uniform(-0.01, 0.01)));
+        }
+    const auto at = [&](int x, int y) { return y * (cells + 1) + x; };
+    for (int y = 0; y < cells; ++y)
+        for (int x = 0; x < cells; ++x) {
+            mesh.triangles.emplace_back(at(x, y), at(x + 1, y), at(x, y + 1));
+            if ((x + y) % 2)  // both windings occur
+                mesh.triangles.emplace_back(at(x + 1, y), at(x, y + 1), at(x + 1, y + 1));
+            else
+                mesh.triangles.emplace_back(at(x + 1, y), at(x + 1, y + 1), at(x, y + 1));
+        }
+    scene::Object object;
+    object.shape = mesh;
     return object;
 }
 

@@ -40,6 +40,27 @@ TEST(LoadObject, ReadsTheKeysThatAllHave) {
     EXPECT_EQ(medium.extinction, Vec3f(3, 3, 3));
 }
 
+TEST(LoadObject, ReadsTheMotionOfEveryTypeAndObjectsStandStillWithoutIt) {
+    EXPECT_EQ(load(R"({"type": "sphere", "centre": [1, 2, 3], "radius": 2})").motion, Vec3f(0, 0, 0));
+    EXPECT_EQ(load(R"({"type": "sphere", "centre": [1, 2, 3], "radius": 2, "motion": [1, -2, 0.5]})").motion,
+              Vec3f(1, -2, 0.5f));
+    for (const auto& reference : scenario_schema()["definitions"]["object"]["allOf"]) {
+        const std::string type = reference["if"]["properties"]["type"]["const"];
+        const json& motion = scenario_schema()["definitions"][type]["properties"]["motion"];
+        EXPECT_EQ(motion["$ref"], "#/definitions/point") << type;
+        EXPECT_EQ(motion["default"], json({0, 0, 0})) << type;
+    }
+}
+
+TEST(LoadObject, RefusesAMotionThatIsNotAFiniteDisplacement) {
+    for (const char* motion : {"[1, 2]", "1", "[1, 2, \"fast\"]", "[0, 0, 1e300]"}) {
+        const base::Error error =
+            failure(std::string(R"({"type": "sphere", "centre": [1, 2, 3], "radius": 2, "motion": )") + motion + "}");
+        EXPECT_EQ(error.code(), base::ErrorCode::bad_input) << motion;
+        EXPECT_THAT(error.where(), testing::StartsWith("/scene/objects/0/motion")) << motion;
+    }
+}
+
 TEST(LoadObject, MakesSpheres) {
     const auto one = std::get<Spheres>(load(R"({"type": "sphere", "centre": [1, 2, 3], "radius": 2})").shape);
     EXPECT_THAT(one.centres, ElementsAre(Vec3f(1, 2, 3)));

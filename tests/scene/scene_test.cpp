@@ -79,6 +79,25 @@ TEST(Bounds, OfAVolumeAreItsBox) {
     EXPECT_EQ(bounds(scene, true).max, volume.upper);
 }
 
+TEST(Bounds, HoldTheWholeMovement) {
+    Scene scene;
+    scene.objects.push_back(object(Spheres{{{1, 2, 3}}, {0.5f}}));
+    scene.objects[0].motion = {2, -4, 0};
+    EXPECT_EQ(bounds(scene, true).min, Vec3d(0.5, -2.5, 2.5));
+    EXPECT_EQ(bounds(scene, true).max, Vec3d(3.5, 2.5, 3.5));
+}
+
+TEST(HasMotion, CountsCastersAlone) {
+    Scene scene;
+    scene.objects.push_back(object(Spheres{{{0, 0, 0}}, {1.0f}}));
+    EXPECT_FALSE(has_motion(scene));
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects[1].motion = {0, 0, 1};
+    EXPECT_TRUE(has_motion(scene));
+    scene.objects[1].casts_shadow = false;
+    EXPECT_FALSE(has_motion(scene));
+}
+
 TEST(Channels, AreThreeOnlyForColourThatCastsShadows) {
     Scene scene;
     scene.objects.push_back(object(Spheres{{{0, 0, 0}}, {1.0f}}));

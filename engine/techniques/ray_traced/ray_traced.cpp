@@ -26,6 +26,8 @@ public:
         view_ = input.view;
         tracer_ = input.tracer;
         channel_ = input.channel;
+        pattern_.moving = input.layout.moving;
+        pattern_.jittered = true;
     }
     void add(const rays::LightRays&) override {}
     void finish() override {}
@@ -39,9 +41,12 @@ public:
                 visibility[i] = 1.0f;
                 continue;
             }
-            // The jitter depends on the query alone.
+            // The jitter depends on the query alone; so do the times, which spread over the shutter.
             const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
-            base::Random random(base::hash(bits(q.x) << 32 | bits(q.y), bits(q.z)));
+            const std::uint64_t key = base::hash(bits(q.x) << 32 | bits(q.y), bits(q.z));
+            base::Random random(key);
+            rays::MapLayout pattern = pattern_;
+            pattern.seed = key;
             double sum = 0.0;
             int count = 0;
             for (int sy = 0; sy < pattern_.samples_y; ++sy)
@@ -49,7 +54,8 @@ public:
                     const double x = q.x + q.width * ((sx + random.uniform()) / pattern_.samples_x - 0.5);
                     const double y = q.y + q.width * ((sy + random.uniform()) / pattern_.samples_y - 0.5);
                     if (!inside(x, view_.resolution.x) || !inside(y, view_.resolution.y)) continue;
-                    sum += tracer_->transmittance(view_, x, y, q.z, scratch)[channel_];
+                    const double time = rays::sample_time(pattern, sx, sy);
+                    sum += tracer_->transmittance(view_, x, y, q.z, scratch, time)[channel_];
                     ++count;
                 }
             visibility[i] = count ? static_cast<float>(sum / count) : 1.0f;
@@ -64,7 +70,7 @@ public:
     void stored(int, int, int, std::span<const float>, curves::Curve& out) const override { out.clear(); }
 
 private:
-    rays::MapLayout pattern_;
+    rays::MapLayout pattern_;  // of one lookup
     rays::LightView view_;
     const rays::Tracer* tracer_ = nullptr;
     int channel_ = 0;

@@ -1,0 +1,225 @@
+// All objects of a scene into the rays of one tile, object by object and primitive by primitive: what each ray crosses,
+// in the order in which it is found. Internal to capture.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "rays/hits.h"
+#include "rays/march.h"
+#include "rays/moving.h"
+#include "rays/prepared.h"
+#include "rays/project.h"
+#include "scene/scene.h"
+
+namespace shadowbench::rays {
+
+// Origin and direction of a ray in view space, such that its parameter is planar depth.
+struct ViewLine {
+    Vec3d origin, direction;
+    double scale;  // world length per unit of depth
+};
+inline ViewLine view_line(const LightView& view, double x, double y) {
+    if (view.perspective) return {{0, 0, 0}, {x, y, 1}, std::sqrt(1.0 + x * x + y * y)};
+    return {{x, y, 0}, {0, 0, 1}, 1.0};
+}
+
+// A little more than the largest scale of a tile's rays, which one at a corner has.
+inline double longest_ray(const LightView& view, const TileGrid& grid) {
+    double scale = 1.0;
+    for (const double x : {grid.plane_x, grid.plane_x + grid.nx / grid.per_cell_x})
+        for (const double y : {grid.plane_y, grid.plane_y + grid.ny / grid.per_cell_y})
+            scale = std::max(scale, view_line(view, x, y).scale);
+    return scale * 1.000001;
+}
+
+inline bool transmits_all(const float* t) {
+    return t[0] == 1.0f && t[1] == 1.0f && t[2] == 1.0f;
+}
+
+// `Sink` is SurfaceHits or SegmentHits (hits.h).
+template <bool perspective, class Sink>
+class TileProjection {
+public:
+    TileProjection(const LightView& view, const TileGrid& grid, const LightRays& rays,
+                   std::span<const unsigned char> wanted, Sink& sink)
+        : view_(view),
+          grid_(grid),
+          tile_(rays.tile),
+          samples_(rays.samples),
+          wanted_(wanted),
+          sink_(sink),
+          longest_(longest_ray(view, grid)) {}
+
+    void project(const std::vector<Prepared>& objects) {
+        for (const Prepared& p : objects)
+            std::visit(
+                [&](const auto& shape) {
+                    if (p.moving)
+                        project<true>(p, shape);
+                    else
+                        project<false>(p, shape);
+                },
+                p.object->shape);
+    }
+
+private:
+    template <bool moving>
+    void project(const Prepared& p, const scene::Hair& hair) {
+        if (transmits_all(p.transmittance)) return;
+        for (const std::uint32_t i : p.bins.of(tile_)) {
+            const HairSegment s = hair_segment(p, hair, i);
+            if constexpr (moving) {
+                const auto place = [&](const Vec3d& offset) { return place_hair(view_, s, offset); };
+                const double reach = std::max(s.radius_a, s.radius_b) * longest_;
+                visit_moving(view_, grid_, p.motion, place, [&](const TimedRay& ray, const Vec3d& moved) {
+                    const MovedRayMetric<perspective> metric(ray.x, ray.y, moved);
+                    double z;
+                    if (!metric.misses(s, reach) && cross_hair(s, metric, z) && z + moved.z > view_.z_near)
+                        sink_.surface(ray.ray, z + moved.z, p.transmittance);
+                });
+            } else {
+                project_hair<perspective>(s, grid_, view_.z_near, p.transmittance, sink_);
+            }
+        }
+    }
+
+    template <bool moving>
+    void project(const Prepared& p, const scene::Mesh& mesh) {
+        if (transmits_all(p.transmittance)) return;
+        for (const std::uint32_t i : p.bins.of(tile_)) {
+            const base::Vec3i& corners = mesh.triangles[i];
+            const base::Vec3f &a = p.points[corners.x], &b = p.points[corners.y], &c = p.points[corners.z];
+            float textured[3];
+            const auto shade = [&](const double weight[3]) {
+                return mesh.alpha ? this->shade(p, mesh, i, weight, textured) : p.transmittance;
+            };
+            if constexpr (moving) {
+                const auto place = [&](const Vec3d& offset) { return place_triangle(view_, a, b, c, offset); };
+                const MovingTriangle triangle = set_up_moving_triangle<perspective>(a, b, c, p.motion);
+                visit_moving(view_, grid_, p.motion, place, [&](const TimedRay& ray, const Vec3d&) {
+                    double z, weight[3];
+                    if (!cross_triangle(at_time(triangle, ray.time), ray.x, ray.y, z, weight) || !(z > view_.z_near))
+                        return;
+                    if (const float* transmittance = shade(weight)) sink_.surface(ray.ray, z, transmittance);
+                });
+            } else {
+                PlaneBox box;
+                add_triangle(view_, Vec3d(a), Vec3d(b), Vec3d(c), box);
+                if (box.empty()) continue;
+                project_triangle(set_up_triangle<perspective>(a, b, c), box.x_low, box.x_high, box.y_low, box.y_high,
+                                 grid_, view_.z_near, shade, sink_);
+            }
+        }
+    }
+
+    // The transmittances where the corners have these weights, in `textured`; null where the texture has a hole.
+    const float* shade(const Prepared& p, const scene::Mesh& mesh, std::uint32_t triangle, const double weight[3],
+                       float textured[3]) const {
+        const base::Vec2f* uv = &mesh.corner_uv[3 * static_cast<std::size_t>(triangle)];
+        const base::Vec2f at = uv[0] * static_cast<float>(weight[0]) + uv[1] * static_cast<float>(weight[1]) +
+                               uv[2] * static_cast<float>(weight[2]);
+        const float alpha = scene::sample(*mesh.alpha, at.x, at.y);
+        if (alpha <= 0.0f) return nullptr;
+        for (int c = 0; c < 3; ++c) textured[c] = 1.0f - alpha * p.object->opacity[c];
+        return textured;
+    }
+
+    // Calls visit(ray, front, back, length per depth) where a ray passes the sphere.
+    template <bool moving, class Visit>
+    void visit_sphere(const Prepared& p, std::uint32_t sphere, double radius, const Visit& visit) {
+        const Vec3d centre(p.points[sphere]);
+        const auto pass = [&](std::uint32_t ray, double x, double y, const Vec3d& at) {
+            const ViewLine line = view_line(view_, x, y);
+            double front, back;
+            if (sphere_stretch(line.origin, line.direction, at, radius, front, back) && back > view_.z_near)
+                visit(ray, front, back, line.scale);
+        };
+        if constexpr (moving) {
+            const auto place = [&](const Vec3d& offset) {
+                return place_sphere(view_, p.points[sphere], radius, offset);
+            };
+            visit_moving(view_, grid_, p.motion, place,
+                         [&](const TimedRay& ray, const Vec3d& moved) { pass(ray.ray, ray.x, ray.y, centre + moved); });
+        } else {
+            PlaneBox box;
+            add_sphere(view_, centre, radius, box);
+            if (box.empty()) return;
+            visit_samples(box.x_low, box.x_high, box.y_low, box.y_high, grid_,
+                          [&](std::uint32_t ray, double x, double y) { pass(ray, x, y, centre); });
+        }
+    }
+
+    template <bool moving>
+    void project(const Prepared& p, const scene::Spheres& spheres) {
+        if (transmits_all(p.transmittance)) return;
+        for (const std::uint32_t i : p.bins.of(tile_))
+            visit_sphere<moving>(p, i, spheres.radii[i], [&](std::uint32_t ray, double front, double back, double) {
+                if (front > view_.z_near) sink_.surface(ray, front, p.transmittance);
+                sink_.surface(ray, back, p.transmittance);
+            });
+    }
+
+    void medium(std::uint32_t ray, float front, float back, double depth, const base::Vec3f& extinction) {
+        float t[3];
+        t[0] = static_cast<float>(std::exp(-depth * extinction[0]));
+        for (int c = 1; c < 3; ++c)
+            t[c] = extinction[c] == extinction[0] ? t[0] : static_cast<float>(std::exp(-depth * extinction[c]));
+        if (!transmits_all(t)) sink_.medium(ray, front, back, t);
+    }
+
+    template <bool moving>
+    void project(const Prepared& p, const scene::Particles& particles) {
+        if constexpr (std::is_same_v<Sink, SegmentHits>) {
+            for (const std::uint32_t i : p.bins.of(tile_))
+                visit_sphere<moving>(
+                    p, i, particles.radii[i], [&](std::uint32_t ray, double front, double back, double scale) {
+                        front = std::max(front, view_.z_near);
+                        const float f = static_cast<float>(front), b = static_cast<float>(back);
+                        if (b > f)
+                            medium(ray, f, b, (back - front) * scale * particles.density[i], p.object->extinction);
+                    });
+        }
+    }
+
+    template <bool moving>
+    void project(const Prepared& p, const scene::GridVolume&) {
+        if constexpr (std::is_same_v<Sink, SegmentHits>) {
+            if constexpr (moving) {
+                for (const TimedRay& ray : grid_.timed) march(p, ray.ray, ray.x, ray.y, p.motion * ray.time);
+            } else {
+                for (int j = 0; j < grid_.ny; ++j)
+                    for (int i = 0; i < grid_.nx; ++i) {
+                        const std::size_t sample = static_cast<std::size_t>(j) * grid_.nx + i;
+                        march(p, grid_.ray_row[j] + grid_.ray_column[i], grid_.x[sample], grid_.y[sample], {0, 0, 0});
+                    }
+            }
+        }
+    }
+
+    // Through a volume that stands where the scene has it, by a ray moved the other way.
+    void march(const Prepared& p, std::uint32_t ray, double x, double y, const Vec3d& moved) {
+        if (!wanted_.empty() && !wanted_[ray / samples_]) return;
+        const ViewLine line = view_line(view_, x, y);
+        const Vec3d& d = line.direction;
+        steps_.clear();
+        p.marcher->march(to_world(view_, line.origin - moved), view_.right * d.x + view_.up * d.y + view_.forward * d.z,
+                         line.scale, std::max(view_.z_near, -1e30), 1e30, steps_);
+        for (const MediumSegment& s : steps_) medium(ray, s.front, s.back, s.depth, p.object->extinction);
+    }
+
+    const LightView& view_;
+    const TileGrid& grid_;
+    const int tile_;
+    const int samples_;  // rays a pixel
+    const std::span<const unsigned char> wanted_;
+    Sink& sink_;
+    const double longest_;  // at least every ray's length per depth in this tile
+    std::vector<MediumSegment> steps_;
+};
+
+}  // namespace shadowbench::rays

@@ -1,0 +1,49 @@
+// Objects as Embree geometries, and the queries of rays through them. Embree finds candidates; what is crossed, and
+// where, is decided here in double. Embree's own types are only named, so that its headers stay in the .cpp files.
+#pragma once
+
+#include <vector>
+
+#include "base/vec.h"
+#include "rays/tracer.h"
+#include "scene/scene.h"
+
+struct RTCDeviceTy;
+struct RTCGeometryTy;
+struct RTCSceneTy;
+
+namespace shadowbench::rays {
+
+// One geometry, and what its primitives mean.
+struct Traced {
+    const scene::Object* object;
+    scene::HairSegments segments;  // hair
+};
+
+// A query of one ray.
+struct TracedRay {
+    base::Vec3d origin, direction;
+    double time;  // in the shutter, [0, 1]
+    double t_min, t_max;
+};
+
+// A geometry to attach to a scene; it keeps a reference to `traced`. An object that moves has two time steps, between
+// which Embree moves its vertices and bounds linearly. Not for grid volumes.
+RTCGeometryTy* make_geometry(RTCDeviceTy* device, Traced& traced);
+
+// Appends all crossings, unsorted. `widest_hair` is the largest half-width in the scene.
+void trace_all(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, std::vector<TracedSegment>& out);
+
+// The nearest surface that is more there than not; false when there is none. Fills `t`, `tangent`, and `normal` as
+// Embree has it: of any length and side.
+bool trace_nearest(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, SurfaceHit& out);
+
+// What is left of light after an optical depth of one unit of extinction.
+base::Vec3f transmitted(const base::Vec3f& extinction, double optical_depth);
+
+// Where the ray starts as seen from an object that stands still where it stands at time 0.
+inline base::Vec3d origin_beside(const scene::Object& object, const TracedRay& ray) {
+    return ray.origin - base::Vec3d(object.motion) * ray.time;
+}
+
+}  // namespace shadowbench::rays
