@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/read_text.h"
+#include "techniques/built.h"
+#include "techniques/deep/deep.h"
 #include "techniques/deep_levels.h"
 
 namespace shadowbench::techniques {
@@ -180,6 +182,29 @@ TEST(TileCache, LookupsAverageThePixelsOfALevelUnderTheFootprint) {
     EXPECT_EQ(v[0], curves::evaluate(curve_of(levels[2], 1, 0, 0), 0.8f));
     EXPECT_EQ(v[1], curves::evaluate(curve_of(levels[2], 2, 2, 0), 0.8f));
     EXPECT_EQ(v[3], 1.0f);
+}
+
+TEST(TileCache, AnswersAsTheMapThatWasWritten) {
+    const auto b = testing::build(find("deep", ""), testing::hairy_scene(true), rays::testing::directional(),
+                                  rays::testing::rays(24, 16), R"({"tolerance": 0.02})");
+    ASSERT_EQ(levels(*b.map).size(), 1u);
+    const TestFile path;
+    write_deep_file(path.path, levels(*b.map), 16, {});
+    const DeepFile file(path.path);
+    TileCache cache(file, 2);
+    base::Random random(4);
+    std::vector<Query> queries;
+    for (int i = 0; i < 2000; ++i)
+        queries.push_back({static_cast<float>(random.uniform(-1, 25)), static_cast<float>(random.uniform(-1, 25)),
+                           static_cast<float>(random.uniform(0, 2)), i % 2 == 0 ? 1.0f : 4.0f});
+    std::vector<float> read(queries.size()), kept(queries.size());
+    lookup(cache, 0, queries, read);
+    b.map->lookup(queries, kept);
+    for (std::size_t i = 0; i < queries.size(); ++i) EXPECT_NEAR(read[i], kept[i], i % 2 == 0 ? 0.0f : 1e-6f);
+    EXPECT_TRUE(levels(*testing::build(find("avsm", ""), testing::hairy_scene(false), rays::testing::directional(),
+                                       rays::testing::rays(4, 1))
+                            .map)
+                    .empty());
 }
 
 }  // namespace
