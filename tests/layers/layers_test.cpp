@@ -84,7 +84,9 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"techniques", {"base", "rays", "curves", "techniques"}},
         {"metrics", {"base", "metrics"}},
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
-        {"service", {"base", "scene", "curves", "techniques", "bench", "service"}},
+        {"render", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench", "render"}},
+        // The command line also reads and writes deep shadow map files.
+        {"service", {"base", "scene", "curves", "techniques", "techniques/deep", "bench", "render", "service"}},
     };
     for (const Include& include : includes()) {
         if (include.system) continue;

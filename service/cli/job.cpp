@@ -1,0 +1,37 @@
+#include "service/cli/job.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "base/read_text.h"
+#include "bench/document.h"
+#include "service/cli/scenario_files.h"
+
+namespace shadowbench::service {
+
+namespace fs = std::filesystem;
+
+Job read_job(const ScenarioArguments& arguments) {
+    const fs::path file = find_scenario(arguments.scenario);
+    Job job;
+    nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
+    for (const std::string& assignment : arguments.set) bench::set_value(document, assignment);
+    job.document = std::make_shared<const nlohmann::json>(std::move(document));
+    job.options.data = data_path(arguments.data, file);
+    job.options.only = arguments.only;
+    job.options.threads = arguments.threads;
+    job.options.limits.all = static_cast<std::size_t>(arguments.memory_limit * 1024.0 * 1024.0 * 1024.0);
+    job.options.limits.kept_rays = std::min(job.options.limits.kept_rays, job.options.limits.all / 2);
+    return job;
+}
+
+fs::path output_folder(const std::string& told, const fs::path& otherwise, const nlohmann::json& document) {
+    if (!told.empty()) return told;
+    const auto name = document.is_object() ? document.find("name") : document.end();
+    const bool named = name != document.end() && name->is_string() && !name->get_ref<const std::string&>().empty();
+    return otherwise / (named ? fs::path(name->get<std::string>()).filename() : fs::path("unnamed"));
+}
+
+}  // namespace shadowbench::service
