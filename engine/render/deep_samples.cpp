@@ -33,24 +33,29 @@ void append_ray(const rays::LightRays& tile, std::size_t ray, DeepBlock& block) 
     }
 }
 
-// Samples of one pixel, front to back, each aimed at what the function is behind it: what rounding of one alpha lost
-// does not add up.
+// Samples of one pixel, front to back. Each is aimed at what the function is behind it, from what the samples before it
+// composite to: what rounding of one alpha lost does not add up. Where a function is flat it is left alone.
 class Compositor {
 public:
-    Compositor(std::size_t channels, DeepBlock& block) : channels_(channels), block_(block) { composite_.fill(1.0); }
+    Compositor(std::size_t channels, DeepBlock& block) : channels_(channels), block_(block) {
+        composite_.fill(1.0);
+        least_.fill(1.0f);
+    }
 
-    // One sample after which the composite has these values. False where one would have to rise.
+    // One sample after which the composite has these values. False where one rises.
     bool reach(float z_front, float z_back, const std::array<float, 3>& values) {
         std::array<float, 3> alpha{};
-        bool visible = false;
+        bool falls = false;
         for (std::size_t c = 0; c < channels_; ++c) {
-            if (!(values[c] <= composite_[c] + rounding)) return false;
-            if (composite_[c] > 0.0)
-                alpha[c] = static_cast<float>(std::clamp(1.0 - values[c] / composite_[c], 0.0, 1.0));
-            visible = visible || alpha[c] > 0.0f;
+            if (!(values[c] <= least_[c] + rounding)) return false;
+            if (values[c] >= least_[c]) continue;
+            least_[c] = values[c];
+            if (composite_[c] <= 0.0) continue;  // by rounding of an alpha next to 1
+            alpha[c] = static_cast<float>(std::clamp(1.0 - values[c] / composite_[c], 0.0, 1.0));
             composite_[c] *= 1.0 - static_cast<double>(alpha[c]);
+            falls = falls || alpha[c] > 0.0f;
         }
-        if (!visible) return true;
+        if (!falls) return true;
         block_.z_front.push_back(z_front);
         block_.z_back.push_back(z_back);
         block_.alpha.insert(block_.alpha.end(), alpha.begin(), alpha.begin() + static_cast<std::ptrdiff_t>(channels_));
@@ -61,6 +66,7 @@ private:
     std::size_t channels_;
     DeepBlock& block_;
     std::array<double, 3> composite_;
+    std::array<float, 3> least_;
 };
 
 std::vector<float> depths_of(std::span<const Curve> functions) {

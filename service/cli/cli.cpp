@@ -23,6 +23,8 @@ constexpr const char* examples = R"(Examples:
   shadowbench run scenarios/quickstart.json
   shadowbench run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64
   shadowbench validate smoke_vdb --data ~/volumes
+  shadowbench export quickstart --technique deep:tolerance=0.02 --out hair.dsm
+  shadowbench inspect hair.dsm
   shadowbench list techniques
   shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
 SCENARIO is a file, or the name of one in ./scenarios or in the folders of $SHADOWBENCH_SCENARIOS.
@@ -31,6 +33,8 @@ Exit codes: 0 ok; 2 a technique broke what it promises; 64 wrong usage; 65 bad i
 struct Arguments {
     RunArguments run;
     ScenarioArguments validate;
+    ExportArguments exported;
+    std::string inspect;
     std::string list;
     CurveArguments curve;
 };
@@ -45,7 +49,6 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
     repeatable(command.add_option("--set", arguments.set,
                                   "path=value: change one value of the scenario, as in rays.samples_per_pixel=64 or "
                                   "/techniques/0/tolerance=0.01; a sweep over it is dropped"));
-    repeatable(command.add_option("--only", arguments.only, "Only techniques of this type"));
     repeatable(command.add_option("--data", arguments.data,
                                   "A folder to look for data in; before $SHADOWBENCH_DATA, the scenario's folder, its "
                                   "data/, scenarios/data and ../shared/data"));
@@ -56,14 +59,43 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
         ->capture_default_str();
 }
 
+void add_only_option(CLI::App& command, ScenarioArguments& arguments) {
+    repeatable(command.add_option("--only", arguments.only, "Only techniques of this type"));
+}
+
+void add_export_commands(CLI::App& app, Arguments& arguments) {
+    CLI::App* exported = app.add_subcommand("export", "Write one light's map, or its light rays, for other programs");
+    add_scenario_options(*exported, arguments.exported);
+    exported
+        ->add_option("--out", arguments.exported.out,
+                     "FILE.exr: deep OpenEXR, any technique that stores functions; FILE.dsm: tiled file, deep alone")
+        ->required();
+    CLI::Option* technique =
+        exported->add_option("--technique", arguments.exported.technique, "id:name=value,name=value")
+            ->capture_default_str();
+    exported->add_flag("--rays", arguments.exported.rays, "The captured light rays instead of a technique's map")
+        ->excludes(technique);
+    exported->add_option("--light", arguments.exported.light, "A light's name, or its number from 0 on [the first]");
+    exported->add_option("--tile", arguments.exported.tile, "Pixels a side of a tile of FILE.dsm")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+
+    app.add_subcommand("inspect", "Check a tiled deep shadow map file and tell what it holds")
+        ->add_option("FILE", arguments.inspect, "A .dsm file")
+        ->required();
+}
+
 void add_commands(CLI::App& app, Arguments& arguments) {
     CLI::App* run = app.add_subcommand("run", "Run a scenario: print a table, write result.json and result.csv");
     add_scenario_options(*run, arguments.run);
+    add_only_option(*run, arguments.run);
     run->add_option("--out", arguments.run.out, "Folder of the results [results/runs/<scenario name>]")
         ->check([](const std::string& folder) { return std::string(folder.empty() ? "the folder has no name" : ""); });
 
     CLI::App* validate = app.add_subcommand("validate", "Check a scenario and its files without running it");
     add_scenario_options(*validate, arguments.validate);
+    add_only_option(*validate, arguments.validate);
+    add_export_commands(app, arguments);
 
     CLI::App* list = app.add_subcommand("list", "List the techniques with their parameters, or the scenarios");
     list->add_option("WHAT", arguments.list, "techniques or scenarios")
@@ -90,6 +122,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
 int dispatch(const CLI::App& app, Arguments& arguments, std::ostream& out, std::ostream& err) {
     if (app.got_subcommand("run") && !run_command(arguments.run, out, err)) return promise_broken;
     if (app.got_subcommand("validate")) validate_command(arguments.validate, out);
+    if (app.got_subcommand("export")) export_command(arguments.exported, out, err);
+    if (app.got_subcommand("inspect")) inspect_command(arguments.inspect, out);
     if (app.got_subcommand("list")) {
         if (arguments.list == "techniques")
             list_techniques(out);
@@ -113,8 +147,9 @@ int report(std::ostream& err, ErrorCode code, std::string message) {
 // What CLI11 says of wrong arguments, but for an unknown command, which it calls a missing one.
 std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
     if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-')
-        return fmt::format("unknown command \"{}\"; there are: run, validate, list, curve (see shadowbench --help)",
-                           argv[1]);
+        return fmt::format(
+            "unknown command \"{}\"; there are: run, validate, export, inspect, list, curve (see shadowbench --help)",
+            argv[1]);
     return std::string(error.what()) + " (see shadowbench --help)";
 }
 

@@ -20,6 +20,14 @@ struct RunArguments : ScenarioArguments {
     std::string out;  // folder; empty: results/runs/<scenario name>
 };
 
+struct ExportArguments : ScenarioArguments {
+    std::string technique = "deep";  // id:name=value,name=value
+    std::string light;               // a name, or a number from 0 on; empty: the first
+    std::string out;                 // .exr or .dsm
+    bool rays = false;               // the light rays instead of a map
+    int tile = 16;                   // pixels a side, .dsm alone
+};
+
 struct CurveArguments {
     std::string functions;
     std::vector<std::string> techniques;
@@ -30,6 +38,9 @@ struct CurveArguments {
 
 // Whether every technique kept its promises.
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
+// One light's map, or its light rays, as a file.
+void export_command(const ExportArguments& arguments, std::ostream& out, std::ostream& err);
+void inspect_command(const std::string& file, std::ostream& out);
 void validate_command(const ScenarioArguments& arguments, std::ostream& out);
 void list_techniques(std::ostream& out);
 void list_scenarios(std::ostream& out);
