@@ -50,6 +50,14 @@ int thread_count() {
     return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
+int library_threads() {
+#ifdef __SANITIZE_THREAD__
+    return 1;
+#else
+    return thread_count();
+#endif
+}
+
 struct ThreadLimit::Control {
     explicit Control(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
     tbb::global_control control;  // must stay where it was made: a copy limits nothing

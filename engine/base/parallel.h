@@ -13,6 +13,10 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 // Threads that parallel_for uses now.
 int thread_count();
 
+// Threads that a library which brings its own should start: as many; 1 under the thread sanitizer, which does not see
+// how libraries that were built without it hand work over.
+int library_threads();
+
 // Limits parallel_for to `threads` (0: all processors) while it lives.
 class ThreadLimit {
 public:

@@ -1,5 +1,7 @@
 #include "bench/build_timing.h"
 
+#include <utility>
+
 #include "base/parallel.h"
 #include "bench/clock.h"
 
@@ -23,16 +25,12 @@ TimedBuild begin_timed(std::span<const Contender> contenders, std::size_t i, con
 void add_timed(TimedBuild& build, RaySource::Batch batch) {
     const base::ThreadLimit one_thread(1);
     for (const rays::LightRays& tile : batch) {
-        if (tile.channels == 1) {
+        const std::size_t parts = build.maps.parts.size();
+        for (std::size_t p = 0; p < parts; ++p) {
+            rays::LightRays one;
+            if (parts > 1) one = rays::channel(tile, static_cast<int>(p));
             const Stopwatch stopwatch;
-            build.maps.channel[0]->add(tile);
-            build.seconds += stopwatch.seconds();
-            continue;
-        }
-        for (int c = 0; c < tile.channels; ++c) {
-            const rays::LightRays one = rays::channel(tile, c);
-            const Stopwatch stopwatch;
-            build.maps.channel[static_cast<std::size_t>(c)]->add(one);
+            build.maps.parts[p]->add(parts > 1 ? one : tile);
             build.seconds += stopwatch.seconds();
         }
     }
@@ -49,22 +47,24 @@ void finish_timed(TimedBuild& build, std::vector<std::vector<double>>& seconds) 
 
 void time_builds(std::span<const Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
                  std::vector<std::vector<double>>& seconds) {
-    if (source.kept()) {
+    for (const int apron : aprons_of(contenders)) {
+        std::vector<TimedBuild> builds;  // that grow together, where each pass captures anew
         for (std::size_t i = 0; i < contenders.size(); ++i) {
-            if (!contenders[i].ok()) continue;
+            if (!contenders[i].ok() || contenders[i].needs.apron != apron) continue;
             TimedBuild build = begin_timed(contenders, i, input);
-            source.for_each_batch([&](RaySource::Batch batch) { add_timed(build, batch); });
+            if (!source.kept(apron)) {
+                builds.push_back(std::move(build));
+                continue;
+            }
+            source.for_each_batch(apron, [&](RaySource::Batch batch) { add_timed(build, batch); });
             finish_timed(build, seconds);
         }
-        return;
+        if (builds.empty()) continue;
+        source.for_each_batch(apron, [&](RaySource::Batch batch) {
+            for (TimedBuild& build : builds) add_timed(build, batch);
+        });
+        for (TimedBuild& build : builds) finish_timed(build, seconds);
     }
-    std::vector<TimedBuild> builds;
-    for (std::size_t i = 0; i < contenders.size(); ++i)
-        if (contenders[i].ok()) builds.push_back(begin_timed(contenders, i, input));
-    source.for_each_batch([&](RaySource::Batch batch) {
-        for (TimedBuild& build : builds) add_timed(build, batch);
-    });
-    for (TimedBuild& build : builds) finish_timed(build, seconds);
 }
 
 }  // namespace shadowbench::bench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,10 +43,10 @@ void begin_all(std::span<Contender> contenders, const techniques::BuildInput& in
     }
 }
 
-// Adds a batch to every map. Of several tiles that fail, the first one's reason counts.
-void add_batch(std::span<Contender> contenders, RaySource::Batch batch) {
+// Adds a batch to every map that asks for this apron. Of several tiles that fail, the first one's reason counts.
+void add_batch(std::span<Contender> contenders, int apron, RaySource::Batch batch) {
     for (Contender& contender : contenders) {
-        if (!contender.ok()) continue;
+        if (!contender.ok() || contender.needs.apron != apron) continue;
         std::vector<std::optional<std::string>> faults(batch.size());
         base::parallel_for(batch.size(), [&](std::size_t i) {
             try {
@@ -82,14 +83,16 @@ void finish_all(std::span<Contender> contenders) {
 
 // All answers, channel after channel, in pieces of a fixed size so that the threads do not change them.
 std::vector<float> answers(const Maps& maps, std::span<const Query> queries) {
-    std::vector<float> visibility(queries.size() * maps.channel.size());
+    std::vector<float> visibility(queries.size() * maps.channels());
     const std::size_t pieces = (queries.size() + lookups_a_piece - 1) / lookups_a_piece;
     base::parallel_for(pieces, [&](std::size_t piece) {
         const std::size_t first = piece * lookups_a_piece;
         const std::size_t count = std::min(lookups_a_piece, queries.size() - first);
-        for (std::size_t c = 0; c < maps.channel.size(); ++c)
-            maps.channel[c]->lookup(queries.subspan(first, count),
-                                    std::span(visibility).subspan(c * queries.size() + first, count));
+        std::vector<float> answers(count * maps.channels());
+        lookup(maps, queries.subspan(first, count), answers);
+        for (std::size_t c = 0; c < maps.channels(); ++c)
+            std::copy_n(answers.begin() + static_cast<std::ptrdiff_t>(c * count), count,
+                        visibility.begin() + static_cast<std::ptrdiff_t>(c * queries.size() + first));
     });
     return visibility;
 }
@@ -120,6 +123,7 @@ Contender make_contender(const scene::TechniqueRequest& request, const std::stri
     contender.row = &techniques::find(request.type, where + "/type");
     contender.values =
         techniques::read_parameters(contender.row->parameters, nlohmann::json::parse(request.parameters), where);
+    contender.needs = contender.row->create(contender.values)->needs();
     Cell& cell = contender.cell;
     cell.technique = contender.row->id;
     cell.version = contender.row->version;
@@ -127,6 +131,21 @@ Contender make_contender(const scene::TechniqueRequest& request, const std::stri
     cell.parameters_json = techniques::to_json(contender.values).dump();
     cell.where = where;
     return contender;
+}
+
+techniques::RayNeeds needs_of(std::span<const Contender> contenders) {
+    techniques::RayNeeds all;
+    for (const Contender& contender : contenders) {
+        all.apron = std::max(all.apron, contender.needs.apron);
+        all.submission = all.submission || contender.needs.submission;
+    }
+    return all;
+}
+
+std::vector<int> aprons_of(std::span<const Contender> contenders) {
+    std::set<int> aprons;
+    for (const Contender& contender : contenders) aprons.insert(contender.needs.apron);
+    return {aprons.begin(), aprons.end()};
 }
 
 void fail(Contender& contender, const std::string& reason) {
@@ -153,12 +172,15 @@ void build_all(std::span<Contender> contenders, const RaySource& source, const t
         contender.cell.outside_promise = contender.row->promises.opaque_only && source.translucent();
     }
     begin_all(contenders, input);
+    const std::vector<int> aprons = aprons_of(contenders);
     std::size_t tiles = 0;
-    source.for_each_batch([&](RaySource::Batch batch) {
-        add_batch(contenders, batch);
-        refuse_too_large(contenders, memory_limit);
-        if (watch) watch(tiles += batch.size());
-    });
+    for (const int apron : aprons)
+        source.for_each_batch(apron, [&](RaySource::Batch batch) {
+            add_batch(contenders, apron, batch);
+            refuse_too_large(contenders, memory_limit);
+            tiles += batch.size();
+            if (watch) watch(tiles / aprons.size());
+        });
     finish_all(contenders);
 }
 
@@ -168,8 +190,8 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
     std::vector<Contender*> owners;
     for (Contender& contender : contenders) {
         if (!contender.ok()) continue;
-        checked.push_back(
-            {&contender.maps, contender.row->promises, contender.cell.error_bound, !contender.cell.outside_promise});
+        checked.push_back({&contender.maps, contender.row->promises, contender.cell.error_bound,
+                           !contender.cell.outside_promise, contender.needs.apron});
         owners.push_back(&contender);
     }
     const std::vector<CurveVerdict> verdicts = check_curves(source, layout, checked, max_checked_cells, watch);

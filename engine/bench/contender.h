@@ -17,6 +17,7 @@ namespace shadowbench::bench {
 struct Contender {
     const techniques::Technique* row = nullptr;
     techniques::ParameterValues values;
+    techniques::RayNeeds needs;
     Cell cell;
     Maps maps;  // finished once warmed up; none when the cell failed
 
@@ -25,6 +26,12 @@ struct Contender {
 
 // From the request of a scenario. Throws what read_parameters throws, with `where` as its place.
 Contender make_contender(const scene::TechniqueRequest& request, const std::string& where);
+
+// What all of them need together, for the layout of the capture.
+techniques::RayNeeds needs_of(std::span<const Contender> contenders);
+
+// The aprons that contenders ask for, each once.
+std::vector<int> aprons_of(std::span<const Contender> contenders);
 
 // The cell failed for this reason; its maps are given back. Only the first reason stays.
 void fail(Contender& contender, const std::string& reason);

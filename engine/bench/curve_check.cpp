@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -75,11 +76,13 @@ struct PixelScratch {
     Curve reference, stored;
     std::vector<float> depths;
     std::vector<CellRays> cells;
+    std::vector<curves::WeightedRay> weights;
 };
 
 struct Pass {
     const MapLayout& layout;
     std::span<const CheckedMap> maps;
+    int apron;                         // of the tiles; maps of other aprons wait for theirs
     std::vector<std::uint64_t> share;  // one cell in so many is checked, one number a technique
     double linearisation;
 };
@@ -95,9 +98,14 @@ bool is_checked(const CellRays& cell, std::uint64_t share) {
            base::hash(static_cast<std::uint64_t>(cell.x), static_cast<std::uint64_t>(cell.y)) % share == 0;
 }
 
-void check_cell(const Pass& pass, const CheckedMap& checked, const techniques::Map& map, const CellRays& cell,
-                PixelScratch& scratch, TileErrors& errors) {
-    map.stored(cell.x, cell.y, 0, scratch.depths, scratch.stored);
+void take_depths(PixelScratch& scratch) {
+    scratch.depths.clear();
+    for (const curves::Vertex& v : scratch.reference) scratch.depths.push_back(v.z);
+}
+
+void check_cell(const Pass& pass, const CheckedMap& checked, int channel, const CellRays& cell, PixelScratch& scratch,
+                TileErrors& errors) {
+    stored(*checked.maps, cell.x, cell.y, channel, scratch.depths, scratch.stored);
     const curves::Distance d =
         curves::distance(scratch.stored, scratch.reference, pass.layout.z_min, pass.layout.z_max);
     errors.max.push_back(d.max);
@@ -121,16 +129,30 @@ void check_kind(const Pass& pass, Cells kind, int channel, const LightRays& rays
     for (const CellRays& cell : scratch.cells) {
         bool have_reference = false;
         for (std::size_t m = 0; m < pass.maps.size(); ++m) {
-            if (cells(*pass.maps[m].maps) != kind || !is_checked(cell, pass.share[m])) continue;
+            const CheckedMap& map = pass.maps[m];
+            if (map.apron != pass.apron || cells(*map.maps) != kind || !is_checked(cell, pass.share[m])) continue;
             if (!have_reference) {
                 curves::visibility(rays, cell.first, cell.count, pass.linearisation, scratch.sweep, scratch.reference);
-                scratch.depths.clear();
-                for (const curves::Vertex& v : scratch.reference) scratch.depths.push_back(v.z);
+                take_depths(scratch);
                 have_reference = true;
             }
-            check_cell(pass, pass.maps[m], *pass.maps[m].maps->channel[static_cast<std::size_t>(channel)], cell,
-                       scratch, errors[m]);
+            check_cell(pass, map, channel, cell, scratch, errors[m]);
         }
+    }
+}
+
+// Cells of rays that their technique weighs: each technique has its own reference.
+void check_filtered(const Pass& pass, int channel, const LightRays& rays, int x, int y, PixelScratch& scratch,
+                    std::vector<TileErrors>& errors) {
+    const CellRays cell{x, y, 0, 0};
+    for (std::size_t m = 0; m < pass.maps.size(); ++m) {
+        const CheckedMap& map = pass.maps[m];
+        if (map.apron != pass.apron || cells(*map.maps) != Cells::filtered || !is_checked(cell, pass.share[m]))
+            continue;
+        map.maps->parts[0]->weights(x, y, rays, scratch.weights);
+        curves::visibility(rays, scratch.weights, pass.linearisation, scratch.sweep, scratch.reference);
+        take_depths(scratch);
+        check_cell(pass, map, channel, cell, scratch, errors[m]);
     }
 }
 
@@ -141,10 +163,15 @@ std::vector<TileErrors> check_tile(const Pass& pass, const LightRays& tile) {
         LightRays copy;
         if (tile.channels > 1) copy = rays::channel(tile, c);
         const LightRays& rays = tile.channels > 1 ? copy : tile;
-        const std::size_t pixels = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
-        for (std::size_t p = 0; p < pixels; ++p)
-            for (const Cells kind : {Cells::pixel, Cells::sample, Cells::centre})
-                check_kind(pass, kind, c, rays, p, scratch, errors);
+        const rays::TileCore core = rays::core_of(pass.layout, tile.tile);
+        for (int y = core.y0; y < core.y0 + core.height; ++y)
+            for (int x = core.x0; x < core.x0 + core.width; ++x) {
+                const std::size_t p = static_cast<std::size_t>(y - tile.y0) * static_cast<std::size_t>(tile.width) +
+                                      static_cast<std::size_t>(x - tile.x0);
+                for (const Cells kind : {Cells::pixel, Cells::sample, Cells::centre})
+                    check_kind(pass, kind, c, rays, p, scratch, errors);
+                check_filtered(pass, c, rays, x, y, scratch, errors);
+            }
     }
     return errors;
 }
@@ -186,16 +213,23 @@ double reference_linearisation(std::span<const CheckedMap> maps) {
 std::vector<CurveVerdict> check_curves(const RaySource& source, const MapLayout& layout,
                                        std::span<const CheckedMap> maps, std::size_t max_cells,
                                        const RaySource::Watch& watch) {
-    Pass pass{layout, maps, {}, reference_linearisation(maps)};
-    for (const CheckedMap& map : maps) pass.share.push_back(share_of(cells(*map.maps), layout, max_cells));
+    Pass pass{layout, maps, 0, {}, reference_linearisation(maps)};
+    std::set<int> aprons;
+    for (const CheckedMap& map : maps) {
+        pass.share.push_back(share_of(cells(*map.maps), layout, max_cells));
+        aprons.insert(map.apron);
+    }
 
     std::vector<std::vector<TileErrors>> tiles;
-    source.for_each_batch([&](RaySource::Batch batch) {
-        const std::size_t before = tiles.size();
-        tiles.resize(before + batch.size());
-        base::parallel_for(batch.size(), [&](std::size_t i) { tiles[before + i] = check_tile(pass, batch[i]); });
-        if (watch) watch(tiles.size());
-    });
+    for (const int apron : aprons) {
+        pass.apron = apron;
+        source.for_each_batch(apron, [&](RaySource::Batch batch) {
+            const std::size_t before = tiles.size();
+            tiles.resize(before + batch.size());
+            base::parallel_for(batch.size(), [&](std::size_t i) { tiles[before + i] = check_tile(pass, batch[i]); });
+            if (watch) watch(tiles.size() / aprons.size());
+        });
+    }
 
     std::vector<CurveVerdict> verdicts;
     for (std::size_t m = 0; m < maps.size(); ++m)

@@ -22,6 +22,7 @@ struct CheckedMap {
     techniques::Promises promises;
     double error_bound = 0.0;  // infinity: none
     bool bound_holds = true;   // whether the bound is promised for these rays at all
+    int apron = 0;             // of the tiles that it is built from
 };
 
 struct CurveVerdict {

@@ -22,7 +22,7 @@ constexpr double shortest_pass = 0.002;  // seconds: the clock and a late interr
 constexpr std::size_t most_lines = std::size_t{1} << 21;  // 16 MiB of addresses an order
 
 double seconds_of_pass(const Maps& maps, std::span<const Query> queries, int rounds, std::vector<float>& out) {
-    out.resize(queries.size() * maps.channel.size());
+    out.resize(queries.size() * maps.channels());
     const Stopwatch stopwatch;
     for (int r = 0; r < rounds; ++r) lookup(maps, queries, out);
     return stopwatch.seconds();

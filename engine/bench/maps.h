@@ -1,4 +1,4 @@
-// The map of one technique: one Map, or one a channel for coloured light rays.
+// The map of one technique: one Map, or, for coloured light rays and a technique that sees one channel, one a channel.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,14 @@
 namespace shadowbench::bench {
 
 struct Maps {
-    // What the maps were begun with: the light rays' layout, as one channel of it sees it. Stays where it is.
+    // What the maps were begun with: the light rays' layout, as the maps see it. Stays where it is.
     std::unique_ptr<rays::MapLayout> layout;
-    std::vector<std::unique_ptr<techniques::Map>> channel;
+    std::vector<std::unique_ptr<techniques::Map>> parts;
+
+    std::size_t channels() const { return parts.size() * static_cast<std::size_t>(parts[0]->channels()); }
 };
 
-// Begins one map a channel of input.layout. Throws what the technique throws.
+// Begins the maps for input.layout. Throws what the technique throws.
 Maps begin_maps(const techniques::Technique& row, const techniques::ParameterValues& values,
                 const techniques::BuildInput& input);
 
@@ -24,7 +26,7 @@ Maps begin_maps(const techniques::Technique& row, const techniques::ParameterVal
 void add(Maps& maps, const rays::LightRays& tile);
 void finish(Maps& maps);
 
-// Answers stand channel after channel: visibility has queries.size() * channels places.
+// Answers stand channel after channel: visibility has queries.size() * channels() places.
 void lookup(const Maps& maps, std::span<const techniques::Query> queries, std::span<float> visibility);
 
 // Appends the lines that a lookup of all these queries reads, in the order in which it reads them, until there are
@@ -36,5 +38,7 @@ std::size_t bytes(const Maps& maps);
 std::size_t working_bytes(const Maps& maps);
 techniques::NodeStats nodes(const Maps& maps);
 techniques::Cells cells(const Maps& maps);
+// The function stored in a cell for one channel of the light rays.
+void stored(const Maps& maps, int x, int y, int channel, std::span<const float> depths, curves::Curve& out);
 
 }  // namespace shadowbench::bench

@@ -38,7 +38,9 @@ double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& referen
     one_channel.channels = 1;
     for (const Contender& contender : contenders) {
         const double one =
-            layout.channels * static_cast<double>(contender.row->least_bytes(contender.values, one_channel));
+            contender.row->coloured
+                ? static_cast<double>(contender.row->least_bytes(contender.values, layout))
+                : layout.channels * static_cast<double>(contender.row->least_bytes(contender.values, one_channel));
         maps += one;
         largest = std::max(largest, one);  // a second one while its build is timed
     }

@@ -17,42 +17,56 @@ bool any_light(const rays::LightRays& tile) {
 
 RaySource::RaySource(const rays::Capture& capture, const rays::MapLayout& layout, std::size_t keep_budget,
                      const Watch& watch)
-    : capture_(capture), layout_(layout) {
-    std::vector<rays::LightRays> batch;
-    for (int first = 0; first < layout_.tiles();) {
-        const Stopwatch stopwatch;
-        capture_from(first, batch);
+    : capture_(capture), layout_(layout), budget_(keep_budget) {
+    std::size_t done = 0;
+    Stopwatch stopwatch;
+    capture_and_keep(0, [&](std::vector<rays::LightRays>& batch) {
         seconds_ += stopwatch.seconds();
-        first += static_cast<int>(batch.size());
-        for (rays::LightRays& tile : batch) {
+        for (const rays::LightRays& tile : batch) {
             rays_ += tile.rays();
             segments_ += tile.segments();
             bytes_ += tile.bytes();
             translucent_ = translucent_ || any_light(tile);
-            if (kept_ && bytes_ > keep_budget) {
-                kept_ = false;
-                std::vector<rays::LightRays>().swap(tiles_);
-            }
-            if (kept_) tiles_.push_back(std::move(tile));
         }
-        if (watch) watch(static_cast<std::size_t>(first));
-    }
+        if (watch) watch(done += batch.size());
+        stopwatch = {};
+    });
 }
 
-void RaySource::for_each_batch(const std::function<void(Batch)>& body) const {
-    if (kept_) return body(tiles_);
-    std::vector<rays::LightRays> batch;
-    for (int first = 0; first < layout_.tiles(); first += static_cast<int>(batch.size())) {
-        capture_from(first, batch);
-        body(batch);
-    }
+void RaySource::for_each_batch(int apron, const std::function<void(Batch)>& body) const {
+    if (!kept(apron))
+        capture_and_keep(apron, body);
+    else
+        body(tiles_.at(apron));
 }
 
-void RaySource::capture_from(int first, std::vector<rays::LightRays>& tiles) const {
+// Calls visit with each batch, which it may take.
+void RaySource::capture_all(int apron, const Visit& visit) const {
     const int in_flight = 4 * base::thread_count();  // a few a thread, so that uneven tiles leave no thread idle
-    tiles.clear();
-    tiles.resize(static_cast<std::size_t>(std::min(in_flight, layout_.tiles() - first)));
-    base::parallel_for(tiles.size(), [&](std::size_t i) { tiles[i] = capture_.tile(first + static_cast<int>(i)); });
+    std::vector<rays::LightRays> batch;
+    for (int first = 0; first < layout_.tiles(); first += in_flight) {
+        batch.clear();
+        batch.resize(static_cast<std::size_t>(std::min(in_flight, layout_.tiles() - first)));
+        base::parallel_for(batch.size(),
+                           [&](std::size_t i) { batch[i] = capture_.tile(first + static_cast<int>(i), {}, apron); });
+        visit(batch);
+    }
+}
+
+void RaySource::capture_and_keep(int apron, const Visit& visit) const {
+    std::vector<rays::LightRays> kept;
+    std::size_t bytes = 0;
+    capture_all(apron, [&](std::vector<rays::LightRays>& batch) {
+        visit(batch);
+        for (rays::LightRays& tile : batch) {
+            bytes += tile.bytes();
+            if (bytes <= budget_) kept.push_back(std::move(tile));
+        }
+        if (bytes > budget_) std::vector<rays::LightRays>().swap(kept);
+    });
+    if (bytes > budget_) return;
+    budget_ -= bytes;
+    tiles_[apron] = std::move(kept);
 }
 
 }  // namespace shadowbench::bench

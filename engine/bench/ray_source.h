@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -21,10 +22,12 @@ public:
     RaySource(const rays::Capture& capture, const rays::MapLayout& layout, std::size_t keep_budget, const Watch& watch);
 
     // Calls body with the tiles of the map, each once, in order: all at once when they are kept, else a few at a time.
-    // Tiles are captured in parallel, before and never during a call of body.
-    void for_each_batch(const std::function<void(Batch)>& body) const;
+    // Tiles are captured in parallel, before and never during a call of body. Each covers `apron` more pixels on every
+    // side (at most the layout's); such tiles are kept from the first call on while they too fit the budget. Not
+    // thread-safe.
+    void for_each_batch(int apron, const std::function<void(Batch)>& body) const;
 
-    bool kept() const { return kept_; }
+    bool kept(int apron = 0) const { return tiles_.contains(apron); }
     std::uint64_t rays() const { return rays_; }
     std::uint64_t segments() const { return segments_; }
     std::uint64_t bytes() const { return bytes_; }     // of all tiles
@@ -32,12 +35,15 @@ public:
     double seconds() const { return seconds_; }        // of the capture, on all threads
 
 private:
-    void capture_from(int first, std::vector<rays::LightRays>& tiles) const;
+    using Visit = std::function<void(std::vector<rays::LightRays>& batch)>;
+    void capture_all(int apron, const Visit& visit) const;
+    void capture_and_keep(int apron, const Visit& visit) const;
 
     const rays::Capture& capture_;
     rays::MapLayout layout_;
-    std::vector<rays::LightRays> tiles_;  // empty unless kept
-    bool kept_ = true, translucent_ = false;
+    mutable std::map<int, std::vector<rays::LightRays>> tiles_;  // by apron: those that are kept
+    mutable std::size_t budget_;                                 // of bytes that may be kept yet
+    bool translucent_ = false;
     std::uint64_t rays_ = 0, segments_ = 0, bytes_ = 0;
     double seconds_ = 0.0;
 };

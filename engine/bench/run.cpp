@@ -89,7 +89,7 @@ Result run(const nlohmann::json& document, const RunOptions& options, const Prog
                     progress({place, stage, done, total});
                 };
             std::vector<Contender> fresh;
-            for (const Contender& c : contenders) fresh.push_back({c.row, c.values, c.cell, {}});
+            for (const Contender& c : contenders) fresh.push_back({c.row, c.values, c.needs, c.cell, {}});
             out.lights.push_back(run_light({scenario, scenario.lights[l], pointer_of(scenario, l), shared.casters.get(),
                                             shared.seen, options.limits, watch},
                                            std::move(fresh)));

@@ -228,11 +228,11 @@ LightRays Capture::tile(int index, std::span<const unsigned char> wanted, int ap
     const MapLayout& layout = state_->layout;
     LightRays rays;
     rays.tile = index;
-    const int x0 = index % layout.tiles_x() * layout.tile_width, y0 = index / layout.tiles_x() * layout.tile_height;
-    rays.x0 = std::max(x0 - apron, 0);
-    rays.y0 = std::max(y0 - apron, 0);
-    rays.width = std::min(x0 + layout.tile_width + apron, layout.width) - rays.x0;
-    rays.height = std::min(y0 + layout.tile_height + apron, layout.height) - rays.y0;
+    const TileCore core = core_of(layout, index);
+    rays.x0 = std::max(core.x0 - apron, 0);
+    rays.y0 = std::max(core.y0 - apron, 0);
+    rays.width = std::min(core.x0 + core.width + apron, layout.width) - rays.x0;
+    rays.height = std::min(core.y0 + core.height + apron, layout.height) - rays.y0;
     rays.samples = layout.samples();
     rays.channels = layout.channels;
     if (state_->scene.deep_image)

@@ -27,6 +27,13 @@ SamplePosition sample_position(const MapLayout& layout, int i, int j) {
     return {(i + u) / layout.samples_x, (j + v) / layout.samples_y};
 }
 
+TileCore core_of(const MapLayout& layout, int tile) {
+    TileCore core{tile % layout.tiles_x() * layout.tile_width, tile / layout.tiles_x() * layout.tile_height, 0, 0};
+    core.width = std::min(layout.tile_width, layout.width - core.x0);
+    core.height = std::min(layout.tile_height, layout.height - core.y0);
+    return core;
+}
+
 double sample_time(const MapLayout& layout, int i, int j) {
     if (!layout.moving) return 0.0;
     const std::uint64_t samples = static_cast<std::uint64_t>(layout.samples());

@@ -38,6 +38,12 @@ struct SamplePosition {
 };
 SamplePosition sample_position(const MapLayout& layout, int i, int j);
 
+// The pixels of a tile itself, without any apron.
+struct TileCore {
+    int x0, y0, width, height;
+};
+TileCore core_of(const MapLayout& layout, int tile);
+
 // When in the shutter, [0, 1), the ray in sample cell (i, j) sees the scene: the rays of a pixel stand one each in
 // samples() equal parts of the shutter, in an order of the pixel's own. 0 unless the layout is moving.
 double sample_time(const MapLayout& layout, int i, int j);

@@ -7,7 +7,10 @@
 #include <limits>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
+#include "base/parallel.h"
 #include "rays/march.h"
 #include "rays/primitives.h"
 #include "scene/scene.h"
@@ -246,7 +249,7 @@ RTCRayHit trace(RTCScene scene, double widest_hair, Query& q) {
 }  // namespace
 
 Tracer::Tracer(const scene::Scene& scene, bool casters_only) : state_(std::make_unique<State>()) {
-    state_->device = rtcNewDevice(nullptr);
+    state_->device = rtcNewDevice(fmt::format("threads={}", base::library_threads()).c_str());
     if (!state_->device) throw base::Error(base::ErrorCode::internal, "", "Embree could not start");
     state_->scene = rtcNewScene(state_->device);
     rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);

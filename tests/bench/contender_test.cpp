@@ -104,7 +104,7 @@ TEST_F(Contenders, are_judged_alike_when_the_rays_are_captured_anew) {
     EXPECT_FALSE(anew.kept());
     EXPECT_EQ(anew.segments(), source_.segments());
     std::size_t rays = 0;
-    anew.for_each_batch([&](RaySource::Batch batch) {
+    anew.for_each_batch(0, [&](RaySource::Batch batch) {
         for (const rays::LightRays& tile : batch) rays += tile.rays();
     });
     EXPECT_EQ(rays, source_.rays());

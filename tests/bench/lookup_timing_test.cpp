@@ -14,7 +14,7 @@ using techniques::Query;
 
 Maps fake_maps(int lines) {
     Maps maps;
-    maps.channel.push_back(std::make_unique<FakeMap>(FakeAnswers{.function = {}, .lines = lines}));
+    maps.parts.push_back(std::make_unique<FakeMap>(FakeAnswers{.function = {}, .lines = lines}));
     return maps;
 }
 
@@ -71,7 +71,7 @@ TEST(LookupPlan, keeps_one_time_and_one_floor_a_repetition) {
 
 TEST(LookupPlan, warms_up_at_least_twice_whichever_goes_first) {
     const Maps maps = fake_maps(3);
-    const auto& map = static_cast<const FakeMap&>(*maps.channel[0]);
+    const auto& map = static_cast<const FakeMap&>(*maps.parts[0]);
     LookupPlan plan = plan_lookups(maps, some_queries(100), 100, 3);
     plan.warm = true;
     for (const bool floor_first : {false, true}) {

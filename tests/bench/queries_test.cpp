@@ -88,7 +88,7 @@ TEST(CameraPoints, spread_over_the_media_before_the_surface) {
     puffs.centres = {{0, -1.5f, 0}, {0, -4.5f, 0}};
     puffs.radii = {0.5f, 1.5f};
     puffs.density = {1.0f, 1.0f};
-    scene.objects.push_back({"puffs", true, {1, 1, 1}, {1, 1, 1}, puffs});
+    scene.objects.push_back({"puffs", true, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}, puffs});
     scene::Receivers receivers;
     receivers.camera = scene::Camera{{0, 0, 0}, {0, -1, 0}, {0, 0, -1}, 0.01};
     receivers.resolution = {1, 1};
