@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "bench/document.h"
+#include "rays/capture.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -56,32 +57,36 @@ OneLight::OneLight(const nlohmann::json& document, const RunOptions& options, co
     view_ = rays::make_light_view(*light_, scenario_->scene, scenario_->rays.resolution, where_);
     layout_ = rays::make_layout(scenario_->scene, view_, scenario_->rays);
     if (!scenario_->scene.objects.empty()) casters_ = std::make_unique<rays::Tracer>(scenario_->scene, true);
-    capture_.emplace(scenario_->scene, view_, layout_);
 }
 
-RaySource OneLight::source(std::span<const Contender> contenders, const ProgressCallback& progress) const {
+void OneLight::capture(std::span<Contender> contenders, const ProgressCallback& progress, const Visit& visit) const {
     check_memory(*scenario_, view_, contenders, options_.limits, "/rays");
-    RaySource source(*capture_, layout_, options_.limits.kept_rays, stage(progress, "capture", layout_));
+    rays::MapLayout layout = layout_;
+    layout.apron = needs_of(contenders).apron;
+    layout.submission = needs_of(contenders).submission;
+    const rays::Capture capture(scenario_->scene, view_, layout);
+    const RaySource source(capture, layout, options_.limits.kept_rays, stage(progress, "capture", layout));
     if (source.segments() == 0)
         throw Error(ErrorCode::bad_input, where_,
                     fmt::format("light \"{}\" sees nothing that casts a shadow", light_->name));
-    return source;
+    visit(source, layout);
 }
 
-RaySource OneLight::capture(const ProgressCallback& progress) const {
-    return source({}, progress);
+void OneLight::for_each_batch(const std::function<void(RaySource::Batch)>& body,
+                              const ProgressCallback& progress) const {
+    capture({}, progress, [&](const RaySource& source, const rays::MapLayout&) { source.for_each_batch(0, body); });
 }
 
 Contender OneLight::build(const TechniqueChoice& technique, const ProgressCallback& progress) const {
-    std::vector<Contender> contenders;
     const std::string where = fmt::format("--technique {}", technique.row->id);
-    contenders.push_back(
-        make_contender({technique.row->id, techniques::to_json(technique.values).dump(), where}, where));
-    const RaySource rays = source(contenders, progress);
-    build_all(contenders, rays, {layout_, view_, casters_.get()}, options_.limits.all,
-              stage(progress, "build", layout_));
-    if (!contenders[0].ok()) throw Error(ErrorCode::internal, where, contenders[0].cell.reason);
-    return std::move(contenders[0]);
+    Contender contender =
+        make_contender({technique.row->id, techniques::to_json(technique.values).dump(), where}, where);
+    const std::span<Contender> one(&contender, 1);
+    capture(one, progress, [&](const RaySource& source, const rays::MapLayout& layout) {
+        build_all(one, source, {layout, view_, casters_.get()}, options_.limits.all, stage(progress, "build", layout));
+    });
+    if (!contender.ok()) throw Error(ErrorCode::internal, where, contender.cell.reason);
+    return contender;
 }
 
 }  // namespace shadowbench::bench

@@ -3,7 +3,7 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,7 +14,6 @@
 #include "bench/progress.h"
 #include "bench/ray_source.h"
 #include "bench/run.h"
-#include "rays/capture.h"
 #include "rays/tracer.h"
 
 namespace shadowbench::bench {
@@ -31,15 +30,17 @@ public:
     const scene::Light& light() const { return *light_; }
     const rays::MapLayout& layout() const { return layout_; }
 
-    // All light rays. Throws Error{bad_input} for a light that sees nothing, or more than the memory limit.
-    RaySource capture(const ProgressCallback& progress) const;
+    // Calls body with all light rays, some tiles at a time, in order. Throws Error{bad_input} for a light that sees
+    // nothing, or more than the memory limit.
+    void for_each_batch(const std::function<void(RaySource::Batch)>& body, const ProgressCallback& progress) const;
 
-    // The finished map. Throws Error: bad_input when the technique cannot serve the light or needs more than the memory
-    // limit; internal when it fails.
+    // The finished map. Throws the same, and Error{bad_input} when the technique cannot serve the light, internal when
+    // it fails.
     Contender build(const TechniqueChoice& technique, const ProgressCallback& progress) const;
 
 private:
-    RaySource source(std::span<const Contender> contenders, const ProgressCallback& progress) const;
+    using Visit = std::function<void(const RaySource& source, const rays::MapLayout& layout)>;
+    void capture(std::span<Contender> contenders, const ProgressCallback& progress, const Visit& visit) const;
 
     RunOptions options_;
     ScenarioLoader loader_;
@@ -49,7 +50,6 @@ private:
     rays::LightView view_;
     rays::MapLayout layout_;
     std::unique_ptr<rays::Tracer> casters_;  // null for a deep image
-    std::optional<rays::Capture> capture_;
 };
 
 }  // namespace shadowbench::bench

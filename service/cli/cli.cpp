@@ -4,8 +4,10 @@
 #include <new>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "base/error.h"
@@ -146,10 +148,13 @@ int report(std::ostream& err, ErrorCode code, std::string message) {
 
 // What CLI11 says of wrong arguments, but for an unknown command, which it calls a missing one.
 std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
-    if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-')
-        return fmt::format(
-            "unknown command \"{}\"; there are: run, validate, export, inspect, list, curve (see shadowbench --help)",
-            argv[1]);
+    if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
+        std::vector<std::string> commands;
+        for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+            commands.push_back(command->get_name());
+        return fmt::format("unknown command \"{}\"; there are: {} (see shadowbench --help)", argv[1],
+                           fmt::join(commands, ", "));
+    }
     return std::string(error.what()) + " (see shadowbench --help)";
 }
 

@@ -53,17 +53,18 @@ std::string write_image(const ExportArguments& arguments, int width, int height,
 std::string export_rays(const ExportArguments& arguments, const bench::OneLight& light,
                         const bench::ProgressCallback& progress) {
     std::vector<render::DeepBlock> blocks;
-    light.capture(progress).for_each_batch([&](bench::RaySource::Batch batch) {
+    const auto add = [&](bench::RaySource::Batch batch) {
         const std::size_t first = blocks.size();
         blocks.resize(first + batch.size());
         base::parallel_for(batch.size(), [&](std::size_t i) { blocks[first + i] = render::samples_of_rays(batch[i]); });
-    });
+    };
+    light.for_each_batch(add, progress);
     return write_image(arguments, light.layout().width, light.layout().height, blocks, title_of(light, "light rays"));
 }
 
 std::string export_functions(const ExportArguments& arguments, const bench::Contender& built, const std::string& text) {
     render::StoredFunctions stored{{}, *built.maps.layout};
-    for (const auto& map : built.maps.channel) stored.maps.push_back(map.get());
+    for (const auto& map : built.maps.parts) stored.maps.push_back(map.get());
     std::vector<render::DeepBlock> rows(static_cast<std::size_t>(stored.height()));
     base::parallel_for(rows.size(),
                        [&](std::size_t y) { rows[y] = render::samples_of_functions(stored, static_cast<int>(y)); });
@@ -71,12 +72,12 @@ std::string export_functions(const ExportArguments& arguments, const bench::Cont
 }
 
 std::string export_tiled(const ExportArguments& arguments, const bench::Contender& built, const std::string& text) {
-    if (built.maps.channel.size() > 1)
+    if (built.maps.parts.size() > 1)
         throw Error(ErrorCode::bad_input, "--out " + arguments.out,
                     "a map of three channels that are stored apart does not fit one file; write it as .exr");
     techniques::DeepFileNotes notes{0.0f, built.maps.layout->z_min, built.maps.layout->z_max, text};
     notes.tolerance = static_cast<float>(built.row->error_bound(built.values, *built.maps.layout));
-    techniques::write_deep_file(arguments.out, techniques::levels(*built.maps.channel[0]), arguments.tile, notes);
+    techniques::write_deep_file(arguments.out, techniques::levels(*built.maps.parts[0]), arguments.tile, notes);
     return describe(techniques::DeepFile(arguments.out), arguments.out);
 }
 
