@@ -140,34 +140,22 @@ DeepBlock samples_of_rays(const rays::LightRays& tile) {
     return block;
 }
 
-int StoredFunctions::channels() const {
-    int sum = 0;
-    for (const techniques::Map* map : maps) sum += map->channels();
-    return sum;
+base::Vec2i size_of(const bench::Maps& maps) {
+    const techniques::CellGrid grid = techniques::make_cells(*maps.layout, bench::cells(maps));
+    return {grid.width, grid.height};
 }
 
-int StoredFunctions::width() const {
-    return techniques::make_cells(layout, maps[0]->cells()).width;
-}
-
-int StoredFunctions::height() const {
-    return techniques::make_cells(layout, maps[0]->cells()).height;
-}
-
-DeepBlock samples_of_functions(const StoredFunctions& stored, int y) {
-    DeepBlock block{0, y, stored.width(), 1, stored.channels(), {0}, {}, {}, {}};
-    const std::vector<float> depths = even_depths(stored.layout);
-    std::vector<Curve> functions(static_cast<std::size_t>(block.channels));
+DeepBlock samples_of_functions(const bench::Maps& maps, int y) {
+    DeepBlock block{0, y, size_of(maps).x, 1, static_cast<int>(maps.channels()), {0}, {}, {}, {}};
+    const std::vector<float> depths = even_depths(*maps.layout);
+    std::vector<Curve> functions(maps.channels());
     for (int x = 0; x < block.width; ++x, close_pixel(block)) {
-        std::size_t c = 0;
-        for (const techniques::Map* map : stored.maps)
-            for (int channel = 0; channel < map->channels(); ++channel)
-                map->stored(x, y, channel, depths, functions[c++]);
-        if (!append_function(functions, stored.layout.z_min, block))
-            throw base::Error(base::ErrorCode::bad_input, "",
-                              fmt::format("the function of cell ({}, {}) rises with depth, which a deep image cannot "
-                                          "hold",
-                                          x, y));
+        for (int c = 0; c < block.channels; ++c)
+            bench::stored(maps, x, y, c, depths, functions[static_cast<std::size_t>(c)]);
+        if (!append_function(functions, maps.layout->z_min, block))
+            throw base::Error(
+                base::ErrorCode::bad_input, "",
+                fmt::format("the function of cell ({}, {}) rises with depth, which a deep image cannot hold", x, y));
     }
     return block;
 }

@@ -8,9 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "base/vec.h"
+#include "bench/maps.h"
 #include "curves/curve.h"
 #include "rays/light_rays.h"
-#include "techniques/technique.h"
 
 namespace shadowbench::render {
 
@@ -34,18 +35,11 @@ DeepBlock samples_of_rays(const rays::LightRays& tile);
 // nothing appended, when one does.
 bool append_function(std::span<const curves::Curve> functions, float front, DeepBlock& block);
 
-// A finished technique's map, or one a channel, with cells and depths as its layout says.
-struct StoredFunctions {
-    std::vector<const techniques::Map*> maps;
-    rays::MapLayout layout;
+// Size of the image of a finished technique's maps: one pixel a cell. They must store functions.
+base::Vec2i size_of(const bench::Maps& maps);
 
-    int channels() const;
-    int width() const;  // cells
-    int height() const;
-};
-
-// Row `y` of the cells. A function that is not piecewise linear is sampled at 64 depths of the layout's range besides
-// its own nodes. Throws Error{bad_input} for one that rises, which a deep image cannot hold.
-DeepBlock samples_of_functions(const StoredFunctions& stored, int y);
+// Row `y` of the cells, all channels. A function that is not piecewise linear is sampled at 64 depths of the layout's
+// range besides its own nodes. Throws Error{bad_input} for one that rises, which a deep image cannot hold.
+DeepBlock samples_of_functions(const bench::Maps& maps, int y);
 
 }  // namespace shadowbench::render

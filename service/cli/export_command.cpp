@@ -63,12 +63,11 @@ std::string export_rays(const ExportArguments& arguments, const bench::OneLight&
 }
 
 std::string export_functions(const ExportArguments& arguments, const bench::Contender& built, const std::string& text) {
-    render::StoredFunctions stored{{}, *built.maps.layout};
-    for (const auto& map : built.maps.parts) stored.maps.push_back(map.get());
-    std::vector<render::DeepBlock> rows(static_cast<std::size_t>(stored.height()));
+    const base::Vec2i size = render::size_of(built.maps);
+    std::vector<render::DeepBlock> rows(static_cast<std::size_t>(size.y));
     base::parallel_for(rows.size(),
-                       [&](std::size_t y) { rows[y] = render::samples_of_functions(stored, static_cast<int>(y)); });
-    return write_image(arguments, stored.width(), stored.height(), rows, text);
+                       [&](std::size_t y) { rows[y] = render::samples_of_functions(built.maps, static_cast<int>(y)); });
+    return write_image(arguments, size.x, size.y, rows, text);
 }
 
 std::string export_tiled(const ExportArguments& arguments, const bench::Contender& built, const std::string& text) {

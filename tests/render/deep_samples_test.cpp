@@ -153,19 +153,21 @@ TEST(DeepSamples, MapsOfEveryTechniqueGiveTheirStoredFunctions) {
     for (const techniques::Technique& row : techniques::all()) {
         if (!row.from_curves || !row.promises.monotone) continue;
         const auto values = techniques::read_parameters(row.parameters, nlohmann::json::object(), "");
-        const auto map = row.from_curves(values, functions);
-        rays::MapLayout layout;
+        bench::Maps maps;
+        maps.parts.push_back(row.from_curves(values, functions));
+        const techniques::Map& map = *maps.parts[0];
+        maps.layout = std::make_unique<rays::MapLayout>();
+        rays::MapLayout& layout = *maps.layout;
         layout.width = static_cast<int>(functions.size());
         layout.z_min = -1;
         layout.z_max = 20;
-        const StoredFunctions stored{{map.get()}, layout};
-        ASSERT_EQ(stored.width(), layout.width);
-        const DeepBlock row_of_cells = samples_of_functions(stored, 0);
+        ASSERT_EQ(size_of(maps), base::Vec2i(layout.width, 1));
+        const DeepBlock row_of_cells = samples_of_functions(maps, 0);
         ASSERT_EQ(row_of_cells.begin.size(), functions.size() + 1);
         const std::vector<Sample> all = samples(row_of_cells, 0);
         for (std::size_t p = 0; p < functions.size(); ++p) {
             Curve kept;
-            map->stored(static_cast<int>(p), 0, 0, {}, kept);
+            map.stored(static_cast<int>(p), 0, 0, {}, kept);
             const std::vector<Sample> pixel(all.begin() + static_cast<std::ptrdiff_t>(row_of_cells.begin[p]),
                                             all.begin() + static_cast<std::ptrdiff_t>(row_of_cells.begin[p + 1]));
             for (const curves::Vertex& v : kept) {
