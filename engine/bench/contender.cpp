@@ -18,8 +18,7 @@ namespace {
 using techniques::Query;
 
 constexpr std::size_t max_checked_cells = std::size_t{1} << 20;  // of one map: more take long and tell little
-constexpr std::size_t lookups_a_piece = 256;
-constexpr float rounding = 1e-6f;  // of an answer beyond [0, 1]
+constexpr float rounding = 1e-6f;                                // of an answer beyond [0, 1]
 
 // A layout that a technique cannot serve is bad input, not a fault of the technique: the message names its place.
 Maps begin_served(const Contender& contender, const techniques::BuildInput& input) {
@@ -81,30 +80,14 @@ void finish_all(std::span<Contender> contenders) {
     }
 }
 
-// All answers, channel after channel, in pieces of a fixed size so that the threads do not change them.
-std::vector<float> answers(const Maps& maps, std::span<const Query> queries) {
-    std::vector<float> visibility(queries.size() * maps.channels());
-    const std::size_t pieces = (queries.size() + lookups_a_piece - 1) / lookups_a_piece;
-    base::parallel_for(pieces, [&](std::size_t piece) {
-        const std::size_t first = piece * lookups_a_piece;
-        const std::size_t count = std::min(lookups_a_piece, queries.size() - first);
-        std::vector<float> answers(count * maps.channels());
-        lookup(maps, queries.subspan(first, count), answers);
-        for (std::size_t c = 0; c < maps.channels(); ++c)
-            std::copy_n(answers.begin() + static_cast<std::ptrdiff_t>(c * count), count,
-                        visibility.begin() + static_cast<std::ptrdiff_t>(c * queries.size() + first));
-    });
-    return visibility;
-}
-
-void judge(Contender& contender, std::span<const Query> judged, const Truth& truth) {
-    const std::vector<float> visibility = answers(contender.maps, judged);
+void judge(Contender& contender, const Asked& judged, const Truth& truth) {
+    const std::vector<float> visibility = lookup_all(contender.maps, judged);
     std::vector<double> errors(visibility.size());
     LookupErrors result;
     for (std::size_t i = 0; i < visibility.size(); ++i) {
         const float v = visibility[i];
         if (!(v >= -rounding && v <= 1.0f + rounding)) {
-            const Query& q = judged[i % judged.size()];
+            const Query& q = judged.queries[i % judged.queries.size()];
             return fail(contender,
                         fmt::format("the lookup at ({}, {}, {}) answers {}, which is not in [0, 1]", q.x, q.y, q.z, v));
         }
@@ -201,7 +184,7 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
     }
 }
 
-void check_lookups(std::span<Contender> contenders, std::span<const Query> judged, const Truth& truth) {
+void check_lookups(std::span<Contender> contenders, const Asked& judged, const Truth& truth) {
     for (Contender& contender : contenders)
         if (contender.ok()) judge(contender, judged, truth);
 }

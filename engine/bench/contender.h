@@ -51,6 +51,6 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
                      const RaySource::Watch& watch);
 
 // Compares the answers to the judged queries with the truth; an answer that is not finite or not in [0, 1] fails.
-void check_lookups(std::span<Contender> contenders, std::span<const techniques::Query> judged, const Truth& truth);
+void check_lookups(std::span<Contender> contenders, const Asked& judged, const Truth& truth);
 
 }  // namespace shadowbench::bench

@@ -27,8 +27,7 @@ constexpr std::size_t agreement_rays = 20000;
 
 QuerySet make_queries(const LightJob& job, const rays::LightView& view) {
     const scene::Receivers& receivers = job.scenario.receivers;
-    QuerySet set = receivers.camera ? queries_of_points({job.seen.begin(), job.seen.end()}, receivers, view)
-                                    : probe_queries(receivers, view);
+    QuerySet set = receivers.camera ? queries_of_points(job.seen, receivers, view) : probe_queries(receivers, view);
     if (!set.queries.empty()) return set;
     throw base::Error(base::ErrorCode::bad_input, "/receivers",
                       set.dropped == 0 ? "there is nothing to ask for: the camera sees no surface and no medium"
@@ -77,20 +76,20 @@ struct LookupMeasurement {
 };
 
 std::vector<LookupMeasurement> plan_all(const LightJob& job, std::span<const Contender> contenders,
-                                        std::span<const Query> queries) {
+                                        const Asked& asked) {
     const base::ThreadLimit one_thread(1);
     std::vector<LookupMeasurement> plans;
     for (std::size_t i = 0; i < contenders.size(); ++i)
         if (contenders[i].ok())
             plans.push_back(
-                {i, plan_lookups(contenders[i].maps, queries, static_cast<std::size_t>(job.scenario.timing.lookups),
+                {i, plan_lookups(contenders[i].maps, asked, static_cast<std::size_t>(job.scenario.timing.lookups),
                                  job.scenario.receivers.seed)});
     return plans;
 }
 
 // Builds and lookups, interleaved: every technique once, then every technique once more.
 void time_all(const LightJob& job, std::span<Contender> contenders, const RaySource& source,
-              const techniques::BuildInput& input, std::span<const Query> queries) {
+              const techniques::BuildInput& input, const Asked& asked) {
     const std::size_t repetitions = static_cast<std::size_t>(job.scenario.timing.repetitions);
     // The first builds find the allocator and the caches as the checks left them: they do not count.
     std::vector<std::vector<double>> seconds(contenders.size()), warming(contenders.size());
@@ -99,7 +98,7 @@ void time_all(const LightJob& job, std::span<Contender> contenders, const RaySou
         time_builds(contenders, source, input, seconds);
         if (job.watch) job.watch("timing builds", r + 1, repetitions);
     }
-    std::vector<LookupMeasurement> plans = plan_all(job, contenders, queries);
+    std::vector<LookupMeasurement> plans = plan_all(job, contenders, asked);
     for (std::size_t r = 0; r < repetitions; ++r) {
         const base::ThreadLimit one_thread(1);
         for (LookupMeasurement& one : plans) time_repetition(contenders[one.contender].maps, one.plan, r % 2 == 1);
@@ -118,13 +117,10 @@ void time_all(const LightJob& job, std::span<Contender> contenders, const RaySou
     }
 }
 
-std::vector<Query> judged_queries(const LightJob& job, const QuerySet& set) {
+QuerySet judged_queries(const LightJob& job, const QuerySet& set) {
     const scene::Reference& reference = job.scenario.reference;
-    std::vector<Query> judged;
-    for (const std::size_t i :
-         choose_judged(set.queries.size(), static_cast<std::size_t>(reference.queries), reference.seed))
-        judged.push_back(set.queries[i]);
-    return judged;
+    return pick(set.asked(),
+                choose_judged(set.queries.size(), static_cast<std::size_t>(reference.queries), reference.seed));
 }
 
 LightResult describe(const LightJob& job, const rays::MapLayout& layout, const QuerySet& set) {
@@ -170,14 +166,14 @@ LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
     report_capture(source, setup_seconds, result);
     if (job.casters) result.agreement = compare_with_tracer(capture, layout, view, *job.casters, agreement_rays);
 
-    const std::vector<Query> judged = judged_queries(job, set);
-    const Truth truth = find_truth(job, view, judged);
-    result.reference = report_reference(job, view, layout, judged, truth);
+    const QuerySet judged = judged_queries(job, set);
+    const Truth truth = find_truth(job, view, judged.queries);
+    result.reference = report_reference(job, view, layout, judged.queries, truth);
 
     build_all(contenders, source, input, job.limits.all, stage(job, "build", layout));
     check_functions(contenders, source, layout, stage(job, "check", layout));
-    check_lookups(contenders, judged, truth);
-    time_all(job, contenders, source, input, set.queries);
+    check_lookups(contenders, judged.asked(), truth);
+    time_all(job, contenders, source, input, set.asked());
 
     for (Contender& contender : contenders) result.cells.push_back(std::move(contender.cell));
     mark_fronts(result.cells);

@@ -8,6 +8,7 @@
 
 #include "bench/contender.h"
 #include "bench/memory.h"
+#include "bench/queries.h"
 #include "bench/result.h"
 #include "rays/tracer.h"
 #include "scene/scene.h"
@@ -21,7 +22,7 @@ struct LightJob {
     const scene::Light& light;
     std::string where;                  // JSON pointer of the light
     const rays::Tracer* casters;        // null for a deep image
-    std::span<const base::Vec3d> seen;  // receivers in world space, with a camera
+    std::span<const CameraPoint> seen;  // receivers in world space, with a camera
     MemoryLimits limits;
     StageWatch watch;
 };

@@ -7,11 +7,10 @@
 #include "base/random.h"
 #include "bench/clock.h"
 #include "bench/floor.h"
+#include "bench/queries.h"
 
 namespace shadowbench::bench {
 namespace {
-
-using techniques::Query;
 
 constexpr std::size_t run_length = 64;
 constexpr double longest_pass = 0.050;       // seconds
@@ -21,10 +20,10 @@ constexpr double warm_time = 0.050;      // seconds: a map of the size of L3 tak
 constexpr double shortest_pass = 0.002;  // seconds: the clock and a late interrupt stay below 1 %
 constexpr std::size_t most_lines = std::size_t{1} << 21;  // 16 MiB of addresses an order
 
-double seconds_of_pass(const Maps& maps, std::span<const Query> queries, int rounds, std::vector<float>& out) {
-    out.resize(queries.size() * maps.channels());
+double seconds_of_pass(const Maps& maps, const Asked& asked, int rounds, std::vector<float>& out) {
+    out.resize(asked.queries.size() * maps.channels());
     const Stopwatch stopwatch;
-    for (int r = 0; r < rounds; ++r) lookup(maps, queries, out);
+    for (int r = 0; r < rounds; ++r) lookup(maps, asked, out);
     return stopwatch.seconds();
 }
 
@@ -43,26 +42,25 @@ double seconds_of_floor(std::span<const void* const> lines, int rounds) {
     return seconds;
 }
 
-std::vector<Query> pick(std::span<const Query> queries, std::size_t count) {
-    std::vector<Query> picked;
-    for (const std::size_t i : choose_runs(queries.size(), count)) picked.push_back(queries[i]);
-    return picked;
-}
-
-void shuffle(std::vector<Query>& queries, std::uint64_t seed) {
+void shuffle(LookupOrder& order, std::uint64_t seed) {
     base::Random random(base::hash(seed));
-    for (std::size_t i = queries.size(); i > 1; --i) std::swap(queries[i - 1], queries[random.below(i)]);
+    for (std::size_t i = order.queries.size(); i > 1; --i) {
+        const std::size_t other = random.below(i);
+        std::swap(order.queries[i - 1], order.queries[other]);
+        if (!order.footprints.empty()) std::swap(order.footprints[i - 1], order.footprints[other]);
+    }
 }
 
 // Seconds a lookup, from passes that grow until one is long enough to tell.
-double calibrate(const Maps& maps, std::span<const Query> queries) {
+double calibrate(const Maps& maps, const Asked& asked) {
     std::vector<float> out;
-    std::size_t count = std::min(run_length, queries.size());
+    const std::size_t all = asked.queries.size();
+    std::size_t count = std::min(run_length, all);
     for (;;) {
-        const std::vector<Query> some = pick(queries, count);
-        const double seconds = seconds_of_pass(maps, some, 1, out);
-        if (seconds > 0.1 * longest_pass || count == queries.size()) return seconds / static_cast<double>(count);
-        count = std::min(4 * count, queries.size());
+        const QuerySet some = pick(asked, choose_runs(all, count));
+        const double seconds = seconds_of_pass(maps, some.asked(), 1, out);
+        if (seconds > 0.1 * longest_pass || count == all) return seconds / static_cast<double>(count);
+        count = std::min(4 * count, all);
     }
 }
 
@@ -82,8 +80,8 @@ void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bo
     const auto time_lookups = [&] {
         // The floor's reads settle lines in the cache that lookups alone do not: with them, order does not matter.
         if (plan.warm && !order.lines.empty()) warm_up([&] { return seconds_of_floor(order.lines, 1); });
-        if (plan.warm) warm_up([&] { return seconds_of_pass(maps, order.queries, 1, out); });
-        order.ns.push_back(1e9 * seconds_of_pass(maps, order.queries, rounds, out) / lookups);
+        if (plan.warm) warm_up([&] { return seconds_of_pass(maps, order.asked(), 1, out); });
+        order.ns.push_back(1e9 * seconds_of_pass(maps, order.asked(), rounds, out) / lookups);
     };
     const auto time_floor = [&] {
         if (order.lines.empty()) return;
@@ -112,18 +110,20 @@ std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count) {
     return chosen;
 }
 
-LookupPlan plan_lookups(const Maps& maps, std::span<const Query> queries, std::size_t most, std::uint64_t seed) {
-    const double each = calibrate(maps, queries);
+LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed) {
+    const double each = calibrate(maps, asked);
     const double fit = each > 0.0 ? longest_pass / each : static_cast<double>(most);
     const std::size_t count =
         std::clamp(static_cast<std::size_t>(std::min(fit, 1e15)), run_length, std::max(most, run_length));
 
     LookupPlan plan;
-    plan.image.queries = pick(queries, count);
-    plan.random.queries = plan.image.queries;
-    shuffle(plan.random.queries, seed);
+    QuerySet chosen = pick(asked, choose_runs(asked.queries.size(), count));
+    plan.image.queries = std::move(chosen.queries);
+    plan.image.footprints = std::move(chosen.footprints);
+    plan.random = plan.image;
+    shuffle(plan.random, seed);
     for (LookupOrder* order : {&plan.image, &plan.random}) {
-        order->covered = touched(maps, order->queries, most_lines, order->lines);
+        order->covered = touched(maps, order->asked(), most_lines, order->lines);
         order->lines.shrink_to_fit();
     }
     const double pass = each * static_cast<double>(plan.image.queries.size());

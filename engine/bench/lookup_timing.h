@@ -15,9 +15,12 @@ namespace shadowbench::bench {
 // What one timed pass in one order looks up.
 struct LookupOrder {
     std::vector<techniques::Query> queries;
+    std::vector<techniques::Footprint> footprints;  // one a query, or none
     std::vector<const void*> lines;  // that the first `covered` of the queries read; empty: no map is read
     std::size_t covered = 0;
     std::vector<double> ns, floor_ns;  // a lookup; one of each a repetition (floor_ns: none without lines)
+
+    Asked asked() const { return {queries, footprints}; }
 };
 
 struct LookupPlan {
@@ -31,8 +34,7 @@ std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count);
 
 // Warms up, and chooses for this map how many of the queries (at most `most`, at least 64 where there are so many) keep
 // one pass at or under 50 ms.
-LookupPlan plan_lookups(const Maps& maps, std::span<const techniques::Query> queries, std::size_t most,
-                        std::uint64_t seed);
+LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed);
 
 // One repetition of both orders on this thread, appended to the plan's times. `floor_first` says which of a lookup and
 // its floor goes first: alternate it, so that neither always finds the other's lines in the cache.

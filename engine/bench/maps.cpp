@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
+
 namespace shadowbench::bench {
 
 using techniques::Map;
@@ -27,20 +29,47 @@ void finish(Maps& maps) {
     for (const auto& map : maps.parts) map->finish();
 }
 
-void lookup(const Maps& maps, std::span<const techniques::Query> queries, std::span<float> visibility) {
-    const std::size_t each = queries.size() * static_cast<std::size_t>(maps.parts[0]->channels());
-    for (std::size_t p = 0; p < maps.parts.size(); ++p)
-        maps.parts[p]->lookup(queries, visibility.subspan(p * each, each));
+void lookup(const Maps& maps, const Asked& asked, std::span<float> visibility) {
+    const std::size_t each = asked.queries.size() * static_cast<std::size_t>(maps.parts[0]->channels());
+    for (std::size_t p = 0; p < maps.parts.size(); ++p) {
+        const std::span<float> answers = visibility.subspan(p * each, each);
+        if (asked.footprints.empty())
+            maps.parts[p]->lookup(asked.queries, answers);
+        else
+            maps.parts[p]->lookup_shaped(asked.queries, asked.footprints, answers);
+    }
 }
 
-std::size_t touched(const Maps& maps, std::span<const techniques::Query> queries, std::size_t limit,
-                    std::vector<const void*>& lines) {
+std::vector<float> lookup_all(const Maps& maps, const Asked& asked) {
+    // In pieces of a fixed size, so that the number of threads does not change them.
+    constexpr std::size_t piece_size = 256;
+    const std::size_t all = asked.queries.size();
+    std::vector<float> visibility(all * maps.channels());
+    const std::size_t pieces = (all + piece_size - 1) / piece_size;
+    base::parallel_for(pieces, [&](std::size_t piece) {
+        const std::size_t first = piece * piece_size;
+        const std::size_t count = std::min(piece_size, all - first);
+        std::vector<float> answers(count * maps.channels());
+        lookup(maps, asked.part(first, count), answers);
+        for (std::size_t c = 0; c < maps.channels(); ++c)
+            std::copy_n(answers.data() + c * count, count, visibility.data() + c * all + first);
+    });
+    return visibility;
+}
+
+std::size_t touched(const Maps& maps, const Asked& asked, std::size_t limit, std::vector<const void*>& lines) {
     const std::size_t before = lines.size();
+    const auto touch = [&](const Map& map, std::size_t q) {
+        if (asked.footprints.empty())
+            map.touched(asked.queries[q], lines);
+        else
+            map.touched_shaped(asked.queries[q], asked.footprints[q], lines);
+    };
     std::size_t covered = 0;
-    while (covered < queries.size() && (lines.size() - before) * maps.parts.size() < limit)
-        maps.parts[0]->touched(queries[covered++], lines);
+    while (covered < asked.queries.size() && (lines.size() - before) * maps.parts.size() < limit)
+        touch(*maps.parts[0], covered++);
     for (std::size_t p = 1; p < maps.parts.size(); ++p)
-        for (std::size_t q = 0; q < covered; ++q) maps.parts[p]->touched(queries[q], lines);
+        for (std::size_t q = 0; q < covered; ++q) touch(*maps.parts[p], q);
     return covered;
 }
 

@@ -1,6 +1,7 @@
 // The map of one technique: one Map, or, for coloured light rays and a technique that sees one channel, one a channel.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -9,6 +10,20 @@
 #include "techniques/technique.h"
 
 namespace shadowbench::bench {
+
+// What maps are asked. Where a camera's pixels ask, their footprints stand beside the queries, one each; else none do.
+struct Asked {
+    std::span<const techniques::Query> queries;
+    std::span<const techniques::Footprint> footprints;
+
+    template <class Range>
+    requires std::convertible_to<const Range&, std::span<const techniques::Query>> Asked(
+        const Range& range, std::span<const techniques::Footprint> shapes = {})
+        : queries(range), footprints(shapes) {}
+    Asked part(std::size_t first, std::size_t count) const {
+        return {queries.subspan(first, count), footprints.empty() ? footprints : footprints.subspan(first, count)};
+    }
+};
 
 struct Maps {
     // What the maps were begun with: the light rays' layout, as the maps see it. Stays where it is.
@@ -27,12 +42,13 @@ void add(Maps& maps, const rays::LightRays& tile);
 void finish(Maps& maps);
 
 // Answers stand channel after channel: visibility has queries.size() * channels() places.
-void lookup(const Maps& maps, std::span<const techniques::Query> queries, std::span<float> visibility);
+void lookup(const Maps& maps, const Asked& asked, std::span<float> visibility);
+// The same for many queries, on all threads.
+std::vector<float> lookup_all(const Maps& maps, const Asked& asked);
 
 // Appends the lines that a lookup of all these queries reads, in the order in which it reads them, until there are
 // `limit` or more. Returns how many queries were covered in every channel.
-std::size_t touched(const Maps& maps, std::span<const techniques::Query> queries, std::size_t limit,
-                    std::vector<const void*>& lines);
+std::size_t touched(const Maps& maps, const Asked& asked, std::size_t limit, std::vector<const void*>& lines);
 
 std::size_t bytes(const Maps& maps);
 std::size_t working_bytes(const Maps& maps);

@@ -3,33 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "rays/image_plane.h"
 
 namespace shadowbench::bench {
 namespace {
 
 using base::Vec3d;
+using techniques::Footprint;
 using techniques::Query;
 
 constexpr double behind = 0.05;  // of the depth range: how far probes reach behind what casts shadows
-
-struct ImagePlane {
-    Vec3d origin, corner, across, down;  // direction of pixel (x, y): corner + x * across + y * down
-};
-
-ImagePlane image_plane(const scene::Camera& camera, base::Vec2i resolution) {
-    const Vec3d forward = (camera.target - camera.position).normalized();
-    Vec3d right = forward.cross(camera.up);
-    if (right.length() < 1e-9 * camera.up.length()) right = forward.cross(Vec3d(forward.z, forward.x, forward.y));
-    right.normalize();
-    const Vec3d up = right.cross(forward);
-    const double pixel = 2.0 * std::tan(camera.fov * std::numbers::pi / 360.0) / resolution.y;
-    return {camera.position, forward - right * (0.5 * pixel * resolution.x) + up * (0.5 * pixel * resolution.y),
-            right * pixel, -up * pixel};
-}
 
 struct Span {
     double front, back;
@@ -64,29 +50,61 @@ void spread(const std::vector<Span>& spans, int count, std::vector<double>& dist
     }
 }
 
-void append_if_seen(const Vec3d& place, float width, const rays::LightView& view, QuerySet& set) {
-    const Query query{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z), width};
+std::optional<Query> query_if_seen(const Vec3d& place, double width, const rays::LightView& view) {
+    const Query query{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z),
+                      static_cast<float>(width)};
     const bool seen = query.x >= 0.0f && query.y >= 0.0f && query.x < static_cast<float>(view.resolution.x) &&
                       query.y < static_cast<float>(view.resolution.y) && place.z > view.z_near &&
                       std::isfinite(query.z);
-    if (seen)
-        set.queries.push_back(query);
+    return seen ? std::optional(query) : std::nullopt;
+}
+
+void append(const std::optional<Query>& query, QuerySet& set) {
+    if (query)
+        set.queries.push_back(*query);
     else
         ++set.dropped;
 }
 
+// Where the rays through the neighbouring pixels meet the plane through the point, to first order in the pixel.
+CameraPoint seen_at(const rays::ImagePlane& plane, const Vec3d& through, const Vec3d& point, const Vec3d& normal) {
+    const double scale = (point - plane.origin).length() / through.length();
+    const auto edge = [&](const Vec3d& step) {
+        return (step - through * (normal.dot(step) / normal.dot(through))) * scale;
+    };
+    return {point, edge(plane.across), edge(plane.down)};
+}
+
+// `place` is the point in light space, before any bias.
+Footprint footprint_of(const rays::LightView& view, const Vec3d& place, const CameraPoint& point) {
+    const auto in_map = [&](const Vec3d& edge, float& x, float& y) {
+        double dx = edge.dot(view.right), dy = edge.dot(view.up);
+        if (view.perspective) {  // of the slope (x / z, y / z)
+            const double dz = edge.dot(view.forward);
+            dx = (dx - (view.lower.x + place.x * view.pixel.x) * dz) / place.z;
+            dy = (dy - (view.lower.y + place.y * view.pixel.y) * dz) / place.z;
+        }
+        x = static_cast<float>(dx / view.pixel.x);
+        y = static_cast<float>(dy / view.pixel.y);
+    };
+    Footprint f;
+    in_map(point.across, f.ux, f.uy);
+    in_map(point.down, f.vx, f.vy);
+    return f;
+}
+
 }  // namespace
 
-std::vector<Vec3d> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer) {
+std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer) {
     const base::Vec2i resolution = receivers.resolution;
-    const ImagePlane plane = image_plane(*receivers.camera, resolution);
-    std::vector<std::vector<Vec3d>> rows(static_cast<std::size_t>(resolution.y));
+    const rays::ImagePlane plane = rays::make_image_plane(*receivers.camera, resolution);
+    std::vector<std::vector<CameraPoint>> rows(static_cast<std::size_t>(resolution.y));
     base::parallel_for(rows.size(), [&](std::size_t row) {
         std::vector<rays::TracedSegment> segments;
         std::vector<double> distances;
         for (int x = 0; x < resolution.x; ++x) {
-            const Vec3d direction =
-                (plane.corner + plane.across * (x + 0.5) + plane.down * (static_cast<double>(row) + 0.5)).normalized();
+            const Vec3d through = plane.through(x + 0.5, static_cast<double>(row) + 0.5);
+            const Vec3d direction = through.normalized();
             rays::SurfaceHit hit;
             const bool surface = tracer.nearest(plane.origin, direction, hit);
             const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
@@ -95,26 +113,31 @@ std::vector<Vec3d> camera_points(const scene::Receivers& receivers, const rays::
                 tracer.all_segments(plane.origin, direction, 0.0, end, segments);
                 spread(media_spans(segments), receivers.media_lookups, distances);
             }
-            for (const double t : distances) rows[row].push_back(plane.origin + direction * t);
-            if (surface) rows[row].push_back(hit.position);
+            for (const double t : distances)
+                rows[row].push_back(seen_at(plane, through, plane.origin + direction * t, direction));
+            if (surface) rows[row].push_back(seen_at(plane, through, hit.position, hit.normal));
         }
     });
-    std::vector<Vec3d> points;
-    for (const std::vector<Vec3d>& row : rows) points.insert(points.end(), row.begin(), row.end());
+    std::vector<CameraPoint> points;
+    for (const std::vector<CameraPoint>& row : rows) points.insert(points.end(), row.begin(), row.end());
     return points;
 }
 
-QuerySet queries_of_points(const std::vector<Vec3d>& points, const scene::Receivers& receivers,
+std::optional<Query> query_of_point(const Vec3d& point, const scene::Receivers& receivers,
+                                    const rays::LightView& view) {
+    Vec3d place = rays::to_light(view, point);
+    if (view.perspective && !(place.z > view.z_near)) return std::nullopt;
+    if (receivers.bias > 0.0) place.z -= receivers.bias / rays::length_per_depth(view, place.x, place.y);
+    return query_if_seen(place, receivers.filter_width, view);
+}
+
+QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Receivers& receivers,
                            const rays::LightView& view) {
     QuerySet set;
-    for (const Vec3d& point : points) {
-        Vec3d place = rays::to_light(view, point);
-        if (view.perspective && !(place.z > view.z_near)) {
-            ++set.dropped;
-            continue;
-        }
-        if (receivers.bias > 0.0) place.z -= receivers.bias / rays::length_per_depth(view, place.x, place.y);
-        append_if_seen(place, static_cast<float>(receivers.filter_width), view, set);
+    for (const CameraPoint& point : points) {
+        const std::optional<Query> query = query_of_point(point.position, receivers, view);
+        append(query, set);
+        if (query) set.footprints.push_back(footprint_of(view, rays::to_light(view, point.position), point));
     }
     return set;
 }
@@ -128,7 +151,7 @@ QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView&
         place.x = random.uniform(0.0, view.resolution.x);
         place.y = random.uniform(0.0, view.resolution.y);
         place.z = random.uniform(view.z_min, view.z_max + behind * range);
-        append_if_seen(place, static_cast<float>(receivers.filter_width), view, set);
+        append(query_if_seen(place, receivers.filter_width, view), set);
     }
     return set;
 }
@@ -142,6 +165,15 @@ std::vector<std::size_t> choose_judged(std::size_t total, std::size_t count, std
         chosen[i] = first + base::Random(base::hash(seed, i)).below(last - first);
     }
     return chosen;
+}
+
+QuerySet pick(const Asked& asked, std::span<const std::size_t> indices) {
+    QuerySet set;
+    for (const std::size_t i : indices) {
+        set.queries.push_back(asked.queries[i]);
+        if (!asked.footprints.empty()) set.footprints.push_back(asked.footprints[i]);
+    }
+    return set;
 }
 
 }  // namespace shadowbench::bench

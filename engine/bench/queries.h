@@ -3,9 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "bench/maps.h"
 #include "rays/light_view.h"
 #include "rays/tracer.h"
 #include "scene/scene.h"
@@ -15,15 +18,31 @@ namespace shadowbench::bench {
 
 struct QuerySet {
     std::vector<techniques::Query> queries;  // in image order: row after row, each view ray from its front to its back
-    std::uint64_t dropped = 0;               // receivers outside the light's map
+    std::vector<techniques::Footprint> footprints;  // of the camera's pixels, one a query; none without a camera
+    std::uint64_t dropped = 0;                      // receivers outside the light's map
+
+    Asked asked() const { return {queries, footprints}; }
 };
 
-// World points: for each pixel of the image, `media_lookups` places spread evenly over the media that its view ray
-// passes before the nearest surface, then the place on that surface. `tracer` sees all objects.
-std::vector<base::Vec3d> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer);
+// A place that a pixel of the camera sees, and the pixel's edges there: how far the place moves from one pixel to the
+// next, to the right and downwards, on the plane that touches the surface; in a medium, on the plane that faces the
+// view ray. Without bound where the surface is seen from its side.
+struct CameraPoint {
+    base::Vec3d position;
+    base::Vec3d across{0, 0, 0}, down{0, 0, 0};
+};
 
-// The points as queries of one light, moved towards it by the bias.
-QuerySet queries_of_points(const std::vector<base::Vec3d>& points, const scene::Receivers& receivers,
+// For each pixel of the image, `media_lookups` places spread evenly over the media that its view ray
+// passes before the nearest surface, then the place on that surface. `tracer` sees all objects.
+std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer);
+
+// A world point as a query of one light, moved towards it by the bias; nothing when it is outside the light's map.
+std::optional<techniques::Query> query_of_point(const base::Vec3d& point, const scene::Receivers& receivers,
+                                                const rays::LightView& view);
+
+// All points as queries, in their order, and their pixels as they lie in the map: the edges under the derivative of the
+// projection at the point.
+QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Receivers& receivers,
                            const rays::LightView& view);
 
 // Points spread evenly over the map and over the depths of what casts shadows, with a little behind it.
@@ -31,5 +50,8 @@ QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView&
 
 // Indices of `count` queries out of `total`, one in each of `count` equal stretches; all of them when there are fewer.
 std::vector<std::size_t> choose_judged(std::size_t total, std::size_t count, std::uint64_t seed);
+
+// Those of what is asked.
+QuerySet pick(const Asked& asked, std::span<const std::size_t> indices);
 
 }  // namespace shadowbench::bench

@@ -47,7 +47,7 @@ std::string pointer_of(const scene::Scenario& scenario, std::size_t light) {
 // What all lights of a variant share: Embree's trees and the camera's receivers.
 struct Shared {
     std::unique_ptr<rays::Tracer> casters;
-    std::vector<base::Vec3d> seen;
+    std::vector<CameraPoint> seen;
 };
 
 Shared prepare(const scene::Scenario& scenario) {

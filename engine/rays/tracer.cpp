@@ -246,6 +246,14 @@ RTCRayHit trace(RTCScene scene, double widest_hair, Query& q) {
     return rayhit;
 }
 
+// 0 for what is not hair.
+Vec3d strand_direction(const Traced& traced, unsigned primitive) {
+    const auto* hair = std::get_if<scene::Hair>(&traced.object->shape);
+    if (!hair) return Vec3d(0.0);
+    const std::uint32_t first = traced.segments.first[primitive];
+    return (Vec3d(hair->points[first + 1]) - Vec3d(hair->points[first])).normalized();
+}
+
 }  // namespace
 
 Tracer::Tracer(const scene::Scene& scene, bool casters_only) : state_(std::make_unique<State>()) {
@@ -305,6 +313,8 @@ bool Tracer::nearest(const Vec3d& origin, const Vec3d& direction, SurfaceHit& ou
     out.t = found.ray.tfar - q.back_off;
     out.position = origin + direction * out.t;
     out.normal = Vec3d(found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z);
+    out.tangent = strand_direction(*state_->geometries[found.hit.geomID], found.hit.primID);
+    if (out.tangent != Vec3d(0.0)) out.normal = out.tangent * out.tangent.dot(direction) - direction;
     if (out.normal.dot(direction) > 0.0) out.normal = -out.normal;
     const double length = out.normal.length();
     out.normal = length > 0.0 ? out.normal / length : -direction.normalized();

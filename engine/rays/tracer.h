@@ -24,7 +24,8 @@ struct TracedSegment {
 struct SurfaceHit {
     double t;
     base::Vec3d position;
-    base::Vec3d normal;  // faces the ray's origin; for hair, across the strand
+    base::Vec3d normal;   // unit length, faces the ray's origin; for hair, across the strand
+    base::Vec3d tangent;  // unit length, along the strand; 0 for what is not hair
 };
 
 // Thread-safe once made. Keeps a reference to the scene.

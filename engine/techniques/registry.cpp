@@ -4,6 +4,7 @@
 #include "techniques/avsm/avsm.h"
 #include "techniques/deep/deep.h"
 #include "techniques/depth/depth.h"
+#include "techniques/multi_depth/multi_depth.h"
 #include "techniques/ray_traced/ray_traced.h"
 #include "techniques/technique.h"
 #include "techniques/uncompressed/uncompressed.h"
@@ -15,6 +16,7 @@ std::span<const Technique> all() {
         shadow_map(),    // Williams 1978
         pcf(),           // Reeves, Salesin, Cook 1987
         deep(),          // Lokovic, Veach 2000
+        multi_depth(),   // Pagot, Comba, Oliveira 2004
         avsm(),          // Salvi et al. 2010
         uncompressed(),  // the truth of the rays
         ray_traced(),    // no map

@@ -28,6 +28,15 @@ struct Query {
     float width;  // of the filter, map pixels, > 0
 };
 
+// The receiver's own pixel as it lies in the map: a parallelogram around the query's (x, y), its two edges in map
+// pixels. All 0: not known. Beside the queries and not in them: few techniques read it, and lookups that do not would
+// pay for the longer query.
+struct Footprint {
+    float ux = 0, uy = 0, vx = 0, vy = 0;
+
+    bool known() const { return ux != 0 || uy != 0 || vx != 0 || vy != 0; }
+};
+
 // Nodes of the stored functions. A cell is one stored function: a pixel, or one sample of a pixel.
 struct NodeStats {
     std::uint64_t cells = 0;
@@ -82,10 +91,18 @@ public:
     virtual int channels() const { return 1; }
     // visibility[c * queries.size() + i] in [0, 1] answers queries[i] in channel c. Thread-safe. Outside the map: lit.
     virtual void lookup(std::span<const Query> queries, std::span<float> visibility) const = 0;
+    // The same where the footprints of the queries are given, one each: for techniques that can filter over them.
+    virtual void lookup_shaped(std::span<const Query> queries, std::span<const Footprint>,
+                               std::span<float> visibility) const {
+        lookup(queries, visibility);
+    }
 
     // Appends an address in every 64-byte line of the map's memory that this lookup reads: what the floor of the
     // lookup time reads, and nothing else. Techniques without a map append nothing.
     virtual void touched(const Query& query, std::vector<const void*>& lines) const = 0;
+    virtual void touched_shaped(const Query& query, const Footprint&, std::vector<const void*>& lines) const {
+        touched(query, lines);
+    }
 
     virtual std::size_t bytes() const = 0;          // held by the finished map
     virtual std::size_t working_bytes() const = 0;  // held at most while building, above the rays given

@@ -4,10 +4,8 @@
 #include <new>
 #include <ostream>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "base/error.h"
@@ -24,21 +22,25 @@ constexpr int promise_broken = 2;  // less accurate than it says
 constexpr const char* examples = R"(Examples:
   shadowbench run scenarios/quickstart.json
   shadowbench run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64
+  shadowbench render quickstart --size 512x384 --out pictures
   shadowbench validate smoke_vdb --data ~/volumes
   shadowbench export quickstart --technique deep:tolerance=0.02 --out hair.dsm
   shadowbench inspect hair.dsm
   shadowbench list techniques
+  shadowbench reproduce lokovic2000 --quick
   shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
 SCENARIO is a file, or the name of one in ./scenarios or in the folders of $SHADOWBENCH_SCENARIOS.
 Exit codes: 0 ok; 2 a technique broke what it promises; 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
 
 struct Arguments {
     RunArguments run;
+    RenderArguments render;
     ScenarioArguments validate;
     ExportArguments exported;
     std::string inspect;
     std::string list;
     CurveArguments curve;
+    ReproduceArguments reproduce;
 };
 
 // One value an option, as often as the option is given: a following positional argument stays one.
@@ -59,6 +61,12 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
     command.add_option("--memory-limit", arguments.memory_limit, "GiB; what surely needs more is refused")
         ->check(CLI::Range(0.001, 1e6))
         ->capture_default_str();
+}
+
+void add_folder_option(CLI::App& command, std::string& folder, const char* text) {
+    command.add_option("--out", folder, text)->check([](const std::string& name) {
+        return std::string(name.empty() ? "the folder has no name" : "");
+    });
 }
 
 void add_only_option(CLI::App& command, ScenarioArguments& arguments) {
@@ -91,8 +99,19 @@ void add_commands(CLI::App& app, Arguments& arguments) {
     CLI::App* run = app.add_subcommand("run", "Run a scenario: print a table, write result.json and result.csv");
     add_scenario_options(*run, arguments.run);
     add_only_option(*run, arguments.run);
-    run->add_option("--out", arguments.run.out, "Folder of the results [results/runs/<scenario name>]")
-        ->check([](const std::string& folder) { return std::string(folder.empty() ? "the folder has no name" : ""); });
+    add_folder_option(*run, arguments.run.out, "Folder of the results [results/runs/<scenario name>]");
+
+    CLI::App* render = app.add_subcommand(
+        "render", "Render what the camera sees through every technique: pictures as EXR and PNG, and images.json");
+    add_scenario_options(*render, arguments.render);
+    add_only_option(*render, arguments.render);
+    add_folder_option(*render, arguments.render.out, "Folder of the pictures [results/images/<scenario name>]");
+    render->add_option("--size", arguments.render.size, "WIDTHxHEIGHT in pixels [the scenario's own]");
+    render
+        ->add_option("--media-lookups", arguments.render.media_lookups,
+                     "Lookups along a view ray through all media of the scene")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
 
     CLI::App* validate = app.add_subcommand("validate", "Check a scenario and its files without running it");
     add_scenario_options(*validate, arguments.validate);
@@ -120,9 +139,22 @@ void add_commands(CLI::App& app, Arguments& arguments) {
         ->capture_default_str();
 }
 
+void add_reproduce(CLI::App& app, ReproduceArguments& arguments) {
+    CLI::App* reproduce =
+        app.add_subcommand("reproduce", "Measure the claims of the papers again: a report with a verdict a claim");
+    reproduce->add_option("PAPER", arguments.paper, "reeves1987, lokovic2000, pagot2004, volume, salvi2010, or all")
+        ->capture_default_str();
+    reproduce->add_option("--out", arguments.out, "Folder of the report, its plots in plots/ [results]");
+    repeatable(reproduce->add_option("--data", arguments.data, "A folder to look for data in"));
+    reproduce->add_flag("--quick", arguments.quick, "Smaller sizes, under five minutes for all; marked as such");
+    reproduce->add_option("--threads", arguments.threads, "Threads of capture and checks; 0: all (times are of one)")
+        ->check(CLI::Range(0, 4096));
+}
+
 // The exit code.
 int dispatch(const CLI::App& app, Arguments& arguments, std::ostream& out, std::ostream& err) {
     if (app.got_subcommand("run") && !run_command(arguments.run, out, err)) return promise_broken;
+    if (app.got_subcommand("render") && !render_command(arguments.render, out, err)) return promise_broken;
     if (app.got_subcommand("validate")) validate_command(arguments.validate, out);
     if (app.got_subcommand("export")) export_command(arguments.exported, out, err);
     if (app.got_subcommand("inspect")) inspect_command(arguments.inspect, out);
@@ -132,6 +164,7 @@ int dispatch(const CLI::App& app, Arguments& arguments, std::ostream& out, std::
         else
             list_scenarios(out);
     }
+    if (app.got_subcommand("reproduce")) reproduce_command(arguments.reproduce, out, err);
     if (app.got_subcommand("curve")) {
         if (arguments.curve.techniques.empty()) arguments.curve.techniques = {"deep:tolerance=0.02", "avsm:nodes=8"};
         curve_command(arguments.curve, out);
@@ -149,11 +182,10 @@ int report(std::ostream& err, ErrorCode code, std::string message) {
 // What CLI11 says of wrong arguments, but for an unknown command, which it calls a missing one.
 std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
     if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
-        std::vector<std::string> commands;
+        std::string names;
         for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-            commands.push_back(command->get_name());
-        return fmt::format("unknown command \"{}\"; there are: {} (see shadowbench --help)", argv[1],
-                           fmt::join(commands, ", "));
+            names += ", " + command->get_name();
+        return fmt::format("unknown command \"{}\"; there are: {} (see shadowbench --help)", argv[1], names.substr(2));
     }
     return std::string(error.what()) + " (see shadowbench --help)";
 }
@@ -167,6 +199,7 @@ int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ost
     app.footer(examples);
     Arguments arguments;
     add_commands(app, arguments);
+    add_reproduce(app, arguments.reproduce);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

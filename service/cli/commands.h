@@ -20,6 +20,12 @@ struct RunArguments : ScenarioArguments {
     std::string out;  // folder; empty: results/runs/<scenario name>
 };
 
+struct RenderArguments : ScenarioArguments {
+    std::string out;          // folder; empty: results/images/<scenario name>
+    std::string size;         // WIDTHxHEIGHT; empty: the scenario's own
+    int media_lookups = 128;  // of a view ray through all media
+};
+
 struct ExportArguments : ScenarioArguments {
     std::string technique = "deep";  // id:name=value,name=value
     std::string light;               // a name, or a number from 0 on; empty: the first
@@ -36,14 +42,25 @@ struct CurveArguments {
     int repetitions = 7;
 };
 
+struct ReproduceArguments {
+    std::string paper = "all";      // a paper's id, or all
+    std::string out;                // folder; empty: results
+    std::vector<std::string> data;  // folders
+    bool quick = false;
+    int threads = 0;  // 0: all processors
+};
+
 // Whether every technique kept its promises.
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
+// Whether every technique answered with visibilities.
+bool render_command(const RenderArguments& arguments, std::ostream& out, std::ostream& err);
 // One light's map, or its light rays, as a file.
 void export_command(const ExportArguments& arguments, std::ostream& out, std::ostream& err);
 void inspect_command(const std::string& file, std::ostream& out);
 void validate_command(const ScenarioArguments& arguments, std::ostream& out);
 void list_techniques(std::ostream& out);
 void list_scenarios(std::ostream& out);
+void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, std::ostream& err);
 void curve_command(const CurveArguments& arguments, std::ostream& out);
 
 }  // namespace shadowbench::service

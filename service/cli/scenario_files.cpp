@@ -29,6 +29,17 @@ std::vector<fs::path> scenario_folders() {
     return folders;
 }
 
+fs::path paper_scenarios() {
+    std::error_code ignored;
+    std::string looked_in;
+    for (const fs::path& folder : scenario_folders()) {
+        if (fs::is_directory(folder / "papers", ignored)) return folder / "papers";
+        looked_in += ", " + folder.string();
+    }
+    throw Error(ErrorCode::no_such_file, "papers",
+                "there is no folder of this name in" + looked_in.substr(1) + "; set SHADOWBENCH_SCENARIOS");
+}
+
 fs::path find_scenario(const std::string& name) {
     std::error_code ignored;
     if (fs::is_regular_file(name, ignored)) return name;

@@ -12,6 +12,9 @@ namespace shadowbench::service {
 // ./scenarios, then the folders of $SHADOWBENCH_SCENARIOS (separated by colons).
 std::vector<std::filesystem::path> scenario_folders();
 
+// The folder papers/ of the first scenario folder that has one. Throws Error{no_such_file}.
+std::filesystem::path paper_scenarios();
+
 // A path to a file, or the name of one in the scenario folders, with or without ".json". Throws Error{no_such_file}.
 std::filesystem::path find_scenario(const std::string& name);
 

@@ -58,6 +58,18 @@ TEST(LookupPlan, looks_up_the_same_queries_in_both_orders) {
     EXPECT_EQ(plan.image.covered, 640u);
 }
 
+TEST(LookupPlan, shuffles_footprints_with_their_queries) {
+    const Maps maps = fake_maps(2);
+    const std::vector<Query> queries = some_queries(500);
+    std::vector<techniques::Footprint> footprints;
+    for (const Query& q : queries) footprints.push_back({q.x + 1.0f, 0, 0, 1});
+    const LookupPlan plan = plan_lookups(maps, {queries, footprints}, 500, 3);
+    for (const LookupOrder* order : {&plan.image, &plan.random}) {
+        ASSERT_EQ(order->footprints.size(), 500u);
+        for (std::size_t i = 0; i < 500; ++i) EXPECT_EQ(order->footprints[i].ux, order->queries[i].x + 1.0f);
+    }
+}
+
 TEST(LookupPlan, keeps_one_time_and_one_floor_a_repetition) {
     const Maps maps = fake_maps(3);
     LookupPlan plan = plan_lookups(maps, some_queries(100), 100, 3);

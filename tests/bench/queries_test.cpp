@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
+#include <utility>
 
 #include "bench/half_covered.h"
 
@@ -48,7 +50,7 @@ TEST(QueriesOfPoints, move_towards_the_light_and_drop_what_it_does_not_see) {
     const HalfCovered half = half_covered();
     scene::Receivers receivers;
     receivers.bias = 0.25;
-    const std::vector<Vec3d> points{{0.0, -2.0, 0.0}, {5.0, -2.0, 0.0}, {-0.99, -1.0, 0.99}};
+    const std::vector<CameraPoint> points{{{0.0, -2.0, 0.0}}, {{5.0, -2.0, 0.0}}, {{-0.99, -1.0, 0.99}}};
     const QuerySet set = queries_of_points(points, receivers, half.view);
     EXPECT_EQ(set.dropped, 1u);
     ASSERT_EQ(set.queries.size(), 2u);
@@ -63,7 +65,7 @@ TEST(QueriesOfPoints, move_along_the_ray_in_perspective) {
     half.view.z_near = 0.1;
     scene::Receivers receivers;
     receivers.bias = 0.5;
-    const std::vector<Vec3d> points{{-1.9, -2.0, 0.0}, {0.0, -0.05, 0.0}, {0.0, 3.0, 0.0}};
+    const std::vector<CameraPoint> points{{{-1.9, -2.0, 0.0}}, {{0.0, -0.05, 0.0}}, {{0.0, 3.0, 0.0}}};
     const QuerySet set = queries_of_points(points, receivers, half.view);
     EXPECT_EQ(set.dropped, 2u) << "before the near plane, and behind the light";
     ASSERT_EQ(set.queries.size(), 1u);
@@ -75,11 +77,74 @@ TEST(CameraPoints, lie_on_the_nearest_surface_in_image_order) {
     scene::Receivers receivers;
     receivers.camera = scene::Camera{{0, 1, 0}, {0, -1, 0}, {0, 0, -1}, 20.0};
     receivers.resolution = {4, 2};
-    const std::vector<Vec3d> points = camera_points(receivers, rays::Tracer(half.scene, false));
+    const std::vector<CameraPoint> points = camera_points(receivers, rays::Tracer(half.scene, false));
     ASSERT_EQ(points.size(), 8u);
-    for (const Vec3d& p : points) EXPECT_NEAR(p.y, p.x < 0 ? -1.0 : -3.0, 1e-5);
-    EXPECT_LT(points[0].x, points[1].x) << "left to right";
-    EXPECT_LT(points[0].z, points[4].z) << "top row first: up is -z";
+    for (const CameraPoint& p : points) EXPECT_NEAR(p.position.y, p.position.x < 0 ? -1.0 : -3.0, 1e-5);
+    EXPECT_LT(points[0].position.x, points[1].position.x) << "left to right";
+    EXPECT_LT(points[0].position.z, points[4].position.z) << "top row first: up is -z";
+}
+
+// A plane, tilted to both axes, seen by the camera through 3 x 3 pixels.
+QuerySet seen_on_a_tilted_plane(const rays::LightView& view) {
+    scene::Mesh mesh;  // y = -2 + 0.4 x - 0.3 z
+    for (const auto& [x, z] : {std::pair{-3.0f, -3.0f}, {3.0f, -3.0f}, {3.0f, 3.0f}, {-3.0f, 3.0f}})
+        mesh.positions.push_back({x, -2.0f + 0.4f * x - 0.3f * z, z});
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene::Scene scene;
+    scene.objects.emplace_back();
+    scene.objects.back().shape = mesh;
+    scene::Receivers receivers;
+    receivers.camera = scene::Camera{{1.5, 1.0, 2.0}, {0.1, -2.0, 0.1}, {0, 0, -1}, 2.0};
+    receivers.resolution = {3, 3};
+    receivers.bias = 0.0;
+    return queries_of_points(camera_points(receivers, rays::Tracer(scene, false)), receivers, view);
+}
+
+TEST(QueriesOfPoints, lay_the_pixel_of_a_tilted_plane_into_the_map_as_its_parallelogram) {
+    for (const bool perspective : {false, true}) {
+        HalfCovered half = half_covered();
+        half.view.perspective = perspective;
+        half.view.z_near = 0.1;
+        const QuerySet set = seen_on_a_tilted_plane(half.view);
+        ASSERT_EQ(set.queries.size(), 9u);
+        ASSERT_EQ(set.footprints.size(), 9u);
+        // The neighbours of the pixel in the middle stand one edge from it.
+        const auto& q = set.queries;
+        const techniques::Footprint& f = set.footprints[4];
+        EXPECT_GT(std::abs(f.uy) + std::abs(f.vx), 0.001f) << "not along the axes";
+        const float far = 2e-3f * (std::abs(f.ux) + std::abs(f.vy));  // second order, and float positions
+        EXPECT_NEAR(f.ux, (q[5].x - q[3].x) / 2, far);
+        EXPECT_NEAR(f.uy, (q[5].y - q[3].y) / 2, far);
+        EXPECT_NEAR(f.vx, (q[7].x - q[1].x) / 2, far);
+        EXPECT_NEAR(f.vy, (q[7].y - q[1].y) / 2, far);
+    }
+}
+
+TEST(QueriesOfPoints, project_edges_by_hand) {
+    const HalfCovered half = half_covered();  // 4 map pixels a unit; map y is world -z
+    const std::vector<CameraPoint> points{{{0.0, -2.0, 0.0}, {0.5, -7.0, 0.25}, {0.0, 3.0, -1.0}}};
+    const QuerySet set = queries_of_points(points, {}, half.view);
+    ASSERT_EQ(set.footprints.size(), 1u);
+    EXPECT_FLOAT_EQ(set.footprints[0].ux, 2.0f);
+    EXPECT_FLOAT_EQ(set.footprints[0].uy, -1.0f);
+    EXPECT_FLOAT_EQ(set.footprints[0].vx, 0.0f);
+    EXPECT_FLOAT_EQ(set.footprints[0].vy, 4.0f);
+}
+
+TEST(QueriesOfPoints, keep_footprints_beside_their_queries_when_some_are_dropped) {
+    const HalfCovered half = half_covered();
+    const std::vector<CameraPoint> points{{{5.0, -2.0, 0.0}, {9, 0, 0}, {0, 0, 9}},
+                                          {{0.0, -2.0, 0.0}, {1, 0, 0}, {0, 0, 1}},
+                                          {{0.5, -2.0, 0.0}, {2, 0, 0}, {0, 0, 2}}};
+    const QuerySet set = queries_of_points(points, {}, half.view);
+    ASSERT_EQ(set.queries.size(), 2u);
+    ASSERT_EQ(set.footprints.size(), 2u);
+    EXPECT_FLOAT_EQ(set.footprints[0].ux, 4.0f);
+    EXPECT_FLOAT_EQ(set.footprints[1].ux, 8.0f);
+    const std::size_t second[] = {1};
+    const QuerySet one = pick(set.asked(), second);
+    EXPECT_EQ(one.queries[0].x, set.queries[1].x);
+    EXPECT_EQ(one.footprints[0].ux, 8.0f);
 }
 
 TEST(CameraPoints, spread_over_the_media_before_the_surface) {
@@ -88,15 +153,23 @@ TEST(CameraPoints, spread_over_the_media_before_the_surface) {
     puffs.centres = {{0, -1.5f, 0}, {0, -4.5f, 0}};
     puffs.radii = {0.5f, 1.5f};
     puffs.density = {1.0f, 1.0f};
-    scene.objects.push_back({"puffs", true, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}, puffs});
+    scene.objects.emplace_back();
+    scene.objects.back().shape = puffs;
     scene::Receivers receivers;
     receivers.camera = scene::Camera{{0, 0, 0}, {0, -1, 0}, {0, 0, -1}, 0.01};
     receivers.resolution = {1, 1};
     receivers.media_lookups = 4;
-    const std::vector<Vec3d> points = camera_points(receivers, rays::Tracer(scene, false));
+    const std::vector<CameraPoint> points = camera_points(receivers, rays::Tracer(scene, false));
     ASSERT_EQ(points.size(), 4u) << "no surface behind them";
     const double depths[] = {1.5, 3.5, 4.5, 5.5};
-    for (int i = 0; i < 4; ++i) EXPECT_NEAR(points[i].y, -depths[i], 1e-3);
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(points[i].position.y, -depths[i], 1e-3);
+    // A pixel of 0.01 degrees, on a plane that faces the ray.
+    const double pixel = 2 * std::tan(0.005 * std::acos(-1.0) / 180);
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_NEAR(points[i].across.length(), pixel * depths[i], 1e-6);
+        EXPECT_NEAR(points[i].across.y, 0.0, 1e-9);
+        EXPECT_NEAR(points[i].across.dot(points[i].down), 0.0, 1e-9);
+    }
 }
 
 }  // namespace

@@ -85,8 +85,10 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"metrics", {"base", "metrics"}},
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
         {"render", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench", "render"}},
+        {"claims", {"base", "scene", "rays", "curves", "techniques", "bench", "render", "claims"}},
         // The command line also reads and writes deep shadow map files.
-        {"service", {"base", "scene", "curves", "techniques", "techniques/deep", "bench", "render", "service"}},
+        {"service",
+         {"base", "scene", "curves", "techniques", "techniques/deep", "bench", "render", "claims", "service"}},
     };
     for (const Include& include : includes()) {
         if (include.system) continue;

@@ -211,6 +211,26 @@ TEST(Capture, HairAroundASpotAndThroughItsNearPlaneIsNotLost) {
     }
 }
 
+TEST(Tracer, TheNearestHairTellsItsDirectionAndASurfaceNone) {
+    scene::Hair hair;
+    hair.points = {{-1, 0, -1}, {1, 0, 1}};
+    hair.radii = {0.1f, 0.1f};
+    hair.strand_begin = {0, 2};
+    scene::Object strand;
+    strand.shape = hair;
+    scene::Scene scene;
+    scene.objects = {testing::quad({-5, -5, 3}, {4, 0, 0}, {0, 10, 0}), strand};
+    const Tracer tracer(scene, false);
+    SurfaceHit hit;
+    ASSERT_TRUE(tracer.nearest({0, 0.02, -5}, {0, 0, 1}, hit));
+    EXPECT_NEAR(std::abs(hit.tangent.dot(base::Vec3d(1, 0, 1).normalized())), 1.0, 1e-6);
+    EXPECT_NEAR(hit.normal.dot(hit.tangent), 0.0, 1e-6);
+    EXPECT_NEAR(hit.normal.dot(base::Vec3d(1, 0, -1).normalized()), 1.0, 1e-6) << "towards the eye";
+    ASSERT_TRUE(tracer.nearest({-3, 0, -5}, {0, 0, 1}, hit));
+    EXPECT_EQ(hit.tangent, base::Vec3d(0, 0, 0));
+    EXPECT_NEAR(hit.normal.z, -1.0, 1e-6);
+}
+
 TEST(Tracer, HairRightAtTheStartOfARayIsNotPassedOver) {
     // Embree by itself skips ribbons within two half-widths of where a ray starts.
     scene::Scene scene;

@@ -256,6 +256,25 @@ TEST_F(CurveCli, refuses_wrong_techniques_and_files) {
     fails({"curve", functions_, "--technique", "deep", "--dump", path("functions.txt/below")}, 74, "below");
 }
 
+TEST_F(Cli, RenderWritesPicturesOfTheSizeAskedFor) {
+    const Outcome done = cli({"render", write("tiny.json", tiny), "--size", "24x16", "--out", path("pictures")});
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_NE(done.out.find("24 x 16"), std::string::npos) << done.out;
+    const nlohmann::json images = nlohmann::json::parse(read(folder_ / "pictures/images.json"));
+    EXPECT_EQ(images["resolution"], nlohmann::json({24, 16}));
+    EXPECT_TRUE(fs::exists(folder_ / "pictures/uncompressed.shadow.exr"));
+    EXPECT_EQ(read(folder_ / "pictures/deep.shaded.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Cli, RenderRefusesASizeThatIsNone) {
+    for (const char* size : {"24", "24x", "x16", "0x4", "24x16x2", "-4x4", "70000x1"}) {
+        const Outcome done = cli({"render", path("tiny.json"), "--size", size, "--out", path("none")});
+        EXPECT_EQ(done.code, 64) << size;
+        EXPECT_NE(done.err.find("WIDTHxHEIGHT"), std::string::npos) << done.err;
+        EXPECT_FALSE(fs::exists(folder_ / "none"));
+    }
+}
+
 TEST_F(Cli, writes_a_map_as_a_tiled_file_and_tells_what_it_holds) {
     const Outcome written =
         cli({"export", path("tiny.json"), "--technique", "deep:tolerance=0.01", "--tile", "4", "--out", path("a.dsm")});

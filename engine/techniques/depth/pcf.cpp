@@ -1,14 +1,14 @@
 #include <bit>
 
-#include "base/random.h"
 #include "techniques/depth/depth.h"
-#include "techniques/depth/depth_map.h"
+#include "techniques/depth/pcf_samples.h"
+#include "techniques/depth_map.h"
 
 namespace shadowbench::techniques {
 namespace {
 
-// Names and defaults of figure 4 of the paper. Its biases of 0.3 and 0.4 are for worlds of 100 units; receivers carry
-// the scenario's own bias, so none is added here by default.
+// Names of figure 4 of the paper; values that section 4.2 calls typical. Its biases of 0.3 and 0.4 are for worlds of
+// 100 units; receivers carry the scenario's own bias, so none is added here by default.
 const Parameter parameters[] = {
     {"num_samples", ParameterKind::integer, "depths compared in one lookup, about (NumSamples)", 16, 1, 4096},
     {"res_factor", ParameterKind::number, "widens the region (ResFactor); below 1 the map's aliases show", 3, 1, 1000},
@@ -16,35 +16,41 @@ const Parameter parameters[] = {
     {"min_samples", ParameterKind::integer, "least samples along each side of the region (MinSamples)", 2, 1, 64},
     {"bias0", ParameterKind::number, "least bias of a sample, world length (Bias0)", 0, 0, 1e6},
     {"bias1", ParameterKind::number, "largest bias of a sample, world length (Bias1); at least bias0", 0, 0, 1e6},
+    {"placement",
+     ParameterKind::choice,
+     "of samples (figure 3): anywhere in the region's bounding box, Gaussian in it, jittered in it, or jittered in the "
+     "region's own shape",
+     0,
+     0,
+     0,
+     "jittered",
+     {"uniform", "gaussian", "jittered", "shape"}},
+    {"region",
+     ParameterKind::number_or_word,
+     "what is filtered over: the width that a lookup asks for, the receiver's pixel mapped into the map (the width "
+     "where "
+     "it is not known), or a width of this many map pixels",
+     0,
+     1e-6,
+     1e6,
+     "query",
+     {"query", "pixel"}},
     cells_parameter,
+    storage_parameter,
 };
 
-struct Settings {
-    float samples, res_factor, min_size, min_samples, bias0, bias1;
-};
+Placement read_placement(const ParameterValues& values) {
+    const std::string& word = values.word("placement");
+    if (word == "uniform") return Placement::uniform;
+    if (word == "gaussian") return Placement::gaussian;
+    return word == "shape" ? Placement::shape : Placement::jittered;
+}
 
-// The region of a lookup, in cells, and its partition: figure 4.
-struct Region {
-    float left, bottom, step_x, step_y;
-    int across, along;
-};
-
-Region make_region(const Settings& s, const CellGrid& grid, const Query& q) {
-    const float half_x = std::max(0.5f * q.width * grid.per_pixel_x * s.res_factor, s.min_size);
-    const float half_y = std::max(0.5f * q.width * grid.per_pixel_y * s.res_factor, s.min_size);
-    float across, along;
-    if (half_x * half_y * 4.0f < s.samples) {  // few cells: about one sample a cell
-        across = std::floor(half_x * 2.0f + 0.5f);
-        along = std::floor(half_y * 2.0f + 0.5f);
-    } else {
-        along = std::clamp(std::floor(std::sqrt(half_y * s.samples / half_x) + 0.5f), s.min_samples,
-                           std::max(s.samples, s.min_samples));
-        across = std::floor(s.samples / along + 0.5f);
-    }
-    across = std::clamp(across, s.min_samples, std::max(s.samples, s.min_samples));
-    along = std::clamp(along, s.min_samples, std::max(s.samples, s.min_samples));
-    return {q.x * grid.per_pixel_x - half_x, q.y * grid.per_pixel_y - half_y, 2.0f * half_x / across,
-            2.0f * half_y / along,           static_cast<int>(across),        static_cast<int>(along)};
+// Random numbers of a lookup: of what is asked alone.
+std::uint64_t key_of(const Query& q) {
+    const std::uint64_t place =
+        static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(q.x)) << 32 | std::bit_cast<std::uint32_t>(q.y);
+    return base::mix(base::mix(place) ^ std::bit_cast<std::uint32_t>(q.z));
 }
 
 class PercentageCloser final : public Map {
@@ -52,68 +58,166 @@ public:
     explicit PercentageCloser(const ParameterValues& v)
         : settings_{static_cast<float>(v.number("num_samples")), static_cast<float>(v.number("res_factor")),
                     static_cast<float>(v.number("min_size")),    static_cast<float>(v.number("min_samples")),
-                    static_cast<float>(v.number("bias0")),       static_cast<float>(v.number("bias1"))} {
-        map_.kind = read_cells(v);
-        settings_.bias1 = std::max(settings_.bias0, settings_.bias1);
-    }
+                    static_cast<float>(v.number("bias0")),       static_cast<float>(v.number("bias1"))},
+          bias_range_(std::max(settings_.bias1 - settings_.bias0, 0.0f)),
+          placement_(read_placement(v)),
+          pixel_(v.is_word("region") && std::get<std::string>(v.values.find("region")->second) == "pixel"),
+          width_(v.is_word("region") ? 0.0f : static_cast<float>(v.number("region"))),
+          depths_(v) {}
 
-    void begin(const BuildInput& input) override { map_.begin(input.layout); }
-    void add(const rays::LightRays& tile) override { map_.add(tile); }
-    void finish() override {}
+    void begin(const BuildInput& input) override { depths_.map.begin(input.layout); }
+    void add(const rays::LightRays& tile) override { depths_.map.add(tile); }
+    void finish() override { depths_.finish(); }
 
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            const Query& q = queries[i];
-            int shadowed = 0;
-            const int samples =
-                for_each_sample(q, [&](const float* depth, float bias) { shadowed += q.z > *depth + bias; });
-            visibility[i] = samples ? 1.0f - static_cast<float>(shadowed) / static_cast<float>(samples) : 1.0f;
-        }
+        lookup_shaped(queries, {}, visibility);
     }
-    void touched(const Query& q, std::vector<const void*>& lines) const override {
-        for_each_sample(q, [&](const float* depth, float) { touch_lines(depth, sizeof(float), lines); });
+    void lookup_shaped(std::span<const Query> queries, std::span<const Footprint> footprints,
+                       std::span<float> visibility) const override {
+        depths_.store.read([&](const auto& depths) {
+            switch (placement_) {
+                case Placement::uniform:
+                    return answer<Placement::uniform>(depths, queries, footprints, visibility);
+                case Placement::gaussian:
+                    return answer<Placement::gaussian>(depths, queries, footprints, visibility);
+                case Placement::jittered:
+                    return answer<Placement::jittered>(depths, queries, footprints, visibility);
+                case Placement::shape:
+                    return answer<Placement::shape>(depths, queries, footprints, visibility);
+            }
+        });
     }
 
-    std::size_t bytes() const override { return map_.bytes(); }
-    std::size_t working_bytes() const override { return map_.bytes(); }
-    NodeStats nodes() const override { return map_.nodes(); }
-    Cells cells() const override { return map_.kind; }
+    void touched(const Query& q, std::vector<const void*>& lines) const override { touched_shaped(q, {}, lines); }
+    void touched_shaped(const Query& q, const Footprint& footprint, std::vector<const void*>& lines) const override {
+        const std::size_t before = lines.size();
+        depths_.store.read([&](const auto& depths) {
+            switch (placement_) {
+                case Placement::uniform:
+                    return touch<Placement::uniform>(depths, q, footprint, lines);
+                case Placement::gaussian:
+                    return touch<Placement::gaussian>(depths, q, footprint, lines);
+                case Placement::jittered:
+                    return touch<Placement::jittered>(depths, q, footprint, lines);
+                case Placement::shape:
+                    return touch<Placement::shape>(depths, q, footprint, lines);
+            }
+        });
+        keep_unique(lines, before);
+    }
+
+    std::size_t bytes() const override { return depths_.store.bytes(); }
+    std::size_t working_bytes() const override { return depths_.working_bytes(); }
+    NodeStats nodes() const override { return depths_.store.nodes(); }
+    Cells cells() const override { return depths_.map.kind; }
     void stored(int x, int y, int, std::span<const float>, curves::Curve& out) const override {
-        map_.stored(x, y, out);
+        depths_.stored(x, y, out);
     }
 
 private:
-    // Calls visit(depth, bias) for the samples inside the map; those outside are lit. Returns how many there are in
-    // all. The jitter depends on the query alone. Samples spread over their whole cells of the region: the printed code
-    // moves them by half a cell in one direction only, which would shift every shadow.
-    template <class Visit>
-    int for_each_sample(const Query& q, const Visit& visit) const {
-        int cx, cy;
-        if (q.z < 0.0f || !map_.grid.find(q.x, q.y, cx, cy)) return 0;
-        const Region r = make_region(settings_, map_.grid, q);
-        const std::uint64_t key = base::hash(
-            static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(q.x)) << 32 | std::bit_cast<std::uint32_t>(q.y),
-            std::bit_cast<std::uint32_t>(q.z));
-        std::uint64_t sample = 0;
-        for (int j = 0; j < r.along; ++j)
-            for (int i = 0; i < r.across; ++i, ++sample) {
-                const std::uint64_t bits = base::mix(key + sample);
-                const auto uniform = [&](int shift) {
-                    return static_cast<float>((bits >> shift) & 0x1fffff) * 0x1p-21f;
-                };
-                const float fx = r.left + (static_cast<float>(i) + uniform(0)) * r.step_x;
-                const float fy = r.bottom + (static_cast<float>(j) + uniform(21)) * r.step_y;
-                if (!(fx >= 0.0f && fy >= 0.0f && fx < static_cast<float>(map_.grid.width) &&
-                      fy < static_cast<float>(map_.grid.height)))
-                    continue;
-                const float bias = settings_.bias0 + uniform(42) * (settings_.bias1 - settings_.bias0);
-                visit(&map_.depth[map_.grid.index(static_cast<int>(fx), static_cast<int>(fy))], bias);
-            }
-        return r.across * r.along;
+    // One lookup, before it samples.
+    struct Place {
+        float x, y;       // cells
+        CellRange range;  // that its samples lie in
+        bool inside;      // no sample leaves the map
+        int known = -1;   // samples in shadow, where it can be told without sampling
+    };
+
+    const CellGrid& grid() const { return depths_.store.grid(); }
+
+    Region region_of(float width, const Footprint& footprint) const {
+        Region region;
+        if (pixel_ && footprint_region(settings_, grid(), footprint, placement_ == Placement::shape, region))
+            return region;
+        return square_region(settings_, grid(), width_ > 0.0f ? width_ : width);
     }
 
-    DepthMap map_;
-    Settings settings_;
+    // False where the point is lit without asking the map: behind the light, or outside of the map.
+    template <class Depths>
+    bool find(const Depths& depths, const Region& region, const Query& q, Place& p) const {
+        int cx, cy;
+        if (q.z < 0.0f || !grid().find(q.x, q.y, cx, cy)) return false;
+        p.x = q.x * grid().per_pixel_x;
+        p.y = q.y * grid().per_pixel_y;
+        const Extent e = extent(region, p.x, p.y);
+        const float right = static_cast<float>(grid().width), top = static_cast<float>(grid().height);
+        p.inside = e.x0 >= 0.0f && e.y0 >= 0.0f && e.x1 < right && e.y1 < top;
+        if constexpr (Depths::bounded) {
+            p.range = {static_cast<int>(std::max(e.x0, 0.0f)), static_cast<int>(std::min(e.x1, right - 1.0f)) + 1,
+                       static_cast<int>(std::max(e.y0, 0.0f)), static_cast<int>(std::min(e.y1, top - 1.0f)) + 1};
+            const DepthBounds bounds = depths.bounds(p.range);
+            if (!(q.z > bounds.least + settings_.bias0))
+                p.known = 0;
+            else if (p.inside && q.z > bounds.greatest + (settings_.bias0 + bias_range_))
+                p.known = region.ns * region.nt;
+        }
+        return true;
+    }
+
+    bool holds(float x, float y) const {
+        return x >= 0.0f && y >= 0.0f && x < static_cast<float>(grid().width) && y < static_cast<float>(grid().height);
+    }
+
+    // Samples spread over their whole parts of the region: the printed code moves them by half a part in one direction
+    // only, which would shift every shadow. Those outside the map are lit.
+    template <Placement placement, class Depths>
+    int count_shadowed(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
+        if (p.known >= 0) return p.known;
+        if (DepthWindow window; p.inside && depths.window(p.range, window))
+            return sample<placement, true>(window, region, q, p);
+        return sample<placement, false>(depths, region, q, p);
+    }
+
+    template <Placement placement, bool inside, class Depths>
+    int sample(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
+        int shadowed = 0;
+        for_each_sample<placement>(region, p.x, p.y, key_of(q), [&](float x, float y, float u) {
+            if (!inside && !holds(x, y)) return;
+            const float bias = settings_.bias0 + u * bias_range_;
+            shadowed += q.z > *depths.at(static_cast<int>(x), static_cast<int>(y)) + bias;
+        });
+        return shadowed;
+    }
+
+    template <Placement placement, class Depths>
+    void answer(const Depths& depths, std::span<const Query> queries, std::span<const Footprint> footprints,
+                std::span<float> visibility) const {
+        const bool each = pixel_ && !footprints.empty();
+        Region region;
+        float width = -1.0f;  // that the region is of: most lookups ask for the same
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const Query& q = queries[i];
+            if (each || q.width != width) {
+                region = region_of(q.width, each ? footprints[i] : Footprint{});
+                width = q.width;
+            }
+            Place p;
+            visibility[i] = 1.0f;
+            if (!find(depths, region, q, p)) continue;
+            const int shadowed = count_shadowed<placement>(depths, region, q, p);
+            visibility[i] = 1.0f - static_cast<float>(shadowed) / static_cast<float>(region.ns * region.nt);
+        }
+    }
+
+    template <Placement placement, class Depths>
+    void touch(const Depths& depths, const Query& q, const Footprint& footprint,
+               std::vector<const void*>& lines) const {
+        const Region region = region_of(q.width, footprint);
+        Place p;
+        if (!find(depths, region, q, p)) return;
+        if constexpr (Depths::bounded) depths.touch_bounds(p.range, lines);
+        if (p.known >= 0) return;
+        for_each_sample<placement>(region, p.x, p.y, key_of(q), [&](float x, float y, float) {
+            if (holds(x, y)) depths.touch(static_cast<int>(x), static_cast<int>(y), lines);
+        });
+    }
+
+    PcfSettings settings_;
+    float bias_range_;
+    Placement placement_;
+    bool pixel_;   // filters over the receiver's pixel
+    float width_;  // filters over this width; 0: the query's
+    StoredDepths depths_;
 };
 
 }  // namespace
@@ -122,7 +226,7 @@ Technique pcf() {
     return {"pcf",
             "percentage closer filtering of a depth map",
             "Reeves, Salesin, Cook 1987",
-            1,
+            2,
             {.opaque_only = true},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> {
@@ -131,7 +235,7 @@ Technique pcf() {
             [](const ParameterValues&, const rays::MapLayout&) { return 0.0; },
             nullptr,
             [](const ParameterValues& values, const rays::MapLayout& layout) {
-                return make_cells(layout, read_cells(values)).count() * sizeof(float);
+                return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)), 1);
             }};
 }
 

@@ -1,0 +1,49 @@
+#include "claims/claim.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace shadowbench::claims {
+
+Value exactly(double value) {
+    return {value, value, value};
+}
+
+Value of(const bench::Sample& sample) {
+    return {sample.median, sample.interval.low, sample.interval.high};
+}
+
+Value operator/(const Value& a, const Value& b) {
+    return {a.value / b.value, a.low / b.high, a.high / b.low};
+}
+
+Value operator-(const Value& a, const Value& b) {
+    return {a.value - b.value, a.low - b.high, a.high - b.low};
+}
+
+Value operator*(double factor, const Value& a) {
+    return {factor * a.value, factor * a.low, factor * a.high};
+}
+
+std::string to_text(const Value& value) {
+    if (value.low == value.high) return fmt::format("{:.3g}", value.value);
+    return fmt::format("{:.3g} [{:.3g}, {:.3g}]", value.value, value.low, value.high);
+}
+
+Verdict judge_ratio(double paper, const Value& measured, double near) {
+    if (!std::isfinite(measured.value) || measured.value <= 0.0) return Verdict::fails;
+    const double theirs = std::log(paper), ours = std::log(measured.value);
+    const bool same_side = (theirs > 0.0) == (ours > 0.0);
+    if (std::abs(theirs - ours) <= std::log(near) || (same_side && std::abs(ours) >= std::abs(theirs)))
+        return Verdict::holds;
+    return same_side ? Verdict::in_shape : Verdict::fails;
+}
+
+Verdict judge_value(double paper, const Value& measured, double tolerance, double shape) {
+    const double apart = std::abs(measured.value - paper);
+    return apart <= tolerance ? Verdict::holds : apart <= shape ? Verdict::in_shape : Verdict::fails;
+}
+
+}  // namespace shadowbench::claims

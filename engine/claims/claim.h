@@ -1,0 +1,76 @@
+// What a paper claims beside what is measured here, as plain values.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/result.h"
+
+namespace shadowbench::claims {
+
+enum class Verdict {
+    holds,     // the value is met, or bettered where the paper claims a bound
+    in_shape,  // the direction or the law is the paper's, the value is not
+    fails,     // neither
+};
+
+// A number with the interval that it lies in: of medians (95 % bootstrap), or twice itself where nothing varies.
+struct Value {
+    double value = 0.0, low = 0.0, high = 0.0;
+};
+Value exactly(double value);
+Value of(const bench::Sample& sample);
+Value operator/(const Value& a, const Value& b);  // both above 0; the widest interval that theirs allow
+Value operator-(const Value& a, const Value& b);
+Value operator*(double factor, const Value& a);
+
+// "14.2 [13.9, 14.6]", or "14.2" where nothing varies.
+std::string to_text(const Value& value);
+
+struct Claim {
+    std::string place;     // in the paper: "section 6, figure 7"
+    std::string says;      // what the paper says, with its value
+    std::string measured;  // here, with its interval
+    Verdict verdict = Verdict::fails;
+    std::string why;            // one sentence
+    std::vector<Value> values;  // the numbers in `measured`, in their order
+};
+
+// Rows of text under a header.
+struct Table {
+    std::string title;
+    std::vector<std::string> header;
+    std::vector<std::vector<std::string>> rows;
+};
+
+// Curves over one axis, drawn as an SVG file.
+struct Series {
+    std::string name;
+    std::vector<std::pair<double, double>> points;
+    bool line = true;  // joined; else points alone
+};
+struct Plot {
+    std::string name;  // of the file, without ending
+    std::string title, x_label, y_label;
+    bool log_x = false, log_y = false;
+    std::vector<Series> series;
+};
+
+struct PaperReport {
+    std::string id, title;
+    std::string conditions;              // what the measurements here differ in from the paper's, one paragraph
+    std::vector<std::string> documents;  // "name hash" of each scenario that was run
+    double seconds = 0.0;
+    std::vector<Claim> claims;
+    std::vector<Table> tables;
+    std::vector<Plot> plots;
+};
+
+// `measured` stands on the side of 1 where the paper's ratio stands: shape; within a factor of `near` of it, or
+// further from 1 than it: holds.
+Verdict judge_ratio(double paper, const Value& measured, double near = 1.5);
+// Within `tolerance` of the paper's value: holds; within `shape` of it: in shape.
+Verdict judge_value(double paper, const Value& measured, double tolerance, double shape);
+
+}  // namespace shadowbench::claims

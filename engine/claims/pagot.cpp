@@ -1,0 +1,142 @@
+// Pagot, Comba, Oliveira, Multiple-Depth Shadow Maps, 2004: table 1, figures 3, 6 and 7, section 6.
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/random.h"
+#include "claims/paper.h"
+#include "rays/light_rays.h"
+#include "rays/light_view.h"
+#include "techniques/technique.h"
+
+namespace shadowbench::claims {
+namespace {
+
+using bench::Cell;
+using bench::LightResult;
+
+Value time_of(const Cell& cell) {
+    return of(cell.times->image_order.ns);
+}
+
+// How many answers lookups give, at 400,000 places and depths of a map of 128 x 128 random depths.
+int outcomes_of(int side, int n) {
+    rays::MapLayout layout;
+    layout.width = layout.height = layout.tile_width = layout.tile_height = 128;
+    layout.z_max = 2.0f;
+    rays::LightRays tile;
+    tile.width = tile.height = 128;
+    for (std::uint32_t ray = 0; ray <= 128u * 128u; ++ray) tile.begin.push_back(ray);
+    for (std::uint64_t ray = 0; ray < 128u * 128u; ++ray) {
+        tile.z_front.push_back(static_cast<float>(1.0 + base::to_unit(base::hash(1, ray))));
+        tile.transmittance.push_back(0.0f);
+    }
+    const techniques::Technique& row = techniques::find("multi_depth", "");
+    const nlohmann::json parameters = {{"n", n}, {"select", "sorted"}, {"q", 25}, {"kernel", side}};
+    const auto map = row.create(techniques::read_parameters(row.parameters, parameters, ""));
+    const rays::LightView view;
+    map->begin({layout, view, nullptr});
+    map->add(tile);
+    map->finish();
+
+    std::vector<techniques::Query> queries;
+    for (std::uint64_t i = 0; i < 400000; ++i)
+        queries.push_back({static_cast<float>(8.0 + 112.0 * base::to_unit(base::hash(2, i))),
+                           static_cast<float>(8.0 + 112.0 * base::to_unit(base::hash(3, i))),
+                           static_cast<float>(0.95 + 1.1 * base::to_unit(base::hash(4, i))), 1.0f});
+    std::vector<float> visibility(queries.size());
+    map->lookup(queries, visibility);
+    std::set<int> seen;  // as multiples of a millionth: outcomes are 1 / 200 apart and more
+    for (const float v : visibility) seen.insert(static_cast<int>(v * 1e6f + 0.5f));
+    return static_cast<int>(seen.size());
+}
+
+void table_1(const Context& context) {
+    PaperReport& report = *context.report;
+    Table table{"Table 1: distinct outcomes of PCF(k, n), measured / n k + 1", {"k \\ n"}, {}};
+    for (int n = 1; n <= 8; ++n) table.header.push_back(std::to_string(n));
+    Plot plot{"pagot2004_figure3", "Outcomes of PCF(k, n)", "samples k", "outcomes", false, false, {}};
+    for (int n = 1; n <= 4; ++n) plot.series.push_back({fmt::format("n = {}", n), {}, true});
+    int exact = 0, over = 0, entries = 0;
+    for (const int side : {1, 2, 3, 4, 5}) {
+        std::vector<std::string> row{std::to_string(side * side)};
+        for (int n = 1; n <= 8; ++n) {
+            const int most = n * side * side + 1, seen = outcomes_of(side, n);
+            row.push_back(fmt::format("{} / {}", seen, most));
+            exact += seen == most;
+            over += seen > most;
+            ++entries;
+            if (n <= 4) plot.series[static_cast<std::size_t>(n - 1)].points.emplace_back(side * side, seen);
+        }
+        table.rows.push_back(std::move(row));
+    }
+    report.tables.push_back(std::move(table));
+    report.plots.push_back(std::move(plot));
+    report.claims.push_back({"section 4.2, table 1",
+                             "PCF(k, n) has up to n k + 1 distinct outcomes",
+                             fmt::format("reached exactly in {} of {} entries, exceeded in {}", exact, entries, over),
+                             over > 0           ? Verdict::fails
+                             : exact == entries ? Verdict::holds
+                                                : Verdict::in_shape,
+                             "Counted over 400,000 lookups in a map of random depths.",
+                             {exactly(exact), exactly(over)}});
+}
+
+const Cell& kernel(const LightResult& light, int n, int side) {
+    return cell_of(light, "multi_depth", {fmt::format("n={}", n), fmt::format("kernel={}", side)});
+}
+
+// The smaller kernel on more depths against the larger one on a single depth.
+void compare(const LightResult& light, const char* place, int n, int small, int large, PaperReport& report) {
+    const Cell &ours = kernel(light, n, small), &theirs = kernel(light, 1, large);
+    const Value ratio = exactly(ours.lookup->norms.rms / theirs.lookup->norms.rms);
+    report.claims.push_back({place,
+                             fmt::format("{0}-SM with {1} x {1} looks like 1-SM with {2} x {2}", n, small, large),
+                             fmt::format("error rms {:.3g} against {:.3g}; {} times the time", ours.lookup->norms.rms,
+                                         theirs.lookup->norms.rms, to_text(time_of(ours) / time_of(theirs))),
+                             judge_value(1.0, ratio, 0.1, 0.35),
+                             "Errors against the exact visibility, filtered over the larger kernel's width.",
+                             {exactly(ours.lookup->norms.rms), exactly(theirs.lookup->norms.rms)}});
+}
+
+// Section 6: with q samples a cell to select a second depth and r kernel samples saved a fragment, two depths pay when
+// there are more fragments than q / r a cell.
+void crossing(const LightResult& light, PaperReport& report) {
+    const double q = 9.0, r = 16.0 - 9.0, predicted = q / r;
+    const double cells = static_cast<double>(light.layout.width) * light.layout.height;
+    const double select_ns =
+        1e6 * (kernel(light, 2, 3).times->build_ms.median - kernel(light, 1, 4).times->build_ms.median);
+    const double saved_ns = time_of(kernel(light, 1, 4)).value - time_of(kernel(light, 2, 3)).value;
+    const bool pays = saved_ns > 0.0;
+    const double fragments = pays ? std::max(select_ns, 0.0) / saved_ns / cells : 0.0;
+    report.claims.push_back(
+        {"section 6",
+         fmt::format("2-SM with 3 x 3 beats 1-SM with 4 x 4 beyond {:.2f} fragments a cell (q = 9, r = 7)", predicted),
+         pays ? fmt::format("beyond {:.2f} fragments a cell: selection {:.1f} ns a cell, {:.1f} ns saved a lookup",
+                            fragments, select_ns / cells, saved_ns)
+              : fmt::format("never: a 2-SM lookup with 3 x 3 takes {:.1f} ns more", -saved_ns),
+         !pays ? Verdict::fails : judge_value(predicted, exactly(fragments), 0.5 * predicted, 4.0 * predicted),
+         "The paper counts texture fetches alone; a depth that is compared costs something too.",
+         {exactly(fragments)}});
+}
+
+}  // namespace
+
+void measure_pagot(const Context& context) {
+    context.report->conditions =
+        "Scenes of flat and curved receivers under a spot light, 512 x 512 cells of one regular ray; second and third "
+        "depths are the maximum and the minimum of 3 x 3 cells. The paper judged pictures by eye; here errors are "
+        "against "
+        "the exact visibility.";
+    table_1(context);
+    const bench::Result flat = context.run("pagot2004_flat", {}, {"rays.resolution=256"});
+    compare(light_of(flat), "section 5, figure 6", 3, 2, 3, *context.report);
+    compare(light_of(flat), "section 5, figure 6", 3, 3, 4, *context.report);
+    const bench::Result curved = context.run("pagot2004_curved", {}, {"rays.resolution=256"});
+    compare(light_of(curved), "section 5, figure 7", 2, 3, 4, *context.report);
+    compare(light_of(curved), "section 5, figure 7", 3, 3, 4, *context.report);
+    crossing(light_of(flat), *context.report);
+}
+
+}  // namespace shadowbench::claims

@@ -1,0 +1,102 @@
+#include "claims/paper.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/read_text.h"
+#include "bench/clock.h"
+#include "bench/document.h"
+#include "bench/run.h"
+
+namespace shadowbench::claims {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+using nlohmann::json;
+
+const Paper papers[] = {
+    {"reeves1987", "Reeves, Salesin, Cook: Rendering Antialiased Shadows with Depth Maps (1987)", measure_reeves},
+    {"lokovic2000", "Lokovic, Veach: Deep Shadow Maps (2000)", measure_lokovic},
+    {"pagot2004", "Pagot, Comba, Oliveira: Multiple-Depth Shadow Maps (2004)", measure_pagot},
+    {"salvi2010", "Salvi, Vidimce, Lauritzen, Lefohn: Adaptive Volumetric Shadow Maps (2010)", measure_salvi},
+};
+
+std::pair<std::string, json> split(const std::string& assignment) {
+    const std::size_t equals = assignment.find('=');
+    json value = json::parse(assignment.substr(equals + 1), nullptr, false);
+    if (value.is_discarded()) value = assignment.substr(equals + 1);
+    return {assignment.substr(0, equals), std::move(value)};
+}
+
+bool has_all(const json& parameters, const std::vector<std::string>& wanted) {
+    return std::all_of(wanted.begin(), wanted.end(), [&](const std::string& assignment) {
+        const auto [name, value] = split(assignment);
+        const auto found = parameters.find(name);
+        return found != parameters.end() && *found == value;
+    });
+}
+
+bool has_settings(const bench::VariantResult& variant, const std::vector<std::string>& wanted) {
+    return std::all_of(wanted.begin(), wanted.end(), [&](const std::string& assignment) {
+        const auto [pointer, value] = split(assignment);
+        return std::any_of(variant.settings.begin(), variant.settings.end(), [&](const bench::Setting& setting) {
+            return setting.pointer == pointer && json::parse(setting.value) == value;
+        });
+    });
+}
+
+}  // namespace
+
+bench::Result Context::run(const std::string& name, const std::vector<std::string>& set,
+                           const std::vector<std::string>& smaller) const {
+    const std::filesystem::path file = scenarios / (name + ".json");
+    json document = scene::parse_json(base::read_text(file), file.string());
+    for (const std::string& assignment : set) bench::set_value(document, assignment);
+    if (quick)
+        for (const std::string& assignment : smaller) bench::set_value(document, assignment);
+    bench::RunOptions options;
+    options.data = data;
+    options.threads = threads;
+    bench::Result result = bench::run(document, options, progress);
+    report->documents.push_back(fmt::format("{} {}", name, result.hash));
+    return result;
+}
+
+const bench::LightResult& light_of(const bench::Result& result, const std::vector<std::string>& settings) {
+    for (const bench::VariantResult& variant : result.variants)
+        if (has_settings(variant, settings)) return variant.lights.front();
+    throw Error(ErrorCode::internal, result.name,
+                fmt::format("no variant has the settings {}", fmt::join(settings, ", ")));
+}
+
+const bench::Cell& cell_of(const bench::LightResult& light, const std::string& technique,
+                           const std::vector<std::string>& parameters) {
+    for (const bench::Cell& cell : light.cells) {
+        if (cell.technique != technique || !has_all(json::parse(cell.parameters_json), parameters)) continue;
+        if (cell.status == bench::CellStatus::failed) throw Error(ErrorCode::internal, technique, cell.reason);
+        return cell;
+    }
+    throw Error(ErrorCode::internal, technique,
+                fmt::format("no cell has the parameters {}", fmt::join(parameters, ", ")));
+}
+
+std::span<const Paper> all_papers() {
+    return papers;
+}
+
+PaperReport measure(const Paper& paper, Context context) {
+    PaperReport report;
+    report.id = paper.id;
+    report.title = paper.title;
+    context.report = &report;
+    const bench::Stopwatch stopwatch;
+    paper.measure(context);
+    report.seconds = stopwatch.seconds();
+    return report;
+}
+
+}  // namespace shadowbench::claims

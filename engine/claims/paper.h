@@ -1,0 +1,57 @@
+// The papers whose claims are measured, one row each.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/progress.h"
+#include "bench/result.h"
+#include "claims/claim.h"
+#include "scene/scenario.h"
+
+namespace shadowbench::claims {
+
+// What a paper's measurements are made with.
+struct Context {
+    std::filesystem::path scenarios;  // the folder of <paper>*.json
+    scene::SearchPath data;
+    bool quick = false;  // smaller sizes, for a first look
+    int threads = 0;     // 0: all processors
+    bench::ProgressCallback progress;
+    PaperReport* report = nullptr;  // where the scenarios that run are noted
+
+    // Runs scenarios/papers/<name>.json with these changes ("path=value"), and with `smaller` too when quick.
+    bench::Result run(const std::string& name, const std::vector<std::string>& set,
+                      const std::vector<std::string>& smaller) const;
+};
+
+// The one light of the one variant whose settings begin with these values ("pointer=value"); the first light when there
+// are several. Throws Error{internal} when there is none.
+const bench::LightResult& light_of(const bench::Result& result, const std::vector<std::string>& settings = {});
+
+// The cell of a technique whose parameters have these values ("nodes=8"). Throws Error{internal} where there is none,
+// or when it failed: its reason.
+const bench::Cell& cell_of(const bench::LightResult& light, const std::string& technique,
+                           const std::vector<std::string>& parameters = {});
+
+struct Paper {
+    const char* id;  // "lokovic2000"
+    const char* title;
+    // Fills claims, tables, plots and conditions of context.report.
+    void (*measure)(const Context& context);
+};
+
+std::span<const Paper> all_papers();
+
+// The report of one paper. Throws what running its scenarios throws.
+PaperReport measure(const Paper& paper, Context context);
+
+void measure_reeves(const Context& context);
+void measure_lokovic(const Context& context);
+void measure_pagot(const Context& context);
+void measure_volume(const Context& context);
+void measure_salvi(const Context& context);
+
+}  // namespace shadowbench::claims

@@ -1,0 +1,69 @@
+// Plots by gnuplot, script and drawing in temporary files.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/read_text.h"
+#include "claims/report.h"
+
+namespace shadowbench::claims {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+
+// In single quotes, where gnuplot reads everything but a quote as it is.
+std::string quoted(const std::string& text) {
+    std::string out = "'";
+    for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
+    return out + "'";
+}
+
+std::string script_of(const Plot& plot, const std::filesystem::path& file) {
+    std::string out = fmt::format(
+        "set terminal svg size 720,440 dynamic noenhanced background 'white' font 'sans,13'\n"
+        "set output {}\nset title {}\nset xlabel {}\nset ylabel {}\nset grid lc rgb '#dddddd'\nset key outside right\n"
+        "set encoding utf8\n",
+        quoted(file.string()), quoted(plot.title), quoted(plot.x_label), quoted(plot.y_label));
+    if (plot.log_x) out += "set logscale x\n";
+    if (plot.log_y) out += "set logscale y\n";
+    for (std::size_t s = 0; s < plot.series.size(); ++s) {
+        out += fmt::format("$s{} << EOD\n", s);
+        for (const auto& [x, y] : plot.series[s].points) out += fmt::format("{:.9g} {:.9g}\n", x, y);
+        out += "EOD\n";
+    }
+    out += "plot ";
+    for (std::size_t s = 0; s < plot.series.size(); ++s)
+        out +=
+            fmt::format("{}$s{} using 1:2 with {} lw 2 pt 7 ps 0.5 title {}", s ? ", " : "", s,
+                        plot.series[s].line ? (plot.series[s].points.size() > 40 ? "lines" : "linespoints") : "points",
+                        quoted(plot.series[s].name));
+    return out + "\n";
+}
+
+}  // namespace
+
+std::string to_svg(const Plot& plot) {
+    const std::filesystem::path svg =
+        std::filesystem::temp_directory_path() / fmt::format("shadowbench-{}-{}.svg", getpid(), plot.name);
+    const std::filesystem::path script = svg.string() + ".gnuplot";
+    std::ofstream(script) << script_of(plot, svg);
+    const int status = std::system(fmt::format("gnuplot '{}' > /dev/null 2>&1", script.string()).c_str());
+    std::error_code ignored;
+    std::filesystem::remove(script, ignored);
+    if (status != 0 || !std::filesystem::exists(svg, ignored)) {
+        std::filesystem::remove(svg, ignored);
+        throw Error(ErrorCode::internal, "gnuplot",
+                    "could not draw " + plot.name + ": is gnuplot installed (Debian package gnuplot-nox)?");
+    }
+    std::string text = base::read_text(svg);
+    std::filesystem::remove(svg, ignored);
+    return text;
+}
+
+}  // namespace shadowbench::claims

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/write_result.h"
+#include "claims/report.h"
+
+namespace shadowbench::claims {
+namespace {
+
+using nlohmann::ordered_json;
+
+const char* text_of(Verdict verdict) {
+    return verdict == Verdict::holds ? "holds" : verdict == Verdict::in_shape ? "holds in shape" : "does not hold here";
+}
+
+ordered_json to_object(const Claim& claim) {
+    ordered_json values = ordered_json::array();
+    for (const Value& v : claim.values) values.push_back({{"value", v.value}, {"low", v.low}, {"high", v.high}});
+    return {{"where", claim.place},
+            {"says", claim.says},
+            {"measured", claim.measured},
+            {"values", values},
+            {"verdict", text_of(claim.verdict)},
+            {"why", claim.why}};
+}
+
+ordered_json to_object(const Plot& plot) {
+    ordered_json series = ordered_json::array();
+    for (const Series& s : plot.series) series.push_back({{"name", s.name}, {"points", s.points}});
+    return {{"name", plot.name},   {"title", plot.title}, {"x", plot.x_label}, {"y", plot.y_label},
+            {"log_x", plot.log_x}, {"log_y", plot.log_y}, {"series", series}};
+}
+
+ordered_json to_object(const PaperReport& report) {
+    ordered_json claims = ordered_json::array(), tables = ordered_json::array(), plots = ordered_json::array();
+    for (const Claim& claim : report.claims) claims.push_back(to_object(claim));
+    for (const Table& table : report.tables)
+        tables.push_back({{"title", table.title}, {"header", table.header}, {"rows", table.rows}});
+    for (const Plot& plot : report.plots) plots.push_back(to_object(plot));
+    return {{"id", report.id},
+            {"title", report.title},
+            {"conditions", report.conditions},
+            {"scenarios", report.documents},
+            {"seconds", report.seconds},
+            {"claims", claims},
+            {"tables", tables},
+            {"plots", plots}};
+}
+
+}  // namespace
+
+std::string to_json(std::span<const PaperReport> reports, const Conditions& conditions) {
+    ordered_json papers = ordered_json::array();
+    for (const PaperReport& report : reports) papers.push_back(to_object(report));
+    const ordered_json document = {{"claims_schema_version", 1},    {"quick", conditions.quick},
+                                   {"machine", conditions.machine}, {"build", conditions.build},
+                                   {"date", conditions.date},       {"papers", papers}};
+    return document.dump(1) + "\n";
+}
+
+void write_reports(const std::filesystem::path& folder, const std::string& name, std::span<const PaperReport> reports,
+                   const Conditions& conditions) {
+    std::vector<bench::NewFile> files{{folder / (name + ".md"), to_markdown(reports, conditions)},
+                                      {folder / (name + ".json"), to_json(reports, conditions)}};
+    for (const PaperReport& report : reports)
+        for (const Plot& plot : report.plots) files.push_back({folder / "plots" / (plot.name + ".svg"), to_svg(plot)});
+    bench::write_files(files);
+}
+
+}  // namespace shadowbench::claims

@@ -1,0 +1,74 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "claims/report.h"
+
+namespace shadowbench::claims {
+namespace {
+
+constexpr const char* rules =
+    "Every number is measured by the scenarios named, on the machine named; absolute times do not travel, so times "
+    "stand "
+    "as ratios within one run. *holds*: the paper's value is met within the stated nearness, or passed on the paper's "
+    "own "
+    "side. *holds in shape*: the direction or the law is the paper's, the value is not. *does not hold here*: neither. "
+    "Intervals in brackets are of 95 % (bootstrap over repetitions).\n";
+
+const char* text_of(Verdict verdict) {
+    return verdict == Verdict::holds      ? "**holds**"
+           : verdict == Verdict::in_shape ? "holds in shape"
+                                          : "**does not hold here**";
+}
+
+// A bar would end the cell.
+std::string cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.replace(at, 1, "\\|");
+    return text;
+}
+
+void add_row(std::string& out, const std::vector<std::string>& cells) {
+    out += "|";
+    for (const std::string& text : cells) out += " " + cell(text) + " |";
+    out += "\n";
+}
+
+void add_table(std::string& out, const std::vector<std::string>& header,
+               const std::vector<std::vector<std::string>>& rows) {
+    add_row(out, header);
+    add_row(out, std::vector<std::string>(header.size(), "---"));
+    for (const auto& row : rows) add_row(out, row);
+    out += "\n";
+}
+
+void add_paper(std::string& out, const PaperReport& report) {
+    out += fmt::format("## {}\n\n{}\n\n", report.title, report.conditions);
+    std::vector<std::vector<std::string>> rows;
+    for (const Claim& claim : report.claims)
+        rows.push_back({claim.place, claim.says, claim.measured, text_of(claim.verdict), claim.why});
+    add_table(out, {"where", "the paper says", "measured here", "verdict", "why"}, rows);
+    for (const Table& table : report.tables) {
+        out += fmt::format("### {}\n\n", table.title);
+        add_table(out, table.header, table.rows);
+    }
+    for (const Plot& plot : report.plots) out += fmt::format("![{}](plots/{}.svg)\n\n", plot.title, plot.name);
+    out += fmt::format("Scenarios (name, hash): {}. Measured in {:.0f} s.\n\n", fmt::join(report.documents, ", "),
+                       report.seconds);
+}
+
+}  // namespace
+
+std::string to_markdown(std::span<const PaperReport> reports, const Conditions& conditions) {
+    std::string out = "# Claims of the papers, measured again\n\n";
+    if (conditions.quick) out += "**Quick run: smaller sizes than the report that is cited.**\n\n";
+    out += rules;
+    out += fmt::format("\n{}; {}; {}.\n\n", conditions.machine, conditions.build, conditions.date);
+    std::size_t count[3] = {0, 0, 0};
+    for (const PaperReport& report : reports)
+        for (const Claim& claim : report.claims) ++count[static_cast<int>(claim.verdict)];
+    out += fmt::format("{} claims hold, {} hold in shape, {} do not hold here.\n\n", count[0], count[1], count[2]);
+    for (const PaperReport& report : reports) add_paper(out, report);
+    return out;
+}
+
+}  // namespace shadowbench::claims

@@ -1,0 +1,19 @@
+// A picture -> the bytes of an image file.
+#pragma once
+
+#include <string>
+
+#include "render/image.h"
+
+namespace shadowbench::render {
+
+// sRGB's transfer function, IEC 61966-2-1: linear [0, 1] to display [0, 1].
+double to_display(double linear);
+
+// OpenEXR, half, linear values as they are.
+std::string encode_exr(const Image& image);
+
+// PNG, 8 bits a channel with sRGB's transfer function; values are clamped to [0, 1].
+std::string encode_png(const Image& image);
+
+}  // namespace shadowbench::render

@@ -1,0 +1,230 @@
+#include "render/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "bench/contender.h"
+#include "bench/document.h"
+#include "bench/load.h"
+#include "bench/queries.h"
+#include "bench/ray_source.h"
+#include "bench/reference.h"
+#include "metrics/statistics.h"
+#include "rays/capture.h"
+#include "render/heat_map.h"
+
+namespace shadowbench::render {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+using base::Vec3d;
+using bench::Contender;
+using techniques::Query;
+
+constexpr std::size_t reference_chunk = std::size_t{1} << 20;  // points: bounds what finding their truth takes
+constexpr float rounding = 1e-6f;                              // of an answer beyond [0, 1]
+
+struct Work {
+    const scene::Scenario& scenario;
+    const RenderOptions& options;
+    const ShadingPoints& points;
+    const rays::Tracer& casters;
+    bench::ProgressCallback progress;
+};
+
+auto watch(const Work& work, const scene::Light& light, const char* stage, std::size_t total) {
+    return [&work, &light, stage, total](std::size_t done) {
+        if (work.progress) work.progress({work.scenario.lights.size() > 1 ? light.name : "", stage, done, total});
+    };
+}
+
+// The shading points inside a light's map.
+struct LightQueries {
+    std::vector<Query> queries;
+    std::vector<std::uint32_t> point;  // of each query
+};
+
+LightQueries make_queries(const Work& work, const rays::LightView& view) {
+    LightQueries result;
+    for (std::size_t i = 0; i < work.points.points(); ++i)
+        if (const auto query = bench::query_of_point(work.points.place[i], work.scenario.receivers, view)) {
+            result.queries.push_back(*query);
+            result.point.push_back(static_cast<std::uint32_t>(i));
+        }
+    return result;
+}
+
+// Adds a light to a picture; points without an answer are lit.
+template <class Values>
+void add_answers(const Work& work, std::size_t light, const LightQueries& asked, const Values& answers,
+                 Picture& picture) {
+    const std::size_t points = work.points.points(), queries = asked.queries.size();
+    const std::size_t channels = queries ? answers.size() / queries : 1;
+    std::vector<float> visibility(points * channels, 1.0f);
+    for (std::size_t c = 0; c < channels; ++c)
+        for (std::size_t q = 0; q < queries; ++q)
+            visibility[c * points + asked.point[q]] =
+                std::clamp(static_cast<float>(answers[c * queries + q]), 0.0f, 1.0f);
+    add_light(work.points, light, visibility, picture);
+}
+
+bench::Truth find_truth(const Work& work, const scene::Light& light, const rays::LightView& view,
+                        const LightQueries& asked) {
+    const std::size_t total = asked.queries.size();
+    const scene::RaySettings settings = bench::reference_settings(work.scenario);
+    std::vector<bench::Truth> parts;
+    for (std::size_t first = 0; first < total; first += reference_chunk) {
+        const std::size_t count = std::min(reference_chunk, total - first);
+        const auto show = watch(work, light, "reference", total);
+        const auto tiles = [&](std::size_t done, std::size_t of) { show(first + count * done / std::max(of, done)); };
+        parts.push_back(bench::reference_visibility(work.scenario.scene, view, settings,
+                                                    std::span(asked.queries).subspan(first, count), tiles));
+    }
+    bench::Truth all;
+    if (parts.empty()) return all;
+    all.channels = parts[0].channels;
+    for (int c = 0; c < all.channels; ++c)
+        for (const bench::Truth& part : parts) {
+            const auto size = static_cast<std::ptrdiff_t>(part.value.size()) / all.channels;
+            all.value.insert(all.value.end(), part.value.begin() + c * size, part.value.begin() + (c + 1) * size);
+            all.standard_error.insert(all.standard_error.end(), part.standard_error.begin() + c * size,
+                                      part.standard_error.begin() + (c + 1) * size);
+        }
+    return all;
+}
+
+// Fails a technique whose answers are no visibility.
+void check_answers(Contender& contender, const std::vector<float>& answers) {
+    for (const float v : answers)
+        if (!(v >= -rounding && v <= 1.0f + rounding))
+            return bench::fail(contender, fmt::format("a lookup answers {}, which is not in [0, 1]", v));
+}
+
+void render_light(const Work& work, std::size_t index, std::vector<Contender> contenders, Rendering& result) {
+    const scene::Scenario& scenario = work.scenario;
+    const scene::Light& light = scenario.lights[index];
+    const bench::MemoryLimits& limits = work.options.run.limits;
+    const rays::LightView view =
+        rays::make_light_view(light, scenario.scene, scenario.rays.resolution, fmt::format("/lights/{}", index));
+    rays::MapLayout layout = rays::make_layout(scenario.scene, view, scenario.rays);
+    layout.apron = bench::needs_of(contenders).apron;
+    layout.submission = bench::needs_of(contenders).submission;
+    bench::check_memory(scenario, view, contenders, limits, "/rays");
+    const auto tiles = static_cast<std::size_t>(layout.tiles());
+    const rays::Capture capture(scenario.scene, view, layout);
+    const bench::RaySource source(capture, layout, limits.kept_rays, watch(work, light, "capture", tiles));
+    bench::build_all(contenders, source, {layout, view, &work.casters}, limits.all, watch(work, light, "build", tiles));
+
+    const LightQueries asked = make_queries(work, view);
+    const auto looked_up = watch(work, light, "lookup", contenders.size());
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+        TechniquePictures& out = result.techniques[i];
+        if (out.cell.status == bench::CellStatus::failed) continue;
+        if (contenders[i].ok()) {
+            const std::vector<float> answers = bench::lookup_all(contenders[i].maps, asked.queries);
+            check_answers(contenders[i], answers);
+            if (contenders[i].ok()) add_answers(work, index, asked, answers, out.picture);
+        }
+        out.cell = contenders[i].cell;
+        if (!contenders[i].ok()) out.picture = {};
+        contenders[i].maps = {};
+        looked_up(i + 1);
+    }
+    const bench::Truth truth = find_truth(work, light, view, asked);
+    add_answers(work, index, asked, truth.value, result.reference);
+    result.reference_standard_error =
+        std::max(result.reference_standard_error, metrics::error_norms(truth.standard_error).rms);
+}
+
+// The legend of the heat maps reaches to the 99th percentile of the middle technique's errors: one that is far off does
+// not hide how the others differ.
+void compare_all(Rendering& result) {
+    std::vector<double> tops;
+    for (TechniquePictures& one : result.techniques) {
+        if (one.cell.status == bench::CellStatus::failed) continue;
+        one.shaded = compare(one.picture.shaded, result.reference.shaded);
+        one.shadow = compare(one.picture.shadow, result.reference.shadow);
+        const std::vector<float> errors = pixel_errors(one.picture.shadow, result.reference.shadow);
+        tops.push_back(metrics::error_norms(std::vector<double>(errors.begin(), errors.end())).p99);
+    }
+    if (!tops.empty()) result.heat_top = legend_top(metrics::median(tops));
+}
+
+Rendering describe(const scene::Scenario& scenario, const bench::Variant& variant, const RenderOptions& options) {
+    Rendering result;
+    result.name = scenario.name;
+    result.hash = bench::hash_text(variant.document->dump());
+    result.settings = variant.settings;
+    result.default_camera = !scenario.receivers.camera;
+    result.camera = result.default_camera ? default_camera(scenario.scene) : *scenario.receivers.camera;
+    result.size = options.size.value_or(scenario.receivers.resolution);
+    result.reference_samples = scenario.reference.samples_per_pixel;
+    return result;
+}
+
+ShadingPoints see(const scene::Scenario& scenario, const RenderOptions& options, const Rendering& result,
+                  const bench::ProgressCallback& progress) {
+    ViewSettings settings;
+    settings.camera = result.camera;
+    settings.size = result.size;
+    settings.media_lookups = options.media_lookups;
+    settings.memory_limit = options.run.limits.all / 2;
+    const rays::Tracer all(scenario.scene, false);
+    ShadingPoints points =
+        find_shading_points(scenario.scene, scenario.lights, settings, all, [&](std::size_t done, std::size_t total) {
+            if (progress) progress({"", "view rays", done, total});
+        });
+    if (points.points() == 0)
+        throw Error(ErrorCode::bad_input, "/receivers", "the camera sees no surface and no medium");
+    return points;
+}
+
+}  // namespace
+
+scene::Camera default_camera(const scene::Scene& scene) {
+    const base::Box3d box = scene::bounds(scene, true);
+    scene::Camera camera;
+    camera.target = box.center();
+    const double radius = 0.5 * box.size().length();
+    const double distance = 1.05 * radius / std::sin(camera.fov * std::numbers::pi / 360.0);
+    camera.position = camera.target + Vec3d(3.0, 2.5, 4.0).normalized() * std::max(distance, 1e-6);
+    return camera;
+}
+
+Rendering render(const nlohmann::json& document, const RenderOptions& options,
+                 const bench::ProgressCallback& progress) {
+    const base::ThreadLimit threads(options.run.threads);
+    bench::Variant variant = bench::expand(document).front();
+    bench::keep_only(variant, options.run.only);
+    bench::ScenarioLoader loader(options.run.data);
+    const scene::Scenario& scenario = loader.load(variant);
+    if (scenario.scene.deep_image)
+        throw Error(ErrorCode::bad_input, "/scene/deep_image", "a deep image has no world that a camera could see");
+    const std::vector<Contender> contenders = bench::make_contenders(scenario, variant);
+
+    Rendering result = describe(scenario, variant, options);
+    const ShadingPoints points = see(scenario, options, result, progress);
+    result.points = points.points();
+    result.reference = start_picture(points);
+    for (const Contender& contender : contenders)
+        result.techniques.push_back({contender.cell, start_picture(points), {}, {}});
+    const rays::Tracer casters(scenario.scene, true);
+    const Work work{scenario, options, points, casters, progress};
+    for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
+        std::vector<Contender> fresh;
+        for (const Contender& c : contenders) fresh.push_back({c.row, c.values, c.needs, c.cell, {}});
+        render_light(work, l, std::move(fresh), result);
+    }
+    compare_all(result);
+    return result;
+}
+
+}  // namespace shadowbench::render

@@ -1,0 +1,162 @@
+#include "render/shading_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "rays/image_plane.h"
+#include "render/shading.h"
+#include "render/view_march.h"
+
+namespace shadowbench::render {
+namespace {
+
+using base::Vec3d;
+using base::Vec3f;
+
+constexpr std::size_t rows_at_a_time = 32;
+
+// Length of the step for a ray through everything: the diagonal of the media's bounds in `lookups` parts. Infinite
+// without media.
+double step_length(const scene::Scene& scene, int lookups) {
+    base::Box3d box;
+    for (const scene::Object& object : scene.objects) {
+        if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {
+            box.extendBy(grid->lower);
+            box.extendBy(grid->upper);
+        } else if (const auto* puffs = std::get_if<scene::Particles>(&object.shape)) {
+            for (std::size_t i = 0; i < puffs->centres.size(); ++i)
+                for (const float r : {-puffs->radii[i], puffs->radii[i]})
+                    box.extendBy(Vec3d(puffs->centres[i]) + Vec3d(r));
+        }
+    }
+    return box.isEmpty() ? std::numeric_limits<double>::infinity() : box.size().length() / lookups;
+}
+
+struct Row {
+    std::vector<std::uint32_t> count;  // a pixel
+    std::vector<Vec3d> place;
+    std::vector<Vec3f> coverage, radiance;  // radiance: point after point, its lights together
+};
+
+struct Eye {
+    std::span<const scene::Light> lights;
+    const rays::Tracer& tracer;
+    rays::ImagePlane plane;
+    double step;
+    bool media;
+};
+
+void add_medium_point(const Eye& eye, const Vec3d& place, const Vec3d& share, Row& row) {
+    row.place.push_back(place);
+    row.coverage.push_back(Vec3f(share));
+    for (const scene::Light& light : eye.lights)
+        row.radiance.push_back(Vec3f(share * medium_albedo * Vec3d(light.colour)));
+}
+
+void add_surface_point(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d& to_eye, const Vec3d& left, Row& row) {
+    row.place.push_back(hit.position);
+    row.coverage.push_back(Vec3f(left));
+    for (const scene::Light& light : eye.lights) {
+        const Vec3d to_light = towards(light, hit.position);
+        const bool hair = hit.tangent != Vec3d(0.0);
+        const double shade = hair ? shade_hair(hit.tangent, to_light, to_eye) : shade_surface(hit.normal, to_light);
+        row.radiance.push_back(Vec3f(left * shade * Vec3d(light.colour)));
+    }
+}
+
+Row trace_row(const Eye& eye, int y, int width) {
+    Row row;
+    std::vector<rays::TracedSegment> segments;
+    ViewMarch march;
+    for (int x = 0; x < width; ++x) {
+        const std::size_t before = row.place.size();
+        const Vec3d direction = eye.plane.direction(x + 0.5, y + 0.5);
+        rays::SurfaceHit hit;
+        const bool surface = eye.tracer.nearest(eye.plane.origin, direction, hit);
+        march.transmittance = Vec3d(1.0);
+        if (eye.media) {
+            const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
+            eye.tracer.all_segments(eye.plane.origin, direction, 0.0, end, segments);
+            march_view_ray(segments, eye.step, march);
+            for (const ViewStep& step : march.steps)
+                add_medium_point(eye, eye.plane.origin + direction * step.t, step.share, row);
+        }
+        if (surface) add_surface_point(eye, hit, -direction, march.transmittance, row);
+        row.count.push_back(static_cast<std::uint32_t>(row.place.size() - before));
+    }
+    return row;
+}
+
+// The points, the queries and truth of one light, and one technique's answers.
+std::size_t bytes_a_point(std::size_t lights) {
+    return sizeof(Vec3d) + sizeof(Vec3f) * (1 + 2 * lights) + 48;
+}
+
+void append(const Row& row, std::size_t lights, ShadingPoints& points, std::vector<std::vector<Vec3f>>& radiance) {
+    for (const std::uint32_t n : row.count) points.begin.push_back(points.begin.back() + n);
+    points.place.insert(points.place.end(), row.place.begin(), row.place.end());
+    points.coverage.insert(points.coverage.end(), row.coverage.begin(), row.coverage.end());
+    for (std::size_t i = 0; i < row.radiance.size(); ++i) radiance[i % lights].push_back(row.radiance[i]);
+}
+
+}  // namespace
+
+ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const scene::Light> lights,
+                                  const ViewSettings& settings, const rays::Tracer& tracer, const ViewWatch& watch) {
+    const double step = step_length(scene, settings.media_lookups);
+    const Eye eye{lights, tracer, rays::make_image_plane(settings.camera, settings.size), step, std::isfinite(step)};
+    ShadingPoints points;
+    points.size = settings.size;
+    points.begin.push_back(0);
+    std::vector<std::vector<Vec3f>> radiance(lights.size());
+    const auto height = static_cast<std::size_t>(settings.size.y);
+    for (std::size_t first = 0; first < height; first += rows_at_a_time) {
+        std::vector<Row> rows(std::min(rows_at_a_time, height - first));
+        base::parallel_for(rows.size(), [&](std::size_t i) {
+            rows[i] = trace_row(eye, static_cast<int>(first + i), settings.size.x);
+        });
+        std::size_t count = points.points();
+        for (const Row& row : rows) count += row.place.size();
+        if (count * bytes_a_point(lights.size()) > settings.memory_limit)
+            throw base::Error(base::ErrorCode::bad_input, "/receivers/resolution",
+                              fmt::format("the points that {} x {} pixels see take more than half of the memory limit",
+                                          settings.size.x, settings.size.y));
+        for (const Row& row : rows) append(row, lights.size(), points, radiance);
+        if (watch) watch(first + rows.size(), height);
+    }
+    for (const std::vector<Vec3f>& one : radiance)
+        points.radiance.insert(points.radiance.end(), one.begin(), one.end());
+    return points;
+}
+
+Picture start_picture(const ShadingPoints& points) {
+    return {Image(points.size, Vec3f(0.0f)), Image(points.size, Vec3f(1.0f))};
+}
+
+void add_light(const ShadingPoints& points, std::size_t light, std::span<const float> visibility, Picture& picture) {
+    const std::size_t count = points.points(), stride = visibility.size() > count ? count : 0;
+    const Vec3f* radiance = points.radiance.data() + light * count;
+    const double lights = static_cast<double>(points.lights());
+    const auto width = static_cast<std::size_t>(points.size.x);
+    base::parallel_for(static_cast<std::size_t>(points.size.y), [&](std::size_t y) {
+        for (std::size_t p = y * width; p < (y + 1) * width; ++p) {
+            Vec3d shaded(0.0), taken(0.0);
+            for (std::size_t i = points.begin[p]; i < points.begin[p + 1]; ++i)
+                for (int c = 0; c < 3; ++c) {
+                    const double v = visibility[c * stride + i];
+                    shaded[c] += radiance[i][c] * v;
+                    taken[c] += points.coverage[i][c] * (1.0 - v);
+                }
+            picture.shaded.pixels[p] += Vec3f(shaded);
+            picture.shadow.pixels[p] -= Vec3f(taken / lights);
+        }
+    });
+}
+
+}  // namespace shadowbench::render

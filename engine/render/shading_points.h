@@ -1,0 +1,57 @@
+// What a camera sees, as points to look light up at. Found once a picture; for each technique the picture is then a sum
+// over them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "rays/tracer.h"
+#include "render/image.h"
+#include "scene/scene.h"
+
+namespace shadowbench::render {
+
+struct ShadingPoints {
+    base::Vec2i size{0, 0};
+    std::vector<std::uint32_t> begin;   // pixels + 1 offsets into the points; pixels in image order
+    std::vector<base::Vec3d> place;     // world; of one pixel from front to back
+    std::vector<base::Vec3f> coverage;  // share of the pixel that the point stands for; a pixel's sum is at most 1
+    std::vector<base::Vec3f> radiance;  // light after light: what light l adds to the pixel when nothing shadows it,
+                                        // at [l * points + i]
+
+    std::size_t points() const { return place.size(); }
+    std::size_t lights() const { return points() ? radiance.size() / points() : 0; }
+};
+
+struct ViewSettings {
+    scene::Camera camera;
+    base::Vec2i size{256, 256};
+    // A view ray through the whole of the scene's media has this many steps; rays that miss parts of them have fewer,
+    // and gaps between media add at most as many again (at most 512 in all).
+    int media_lookups = 128;
+    std::size_t memory_limit = std::size_t{8} << 30;  // bytes
+};
+
+using ViewWatch = std::function<void(std::size_t rows, std::size_t total)>;
+
+// For each pixel's middle: the steps through media, then the nearest surface. A surface of half opacity or more counts
+// as opaque, others are not there (as in Tracer::nearest). `tracer` sees all objects. Throws Error{bad_input} at
+// /receivers/resolution when the points would take more than the limit. The same on any number of threads.
+ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const scene::Light> lights,
+                                  const ViewSettings& settings, const rays::Tracer& tracer, const ViewWatch& watch);
+
+// The pictures of one technique, light after light.
+struct Picture {
+    Image shaded;  // background black
+    Image shadow;  // 1 minus the light that shadows take: average visibility; the background counts as lit
+};
+Picture start_picture(const ShadingPoints& points);
+
+// visibility[c * points + i] is that of point i in channel c; one channel stands for all three.
+void add_light(const ShadingPoints& points, std::size_t light, std::span<const float> visibility, Picture& picture);
+
+}  // namespace shadowbench::render

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include "bench/table.h"
+#include "render/write_pictures.h"
+
+namespace shadowbench::render {
+namespace {
+
+constexpr const char* legend =
+    "max, rms: of linear values, against the reference. flip: mean difference that an eye sees (FLIP 2020, 0 to 1).\n"
+    "shaded: the picture. shadow: average visibility alone.\n";
+
+std::vector<std::string> row_of(const TechniquePictures& one) {
+    const bench::Cell& cell = one.cell;
+    std::vector<std::string> row{cell.technique + (cell.parameters.empty() ? "" : " " + cell.parameters)};
+    const bool ok = cell.status == bench::CellStatus::ok;
+    for (const PictureErrors* errors : {&one.shaded, &one.shadow})
+        for (const double value : {errors->max, errors->rms, errors->flip_mean})
+            row.push_back(ok ? fmt::format("{:.2g}", value) : "-");
+    row.push_back(!ok                    ? "failed: " + cell.reason
+                  : cell.outside_promise ? "ok, but promised for opaque scenes only"
+                                         : "ok");
+    return row;
+}
+
+}  // namespace
+
+std::string to_table(const Rendering& rendering) {
+    std::string text = fmt::format(
+        "{}: {} x {} pixels{}, {} lookups a light; reference: {} rays a map pixel, standard error rms {:.2g}; heat "
+        "maps "
+        "to {:g}\n",
+        rendering.name, rendering.size.x, rendering.size.y, rendering.default_camera ? " of a camera of its own" : "",
+        rendering.points, rendering.reference_samples, rendering.reference_standard_error, rendering.heat_top);
+    for (const bench::Setting& setting : rendering.settings)
+        text += fmt::format("{} = {} (of a sweep, the first)\n", setting.pointer, setting.value);
+    bench::Table table({"technique", "shaded max", "rms", "flip", "shadow max", "rms", "flip", "status"});
+    for (const TechniquePictures& one : rendering.techniques) table.add(row_of(one));
+    return text + table.text("    ") + legend;
+}
+
+}  // namespace shadowbench::render

@@ -1,0 +1,141 @@
+#include "render/write_pictures.h"
+
+#include <cctype>
+#include <initializer_list>
+#include <set>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/build_info.h"
+#include "bench/write_result.h"
+#include "metrics/flip.h"
+#include "render/heat_map.h"
+#include "render/image_file.h"
+#include "render/shading.h"
+
+namespace shadowbench::render {
+namespace {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+constexpr const char* extensions[] = {".exr", ".png"};
+
+std::string file_label(const bench::Cell& cell) {
+    std::string label = cell.technique + (cell.parameters.empty() ? "" : " " + cell.parameters);
+    for (char& c : label)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '=' && c != '-') c = '_';
+    return label;
+}
+
+// One a technique; techniques of the same label are numbered.
+std::vector<std::string> file_labels(const Rendering& rendering) {
+    std::vector<std::string> labels;
+    std::set<std::string> used{"reference"};
+    for (const TechniquePictures& one : rendering.techniques) {
+        const std::string label = file_label(one.cell);
+        std::string unique = label;
+        for (int n = 2; !used.insert(unique).second; ++n) unique = label + "_" + std::to_string(n);
+        labels.push_back(unique);
+    }
+    return labels;
+}
+
+std::vector<std::string> names(const std::string& label, std::initializer_list<const char*> kinds) {
+    std::vector<std::string> result;
+    for (const char* kind : kinds)
+        for (const char* extension : extensions) result.push_back(label + "." + kind + extension);
+    return result;
+}
+
+constexpr std::initializer_list<const char*> reference_kinds = {"shaded", "shadow"};
+constexpr std::initializer_list<const char*> technique_kinds = {"shaded", "shadow", "difference", "heat"};
+
+json to_json(const PictureErrors& errors) {
+    return {{"max", errors.max},
+            {"rms", errors.rms},
+            {"flip_mean", errors.flip_mean},
+            {"flip_weighted_median", errors.flip_weighted_median},
+            {"flip_max", errors.flip_max}};
+}
+
+json to_json(const base::Vec3d& v) {
+    return {v.x, v.y, v.z};
+}
+
+json to_json(const TechniquePictures& one, const std::string& label) {
+    const bool ok = one.cell.status == bench::CellStatus::ok;
+    return {{"technique", one.cell.technique},
+            {"version", one.cell.version},
+            {"parameters", json::parse(one.cell.parameters_json)},
+            {"label", one.cell.parameters},
+            {"where", one.cell.where},
+            {"status", ok ? "ok" : "failed"},
+            {"reason", one.cell.reason},
+            {"outside_promise", one.cell.outside_promise},
+            {"shaded", ok ? to_json(one.shaded) : json(nullptr)},
+            {"shadow", ok ? to_json(one.shadow) : json(nullptr)},
+            {"files", ok ? json(names(label, technique_kinds)) : json::array()}};
+}
+
+json shading_json() {
+    return {{"surface_albedo", surface_albedo}, {"hair_diffuse", hair_diffuse},   {"hair_specular", hair_specular},
+            {"hair_exponent", hair_exponent},   {"medium_albedo", medium_albedo}, {"falloff", "none"}};
+}
+
+}  // namespace
+
+json to_json(const Rendering& rendering) {
+    const bench::BuildInfo build = bench::build_info();
+    json settings = json::object(), techniques = json::array();
+    for (const bench::Setting& s : rendering.settings) settings[s.pointer] = json::parse(s.value);
+    const std::vector<std::string> labels = file_labels(rendering);
+    for (std::size_t t = 0; t < labels.size(); ++t) techniques.push_back(to_json(rendering.techniques[t], labels[t]));
+    return {{"schema_version", images_schema_version},
+            {"name", rendering.name},
+            {"scenario_hash", rendering.hash},
+            {"settings", settings},
+            {"version", build.version},
+            {"commit", build.commit},
+            {"resolution", {rendering.size.x, rendering.size.y}},
+            {"camera",
+             {{"position", to_json(rendering.camera.position)},
+              {"target", to_json(rendering.camera.target)},
+              {"up", to_json(rendering.camera.up)},
+              {"fov", rendering.camera.fov},
+              {"of_scenario", !rendering.default_camera}}},
+            {"shading", shading_json()},
+            {"lookups", rendering.points},
+            {"reference",
+             {{"samples_per_pixel", rendering.reference_samples},
+              {"standard_error_rms", rendering.reference_standard_error},
+              {"files", names("reference", reference_kinds)}}},
+            {"flip_pixels_per_degree", metrics::flip_pixels_per_degree},
+            {"heat_top", rendering.heat_top},
+            {"techniques", techniques}};
+}
+
+void write_pictures(const fs::path& folder, const Rendering& rendering) {
+    const std::vector<std::string> labels = file_labels(rendering);
+    std::vector<bench::NewFile> files;
+    const auto add = [&](const std::string& name, const Image& image) {
+        files.push_back({folder / (name + ".exr"), encode_exr(image)});
+        files.push_back({folder / (name + ".png"), encode_png(image)});
+    };
+    add("reference.shaded", rendering.reference.shaded);
+    add("reference.shadow", rendering.reference.shadow);
+    for (std::size_t t = 0; t < labels.size(); ++t) {
+        const TechniquePictures& one = rendering.techniques[t];
+        if (one.cell.status == bench::CellStatus::failed) continue;
+        add(labels[t] + ".shaded", one.picture.shaded);
+        add(labels[t] + ".shadow", one.picture.shadow);
+        add(labels[t] + ".difference", difference_times_four(one.picture.shaded, rendering.reference.shaded));
+        add(labels[t] + ".heat", heat_map(pixel_errors(one.picture.shadow, rendering.reference.shadow),
+                                          rendering.size.x, rendering.size.y, rendering.heat_top));
+    }
+    files.push_back({folder / "images.json", to_json(rendering).dump(1) + "\n"});
+    bench::write_files(files);
+}
+
+}  // namespace shadowbench::render

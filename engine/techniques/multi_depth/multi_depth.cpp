@@ -1,0 +1,198 @@
+#include "techniques/multi_depth/multi_depth.h"
+
+#include <limits>
+#include <utility>
+
+#include "techniques/depth_map.h"
+#include "techniques/multi_depth/select_depths.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+// Defaults: the 3-SM with a kernel of 3 x 3 of the paper's figures 1, 6 and 7, with its q = 9 of section 6.
+const Parameter parameters[] = {
+    {"n", ParameterKind::integer, "depths a cell", 3, 1, most_depths},
+    {"select",
+     ParameterKind::choice,
+     "which depths beside the cell's own: the n - 1 deepest or nearest of the q samples, half of each, or the middles "
+     "of "
+     "n groups of the sorted samples",
+     0,
+     0,
+     0,
+     "both",
+     {"maximum", "minimum", "both", "sorted"}},
+    {"q", ParameterKind::integer, "samples of the base map around a cell, itself among them; 9, 25, 49: squares", 9, 1,
+     289},
+    {"kernel", ParameterKind::integer, "cells along each side of a lookup's kernel, k = kernel^2 in PCF(k, n)", 3, 1,
+     16},
+    {"region",
+     ParameterKind::choice,
+     "of the kernel: adjacent cells, or spread evenly over the width that a lookup asks for",
+     0,
+     0,
+     0,
+     "cells",
+     {"cells", "query"}},
+    {"bias", ParameterKind::number, "added to every stored depth, world length", 0.0, 0.0, 1e6},
+    cells_parameter,
+    storage_parameter,
+};
+
+Selection read_selection(const ParameterValues& values) {
+    const std::string& word = values.word("select");
+    if (word == "maximum") return Selection::maximum;
+    if (word == "minimum") return Selection::minimum;
+    return word == "both" ? Selection::both : Selection::sorted;
+}
+
+class MultiDepth final : public Map {
+public:
+    explicit MultiDepth(const ParameterValues& v)
+        : n_(v.integer("n")),
+          q_(v.integer("q")),
+          side_(v.integer("kernel")),
+          selection_(read_selection(v)),
+          spread_(v.word("region") == "query"),
+          bias_(static_cast<float>(v.number("bias"))),
+          way_(read_storage(v)) {
+        base_.kind = read_cells(v);
+    }
+
+    void begin(const BuildInput& input) override { base_.begin(input.layout); }
+    void add(const rays::LightRays& tile) override { base_.add(tile); }
+    // The base map is whole now: no tile's border is in the way of a search region.
+    void finish() override {
+        const std::vector<float> base = std::exchange(base_.depth, {});
+        store_.keep(way_, base_.grid, n_, select_all(selection_, q_, n_, base_.grid, base));
+    }
+
+    void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
+        const float outcomes = static_cast<float>(side_ * side_ * n_);
+        store_.read([&](const auto& depths) {
+            for (std::size_t i = 0; i < queries.size(); ++i) {
+                Kernel kernel;
+                visibility[i] = 1.0f;
+                if (find(queries[i], kernel))
+                    visibility[i] -= static_cast<float>(count_shadowed(depths, kernel, queries[i].z)) / outcomes;
+            }
+        });
+    }
+
+    void touched(const Query& q, std::vector<const void*>& lines) const override {
+        Kernel kernel;
+        if (!find(q, kernel)) return;
+        const std::size_t before = lines.size();
+        store_.read([&](const auto& depths) {
+            if constexpr (std::decay_t<decltype(depths)>::bounded) depths.touch_bounds(kernel.range(), lines);
+            if (known(depths, kernel, q.z) < 0) kernel.for_each([&](int x, int y) { depths.touch(x, y, lines); });
+        });
+        keep_unique(lines, before);
+    }
+
+    std::size_t bytes() const override { return store_.bytes(); }
+    std::size_t working_bytes() const override {
+        const std::size_t base = base_.grid.count() * sizeof(float);
+        const std::size_t chosen = base * static_cast<std::size_t>(n_);
+        return base + chosen + (way_ == Storage::raw ? 0 : store_.bytes());
+    }
+    NodeStats nodes() const override { return store_.nodes(); }
+    Cells cells() const override { return base_.kind; }
+    void stored(int x, int y, int, std::span<const float>, curves::Curve& out) const override {
+        steps_of(store_.at(x, y), n_, out);
+    }
+
+private:
+    // The cells of one lookup, those inside the map: column[0, columns) x row[0, rows), ascending.
+    struct Kernel {
+        int columns = 0, rows = 0;
+        int column[16], row[16];
+
+        CellRange range() const { return {column[0], column[columns - 1] + 1, row[0], row[rows - 1] + 1}; }
+        template <class Visit>
+        void for_each(const Visit& visit) const {
+            for (int j = 0; j < rows; ++j)
+                for (int i = 0; i < columns; ++i) visit(column[i], row[j]);
+        }
+    };
+
+    // A regular grid of side x side places, its middle where the lookup asks. False outside the map: lit.
+    bool find(const Query& q, Kernel& kernel) const {
+        const CellGrid& grid = store_.grid();
+        int x, y;
+        if (!grid.find(q.x, q.y, x, y)) return false;
+        const float side = static_cast<float>(side_);
+        const auto line = [&](float middle, float per_pixel, int cells, int* places) {
+            const float step = spread_ ? q.width * per_pixel / side : 1.0f;
+            const float first = middle * per_pixel - 0.5f * (side - 1.0f) * step;
+            int count = 0;
+            for (int i = 0; i < side_; ++i) {
+                const float at = first + static_cast<float>(i) * step;
+                if (at >= 0.0f && at < static_cast<float>(cells)) places[count++] = static_cast<int>(at);
+            }
+            return count;
+        };
+        kernel.columns = line(q.x, grid.per_pixel_x, grid.width, kernel.column);
+        kernel.rows = line(q.y, grid.per_pixel_y, grid.height, kernel.row);
+        return kernel.columns > 0 && kernel.rows > 0;
+    }
+
+    // The sum of the n-shadow-tests' numerators where the bounds tell it; else -1.
+    template <class Depths>
+    int known(const Depths& depths, const Kernel& kernel, float z) const {
+        if constexpr (Depths::bounded) {
+            const DepthBounds bounds = depths.bounds(kernel.range());
+            if (!(z > bounds.least + bias_)) return 0;
+            if (z > bounds.greatest + bias_) return kernel.columns * kernel.rows * n_;
+        }
+        return -1;
+    }
+
+    // Samples outside the map are lit.
+    template <class Depths>
+    int count_shadowed(const Depths& depths, const Kernel& kernel, float z) const {
+        if (const int sum = known(depths, kernel, z); sum >= 0) return sum;
+        const auto count = [&](const auto& read) {
+            int sum = 0;
+            kernel.for_each([&](int x, int y) {
+                const float* depth = read.at(x, y);
+                for (int i = 0; i < n_; ++i) sum += z > depth[i] + bias_;
+            });
+            return sum;
+        };
+        if (DepthWindow window; depths.window(kernel.range(), window)) return count(window);
+        return count(depths);
+    }
+
+    int n_, q_, side_;
+    Selection selection_;
+    bool spread_;
+    float bias_;
+    Storage way_;
+    DepthMap base_;  // its depths go once the map is finished
+    DepthStore store_;
+};
+
+}  // namespace
+
+Technique multi_depth() {
+    return {
+        "multi_depth",
+        "several depths a cell, and a shadow test with as many steps",
+        "Pagot, Comba, Oliveira 2004",
+        1,
+        {.opaque_only = true},
+        parameters,
+        [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<MultiDepth>(values); },
+        // With more depths than its own a cell stands for its neighbours too: no bound on the error against its ray.
+        [](const ParameterValues& values, const rays::MapLayout&) {
+            const bool own = values.integer("n") == 1 || values.integer("q") == 1;
+            return own ? 0.0 : std::numeric_limits<double>::infinity();
+        },
+        nullptr,
+        [](const ParameterValues& values, const rays::MapLayout& layout) {
+            return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)), values.integer("n"));
+        }};
+}
+
+}  // namespace shadowbench::techniques

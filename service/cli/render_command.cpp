@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <ostream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "bench/write_result.h"
+#include "render/render.h"
+#include "render/write_pictures.h"
+#include "scene/limits.h"
+#include "service/cli/commands.h"
+#include "service/cli/job.h"
+#include "service/cli/progress_bar.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+
+// "640x480".
+base::Vec2i read_size(const std::string& text) {
+    const char* const end = text.data() + text.size();
+    base::Vec2i size(0, 0);
+    const auto [middle, first] = std::from_chars(text.data(), end, size.x);
+    bool good = first == std::errc() && middle != end && *middle == 'x';
+    if (good) {
+        const auto [rest, second] = std::from_chars(middle + 1, end, size.y);
+        good = second == std::errc() && rest == end && size.x > 0 && size.y > 0 &&
+               static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) <= scene::max_camera_pixels &&
+               std::max(size.x, size.y) <= scene::max_image_side;
+    }
+    if (!good)
+        throw base::Error(base::ErrorCode::usage, "--size " + text,
+                          fmt::format("not WIDTHxHEIGHT of 1 to {} pixels a side and {} in all", scene::max_image_side,
+                                      scene::max_camera_pixels));
+    return size;
+}
+
+bool all_ok(const render::Rendering& rendering) {
+    return std::all_of(rendering.techniques.begin(), rendering.techniques.end(),
+                       [](const auto& one) { return one.cell.status == bench::CellStatus::ok; });
+}
+
+}  // namespace
+
+bool render_command(const RenderArguments& arguments, std::ostream& out, std::ostream& err) {
+    const Job job = read_job(arguments);
+    render::RenderOptions options;
+    options.run = job.options;
+    if (!arguments.size.empty()) options.size = read_size(arguments.size);
+    options.media_lookups = arguments.media_lookups;
+    const fs::path folder = output_folder(arguments.out, "results/images", *job.document);
+    bench::Undo made;  // a rendering that fails leaves no folder
+    bench::make_writable(folder, made);
+
+    std::unique_ptr<ProgressBar> bar;
+    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
+    const render::Rendering rendering = render::render(*job.document, options, [&](const bench::Progress& progress) {
+        if (bar) bar->show(progress);
+    });
+    bar.reset();
+    render::write_pictures(folder, rendering);
+    made.keep();
+    out << render::to_table(rendering)
+        << fmt::format("written: {0}/images.json and the pictures that it names\n", folder.string());
+    return all_ok(rendering);
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <ctime>
+#include <memory>
+#include <ostream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "bench/build_info.h"
+#include "bench/machine.h"
+#include "bench/write_result.h"
+#include "claims/paper.h"
+#include "claims/report.h"
+#include "service/cli/commands.h"
+#include "service/cli/progress_bar.h"
+#include "service/cli/scenario_files.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<const claims::Paper*> chosen(const std::string& name) {
+    std::vector<const claims::Paper*> papers;
+    std::string names = "all";
+    for (const claims::Paper& paper : claims::all_papers()) {
+        if (name == "all" || name == paper.id) papers.push_back(&paper);
+        names += std::string(", ") + paper.id;
+    }
+    if (papers.empty())
+        throw base::Error(base::ErrorCode::usage, "reproduce",
+                          fmt::format("no paper \"{}\"; there are: {}", name, names));
+    return papers;
+}
+
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    std::tm date{};
+    gmtime_r(&now, &date);
+    return fmt::format("{:04}-{:02}-{:02}", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
+}
+
+claims::Conditions conditions_of(bool quick) {
+    const bench::Machine machine = bench::this_machine();
+    const bench::BuildInfo build = bench::build_info();
+    return {quick, fmt::format("{}, {} logical cores", machine.cpu, machine.logical_cores),
+            fmt::format("shadowbench {} ({}, {}, {})", build.version, build.commit, build.compiler, build.build_type),
+            today()};
+}
+
+const char* verdict_text(claims::Verdict verdict) {
+    return verdict == claims::Verdict::holds      ? "holds   "
+           : verdict == claims::Verdict::in_shape ? "in shape"
+                                                  : "FAILS   ";
+}
+
+}  // namespace
+
+void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, std::ostream& err) {
+    const std::vector<const claims::Paper*> papers = chosen(arguments.paper);
+    const fs::path folder = arguments.out.empty() ? fs::path("results") : fs::path(arguments.out);
+    const std::string name =
+        (papers.size() > 1 ? "papers" : papers.front()->id) + std::string(arguments.quick ? "_quick" : "");
+    bench::Undo made;
+    bench::make_writable(folder, made);
+
+    claims::Context context;
+    context.scenarios = paper_scenarios();
+    context.data = data_path(arguments.data, context.scenarios / "papers.json");
+    context.quick = arguments.quick;
+    context.threads = arguments.threads;
+    std::vector<claims::PaperReport> reports;
+    for (const claims::Paper* paper : papers) {
+        std::unique_ptr<ProgressBar> bar;
+        if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
+        context.progress = [&](const bench::Progress& progress) {
+            if (bar) bar->show(progress);
+        };
+        reports.push_back(claims::measure(*paper, context));
+        bar.reset();
+        out << reports.back().title << "\n";
+        for (const claims::Claim& claim : reports.back().claims)
+            out << fmt::format("  {}  {}: {}; here {}\n", verdict_text(claim.verdict), claim.place, claim.says,
+                               claim.measured);
+        out.flush();
+    }
+    claims::write_reports(folder, name, reports, conditions_of(arguments.quick));
+    made.keep();
+    out << fmt::format("written: {0}/{1}.md, {0}/{1}.json, {0}/plots\n", folder.string(), name);
+}
+
+}  // namespace shadowbench::service

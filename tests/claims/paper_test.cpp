@@ -1,0 +1,61 @@
+#include "claims/paper.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "base/error.h"
+
+namespace shadowbench::claims {
+namespace {
+
+bench::Result two_variants() {
+    bench::Result result;
+    for (const char* value : {"1", "2"}) {
+        bench::VariantResult variant;
+        variant.settings = {{"/rays/samples_per_pixel", value}};
+        bench::LightResult light;
+        light.name = value;
+        bench::Cell cell;
+        cell.technique = "avsm";
+        cell.parameters_json = R"({"type":"avsm","nodes":8,"order":"sorted"})";
+        light.cells.push_back(cell);
+        cell.parameters_json = R"({"type":"avsm","nodes":4,"order":"sorted"})";
+        cell.status = bench::CellStatus::failed;
+        cell.reason = "it fell over";
+        light.cells.push_back(cell);
+        variant.lights.push_back(light);
+        result.variants.push_back(variant);
+    }
+    return result;
+}
+
+TEST(Paper, CellsAreFoundBySettingsAndParameters) {
+    const bench::Result result = two_variants();
+    EXPECT_EQ(light_of(result, {"/rays/samples_per_pixel=2"}).name, "2");
+    const bench::LightResult& light = light_of(result);
+    EXPECT_EQ(&cell_of(light, "avsm", {"nodes=8", "order=sorted"}), &light.cells[0]);
+    EXPECT_THROW(light_of(result, {"/rays/samples_per_pixel=3"}), base::Error);
+    EXPECT_THROW(cell_of(light, "avsm", {"nodes=16"}), base::Error);
+    EXPECT_THROW(cell_of(light, "deep"), base::Error);
+}
+
+TEST(Paper, ACellThatFailedIsNotMeasured) {
+    const bench::Result result = two_variants();
+    try {
+        cell_of(light_of(result), "avsm", {"nodes=4"});
+        FAIL();
+    } catch (const base::Error& error) {
+        EXPECT_EQ(error.message(), "it fell over");
+    }
+}
+
+TEST(Paper, EveryPaperHasANameOfItsOwn) {
+    std::set<std::string> names;
+    for (const Paper& paper : all_papers()) names.insert(paper.id);
+    EXPECT_EQ(names.size(), all_papers().size());
+    EXPECT_EQ(names.size(), 5u);
+}
+
+}  // namespace
+}  // namespace shadowbench::claims

@@ -1,0 +1,63 @@
+#include "claims/report.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/read_text.h"
+
+namespace shadowbench::claims {
+namespace {
+
+PaperReport report() {
+    PaperReport r;
+    r.id = "x2000";
+    r.title = "A paper";
+    r.conditions = "On paper.";
+    r.documents = {"scene 0123"};
+    r.claims = {{"section 1", "a | b is 2", "2.1 [2, 2.2]", Verdict::holds, "So it is.", {{2.1, 2.0, 2.2}}},
+                {"section 2", "c is 3", "0.1", Verdict::fails, "So it is not.", {exactly(0.1)}}};
+    r.tables = {{"Numbers", {"a", "b"}, {{"1", "2"}}}};
+    r.plots = {{"x2000_figure1", "It's a title", "x", "y", true, true, {{"one", {{1, 1}, {10, 2}}, true}}}};
+    return r;
+}
+
+const Conditions conditions{false, "a machine", "a build", "2000-01-01"};
+
+TEST(Report, EveryClaimIsARowAndVerdictsAreCounted) {
+    const std::vector<PaperReport> reports{report()};
+    const std::string text = to_markdown(reports, conditions);
+    EXPECT_NE(text.find("1 claims hold, 0 hold in shape, 1 do not hold here."), std::string::npos);
+    EXPECT_NE(text.find("| section 1 | a \\| b is 2 | 2.1 [2, 2.2] | **holds** | So it is. |"), std::string::npos)
+        << "a bar must not end the cell";
+    EXPECT_NE(text.find("| 1 | 2 |"), std::string::npos);
+    EXPECT_NE(text.find("plots/x2000_figure1.svg"), std::string::npos);
+    EXPECT_EQ(text.find("Quick run"), std::string::npos);
+    EXPECT_NE(to_markdown(reports, {true, "", "", ""}).find("Quick run"), std::string::npos);
+}
+
+TEST(Report, NumbersSurviveInJson) {
+    const std::vector<PaperReport> reports{report()};
+    const auto document = nlohmann::json::parse(to_json(reports, conditions));
+    const auto& claim = document["papers"][0]["claims"][0];
+    EXPECT_EQ(claim["verdict"], "holds");
+    EXPECT_EQ(claim["values"][0]["high"], 2.2);
+    EXPECT_EQ(document["papers"][0]["plots"][0]["series"][0]["points"][1][0], 10.0);
+}
+
+TEST(Report, PlotsAreDrawnAndWrittenBesideTheText) {
+    const std::filesystem::path folder =
+        std::filesystem::path(::testing::TempDir()) / ("claims_" + std::to_string(getpid()));
+    const std::vector<PaperReport> reports{report()};
+    write_reports(folder, "papers", reports, conditions);
+    const std::string svg = base::read_text(folder / "plots/x2000_figure1.svg");
+    EXPECT_NE(svg.find("<svg"), std::string::npos);
+    EXPECT_NE(svg.find("s a title"), std::string::npos) << "a quote in the title does not end it";
+    EXPECT_EQ(base::read_text(folder / "papers.md"), to_markdown(reports, conditions));
+    EXPECT_EQ(base::read_text(folder / "papers.json"), to_json(reports, conditions));
+    std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace shadowbench::claims

@@ -1,0 +1,232 @@
+#include "render/render.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "render/shading.h"
+#include "render/write_pictures.h"
+
+namespace shadowbench::render {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Vec3f;
+using nlohmann::json;
+
+// Seen from straight above: an opaque quad over the left half (x < 0) of a plane, one unit above it; the light comes
+// at 45 degrees, so that the shadow falls on x in [-2, 0] moved by one: [-1, 1].
+json quad_over_plane() {
+    return json::parse(R"({
+        "name": "edge",
+        "scene": {"objects": [
+            {"type": "quad", "corner": [-2, 1, -2], "edge_u": [0, 0, 4], "edge_v": [2, 0, 0]},
+            {"type": "quad", "corner": [-3, 0, -3], "edge_u": [0, 0, 6], "edge_v": [6, 0, 0], "casts_shadow": false}]},
+        "lights": [{"type": "directional", "direction": [1, -1, 0]}],
+        "rays": {"resolution": 256, "samples_per_pixel": 4},
+        "receivers": {"type": "camera", "position": [0, 100, 0], "target": [0, 0, 0], "up": [0, 0, -1], "fov": 3,
+                      "resolution": [80, 40], "bias": 0.01},
+        "reference": {"samples_per_pixel": 16, "queries": 10},
+        "techniques": [{"type": "shadow_map"}, {"type": "uncompressed"}]})");
+}
+
+// World x of pixel column x on the plane y.
+double world_x(double x, double y) {
+    const double half = std::tan(1.5 * 3.14159265358979 / 180.0) * (100.0 - y);
+    return (x + 0.5 - 40.0) / 20.0 * half;
+}
+
+TEST(Render, puts_the_edge_of_a_shadow_where_geometry_says) {
+    const Rendering result = render(quad_over_plane(), {}, {});
+    const double lit = surface_albedo * std::sqrt(0.5);
+    int compared = 0;
+    for (int y = 6; y < 34; ++y)
+        for (int x = 0; x < 80; ++x) {
+            const double plane = world_x(x, 0.0), quad = world_x(x, 1.0);
+            if (std::abs(plane) > 2.95 || std::abs(plane - 1.0) < 0.15 || std::abs(quad) < 0.1) continue;
+            if (std::abs(quad + 2.0) < 0.1 || std::abs(plane + 1.0) < 0.15) continue;
+            const bool on_quad = quad > -2.0 && quad < 0.0, shadowed = !on_quad && plane > -1.0 && plane < 1.0;
+            for (const Picture* picture :
+                 {&result.reference, &result.techniques[0].picture, &result.techniques[1].picture}) {
+                EXPECT_NEAR(picture->shaded.at(x, y).y, shadowed ? 0.0 : lit, 1e-3) << x << " " << y;
+                EXPECT_NEAR(picture->shadow.at(x, y).y, shadowed ? 0.0 : 1.0, 1e-3) << x << " " << y;
+            }
+            ++compared;
+        }
+    EXPECT_GT(compared, 800);
+    EXPECT_LT(result.techniques[1].shadow.rms, 0.1);
+    EXPECT_LT(result.techniques[1].shaded.flip_mean, 0.05);
+}
+
+TEST(Render, leaves_the_background_black_and_lit) {
+    json document = quad_over_plane();
+    document["receivers"]["fov"] = 12;  // the plane's border and beyond
+    const Rendering result = render(document, {}, {});
+    EXPECT_EQ(result.reference.shaded.at(0, 0), Vec3f(0.0f));
+    EXPECT_EQ(result.reference.shadow.at(0, 0), Vec3f(1.0f));
+    EXPECT_EQ(result.techniques[0].picture.shaded.at(79, 39), Vec3f(0.0f));
+}
+
+// A slab of extinction 1.5 and thickness 2 seen and lit from above: light that reaches depth s is exp(-1.5 s), and so
+// is what the eye sees of it; in-scattering is albedo / 2 (1 - exp(-2 * 1.5 * 2)).
+TEST(Render, of_a_uniform_slab_meets_the_closed_form_of_single_scattering) {
+    // A box of constant density, as a raw volume.
+    const fs::path folder = fs::temp_directory_path() / "shadowbench_render_slab";
+    fs::create_directories(folder);
+    std::ofstream(folder / "ones.raw", std::ios::binary) << std::string(8, '\xff');
+    json slab = {{"name", "slab"}, {"lights", {{{"type", "directional"}, {"direction", {0, -1, 0}}}}}};
+    slab["scene"]["objects"] = json::parse(R"([{"type": "volume", "file": "ones.raw", "format": "uint8",
+        "size": [2, 2, 2], "lower": [-5, 0, -5], "upper": [5, 2, 5], "extinction": [1.5, 0.5, 1.5], "step": 0.01}])");
+    slab["rays"] = {{"resolution", 16}, {"samples_per_pixel", 1}};
+    slab["receivers"] = json::parse(R"({"type": "camera", "position": [0, 500, 0], "target": [0, 0, 0],
+        "up": [0, 0, -1], "fov": 0.2, "resolution": [4, 4]})");
+    slab["reference"] = {{"samples_per_pixel", 4}, {"queries", 10}};
+    slab["techniques"] = {{{"type", "uncompressed"}}};
+    RenderOptions options;
+    options.run.data = {folder};
+    options.media_lookups = 256;
+    const Rendering result = render(slab, options, {});
+    fs::remove_all(folder);
+    const double red = medium_albedo * 0.5 * (1.0 - std::exp(-6.0)),
+                 green = medium_albedo * 0.5 * (1.0 - std::exp(-2.0));
+    for (const Picture* picture : {&result.reference, &result.techniques[0].picture})
+        for (const Vec3f& pixel : picture->shaded.pixels) {
+            EXPECT_NEAR(pixel.x, red, 1e-3);
+            EXPECT_NEAR(pixel.y, green, 1e-3);
+        }
+    // What shadows take: coverage minus in-scattering.
+    EXPECT_NEAR(result.reference.shadow.at(1, 1).x, 1.0 - (1.0 - std::exp(-3.0)) + 0.5 * (1.0 - std::exp(-6.0)), 1e-3);
+}
+
+TEST(Render, adds_the_lights_in_their_colours) {
+    json document = quad_over_plane();
+    document["lights"] = json::parse(R"([{"type": "directional", "direction": [1, -1, 0], "colour": [1, 0, 0]},
+                                         {"type": "directional", "direction": [-1, -1, 0], "colour": [0, 0.5, 0]}])");
+    const Rendering result = render(document, {}, {});
+    const double lit = surface_albedo * std::sqrt(0.5);
+    const auto column = [](double x) {
+        return static_cast<int>(40.0 + 20.0 * x / (std::tan(1.5 * 3.14159265 / 180) * 100));
+    };
+    // The second light's shadow falls on [-3, -1]; x = 0.5 is in the first one's alone.
+    const Vec3f pixel = result.techniques[0].picture.shaded.at(column(0.5), 20);
+    EXPECT_NEAR(pixel.x, 0.0, 1e-3);
+    EXPECT_NEAR(pixel.y, 0.5 * lit, 1e-3);
+    EXPECT_NEAR(result.techniques[0].picture.shadow.at(column(0.5), 20).x, 0.5, 1e-3);
+    EXPECT_NEAR(result.techniques[0].picture.shaded.at(column(2.0), 20).x, lit, 1e-3);
+}
+
+TEST(Render, is_the_same_on_one_thread_and_on_two) {
+    std::ifstream file(std::string(SHADOWBENCH_SOURCE_DIR) + "/scenarios/quickstart.json");
+    json document = json::parse(file);
+    document["rays"]["resolution"] = 32;
+    document["receivers"]["resolution"] = {32, 24};
+    document["reference"]["samples_per_pixel"] = 16;
+    document["scene"]["objects"][0]["strands"] = 300;
+    RenderOptions one, two;
+    one.run.threads = 1;
+    two.run.threads = 2;
+    const Rendering a = render(document, one, {}), b = render(document, two, {});
+    EXPECT_EQ(to_json(a), to_json(b));
+    EXPECT_EQ(a.reference.shaded.pixels, b.reference.shaded.pixels);
+    for (std::size_t t = 0; t < a.techniques.size(); ++t) {
+        EXPECT_EQ(a.techniques[t].picture.shaded.pixels, b.techniques[t].picture.shaded.pixels);
+        EXPECT_EQ(a.techniques[t].picture.shadow.pixels, b.techniques[t].picture.shadow.pixels);
+    }
+    EXPECT_LT(a.techniques.back().shadow.rms, a.techniques.front().shadow.rms) << "ray_traced against shadow_map";
+}
+
+TEST(Render, finds_a_camera_that_sees_all_casters) {
+    json document = quad_over_plane();
+    document["receivers"] = {{"type", "probes"}, {"bias", 0.01}};
+    RenderOptions options;
+    options.size = base::Vec2i(60, 40);
+    const Rendering result = render(document, options, {});
+    EXPECT_TRUE(result.default_camera);
+    EXPECT_EQ(result.size, base::Vec2i(60, 40));
+    const scene::Camera& camera = result.camera;
+    const base::Vec3d forward = (camera.target - camera.position).normalized();
+    for (const base::Vec3d& corner : {base::Vec3d(-2, 1, -2), base::Vec3d(0, 1, 2), base::Vec3d(-2, 1, 2)}) {
+        const double cosine = (corner - camera.position).normalized().dot(forward);
+        EXPECT_LT(std::acos(cosine) * 180.0 / 3.14159265, 0.5 * camera.fov);
+    }
+}
+
+base::Error error_of(const json& document, const RenderOptions& options) {
+    try {
+        render(document, options, {});
+    } catch (const base::Error& error) {
+        return error;
+    }
+    ADD_FAILURE() << "no error";
+    return {base::ErrorCode::internal, "", ""};
+}
+
+TEST(Render, refuses_a_camera_that_sees_nothing) {
+    json document = quad_over_plane();
+    document["receivers"]["target"] = {0, 200, 0};
+    EXPECT_EQ(error_of(document, {}).where(), "/receivers");
+}
+
+TEST(Render, refuses_more_points_than_memory_holds_before_it_looks_up) {
+    RenderOptions options;
+    options.run.limits.all = std::size_t{1} << 20;
+    options.size = base::Vec2i(400, 400);
+    EXPECT_EQ(error_of(quad_over_plane(), options).where(), "/receivers/resolution");
+}
+
+TEST(Render, takes_the_first_values_of_sweeps_and_says_so) {
+    json document = quad_over_plane();
+    document["sweeps"] = {{"/rays/samples_per_pixel", {1, 4}}};
+    const Rendering result = render(document, {}, {});
+    ASSERT_EQ(result.settings.size(), 1u);
+    EXPECT_EQ(result.settings[0].value, "1");
+    EXPECT_NE(to_table(result).find("samples_per_pixel = 1"), std::string::npos);
+}
+
+TEST(WritePictures, leaves_every_file_that_images_json_names_and_no_other) {
+    json document = quad_over_plane();
+    document["techniques"].push_back({{"type", "uncompressed"}});
+    const Rendering result = render(document, {}, {});
+    const fs::path folder = fs::temp_directory_path() / "shadowbench_write_pictures";
+    fs::remove_all(folder);
+    write_pictures(folder, result);
+    std::ifstream stream(folder / "images.json");
+    const json written = json::parse(stream);
+    std::set<std::string> named{"images.json"}, found;
+    for (const std::string name : written["reference"]["files"]) named.insert(name);
+    for (const json& technique : written["techniques"])
+        for (const std::string name : technique["files"]) named.insert(name);
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        found.insert(entry.path().filename().string());
+        EXPECT_GT(entry.file_size(), 0u) << entry.path();
+    }
+    fs::remove_all(folder);
+    EXPECT_EQ(found, named);
+    EXPECT_EQ(found.size(), 1u + 4 + 3 * 8);
+    EXPECT_TRUE(found.contains("uncompressed_2.heat.png"));
+    EXPECT_EQ(written["techniques"][1]["shadow"]["rms"], result.techniques[1].shadow.rms);
+    EXPECT_EQ(written["techniques"][0]["status"], "ok");
+}
+
+TEST(Compare, measures_difference_in_linear_values) {
+    Image a({4, 2}, Vec3f(0.5f)), b = a;
+    b.at(1, 1) = Vec3f(0.5f, 0.2f, 0.8f);
+    const PictureErrors errors = compare(b, a);
+    EXPECT_NEAR(errors.max, 0.3, 1e-6);
+    EXPECT_NEAR(errors.rms, std::sqrt(2 * 0.09 / 24), 1e-6);
+    EXPECT_GT(errors.flip_max, 0.0);
+    const Image difference = difference_times_four(b, a);
+    EXPECT_NEAR(difference.at(1, 1).y, 1.2, 1e-6);
+    EXPECT_EQ(difference.at(0, 0), Vec3f(0.0f));
+    EXPECT_NEAR(pixel_errors(b, a)[5], 0.2, 1e-6);
+}
+
+}  // namespace
+}  // namespace shadowbench::render
