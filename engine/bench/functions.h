@@ -38,6 +38,8 @@ struct TechniqueChoice {
     const techniques::Technique* row = nullptr;
     techniques::ParameterValues values;
 };
+TechniqueChoice read_any_technique(const std::string& text);
+// Only those that can take given functions.
 TechniqueChoice read_technique(const std::string& text);
 
 // One map of all functions a technique, checked and then timed: repetitions interleaved. No function, or a technique

@@ -30,10 +30,14 @@ json read_pairs(const std::string& pairs, const std::string& where) {
     return object;
 }
 
+std::string place_of(const std::string& text) {
+    return "--technique " + text;
+}
+
 }  // namespace
 
-TechniqueChoice read_technique(const std::string& text) {
-    const std::string where = "--technique " + text;
+TechniqueChoice read_any_technique(const std::string& text) {
+    const std::string where = place_of(text);
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string pairs = colon < text.size() ? text.substr(colon + 1) : std::string();
     TechniqueChoice choice;
@@ -43,8 +47,14 @@ TechniqueChoice read_technique(const std::string& text) {
     } catch (const Error& error) {
         throw Error(ErrorCode::usage, error.where(), error.message());
     }
+    return choice;
+}
+
+TechniqueChoice read_technique(const std::string& text) {
+    TechniqueChoice choice = read_any_technique(text);
     if (!choice.row->from_curves)
-        throw Error(ErrorCode::usage, where, "this technique needs light rays: it cannot take given functions");
+        throw Error(ErrorCode::usage, place_of(text),
+                    "this technique needs light rays: it cannot take given functions");
     return choice;
 }
 

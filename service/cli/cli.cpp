@@ -24,6 +24,8 @@ constexpr const char* examples = R"(Examples:
   shadowbench run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64
   shadowbench render quickstart --size 512x384 --out pictures
   shadowbench validate smoke_vdb --data ~/volumes
+  shadowbench export quickstart --technique deep:tolerance=0.02 --out hair.dsm
+  shadowbench inspect hair.dsm
   shadowbench list techniques
   shadowbench reproduce lokovic2000 --quick
   shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
@@ -34,6 +36,8 @@ struct Arguments {
     RunArguments run;
     RenderArguments render;
     ScenarioArguments validate;
+    ExportArguments exported;
+    std::string inspect;
     std::string list;
     CurveArguments curve;
     ReproduceArguments reproduce;
@@ -49,7 +53,6 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
     repeatable(command.add_option("--set", arguments.set,
                                   "path=value: change one value of the scenario, as in rays.samples_per_pixel=64 or "
                                   "/techniques/0/tolerance=0.01; a sweep over it is dropped"));
-    repeatable(command.add_option("--only", arguments.only, "Only techniques of this type"));
     repeatable(command.add_option("--data", arguments.data,
                                   "A folder to look for data in; before $SHADOWBENCH_DATA, the scenario's folder, its "
                                   "data/, scenarios/data and ../shared/data"));
@@ -66,14 +69,42 @@ void add_folder_option(CLI::App& command, std::string& folder, const char* text)
     });
 }
 
+void add_only_option(CLI::App& command, ScenarioArguments& arguments) {
+    repeatable(command.add_option("--only", arguments.only, "Only techniques of this type"));
+}
+
+void add_export_commands(CLI::App& app, Arguments& arguments) {
+    CLI::App* exported = app.add_subcommand("export", "Write one light's map, or its light rays, for other programs");
+    add_scenario_options(*exported, arguments.exported);
+    exported
+        ->add_option("--out", arguments.exported.out,
+                     "FILE.exr: deep OpenEXR, any technique that stores functions; FILE.dsm: tiled file, deep alone")
+        ->required();
+    CLI::Option* technique =
+        exported->add_option("--technique", arguments.exported.technique, "id:name=value,name=value")
+            ->capture_default_str();
+    exported->add_flag("--rays", arguments.exported.rays, "The captured light rays instead of a technique's map")
+        ->excludes(technique);
+    exported->add_option("--light", arguments.exported.light, "A light's name, or its number from 0 on [the first]");
+    exported->add_option("--tile", arguments.exported.tile, "Pixels a side of a tile of FILE.dsm")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+
+    app.add_subcommand("inspect", "Check a tiled deep shadow map file and tell what it holds")
+        ->add_option("FILE", arguments.inspect, "A .dsm file")
+        ->required();
+}
+
 void add_commands(CLI::App& app, Arguments& arguments) {
     CLI::App* run = app.add_subcommand("run", "Run a scenario: print a table, write result.json and result.csv");
     add_scenario_options(*run, arguments.run);
+    add_only_option(*run, arguments.run);
     add_folder_option(*run, arguments.run.out, "Folder of the results [results/runs/<scenario name>]");
 
     CLI::App* render = app.add_subcommand(
         "render", "Render what the camera sees through every technique: pictures as EXR and PNG, and images.json");
     add_scenario_options(*render, arguments.render);
+    add_only_option(*render, arguments.render);
     add_folder_option(*render, arguments.render.out, "Folder of the pictures [results/images/<scenario name>]");
     render->add_option("--size", arguments.render.size, "WIDTHxHEIGHT in pixels [the scenario's own]");
     render->add_option("--view-rays", arguments.render.rays_per_side, "N x N view rays a pixel: smooth edges and hair")
@@ -87,6 +118,8 @@ void add_commands(CLI::App& app, Arguments& arguments) {
 
     CLI::App* validate = app.add_subcommand("validate", "Check a scenario and its files without running it");
     add_scenario_options(*validate, arguments.validate);
+    add_only_option(*validate, arguments.validate);
+    add_export_commands(app, arguments);
 
     CLI::App* list = app.add_subcommand("list", "List the techniques with their parameters, or the scenarios");
     list->add_option("WHAT", arguments.list, "techniques or scenarios")
@@ -126,6 +159,8 @@ int dispatch(const CLI::App& app, Arguments& arguments, std::ostream& out, std::
     if (app.got_subcommand("run") && !run_command(arguments.run, out, err)) return promise_broken;
     if (app.got_subcommand("render") && !render_command(arguments.render, out, err)) return promise_broken;
     if (app.got_subcommand("validate")) validate_command(arguments.validate, out);
+    if (app.got_subcommand("export")) export_command(arguments.exported, out, err);
+    if (app.got_subcommand("inspect")) inspect_command(arguments.inspect, out);
     if (app.got_subcommand("list")) {
         if (arguments.list == "techniques")
             list_techniques(out);

@@ -27,6 +27,14 @@ struct RenderArguments : ScenarioArguments {
     int media_lookups = 128;  // of a view ray through all media
 };
 
+struct ExportArguments : ScenarioArguments {
+    std::string technique = "deep";  // id:name=value,name=value
+    std::string light;               // a name, or a number from 0 on; empty: the first
+    std::string out;                 // .exr or .dsm
+    bool rays = false;               // the light rays instead of a map
+    int tile = 16;                   // pixels a side, .dsm alone
+};
+
 struct CurveArguments {
     std::string functions;
     std::vector<std::string> techniques;
@@ -47,6 +55,9 @@ struct ReproduceArguments {
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
 // Whether every technique answered with visibilities.
 bool render_command(const RenderArguments& arguments, std::ostream& out, std::ostream& err);
+// One light's map, or its light rays, as a file.
+void export_command(const ExportArguments& arguments, std::ostream& out, std::ostream& err);
+void inspect_command(const std::string& file, std::ostream& out);
 void validate_command(const ScenarioArguments& arguments, std::ostream& out);
 void list_techniques(std::ostream& out);
 void list_scenarios(std::ostream& out);

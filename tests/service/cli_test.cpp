@@ -275,5 +275,69 @@ TEST_F(Cli, RenderRefusesASizeThatIsNone) {
     }
 }
 
+TEST_F(Cli, writes_a_map_as_a_tiled_file_and_tells_what_it_holds) {
+    const Outcome written =
+        cli({"export", path("tiny.json"), "--technique", "deep:tolerance=0.01", "--tile", "4", "--out", path("a.dsm")});
+    ASSERT_EQ(written.code, 0) << written.err;
+    for (const char* text : {"all checksums right", "tiny, light", "tolerance=0.01", "4 rays a pixel", "1 channel",
+                             "1 level, 4 tiles of 4 x 4", "8 x 8 pixels"})
+        EXPECT_NE(written.out.find(text), std::string::npos) << text << " in\n" << written.out;
+    const Outcome inspected = cli({"inspect", path("a.dsm")});
+    EXPECT_EQ(inspected.code, 0);
+    EXPECT_EQ(inspected.out, written.out);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2) << "nothing else is left";
+
+    std::string bytes = read(path("a.dsm"));
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+    fails({"inspect", write("b.dsm", bytes)}, 65, "damaged");
+    fails({"inspect", path("c.dsm")}, 66, "c.dsm");
+    fails({"inspect", path("tiny.json")}, 65, "not a deep shadow map");
+    fails({"inspect", folder_.string()}, 74, "regular file");
+}
+
+TEST_F(Cli, writes_maps_and_light_rays_as_deep_images) {
+    for (const char* technique : {"deep", "avsm:nodes=4", "uncompressed", "shadow_map"}) {
+        const Outcome written =
+            cli({"export", path("tiny.json"), "--technique", technique, "--light", "0", "--out", path("map.exr")});
+        EXPECT_EQ(written.code, 0) << written.err;
+        EXPECT_NE(written.out.find("1 channel"), std::string::npos) << written.out;
+    }
+    ASSERT_EQ(
+        cli({"export", path("tiny.json"), "--rays", "--set", "rays.samples_per_pixel=1", "--out", path("rays.exr")})
+            .code,
+        0);
+    // What was written is a scene of its own, with the same rays.
+    write("again.json", R"({"name": "again", "scene": {"deep_image": {"file": "rays.exr"}},
+        "receivers": {"type": "probes", "count": 20}, "techniques": [{"type": "deep"}]})");
+    const Outcome again = cli({"export", path("again.json"), "--rays", "--out", path("again.exr")});
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_NE(again.out.find("8 x 8 pixels"), std::string::npos);
+    const auto samples = [](const std::string& text) { return text.substr(text.rfind(", ")); };
+    EXPECT_EQ(
+        samples(again.out),
+        samples(cli({"export", path("again.json"), "--technique", "uncompressed", "--out", path("map.exr")}).out));
+}
+
+TEST_F(Cli, refuses_what_cannot_be_exported) {
+    const std::string tiny_file = path("tiny.json"), image = path("a.exr"), tiled = path("a.dsm");
+    fails({"export", tiny_file}, 64, "--out");
+    fails({"export", tiny_file, "--out", path("a.png")}, 64, ".dsm");
+    fails({"export", tiny_file, "--out", tiled, "--technique", "avsm"}, 64, "only technique deep");
+    fails({"export", tiny_file, "--out", tiled, "--rays"}, 64, "--rays");
+    fails({"export", tiny_file, "--out", image, "--rays", "--technique", "deep"}, 64, "--rays");
+    fails({"export", tiny_file, "--out", image, "--technique", "ray_traced"}, 64, "stores no functions");
+    fails({"export", tiny_file, "--out", image, "--technique", "shallow"}, 64, "shallow");
+    fails({"export", tiny_file, "--out", image, "--light", "moon"}, 64, "there are: 0 ");
+    fails({"export", tiny_file, "--out", image, "--light", "1"}, 64, "there are: 0 ");
+    fails({"export", tiny_file, "--out", tiled, "--tile", "0"}, 64, "--tile");
+    fails({"export", tiny_file, "--out", image, "--set", "sweeps={\"/rays/resolution\":[4,8]}"}, 64,
+          "--set /rays/resolution=");
+    fails({"export", path("gone.json"), "--out", image}, 66, "gone.json");
+    fails({"export", tiny_file, "--out", path("no/folder/a.exr")}, 74, "a.exr");
+    fails({"export", tiny_file, "--out", image, "--memory-limit", "0.001", "--set", "rays.resolution=4096"}, 65,
+          "memory");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing is left";
+}
+
 }  // namespace
 }  // namespace shadowbench::service

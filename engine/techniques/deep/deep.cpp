@@ -40,18 +40,21 @@ public:
     Deep(const ParameterValues& values, std::span<const curves::Curve> functions) : Deep(values) {
         const auto tolerance = static_cast<float>(tolerance_of(values, 1));
         map_.grid = {static_cast<int>(functions.size()), 1, 1.0f, 1.0f};
-        map_.offsets.assign(1, 0);
+        DeepLevel& level = map_.levels[0];
+        level.width = map_.grid.width;
+        level.height = 1;
+        level.offsets.assign(1, 0);
         curves::Curve kept;
         for (const curves::Curve& function : functions) {
             kept.resize(function.size());
             const std::size_t n = curves::compress(function, tolerance, kept.data());
-            for (std::size_t i = 0; i < n; ++i) map_.nodes.push_back(kept[i].z);
-            for (std::size_t i = 0; i < n; ++i) map_.nodes.push_back(kept[i].value);
-            map_.offsets.push_back(static_cast<std::uint32_t>(map_.nodes.size() / 2));
+            for (std::size_t i = 0; i < n; ++i) level.floats.push_back(kept[i].z);
+            for (std::size_t i = 0; i < n; ++i) level.floats.push_back(kept[i].value);
+            level.offsets.push_back(static_cast<std::uint32_t>(level.floats.size()));
         }
-        map_.nodes.resize(map_.nodes.size() + DeepMap::padding);
-        map_.nodes.shrink_to_fit();
-        map_.offsets.shrink_to_fit();
+        level.floats.resize(level.floats.size() + DeepLevel::padding);
+        level.floats.shrink_to_fit();
+        level.offsets.shrink_to_fit();
         map_.peak_bytes = map_.bytes() + kept.capacity() * sizeof(curves::Vertex);
     }
 
@@ -73,12 +76,19 @@ public:
         map_.stored(x, y, out);
     }
 
+    std::span<const DeepLevel> levels() const { return map_.levels; }
+
 private:
     ParameterValues values_;
     DeepMap map_;
 };
 
 }  // namespace
+
+std::span<const DeepLevel> levels(const Map& map) {
+    const auto* deep = dynamic_cast<const Deep*>(&map);
+    return deep ? deep->levels() : std::span<const DeepLevel>();
+}
 
 Technique deep() {
     return {"deep",

@@ -13,7 +13,7 @@ namespace {
 
 namespace simd = std::experimental;
 
-constexpr std::uint32_t lanes = DeepMap::padding;  // depths that are compared at once
+constexpr std::uint32_t lanes = DeepLevel::padding;  // depths that are compared at once
 using Lanes = simd::fixed_size_simd<float, static_cast<int>(lanes)>;
 
 // First of n sorted depths that is not less than z. Without branches for short functions, which most are.
@@ -77,6 +77,10 @@ void DeepMap::add(const rays::LightRays& tile) {
 
 void DeepMap::finish() {
     std::size_t total = 0, held = 0, scratch = 0;
+    DeepLevel& level = levels[0];
+    level.width = grid.width;
+    level.height = grid.height;
+    std::vector<std::uint32_t>& offsets = level.offsets;
     offsets.assign(grid.count() + 1, 0);
     for (const TileNodes& t : tiles_) {
         total += t.vertices.size();
@@ -84,19 +88,19 @@ void DeepMap::finish() {
         scratch = std::max(scratch, t.scratch_bytes);
         for (std::size_t p = 0; p + 1 < t.begin.size(); ++p)
             offsets[grid.index(t.x0 + static_cast<int>(p) % t.width, t.y0 + static_cast<int>(p) / t.width) + 1] =
-                t.begin[p + 1] - t.begin[p];
+                2 * (t.begin[p + 1] - t.begin[p]);
     }
-    if (total > std::numeric_limits<std::uint32_t>::max())
+    if (total > std::numeric_limits<std::uint32_t>::max() / 2)
         throw base::Error(base::ErrorCode::bad_input, "/techniques",
-                          "a deep map holds at most 2^32 vertices: raise the tolerance or lower the resolution");
+                          "a deep map holds at most 2^31 vertices: raise the tolerance or lower the resolution");
     for (std::size_t p = 0; p < grid.count(); ++p) offsets[p + 1] += offsets[p];
-    nodes.assign(2 * total + lanes, 0.0f);
+    level.floats.assign(2 * total + lanes, 0.0f);
     for (const TileNodes& t : tiles_)
         for (std::size_t p = 0; p + 1 < t.begin.size(); ++p) {
             const std::size_t pixel =
                 grid.index(t.x0 + static_cast<int>(p) % t.width, t.y0 + static_cast<int>(p) / t.width);
             const std::uint32_t n = t.begin[p + 1] - t.begin[p];
-            float* depths = nodes.data() + 2 * static_cast<std::size_t>(offsets[pixel]);
+            float* depths = level.floats.data() + offsets[pixel];
             for (std::uint32_t i = 0; i < n; ++i) {
                 depths[i] = t.vertices[t.begin[p] + i].z;
                 depths[n + i] = t.vertices[t.begin[p] + i].value;
@@ -107,6 +111,8 @@ void DeepMap::finish() {
 }
 
 void DeepMap::lookup(std::span<const Query> queries, std::span<float> visibility) const {
+    const std::vector<std::uint32_t>& offsets = levels[0].offsets;
+    const std::vector<float>& nodes = levels[0].floats;
     // Queries go in blocks: the lines of a whole block are asked for before the first is used, so that their misses
     // overlap. First the offsets, then the nodes that they point to.
     constexpr std::size_t block = 32;
@@ -122,7 +128,7 @@ void DeepMap::lookup(std::span<const Query> queries, std::span<float> visibility
             __builtin_prefetch(&offsets[cell[k]]);
         }
         for (std::size_t k = 0; k < count; ++k) {
-            const float* first = nodes.data() + 2 * static_cast<std::size_t>(offsets[cell[k]]);
+            const float* first = nodes.data() + offsets[cell[k]];
             __builtin_prefetch(first);
             __builtin_prefetch(first + 16);
         }
@@ -130,8 +136,7 @@ void DeepMap::lookup(std::span<const Query> queries, std::span<float> visibility
             const Query& q = queries[start + k];
             if (single[k]) {
                 const std::uint32_t begin = offsets[cell[k]];
-                visibility[start + k] =
-                    evaluate(nodes.data() + 2 * static_cast<std::size_t>(begin), offsets[cell[k] + 1] - begin, q.z);
+                visibility[start + k] = evaluate(nodes.data() + begin, (offsets[cell[k] + 1] - begin) / 2, q.z);
                 continue;
             }
             Query wide = q;
@@ -144,8 +149,7 @@ void DeepMap::lookup(std::span<const Query> queries, std::span<float> visibility
                     const float wy = tent ? 1.0f - std::abs(static_cast<float>(y) + 0.5f - q.y) / q.width : 1.0f;
                     const float weight = std::max(wx * wy, 0.0f);
                     const std::size_t p = grid.index(x, y);
-                    sum += weight * evaluate(nodes.data() + 2 * static_cast<std::size_t>(offsets[p]),
-                                             offsets[p + 1] - offsets[p], q.z);
+                    sum += weight * evaluate(nodes.data() + offsets[p], (offsets[p + 1] - offsets[p]) / 2, q.z);
                     weights += weight;
                 }
             visibility[start + k] = weights > 0.0f ? std::min(sum / weights, 1.0f) : 1.0f;
@@ -160,10 +164,10 @@ void DeepMap::touched(const Query& q, std::vector<const void*>& lines) const {
     for (int y = r.y0; y < r.y1; ++y)
         for (int x = r.x0; x < r.x1; ++x) {
             const std::size_t p = grid.index(x, y);
-            touch_lines(&offsets[p], 2 * sizeof(std::uint32_t), lines);
-            const std::uint32_t n = offsets[p + 1] - offsets[p];
+            touch_lines(&levels[0].offsets[p], 2 * sizeof(std::uint32_t), lines);
+            const std::uint32_t n = levels[0].nodes(p);
             if (n == 0) continue;
-            const float* depths = nodes.data() + 2 * static_cast<std::size_t>(offsets[p]);
+            const float* depths = levels[0].floats.data() + levels[0].offsets[p];
             const std::uint32_t i = lower_bound(depths, n, q.z);
             // The search ends at the two depths around z and reads the values beside them; a long function's earlier
             // probes lie elsewhere, and are counted too.
@@ -183,14 +187,14 @@ void DeepMap::touched(const Query& q, std::vector<const void*>& lines) const {
 
 NodeStats DeepMap::stats() const {
     NodeStats result;
-    for (std::size_t p = 0; p < grid.count(); ++p) result.add(offsets[p + 1] - offsets[p]);
+    for (std::size_t p = 0; p < grid.count(); ++p) result.add(levels[0].nodes(p));
     return result;
 }
 
 void DeepMap::stored(int x, int y, curves::Curve& out) const {
     const std::size_t p = grid.index(x, y);
-    const std::uint32_t n = offsets[p + 1] - offsets[p];
-    const float* depths = nodes.data() + 2 * static_cast<std::size_t>(offsets[p]);
+    const std::uint32_t n = levels[0].nodes(p);
+    const float* depths = levels[0].floats.data() + levels[0].offsets[p];
     out.resize(n);
     for (std::uint32_t i = 0; i < n; ++i) out[i] = {depths[i], depths[n + i]};
 }

@@ -6,20 +6,15 @@
 #include <vector>
 
 #include "techniques/cells.h"
+#include "techniques/deep/deep_level.h"
 
 namespace shadowbench::techniques {
 
-// A compressed visibility function a pixel, all in one array: the nodes of pixel p are the floats
-// [2 offsets[p], 2 offsets[p + 1]), first their depths, then their values, so that a search reads depths alone.
-// `padding` unused floats follow the last one.
 struct DeepMap {
-    static constexpr std::uint32_t padding = 8;  // floats that a lookup may read behind the last node
-
     float tolerance = 0.0f;
     bool tent = false;  // lookup kernel: a tent twice as wide as the footprint, else a box
     CellGrid grid;
-    std::vector<std::uint32_t> offsets;
-    std::vector<float> nodes;
+    std::vector<DeepLevel> levels = std::vector<DeepLevel>(1);
     std::size_t peak_bytes = 0;
 
     void begin(const rays::MapLayout& map_layout);
@@ -28,7 +23,7 @@ struct DeepMap {
 
     void lookup(std::span<const Query> queries, std::span<float> visibility) const;
     void touched(const Query& q, std::vector<const void*>& lines) const;
-    std::size_t bytes() const { return offsets.capacity() * sizeof(std::uint32_t) + nodes.capacity() * sizeof(float); }
+    std::size_t bytes() const { return levels[0].bytes(); }
     NodeStats stats() const;
     void stored(int x, int y, curves::Curve& out) const;
 

@@ -1,0 +1,55 @@
+// One light of one scenario, for those who keep what a run throws away: its light rays, or the map of one technique.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bench/contender.h"
+#include "bench/functions.h"
+#include "bench/load.h"
+#include "bench/progress.h"
+#include "bench/ray_source.h"
+#include "bench/run.h"
+#include "rays/tracer.h"
+
+namespace shadowbench::bench {
+
+class OneLight {
+public:
+    // `light` is a name or a number from 0 on; empty: the first. Throws what run() throws of a document, and
+    // Error{usage} for a light that is not there and for sweeps that leave several scenarios to choose from.
+    OneLight(const nlohmann::json& document, const RunOptions& options, const std::string& light);
+    OneLight(const OneLight&) = delete;
+    OneLight& operator=(const OneLight&) = delete;
+
+    const scene::Scenario& scenario() const { return *scenario_; }
+    const scene::Light& light() const { return *light_; }
+    const rays::MapLayout& layout() const { return layout_; }
+
+    // Calls body with all light rays, some tiles at a time, in order. Throws Error{bad_input} for a light that sees
+    // nothing, or more than the memory limit.
+    void for_each_batch(const std::function<void(RaySource::Batch)>& body, const ProgressCallback& progress) const;
+
+    // The finished map. Throws the same, and Error{bad_input} when the technique cannot serve the light, internal when
+    // it fails.
+    Contender build(const TechniqueChoice& technique, const ProgressCallback& progress) const;
+
+private:
+    using Visit = std::function<void(const RaySource& source, const rays::MapLayout& layout)>;
+    void capture(std::span<Contender> contenders, const ProgressCallback& progress, const Visit& visit) const;
+
+    RunOptions options_;
+    ScenarioLoader loader_;
+    const scene::Scenario* scenario_ = nullptr;
+    const scene::Light* light_ = nullptr;
+    std::string where_;  // JSON pointer of the light
+    rays::LightView view_;
+    rays::MapLayout layout_;
+    std::unique_ptr<rays::Tracer> casters_;  // null for a deep image
+};
+
+}  // namespace shadowbench::bench

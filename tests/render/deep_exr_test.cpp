@@ -1,0 +1,160 @@
+#include "render/deep_exr.h"
+
+#include <OpenImageIO/deepdata.h>
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "base/read_text.h"
+#include "curves/sweep.h"
+#include "rays/scenes.h"
+#include "render/recomposite.h"
+#include "scene/files.h"
+
+namespace shadowbench::render {
+namespace {
+
+using testing::composite;
+using testing::Sample;
+
+class DeepExr : public ::testing::Test {
+protected:
+    ~DeepExr() override { std::filesystem::remove(file); }
+    const std::filesystem::path file =
+        std::filesystem::path(::testing::TempDir()) /
+        (std::string("shadowbench_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+         std::to_string(getpid()) + ".exr");
+};
+
+struct ReadBack {
+    OIIO::ImageSpec spec;
+    OIIO::DeepData data;
+
+    std::vector<Sample> samples(int x, int y, const char* alpha) const {
+        std::vector<Sample> result;
+        const std::int64_t pixel = static_cast<std::int64_t>(y) * spec.width + x;
+        for (int s = 0; s < data.samples(pixel); ++s)
+            result.push_back({data.deep_value(pixel, spec.channelindex("Z"), s),
+                              data.deep_value(pixel, spec.channelindex("ZBack"), s),
+                              data.deep_value(pixel, spec.channelindex(alpha), s)});
+        return result;
+    }
+};
+
+ReadBack read(const std::filesystem::path& file) {
+    const auto input = OIIO::ImageInput::open(file.string());
+    EXPECT_TRUE(input) << OIIO::geterror();
+    ReadBack result;
+    result.spec = input->spec();
+    EXPECT_TRUE(result.spec.deep);
+    EXPECT_TRUE(input->read_native_deep_image(0, 0, result.data)) << input->geterror();
+    return result;
+}
+
+scene::Scene hair_and_smoke() {
+    scene::Scene scene;
+    scene.objects.push_back(rays::testing::curly_hair(150, 12, 0.02f, 4));
+    scene.objects.emplace_back();
+    scene.objects.back().shape =
+        scene::Particles{{{0.1f, 0.3f, 0.1f}, {-0.2f, -0.4f, 0.2f}}, {0.25f, 0.3f}, {3.0f, 1.0f}};
+    return scene;
+}
+
+std::vector<DeepBlock> blocks_of(const rays::testing::Captured& captured) {
+    std::vector<DeepBlock> blocks;
+    for (const rays::LightRays& tile : captured.tiles) blocks.push_back(samples_of_rays(tile));
+    return blocks;
+}
+
+TEST_F(DeepExr, OneRayAPixelComesBackAsTheSameLightRays) {
+    const scene::Scene scene = hair_and_smoke();
+    auto captured = rays::testing::capture(scene, rays::testing::directional(), rays::testing::rays(70, 1));
+    // Opacities as a deep image can hold them: 1 - (1 - t) is t.
+    for (rays::LightRays& tile : captured.tiles)
+        for (float& t : tile.transmittance) t = 1.0f - (1.0f - t);
+    write_deep_exr(file, 70, 70, blocks_of(captured), "");
+
+    scene::Scene read_scene;
+    read_scene.deep_image = scene::read_deep_image(file);
+    scene::Light light;
+    light.type = scene::LightType::deep_image;
+    const auto read_rays = rays::testing::capture(read_scene, light, rays::testing::rays(70, 1));
+    ASSERT_EQ(read_rays.layout.width, 70);
+    const auto ray_of = [](const rays::testing::Captured& c, int x, int y) {
+        std::vector<float> values;
+        for (const rays::LightRays& tile : c.tiles) {
+            if (x < tile.x0 || y < tile.y0 || x >= tile.x0 + tile.width || y >= tile.y0 + tile.height) continue;
+            const std::size_t ray = static_cast<std::size_t>(y - tile.y0) * tile.width + (x - tile.x0);
+            for (std::uint32_t s = tile.begin[ray]; s < tile.begin[ray + 1]; ++s)
+                values.insert(values.end(), {tile.z_front[s], tile.back(s), tile.transmittance[s]});
+        }
+        return values;
+    };
+    std::size_t segments = 0;
+    for (int y = 0; y < 70; ++y)
+        for (int x = 0; x < 70; ++x) {
+            ASSERT_EQ(ray_of(read_rays, x, y), ray_of(captured, x, y)) << x << ", " << y;
+            segments += ray_of(captured, x, y).size() / 3;
+        }
+    EXPECT_GT(segments, 1000u);
+}
+
+TEST_F(DeepExr, SeveralRaysCompositeToTheVisibilityFunctionOfThePixel) {
+    const scene::Scene scene = hair_and_smoke();
+    const auto captured = rays::testing::capture(scene, rays::testing::directional(), rays::testing::rays(24, 16));
+    write_deep_exr(file, 24, 24, blocks_of(captured), "");
+    const ReadBack back = read(file);
+    curves::SweepScratch scratch;
+    curves::Curve function;
+    for (const rays::LightRays& tile : captured.tiles)
+        for (int p = 0; p < tile.width * tile.height; ++p) {
+            curves::visibility(tile, static_cast<std::size_t>(p) * 16, 16, 1e-4, scratch, function);
+            const auto samples = back.samples(tile.x0 + p % tile.width, tile.y0 + p / tile.width, "A");
+            EXPECT_EQ(samples.empty(), function.empty());
+            for (const curves::Vertex& v : function) {
+                ASSERT_NEAR(composite(samples, v.z, false), curves::evaluate(function, v.z), 1e-5);
+                ASSERT_NEAR(composite(samples, v.z, true), curves::evaluate_behind(function, v.z), 1e-5);
+            }
+        }
+}
+
+TEST_F(DeepExr, ColouredSamplesHaveAnAlphaAChannelAndTheirMean) {
+    DeepBlock block{1, 0, 1, 2, 3, {0, 0, 1}, {2}, {3}, {0.25f, 0.5f, 0.75f}};
+    write_deep_exr(file, 2, 2, std::span(&block, 1), "light key");
+    const ReadBack back = read(file);
+    EXPECT_EQ(back.spec.get_string_attribute("ImageDescription"), "light key");
+    EXPECT_EQ(back.spec.nchannels, 6);
+    EXPECT_EQ(back.data.samples(1), 0);
+    ASSERT_EQ(back.data.samples(3), 1);
+    EXPECT_EQ(back.samples(1, 1, "A")[0].alpha, 0.5f);
+    EXPECT_EQ(back.samples(1, 1, "AR")[0].alpha, 0.25f);
+    EXPECT_EQ(back.samples(1, 1, "AG")[0].alpha, 0.5f);
+    EXPECT_EQ(back.samples(1, 1, "AB")[0].alpha, 0.75f);
+    EXPECT_EQ(back.samples(1, 1, "A")[0].z_back, 3.0f);
+}
+
+TEST_F(DeepExr, TheSameSamplesGiveTheSameBytes) {
+    const DeepBlock block{0, 0, 1, 1, 1, {0, 2}, {1, 2}, {1, 3}, {0.5f, 1.0f}};
+    write_deep_exr(file, 1, 1, std::span(&block, 1), "x");
+    const std::string first = base::read_text(file);
+    write_deep_exr(file, 1, 1, std::span(&block, 1), "x");
+    EXPECT_EQ(base::read_text(file), first);
+}
+
+TEST_F(DeepExr, WhatCannotBeWrittenIsAnError) {
+    const DeepBlock block{0, 0, 1, 1, 1, {0, 0}, {}, {}, {}};
+    try {
+        write_deep_exr("/nowhere/a.exr", 1, 1, std::span(&block, 1), "");
+        FAIL();
+    } catch (const base::Error& error) {
+        EXPECT_EQ(error.code(), base::ErrorCode::io);
+        EXPECT_EQ(error.where(), "/nowhere/a.exr");
+    }
+}
+
+}  // namespace
+}  // namespace shadowbench::render

@@ -1,0 +1,30 @@
+// Deep samples back to transmittance, in the plainest way.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+namespace shadowbench::render::testing {
+
+struct Sample {
+    float z_front, z_back, alpha;
+};
+
+// Product of all samples up to z; a surface counts strictly behind it, or `behind` at it too.
+template <class Samples>
+double composite(const Samples& samples, float z, bool behind) {
+    double product = 1.0;
+    for (const Sample& s : samples) {
+        const double taken = 1.0 - static_cast<double>(s.alpha);
+        if (s.z_front == s.z_back)
+            product *= s.z_front < z || (behind && s.z_front == z) ? taken : 1.0;
+        else if (z >= s.z_back)
+            product *= taken;
+        else if (z > s.z_front)
+            product *=
+                std::pow(taken, (static_cast<double>(z) - s.z_front) / (static_cast<double>(s.z_back) - s.z_front));
+    }
+    return product;
+}
+
+}  // namespace shadowbench::render::testing
