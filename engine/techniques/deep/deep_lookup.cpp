@@ -1,0 +1,168 @@
+#include "techniques/deep/deep_lookup.h"
+
+#include "curves/curve.h"
+#include "techniques/deep/footprint.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+// The values of a pixel at depth z in each channel: curves::evaluate, to the bit.
+template <int channels, class SegmentSearch>
+inline void evaluate(const DeepLevel& level, std::size_t pixel, float z, SegmentSearch& search, float* out) {
+    const float* const depths = level.floats.data() + level.offsets[pixel];
+    const std::uint32_t size = level.offsets[pixel + 1] - level.offsets[pixel];
+    const bool coloured = channels == 3 && level.has_colour(pixel);
+    const std::uint32_t n = size / (coloured ? 4 : 2);
+    if (n == 0) {
+        for (int c = 0; c < channels; ++c) out[c] = 1.0f;
+        return;
+    }
+    const std::uint32_t next = search(depths, n, z);
+    const float* values = depths + n;
+    for (int c = 0; c < channels; ++c, values += coloured ? n : 0) {
+        if (next == 0)
+            out[c] = values[0];
+        else if (next == n)
+            out[c] = values[n - 1];
+        else
+            out[c] = curves::join({depths[next - 1], values[next - 1]}, {depths[next], values[next]}, z);
+    }
+}
+
+template <int channels, class SegmentSearch>
+class Lookup {
+public:
+    Lookup(std::span<const DeepLevel> levels, const LookupRule& rule, SegmentSearch search)
+        : levels_(levels), rule_(rule), search_(search) {}
+
+    void run(std::span<const Query> queries, std::span<float> visibility) {
+        // Queries go in blocks: the lines of a whole block are asked for before the first is used, so that their misses
+        // overlap. First the offsets, then the nodes that they point to.
+        constexpr std::size_t block = 32;
+        const DeepLevel& map = levels_[0];
+        const CellGrid grid = grid_of(map);
+        std::uint32_t cell[block];
+        bool single[block];
+        for (std::size_t start = 0; start < queries.size(); start += block) {
+            const std::size_t count = std::min(block, queries.size() - start);
+            for (std::size_t k = 0; k < count; ++k) {
+                const Query& q = queries[start + k];
+                int x, y;
+                single[k] = q.width <= 1.0f && !rule_.tent && grid.find(q.x, q.y, x, y);
+                cell[k] = single[k] ? static_cast<std::uint32_t>(map.pixel(x, y)) : 0;
+                __builtin_prefetch(&map.offsets[cell[k]]);
+            }
+            for (std::size_t k = 0; k < count; ++k) {
+                const float* first = map.floats.data() + map.offsets[cell[k]];
+                __builtin_prefetch(first);
+                __builtin_prefetch(first + 16);
+            }
+            for (std::size_t k = 0; k < count; ++k) {
+                const Query& q = queries[start + k];
+                float values[channels];
+                if (single[k])
+                    evaluate<channels>(map, cell[k], q.z, search_, values);
+                else
+                    filter(grid, q, values);
+                for (std::size_t c = 0; c < channels; ++c) visibility[c * queries.size() + start + k] = values[c];
+            }
+        }
+    }
+
+private:
+    void filter(const CellGrid& grid, const Query& q, float* values) {
+        for (int c = 0; c < channels; ++c) values[c] = 1.0f;
+        int x, y;
+        if (!grid.find(q.x, q.y, x, y)) return;
+        const LevelChoice choice = choose_levels(rule_, q.width, levels_.size());
+        average(choice.fine, q, values);
+        if (choice.coarser <= 0.0f) return;
+        float coarser[channels];
+        average(choice.fine + 1, q, coarser);
+        for (int c = 0; c < channels; ++c) values[c] += choice.coarser * (coarser[c] - values[c]);
+    }
+
+    void average(int level, const Query& q, float* values) {
+        float sum[channels] = {}, weights = 0.0f;
+        for_each_pixel(levels_, level, rule_, q, [&](std::size_t pixel, float weight) {
+            float one[channels];
+            evaluate<channels>(levels_[static_cast<std::size_t>(level)], pixel, q.z, search_, one);
+            for (int c = 0; c < channels; ++c) sum[c] += weight * one[c];
+            weights += weight;
+        });
+        for (int c = 0; c < channels; ++c) values[c] = std::min(sum[c] / weights, 1.0f);
+    }
+
+    std::span<const DeepLevel> levels_;
+    const LookupRule& rule_;
+    SegmentSearch search_;
+};
+
+template <int channels>
+void lookup_channels(std::span<const DeepLevel> levels, const LookupRule& rule, std::span<const Query> queries,
+                     std::span<float> visibility) {
+    switch (rule.search) {
+        case Search::binary:
+            return Lookup<channels, BinarySearch>(levels, rule, {}).run(queries, visibility);
+        case Search::linear:
+            return Lookup<channels, LinearSearch>(levels, rule, {}).run(queries, visibility);
+        case Search::cached:
+            return Lookup<channels, CachedSearch>(levels, rule, CachedSearch(queries.size())).run(queries, visibility);
+    }
+}
+
+// The depths that a search reads before it knows the segment.
+void touch_search(const float* depths, std::uint32_t n, std::uint32_t found, float z, Search search,
+                  std::vector<const void*>& lines) {
+    if (search == Search::linear) {
+        touch_lines(depths, std::min(found + 1, n) * sizeof(float), lines);
+    } else if (n <= DeepLevel::padding) {
+        touch_lines(depths, n * sizeof(float), lines);
+    } else {
+        for (std::uint32_t low = 0, left = n; left > 1;) {
+            const std::uint32_t half = left / 2;
+            touch_lines(depths + low + half - 1, sizeof(float), lines);
+            low += depths[low + half - 1] < z ? half : 0;
+            left -= half;
+        }
+    }
+}
+
+void touch_pixel(const DeepLevel& level, std::size_t p, float z, Search search, std::vector<const void*>& lines) {
+    touch_lines(&level.offsets[p], 2 * sizeof(std::uint32_t), lines);
+    if (!level.coloured.empty()) touch_lines(&level.coloured[p / 64], sizeof(std::uint64_t), lines);
+    const std::uint32_t n = level.nodes(p);
+    if (n == 0) return;
+    const float* depths = level.floats.data() + level.offsets[p];
+    const std::uint32_t next = BinarySearch()(depths, n, z);
+    touch_search(depths, n, next, z, search, lines);
+    const std::uint32_t left = next ? next - 1 : 0, right = std::min(next, n - 1);
+    const std::uint32_t rows = level.has_colour(p) ? 4 : 2;  // one of depths, then one of values a channel
+    for (std::uint32_t row = 0; row < rows; ++row)
+        touch_lines(depths + row * n + left, (right - left + 1) * sizeof(float), lines);
+}
+
+}  // namespace
+
+void lookup(std::span<const DeepLevel> levels, const LookupRule& rule, std::span<const Query> queries,
+            std::span<float> visibility) {
+    if (levels[0].channels == 3)
+        lookup_channels<3>(levels, rule, queries, visibility);
+    else
+        lookup_channels<1>(levels, rule, queries, visibility);
+}
+
+void touched(std::span<const DeepLevel> levels, const LookupRule& rule, const Query& q,
+             std::vector<const void*>& lines) {
+    int x, y;
+    if (!grid_of(levels[0]).find(q.x, q.y, x, y)) return;
+    const std::size_t before = lines.size();
+    const LevelChoice choice = choose_levels(rule, q.width, levels.size());
+    for (int l = choice.fine; l <= choice.fine + (choice.coarser > 0.0f); ++l)
+        for_each_pixel(levels, l, rule, q, [&](std::size_t pixel, float) {
+            touch_pixel(levels[static_cast<std::size_t>(l)], pixel, q.z, rule.search, lines);
+        });
+    keep_unique(lines, before);
+}
+
+}  // namespace shadowbench::techniques
