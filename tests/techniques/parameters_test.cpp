@@ -58,7 +58,8 @@ TEST(Parameters, OnlyWhatDiffersFromTheDefaultsIsShown) {
     const auto& parameters = find("deep", "").parameters;
     const ParameterValues values = read_parameters(parameters, {{"tolerance", 0.02}}, "");
     EXPECT_EQ(to_string(values, parameters, false), "tolerance=0.02");
-    EXPECT_EQ(to_string(values, parameters, true), "tolerance=0.02 filter=box radius=0.5 mip=none kernel=box search=binary");
+    EXPECT_EQ(to_string(values, parameters, true),
+              "tolerance=0.02 filter=box radius=0.5 mip=none kernel=box search=binary");
 }
 
 TEST(Parameters, EveryRowHasASchemaWithItsDefaults) {

@@ -6,26 +6,29 @@
 namespace shadowbench::techniques {
 namespace {
 
+// A function's value where `next` is the first of its n depths that is not less than z.
+inline float value_at(const float* depths, const float* values, std::uint32_t n, std::uint32_t next, float z) {
+    if (next == 0) return values[0];
+    if (next == n) return values[n - 1];
+    return curves::join({depths[next - 1], values[next - 1]}, {depths[next], values[next]}, z);
+}
+
 // The values of a pixel at depth z in each channel: curves::evaluate, to the bit.
 template <int channels, class SegmentSearch>
-inline void evaluate(const DeepLevel& level, std::size_t pixel, float z, SegmentSearch& search, float* out) {
-    const float* const depths = level.floats.data() + level.offsets[pixel];
-    const std::uint32_t size = level.offsets[pixel + 1] - level.offsets[pixel];
-    const bool coloured = channels == 3 && level.has_colour(pixel);
-    const std::uint32_t n = size / (coloured ? 4 : 2);
-    if (n == 0) {
-        for (int c = 0; c < channels; ++c) out[c] = 1.0f;
-        return;
-    }
-    const std::uint32_t next = search(depths, n, z);
-    const float* values = depths + n;
-    for (int c = 0; c < channels; ++c, values += coloured ? n : 0) {
-        if (next == 0)
-            out[c] = values[0];
-        else if (next == n)
-            out[c] = values[n - 1];
-        else
-            out[c] = curves::join({depths[next - 1], values[next - 1]}, {depths[next], values[next]}, z);
+inline std::array<float, channels> evaluate(const DeepLevel& level, std::size_t pixel, float z, SegmentSearch& search) {
+    const std::uint32_t begin = level.offsets[pixel], size = level.offsets[pixel + 1] - begin;
+    const float* const depths = level.floats.data() + begin;
+    if constexpr (channels == 1) {
+        if (size == 0) return {1.0f};
+        const std::uint32_t n = size / 2;
+        return {value_at(depths, depths + n, n, search(depths, n, z), z)};
+    } else {
+        if (size == 0) return {1.0f, 1.0f, 1.0f};
+        const bool coloured = level.has_colour(pixel);
+        const std::uint32_t n = size / (coloured ? 4 : 2), next = search(depths, n, z);
+        const float first = value_at(depths, depths + n, n, next, z);
+        if (!coloured) return {first, first, first};
+        return {first, value_at(depths, depths + 2 * n, n, next, z), value_at(depths, depths + 3 * n, n, next, z)};
     }
 }
 
@@ -59,38 +62,38 @@ public:
             }
             for (std::size_t k = 0; k < count; ++k) {
                 const Query& q = queries[start + k];
-                float values[channels];
-                if (single[k])
-                    evaluate<channels>(map, cell[k], q.z, search_, values);
-                else
-                    filter(grid, q, values);
+                const Values values = single[k] ? evaluate<channels>(map, cell[k], q.z, search_) : filter(grid, q);
                 for (std::size_t c = 0; c < channels; ++c) visibility[c * queries.size() + start + k] = values[c];
             }
         }
     }
 
 private:
-    void filter(const CellGrid& grid, const Query& q, float* values) {
-        for (int c = 0; c < channels; ++c) values[c] = 1.0f;
+    using Values = std::array<float, channels>;
+
+    [[gnu::noinline]] Values filter(const CellGrid& grid, const Query& q) {
+        Values values;
+        values.fill(1.0f);
         int x, y;
-        if (!grid.find(q.x, q.y, x, y)) return;
+        if (!grid.find(q.x, q.y, x, y)) return values;
         const LevelChoice choice = choose_levels(rule_, q.width, levels_.size());
-        average(choice.fine, q, values);
-        if (choice.coarser <= 0.0f) return;
-        float coarser[channels];
-        average(choice.fine + 1, q, coarser);
+        values = average(choice.fine, q);
+        if (choice.coarser <= 0.0f) return values;
+        const Values coarser = average(choice.fine + 1, q);
         for (int c = 0; c < channels; ++c) values[c] += choice.coarser * (coarser[c] - values[c]);
+        return values;
     }
 
-    void average(int level, const Query& q, float* values) {
-        float sum[channels] = {}, weights = 0.0f;
+    Values average(int level, const Query& q) {
+        Values sum{};
+        float weights = 0.0f;
         for_each_pixel(levels_, level, rule_, q, [&](std::size_t pixel, float weight) {
-            float one[channels];
-            evaluate<channels>(levels_[static_cast<std::size_t>(level)], pixel, q.z, search_, one);
+            const Values one = evaluate<channels>(levels_[static_cast<std::size_t>(level)], pixel, q.z, search_);
             for (int c = 0; c < channels; ++c) sum[c] += weight * one[c];
             weights += weight;
         });
-        for (int c = 0; c < channels; ++c) values[c] = std::min(sum[c] / weights, 1.0f);
+        for (float& value : sum) value = std::min(value / weights, 1.0f);
+        return sum;
     }
 
     std::span<const DeepLevel> levels_;

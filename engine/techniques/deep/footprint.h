@@ -33,7 +33,7 @@ template <class Visit>
 void for_each_pixel(std::span<const DeepLevel> levels, int number, const LookupRule& rule, const Query& q,
                     const Visit& visit) {
     const DeepLevel& level = levels[static_cast<std::size_t>(number)];
-    const float scale = std::ldexp(1.0f, -number);
+    const float scale = 1.0f / static_cast<float>(1u << number);
     const float width = rule.tent ? std::max(q.width * scale, 1.0f) : q.width * scale;
     const Query at{q.x * scale, q.y * scale, q.z, rule.tent ? 2.0f * width : width};
     const CellRange r = footprint(grid_of(level), at);

@@ -21,14 +21,15 @@ enum class Search {
 // number. `depths` may be read as far as DeepLevel::padding floats.
 
 struct BinarySearch {
-    std::uint32_t operator()(const float* depths, std::uint32_t n, float z) const {
+    [[gnu::always_inline]] std::uint32_t operator()(const float* depths, std::uint32_t n, float z) const {
         constexpr std::uint32_t lanes = DeepLevel::padding;
         if (n <= lanes) {  // without branches: most functions are short
             using Lanes = std::experimental::fixed_size_simd<float, static_cast<int>(lanes)>;
             const Lanes number([](auto lane) { return static_cast<float>(lane); });
             const auto before = (Lanes(depths, std::experimental::element_aligned) < z) &&
                                 (number < static_cast<float>(static_cast<int>(n)));
-            return static_cast<std::uint32_t>(std::experimental::popcount(before));
+            // They are the first ones: the last one set tells how many, without an instruction that counts bits.
+            return any_of(before) ? static_cast<std::uint32_t>(find_last_set(before)) + 1 : 0;
         }
         const float* first = depths;
         while (n > 1) {
