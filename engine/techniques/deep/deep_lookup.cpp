@@ -117,18 +117,14 @@ void lookup_channels(std::span<const DeepLevel> levels, const LookupRule& rule, 
 // The depths that a search reads before it knows the segment.
 void touch_search(const float* depths, std::uint32_t n, std::uint32_t found, float z, Search search,
                   std::vector<const void*>& lines) {
-    if (search == Search::linear) {
-        touch_lines(depths, std::min(found + 1, n) * sizeof(float), lines);
-    } else if (n <= DeepLevel::padding) {
-        touch_lines(depths, n * sizeof(float), lines);
-    } else {
-        for (std::uint32_t low = 0, left = n; left > 1;) {
-            const std::uint32_t half = left / 2;
-            touch_lines(depths + low + half - 1, sizeof(float), lines);
-            low += depths[low + half - 1] < z ? half : 0;
-            left -= half;
-        }
+    if (search == Search::linear) return touch_lines(depths, std::min(found + 1, n) * sizeof(float), lines);
+    while (n > BinarySearch::lanes) {
+        const std::uint32_t half = n / 2;
+        touch_lines(depths + half - 1, sizeof(float), lines);
+        depths += depths[half - 1] < z ? half : 0;
+        n -= half;
     }
+    touch_lines(depths, n * sizeof(float), lines);
 }
 
 void touch_pixel(const DeepLevel& level, std::size_t p, float z, Search search, std::vector<const void*>& lines) {

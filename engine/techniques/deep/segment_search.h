@@ -12,7 +12,7 @@
 namespace shadowbench::techniques {
 
 enum class Search {
-    binary,  // all depths of a short function at once, else by halves
+    binary,  // by halves down to a few depths, which are compared at once
     linear,  // from the front
     cached,  // from the segment used last in the same pixel (Lokovic and Veach 2000, section 3.4), else binary
 };
@@ -21,23 +21,22 @@ enum class Search {
 // number. `depths` may be read as far as DeepLevel::padding floats.
 
 struct BinarySearch {
+    static constexpr std::uint32_t lanes = DeepLevel::padding;  // depths that are compared at once
+
     [[gnu::always_inline]] std::uint32_t operator()(const float* depths, std::uint32_t n, float z) const {
-        constexpr std::uint32_t lanes = DeepLevel::padding;
-        if (n <= lanes) {  // without branches: most functions are short
-            using Lanes = std::experimental::fixed_size_simd<float, static_cast<int>(lanes)>;
-            const Lanes number([](auto lane) { return static_cast<float>(lane); });
-            const auto before = (Lanes(depths, std::experimental::element_aligned) < z) &&
-                                (number < static_cast<float>(static_cast<int>(n)));
-            // They are the first ones: the last one set tells how many, without an instruction that counts bits.
-            return any_of(before) ? static_cast<std::uint32_t>(find_last_set(before)) + 1 : 0;
-        }
+        using Lanes = std::experimental::fixed_size_simd<float, static_cast<int>(lanes)>;
         const float* first = depths;
-        while (n > 1) {
+        while (n > lanes) {  // most functions are shorter
             const std::uint32_t half = n / 2;
             first += first[half - 1] < z ? half : 0;
             n -= half;
         }
-        return static_cast<std::uint32_t>(first - depths) + (*first < z);
+        const Lanes number([](auto lane) { return static_cast<float>(lane); });
+        const auto before = (Lanes(first, std::experimental::element_aligned) < z) &&
+                            (number < static_cast<float>(static_cast<int>(n)));
+        // They are the first ones: the last one set tells how many, without an instruction that counts bits.
+        const std::uint32_t count = any_of(before) ? static_cast<std::uint32_t>(find_last_set(before)) + 1 : 0;
+        return static_cast<std::uint32_t>(first - depths) + count;
     }
 };
 
