@@ -12,19 +12,21 @@ namespace shadowbench::techniques {
 
 enum class Mip {
     none,     // the map alone
-    nearest,  // one level, the one whose pixels suit the footprint best
-    blend,    // the two levels around that, weighed by how near each is
+    nearest,  // one level
+    blend,    // that level and the next coarser one, weighed by how near each is
 };
 
-// How a lookup weighs pixels. With q's footprint of `width` pixels of the level in question, centred at (x, y), pixel
+// How a lookup weighs pixels around (x, y) over a footprint of `width`, all in pixels of the level in question. Pixel
 // (i, j) weighs f(i + 1/2 - x) f(j + 1/2 - y):
-//   box: 1 within width / 2, at least the nearest pixel;
+//   box: 1 within width / 2, at least the nearest pixel; of coarser levels than the map, which have few pixels in a
+//        footprint, the part of the pixel that lies in it;
 //   tent: 1 - |d| / width, twice as wide; bilinear interpolation at a width of 1, which is the least.
 // A coarser level's pixel that the map's edge cuts weighs as much less.
 //
-// With mip levels a box reads levels whose pixels the footprint is about two wide of, a tent about one: with l =
-// log2(width / 2) or log2(width), `nearest` reads level round(l), `blend` the levels floor(l) and floor(l) + 1 with
-// weights 1 - frac(l) and frac(l). So a lookup reads 4 x 4 pixels of a level at most, however wide it is.
+// With mip levels, let l = log2(width / 1.5) for a box, log2(width) for a tent, width in map pixels. `nearest` reads
+// level floor(l), where a box is 1.5 to 3 pixels wide, a tent's half 1 to 2; `blend` that one and the next with weights
+// 1 - frac(l) and frac(l). So a lookup reads 4 x 4 pixels of one level and 3 x 3 of another at most, however wide it
+// is.
 struct LookupRule {
     bool tent = false;
     Mip mip = Mip::none;
