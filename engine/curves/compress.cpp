@@ -7,107 +7,250 @@ namespace shadowbench::curves {
 
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// One function, or three that are compressed together.
+template <int channels>
+using Values = std::array<double, channels>;
+
 // All vertices at one z: the values on both sides.
+template <int channels>
 struct Group {
     double z = 0.0;
-    double before = 1.0, after = 1.0;
+    Values<channels> before, after;
 };
 
-Group read_group(CurveView curve, std::size_t& next) {
-    const Vertex first = curve[next++];
-    float after = first.value;
-    while (next < curve.size() && curve[next].z == first.z) after = curve[next++].value;
-    return {first.z, first.value, after};
+struct OneReader {
+    CurveView curve;
+    std::size_t next = 0;
+
+    bool more() const { return next < curve.size(); }
+    Group<1> read() {
+        const Vertex first = curve[next++];
+        float after = first.value;
+        while (next < curve.size() && curve[next].z == first.z) after = curve[next++].value;
+        return {first.z, {first.value}, {after}};
+    }
+};
+
+// Groups at every depth where one of the three has a vertex.
+struct ColourReader {
+    std::array<OneReader, 3> channel;
+    Group<1> last[3];  // what each channel had read last
+
+    explicit ColourReader(const std::array<CurveView, 3>& curves) {
+        for (int c = 0; c < 3; ++c) {
+            channel[c].curve = curves[c];
+            const double start = curves[c].empty() ? 1.0 : curves[c].front().value;
+            last[c] = {-kInfinity, {start}, {start}};
+        }
+    }
+    bool more() const { return channel[0].more() || channel[1].more() || channel[2].more(); }
+    Group<3> read() {
+        int first = -1;
+        for (int c = 0; c < 3; ++c)
+            if (channel[c].more() && (first < 0 || depth(c) < depth(first))) first = c;
+        const float z = depth(first);
+        Group<3> group{z, {}, {}};
+        for (int c = 0; c < 3; ++c) {
+            if (c == first || (channel[c].more() && depth(c) == z)) {
+                last[c] = channel[c].read();
+                group.before[c] = last[c].before[0];
+                group.after[c] = last[c].after[0];
+            } else {
+                group.before[c] = group.after[c] = between(c, z);
+            }
+        }
+        return group;
+    }
+
+private:
+    float depth(int c) const { return channel[c].curve[channel[c].next].z; }
+    // Where channel c has no vertex.
+    double between(int c, double z) const {
+        const double from = last[c].after[0];
+        if (!channel[c].more() || last[c].z == -kInfinity) return from;
+        const Vertex to = channel[c].curve[channel[c].next];
+        return std::max<double>(from + (to.value - from) * ((z - last[c].z) / (to.z - last[c].z)), to.value);
+    }
+};
+
+void write(Vertex& vertex, float z, const Values<1>& values) {
+    vertex = {z, static_cast<float>(values[0])};
+}
+void write(ColourVertex& vertex, float z, const Values<3>& values) {
+    vertex = {z, {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])}};
+}
+float value_of(const Vertex& vertex, int) {
+    return vertex.value;
+}
+float value_of(const ColourVertex& vertex, int c) {
+    return vertex.value[c];
 }
 
 // Vertices written so far. The last one written is the origin of the segment that is being drawn; its value is the
 // rounded one, so that rounding does not add up.
+template <int channels, class OutVertex>
 struct Output {
-    Vertex* vertices;
+    OutVertex* vertices;
     std::size_t count = 0;
-    double z = 0.0, value = 1.0;
+    double z = 0.0;
+    Values<channels> value{};
 
-    void emit(double at, double aim) {
-        const Vertex vertex{static_cast<float>(at), static_cast<float>(aim)};
+    void emit(double at, const Values<channels>& aim) {
+        OutVertex vertex;
+        write(vertex, static_cast<float>(at), aim);
         // In front of the first vertex the function is constant anyway.
-        if (count == 1 && vertices[0].value == vertex.value) count = 0;
+        if (count == 1 && same_values(vertices[0], vertex)) count = 0;
         vertices[count++] = vertex;
         z = vertex.z;
-        value = vertex.value;
+        for (int c = 0; c < channels; ++c) value[c] = value_of(vertex, c);
     }
+    static bool same_values(const OutVertex& a, const OutVertex& b) {
+        for (int c = 0; c < channels; ++c)
+            if (value_of(a, c) != value_of(b, c)) return false;
+        return true;
+    }
+};
+
+template <int channels, class Reader, class OutVertex>
+class Compressor {
+public:
+    Compressor(const Reader& in, float tolerance, OutVertex* vertices)
+        : in_(in), epsilon_(tolerance > 0.0f ? tolerance : 0.0), out_{vertices} {}
+
+    std::size_t run() {
+        // The function starts at its exact first value: what lies in front of every occluder is not darkened.
+        last_ = in_.read();
+        out_.emit(last_.z, last_.before);
+        if (exceeds(last_.before, last_.after)) out_.emit(last_.z, last_.after);
+        while (in_.more()) {
+            const Group<channels> group = in_.read();
+            take(group);
+            last_ = group;
+        }
+        return finish();
+    }
+
+private:
+    using Step = Group<channels>;
+
+    bool exceeds(const Values<channels>& before, const Values<channels>& after) const {
+        for (int c = 0; c < channels; ++c)
+            if (before[c] - after[c] > epsilon_) return true;
+        return false;
+    }
+
+    void take(const Step& group) {
+        // The segment passes both sides of the step.
+        Values<channels> floor, ceiling;
+        bool torn = false;  // no segment passes this step
+        for (int c = 0; c < channels; ++c) {
+            floor[c] = std::max(group.before[c] - epsilon_, 0.0);
+            ceiling[c] = group.after[c] + epsilon_;
+            torn = torn || floor[c] > ceiling[c];
+        }
+        while (!narrow(group.z, floor, ceiling)) {
+            if (torn) {  // reach its front side if possible, then step
+                Values<channels> front;
+                for (int c = 0; c < channels; ++c) front[c] = group.before[c] + epsilon_;
+                if (narrow(group.z, floor, front)) {
+                    end_segment(group.z, floor, front);
+                    Values<channels> behind;  // a channel that is not torn may have come out lower in front
+                    for (int c = 0; c < channels; ++c) behind[c] = std::min(group.after[c], out_.value[c]);
+                    out_.emit(group.z, behind);
+                    return;
+                }
+            }
+            // A fresh segment always reaches this group: its origin is within epsilon of last.after >= group.before.
+            Values<channels> last_floor, last_ceiling;
+            for (int c = 0; c < channels; ++c) {
+                last_floor[c] = std::max(last_.before[c] - epsilon_, 0.0);
+                last_ceiling[c] = last_.after[c] + epsilon_;
+            }
+            end_segment(last_.z, last_floor, last_ceiling);
+        }
+    }
+
+    // Keeps the slopes that pass between floor and ceiling at z; false, and nothing changes, if there are none.
+    bool narrow(double z, const Values<channels>& floor, const Values<channels>& ceiling) {
+        const double inverse = 1.0 / (z - out_.z);  // off the critical path: it needs neither low nor high
+        Values<channels> low, high;
+        bool passes = true;
+        for (int c = 0; c < channels; ++c) {
+            low[c] = std::max(low_[c], (floor[c] - out_.value[c]) * inverse);
+            high[c] = std::min(high_[c], (ceiling[c] - out_.value[c]) * inverse);
+            passes = passes && low[c] <= high[c];
+        }
+        if (!passes) return false;
+        low_ = low;
+        high_ = high;
+        return true;
+    }
+
+    void end_segment(double z, const Values<channels>& floor, const Values<channels>& ceiling) {
+        Values<channels> value;
+        for (int c = 0; c < channels; ++c) {
+            const double aim = out_.value[c] + 0.5 * (low_[c] + high_[c]) * (z - out_.z);
+            value[c] = std::min(std::clamp(aim, floor[c], std::max(floor[c], ceiling[c])), out_.value[c]);
+        }
+        out_.emit(z, value);
+        low_ = all(-kInfinity);
+        high_ = all(kInfinity);
+    }
+
+    // The functions stay at their last values for ever, so the last segment aims at them instead of at the middle.
+    std::size_t finish() {
+        Values<channels> aim;
+        bool moves = false;
+        for (int c = 0; c < channels; ++c) {
+            aim[c] = std::min(last_.after[c], out_.value[c]);
+            if (out_.z < last_.z) {
+                constexpr double kSlack = 0x1p-48;  // slope * length rounds; without it 0 becomes 1e-16
+                const double length = last_.z - out_.z;
+                const double floor = out_.value[c] + low_[c] * length - kSlack;
+                const double ceiling = out_.value[c] + std::min(high_[c], 0.0) * length + kSlack;
+                aim[c] = std::clamp(std::clamp(aim[c], floor, std::max(floor, ceiling)), 0.0, out_.value[c]);
+            }
+            moves = moves || static_cast<float>(aim[c]) != static_cast<float>(out_.value[c]);
+        }
+        if (moves) out_.emit(last_.z, aim);
+        bool lit = out_.count == 1;
+        for (int c = 0; c < channels; ++c) lit = lit && value_of(out_.vertices[0], c) == 1.0f;
+        return lit ? 0 : out_.count;
+    }
+
+    static Values<channels> all(double value) {
+        Values<channels> values;
+        values.fill(value);
+        return values;
+    }
+
+    Reader in_;
+    double epsilon_;
+    Output<channels, OutVertex> out_;
+    Step last_;
+    // Slopes from the origin that pass within epsilon of all groups up to `last`. `high` may be above 0: the middle is
+    // then still unbiased on flat stretches; only what is written is kept from rising.
+    Values<channels> low_ = all(-kInfinity), high_ = all(kInfinity);
 };
 
 }  // namespace
 
-std::size_t compress(CurveView curve, float tolerance, Vertex* vertices) {
+std::size_t compress(CurveView curve, float tolerance, Vertex* out) {
     if (curve.empty()) return 0;
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    const double epsilon = tolerance > 0.0f ? tolerance : 0.0;
-    Output out{vertices};
-
-    // The function starts at its exact first value: what lies in front of every occluder is not darkened.
-    std::size_t next = 0;
-    Group last = read_group(curve, next);
-    out.emit(last.z, last.before);
-    if (last.before - last.after > epsilon) out.emit(last.z, last.after);
-
-    // Slopes from the origin that pass within epsilon of all groups up to `last`. `high` may be above 0: the middle is
-    // then still unbiased on flat stretches; only what is written is kept from rising.
-    double low = -kInfinity, high = kInfinity;
-    const auto end_segment = [&](const Group& group, double floor, double ceiling) {
-        const double aim = out.value + 0.5 * (low + high) * (group.z - out.z);
-        out.emit(group.z, std::min(std::clamp(aim, floor, std::max(floor, ceiling)), out.value));
-        low = -kInfinity;
-        high = kInfinity;
-    };
-
-    while (next < curve.size()) {
-        const Group group = read_group(curve, next);
-        const double floor = std::max(group.before - epsilon, 0.0);  // the segment passes both sides of the step
-        const double ceiling = group.after + epsilon;
-        while (true) {
-            const double inverse = 1.0 / (group.z - out.z);  // off the critical path: it needs neither low nor high
-            const double new_low = std::max(low, (floor - out.value) * inverse);
-            const double new_high = std::min(high, (ceiling - out.value) * inverse);
-            if (new_low <= new_high) {
-                low = new_low;
-                high = new_high;
-                break;
-            }
-            if (floor > ceiling) {  // no segment passes this step: reach its front side if possible, then step
-                const double front_high = std::min(high, (group.before + epsilon - out.value) * inverse);
-                if (new_low <= front_high) {
-                    low = new_low;
-                    high = front_high;
-                    end_segment(group, floor, group.before + epsilon);
-                    out.emit(group.z, group.after);
-                    break;
-                }
-            }
-            // A fresh segment always reaches this group: its origin is within epsilon of last.after >= group.before.
-            end_segment(last, std::max(last.before - epsilon, 0.0), last.after + epsilon);
-        }
-        last = group;
-    }
-
-    // The function stays at its last value for ever, so the last segment aims at it instead of at the middle.
-    double aim = last.after;
-    if (out.z < last.z) {
-        constexpr double kSlack = 0x1p-48;  // slope * length rounds; without it 0 becomes 1e-16
-        const double length = last.z - out.z;
-        const double floor = out.value + low * length - kSlack;
-        const double ceiling = out.value + std::min(high, 0.0) * length + kSlack;
-        aim = std::clamp(std::clamp(aim, floor, std::max(floor, ceiling)), 0.0, out.value);
-    }
-    if (static_cast<float>(aim) != static_cast<float>(out.value)) out.emit(last.z, aim);
-    if (out.count == 1 && out.vertices[0].value == 1.0f) return 0;
-    return out.count;
+    return Compressor<1, OneReader, Vertex>({curve}, tolerance, out).run();
 }
 
 Curve compress(CurveView curve, float tolerance) {
     Curve out(curve.size());
     out.resize(compress(curve, tolerance, out.data()));
     return out;
+}
+
+std::size_t compress(const std::array<CurveView, 3>& curves, float tolerance, ColourVertex* out) {
+    if (curves[0].empty() && curves[1].empty() && curves[2].empty()) return 0;
+    return Compressor<3, ColourReader, ColourVertex>(ColourReader(curves), tolerance, out).run();
 }
 
 }  // namespace shadowbench::curves

@@ -1,6 +1,7 @@
 // Greedy compression of a piecewise-linear function within a tolerance (Lokovic and Veach 2000, section 3.3).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -20,5 +21,17 @@ namespace shadowbench::curves {
 std::size_t compress(CurveView curve, float tolerance, Vertex* out);
 
 Curve compress(CurveView curve, float tolerance);
+
+// A vertex of three functions that share their depths.
+struct ColourVertex {
+    float z;
+    float value[3];
+};
+
+// Three functions at once (section 5.2): a segment ends where any of the three would leave its tolerance, so all have
+// their vertices at the same depths. What is promised above holds for each of them; the depths are a subset of those of
+// all three together. `out` must have room for as many vertices as the three have together, in other memory than
+// theirs. O(n) for n vertices of all.
+std::size_t compress(const std::array<CurveView, 3>& curves, float tolerance, ColourVertex* out);
 
 }  // namespace shadowbench::curves

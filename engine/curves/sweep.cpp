@@ -137,14 +137,14 @@ namespace {
 
 // Of the rays ray(0) to ray(count - 1), with weights weight(i).
 template <class Ray, class Weight>
-void sweep_rays(const rays::LightRays& rays, std::size_t count, const Ray& ray, const Weight& weight,
+void sweep_rays(const rays::LightRays& rays, std::size_t count, const Ray& ray, const Weight& weight, int channel,
                 double linearisation, SweepScratch& scratch, Curve& out) {
     Extent extent;
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t s = rays.begin[ray(i)]; s < rays.begin[ray(i) + 1]; ++s) extent.add(rays.z_front[s]);
     Sweep sweep(count, extent.origin(), scratch);
     for (std::size_t i = 0; i < count; ++i) {
-        composite(rays, ray(i), 0, scratch.nodes);
+        composite(rays, ray(i), channel, scratch.nodes);
         scratch.ray.clear();
         linearise(scratch.nodes, linearisation, scratch.ray);
         sweep.add_term(i, scratch.ray, weight(i));
@@ -155,22 +155,23 @@ void sweep_rays(const rays::LightRays& rays, std::size_t count, const Ray& ray, 
 }  // namespace
 
 void visibility(const rays::LightRays& rays, std::size_t first, std::size_t count, double linearisation,
-                SweepScratch& scratch, Curve& out) {
+                SweepScratch& scratch, Curve& out, int channel) {
     out.clear();
     if (count == 0) return;
-    if (surfaces_only(rays, first, count)) return visibility_of_surfaces(rays, first, count, scratch, out);
+    if (surfaces_only(rays, first, count)) return visibility_of_surfaces(rays, first, count, channel, scratch, out);
     sweep_rays(
         rays, count, [&](std::size_t i) { return first + i; },
-        [&](std::size_t) { return 1.0 / static_cast<double>(count); }, linearisation, scratch, out);
+        [&](std::size_t) { return 1.0 / static_cast<double>(count); }, channel, linearisation, scratch, out);
 }
 
 void visibility(const rays::LightRays& rays, std::span<const WeightedRay> chosen, double linearisation,
-                SweepScratch& scratch, Curve& out) {
+                SweepScratch& scratch, Curve& out, int channel) {
     out.clear();
     if (chosen.empty()) return;
+    if (surfaces_only(rays, chosen)) return visibility_of_surfaces(rays, chosen, channel, scratch, out);
     sweep_rays(
         rays, chosen.size(), [&](std::size_t i) { return chosen[i].ray; },
-        [&](std::size_t i) { return chosen[i].weight; }, linearisation, scratch, out);
+        [&](std::size_t i) { return chosen[i].weight; }, channel, linearisation, scratch, out);
 }
 
 }  // namespace shadowbench::curves

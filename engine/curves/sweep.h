@@ -49,16 +49,15 @@ struct SweepScratch {
 // sum, stay in [0, 1] and do not increase when the terms do not. O(n log n).
 void weighted_sum(std::span<const WeightedCurve> terms, SweepScratch& scratch, Curve& out);
 
-// Visibility function of the rays [first, first + count) of a tile, each with weight 1 / count; of their first channel
-// (rays::channel makes rays of another one). Where surfaces alone are hit, the result is exact to float rounding and
-// does not depend on the order of the rays. A medium's exponential is evaluated at the ends of its segments and at so
-// many points between them that joining them by lines errs by at most `linearisation` (> 0; infinity: segment ends
-// only, as published).
+// Visibility function of the rays [first, first + count) of a tile in one channel, each with weight 1 / count. Where
+// surfaces alone are hit, the result is exact to float rounding and does not depend on the order of the rays. A
+// medium's exponential is evaluated at the ends of its segments and at so many points between them that joining them by
+// lines errs by at most `linearisation` (> 0; infinity: segment ends only, as published).
 void visibility(const rays::LightRays& rays, std::size_t first, std::size_t count, double linearisation,
-                SweepScratch& scratch, Curve& out);
+                SweepScratch& scratch, Curve& out, int channel = 0);
 
-// The same of rays with weights above 0, which should sum to 1.
+// The same of rays with weights above 0, which should sum to 1. Where surfaces alone are hit, they are made to.
 void visibility(const rays::LightRays& rays, std::span<const WeightedRay> chosen, double linearisation,
-                SweepScratch& scratch, Curve& out);
+                SweepScratch& scratch, Curve& out, int channel = 0);
 
 }  // namespace shadowbench::curves

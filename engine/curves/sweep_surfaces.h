@@ -5,11 +5,16 @@
 
 namespace shadowbench::curves {
 
-// Whether no segment of the rays [first, first + count) has an extent.
+// Whether no segment of the rays [first, first + count), or of those chosen, has an extent.
 bool surfaces_only(const rays::LightRays& rays, std::size_t first, std::size_t count);
+bool surfaces_only(const rays::LightRays& rays, std::span<const WeightedRay> chosen);
 
 // Appends to `out`. At each depth where light is lost a pair of vertices, before and after.
-void visibility_of_surfaces(const rays::LightRays& rays, std::size_t first, std::size_t count, SweepScratch& scratch,
-                            Curve& out);
+void visibility_of_surfaces(const rays::LightRays& rays, std::size_t first, std::size_t count, int channel,
+                            SweepScratch& scratch, Curve& out);
+
+// The same with weights above 0, of which only the ratios matter. They are rounded to 2^-60 of their sum.
+void visibility_of_surfaces(const rays::LightRays& rays, std::span<const WeightedRay> chosen, int channel,
+                            SweepScratch& scratch, Curve& out);
 
 }  // namespace shadowbench::curves

@@ -155,6 +155,85 @@ TEST(Visibility, TakesTheRaysAskedForAlone) {
     EXPECT_GT(scratch.bytes(), 0u);
 }
 
+Curve weighted_visibility(const rays::LightRays& rays, const std::vector<WeightedRay>& chosen, int channel = 0) {
+    SweepScratch scratch;
+    Curve out{{9, 9}};
+    visibility(rays, chosen, 1e-4, scratch, out, channel);
+    return out;
+}
+
+double weighted_exact(const rays::LightRays& rays, const std::vector<WeightedRay>& chosen, double z, bool behind) {
+    if (behind) z = std::nextafter(z, kInfinity);
+    double sum = 0.0;
+    for (const WeightedRay& r : chosen) sum += r.weight * rays::transmittance(rays, r.ray, 0, z);
+    return sum;
+}
+
+TEST(Visibility, OfWeightedSurfacesIsTheWeightedMeanOnBothSidesOfEveryStep) {
+    base::Random random(9);
+    for (const int count : {1, 5, 64, 500}) {
+        const auto rays = make_rays(hair(random, count, 12, 0.9), false);
+        std::vector<WeightedRay> chosen;
+        double total = 0.0;
+        for (int i = 0; i < count; ++i)
+            if (i % 3 != 1) chosen.push_back({static_cast<std::size_t>(i), std::exp(-8.0 * random.uniform())});
+        for (const WeightedRay& r : chosen) total += r.weight;
+        for (WeightedRay& r : chosen) r.weight /= total;
+        const Curve out = weighted_visibility(rays, chosen);
+        ASSERT_TRUE(is_visibility(out));
+        for (std::size_t s = 0; s < rays.segments(); s += 2)
+            for (const bool behind : {false, true})
+                ASSERT_NEAR(cases::exact(out, rays.z_front[s], behind),
+                            weighted_exact(rays, chosen, rays.z_front[s], behind), 6.1e-8);
+    }
+}
+
+// Rounded weights must not leave a glow behind what is opaque.
+TEST(Visibility, BehindWeightedOpaqueSurfacesIsExactlyZero) {
+    base::Random random(10);
+    std::vector<std::vector<Segment>> segments = hair(random, 49, 10, 0.5);
+    std::vector<WeightedRay> chosen;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        segments[i].push_back({20, 20, 0.0f});
+        chosen.push_back({i, (1.0 + static_cast<double>(i)) / 1225.0});
+    }
+    EXPECT_EQ(weighted_visibility(make_rays(segments, false), chosen).back().value, 0.0f);
+    EXPECT_EQ(weighted_visibility(make_rays(segments, true), chosen).back().value, 0.0f);
+    segments[0].push_back({1, 30, 0.5f});
+    EXPECT_EQ(weighted_visibility(make_rays(segments, true), chosen).back().value, 0.0f);
+}
+
+TEST(Visibility, EqualWeightsGiveThePlainMean) {
+    base::Random random(11);
+    const auto rays = make_rays(hair(random, 16, 12, 0.9), false);
+    std::vector<WeightedRay> chosen;
+    for (std::size_t i = 0; i < 16; ++i) chosen.push_back({i, 1.0 / 16});
+    EXPECT_EQ(weighted_visibility(rays, chosen), visibility_of(rays));
+}
+
+TEST(Visibility, OfAChannelIsThatOfTheRaysOfThatChannel) {
+    base::Random random(12);
+    for (const bool media : {false, true}) {
+        auto segments = hair(random, 8, 6, 0.9);
+        if (media) segments[2] = cases::random_media(random, 4, 5, 15);
+        auto rays = make_rays(segments, media);
+        rays.channels = 3;
+        rays.transmittance.clear();
+        for (std::size_t i = 0; i < 3 * rays.segments(); ++i)
+            rays.transmittance.push_back(cases::number(random, 0.1, 1.0));
+        std::vector<WeightedRay> chosen;
+        for (std::size_t i = 0; i < 8; ++i) chosen.push_back({i, (1.0 + static_cast<double>(i)) / 36});
+        SweepScratch scratch;
+        Curve out;
+        for (int c = 0; c < 3; ++c) {
+            const auto one = rays::channel(rays, c);
+            visibility(rays, 0, 8, 1e-4, scratch, out, c);
+            EXPECT_EQ(out, visibility_of(one));
+            EXPECT_EQ(weighted_visibility(rays, chosen, c), weighted_visibility(one, chosen));
+        }
+    }
+}
+
 RC_GTEST_PROP(WeightedSum, IsTheSumOfItsTermsOnBothSidesOfEveryDepth, ()) {
     const auto curves = *rc::gen::nonEmpty(rc::gen::container<std::vector<Curve>>(cases::any_function()));
     std::vector<WeightedCurve> terms;

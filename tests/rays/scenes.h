@@ -64,12 +64,14 @@ struct Captured {
     std::vector<LightRays> tiles;
 };
 
-inline Captured capture(const scene::Scene& scene, const scene::Light& light, const scene::RaySettings& settings) {
+inline Captured capture(const scene::Scene& scene, const scene::Light& light, const scene::RaySettings& settings,
+                        int apron = 0) {
     Captured c;
     c.view = make_light_view(light, scene, settings.resolution, "/lights/0");
     c.layout = make_layout(scene, c.view, settings);
+    c.layout.apron = apron;
     const Capture capture(scene, c.view, c.layout);
-    for (int t = 0; t < c.layout.tiles(); ++t) c.tiles.push_back(capture.tile(t));
+    for (int t = 0; t < c.layout.tiles(); ++t) c.tiles.push_back(capture.tile(t, {}, apron));
     return c;
 }
 

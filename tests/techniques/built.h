@@ -21,11 +21,11 @@ struct Built {
     std::unique_ptr<Map> map;
     ParameterValues values;
 
-    float lookup(float x, float y, float z, float width = 1.0f) const {
+    float lookup(float x, float y, float z, float width = 1.0f, int channel = 0) const {
         const Query q{x, y, z, width};
-        float v = -1.0f;
-        map->lookup({&q, 1}, {&v, 1});
-        return v;
+        std::vector<float> v(static_cast<std::size_t>(map->channels()), -1.0f);
+        map->lookup({&q, 1}, v);
+        return v[static_cast<std::size_t>(channel)];
     }
 };
 
@@ -33,10 +33,10 @@ inline Built build(const Technique& row, scene::Scene scene, const scene::Light&
                    const scene::RaySettings& settings, const char* parameters = "{}") {
     Built b;
     b.scene = std::move(scene);
-    b.rays = capture(b.scene, light, settings);
-    b.tracer = std::make_unique<rays::Tracer>(b.scene, true);
     b.values = read_parameters(row.parameters, nlohmann::json::parse(parameters), "/techniques/0");
     b.map = row.create(b.values);
+    b.rays = capture(b.scene, light, settings, b.map->needs().apron);
+    b.tracer = std::make_unique<rays::Tracer>(b.scene, true);
     b.map->begin({b.rays.layout, b.rays.view, b.tracer.get(), 0});
     for (const auto& tile : b.rays.tiles) b.map->add(tile);
     b.map->finish();

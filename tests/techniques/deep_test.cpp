@@ -86,6 +86,16 @@ TEST(Deep, TheTentKernelIsBilinearAtAWidthOfOnePixel) {
     EXPECT_NEAR(b.lookup(7.75f, 8.75f, 1.0f), expected, 1e-6f);
 }
 
+// Between pixel centres a tent narrower than a pixel would see no pixel at all, and light would leak.
+TEST(Deep, ATentIsNeverNarrowerThanAPixel) {
+    scene::Scene scene;
+    scene.objects.push_back(rays::testing::quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, 0.75f));
+    const auto b =
+        build(deep(), scene, rays::testing::directional(), rays::testing::rays(16, 4), R"({"kernel": "tent"})");
+    for (const float width : {0.01f, 0.5f, 0.9f})
+        for (const float x : {8.0f, 8.2f, 8.5f}) EXPECT_NEAR(b.lookup(x, 8.0f, 5.0f, width), 0.25f, 1e-6f) << width;
+}
+
 TEST(Deep, EmptyPixelsCostOnlyTheirOffset) {
     scene::Scene scene;
     scene.objects.push_back(rays::testing::quad({-1, -1, 0}, {0.125f, 0, 0}, {0, 0.125f, 0}));  // one pixel of 16 x 16

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "curves/compress.h"
 #include "techniques/deep/deep_map.h"
+#include "techniques/deep/mip.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -18,6 +18,24 @@ const Parameter parameters[] = {
      1,
      "noise",
      {"noise"}},
+    {"filter",
+     ParameterKind::choice,
+     "how the rays around a pixel's centre make its function; a gaussian falls to exp(-2) at its radius",
+     0,
+     0,
+     0,
+     "box",
+     {"box", "tent", "gaussian"}},
+    {"radius", ParameterKind::number, "of the filter, in pixels; a box of 0.5 is the pixel itself", 0.5, 0.5, 8},
+    {"mip",
+     ParameterKind::choice,
+     "coarser levels for wide lookups, each within half the tolerance of the one before, so within twice the tolerance "
+     "in all: none, the nearest level, or a blend of two",
+     0,
+     0,
+     0,
+     "none",
+     {"none", "nearest", "blend"}},
     {"kernel",
      ParameterKind::choice,
      "how a lookup weighs the pixels of its footprint",
@@ -26,54 +44,80 @@ const Parameter parameters[] = {
      0,
      "box",
      {"box", "tent"}},
+    {"search",
+     ParameterKind::choice,
+     "how a lookup finds the segment of a function: cached starts at the one that the same batch used last in that "
+     "pixel. Answers are the same",
+     0,
+     0,
+     0,
+     "binary",
+     {"binary", "linear", "cached"}},
 };
 
 double tolerance_of(const ParameterValues& values, int samples) {
     return values.is_word("tolerance") ? 0.25 / std::sqrt(static_cast<double>(samples)) : values.number("tolerance");
 }
 
+PixelFilter filter_of(const ParameterValues& values) {
+    const std::string& shape = values.word("filter");
+    return {shape == "box"    ? FilterShape::box
+            : shape == "tent" ? FilterShape::tent
+                              : FilterShape::gaussian,
+            values.number("radius")};
+}
+
+LookupRule rule_of(const ParameterValues& values) {
+    const std::string &mip = values.word("mip"), &search = values.word("search");
+    return {values.word("kernel") == "tent",
+            mip == "none"      ? Mip::none
+            : mip == "nearest" ? Mip::nearest
+                               : Mip::blend,
+            search == "binary"   ? Search::binary
+            : search == "linear" ? Search::linear
+                                 : Search::cached};
+}
+
 class Deep final : public Map {
 public:
-    explicit Deep(const ParameterValues& values) : values_(values) { map_.tent = values.word("kernel") == "tent"; }
-
-    // A map of given functions, one pixel high.
-    Deep(const ParameterValues& values, std::span<const curves::Curve> functions) : Deep(values) {
-        const auto tolerance = static_cast<float>(tolerance_of(values, 1));
-        map_.grid = {static_cast<int>(functions.size()), 1, 1.0f, 1.0f};
-        DeepLevel& level = map_.levels[0];
-        level.width = map_.grid.width;
-        level.height = 1;
-        level.offsets.assign(1, 0);
-        curves::Curve kept;
-        for (const curves::Curve& function : functions) {
-            kept.resize(function.size());
-            const std::size_t n = curves::compress(function, tolerance, kept.data());
-            for (std::size_t i = 0; i < n; ++i) level.floats.push_back(kept[i].z);
-            for (std::size_t i = 0; i < n; ++i) level.floats.push_back(kept[i].value);
-            level.offsets.push_back(static_cast<std::uint32_t>(level.floats.size()));
-        }
-        level.floats.resize(level.floats.size() + DeepLevel::padding);
-        level.floats.shrink_to_fit();
-        level.offsets.shrink_to_fit();
-        map_.peak_bytes = map_.bytes() + kept.capacity() * sizeof(curves::Vertex);
+    explicit Deep(const ParameterValues& values) : values_(values) {
+        map_.filter = filter_of(values);
+        map_.rule = rule_of(values);
     }
 
+    // A map of given functions, one pixel high. There are no rays to filter.
+    Deep(const ParameterValues& values, std::span<const curves::Curve> functions) : Deep(values) {
+        map_.tolerance = static_cast<float>(tolerance_of(values, 1));
+        map_.filter = {};
+        map_.make(functions);
+    }
+
+    RayNeeds needs() const override { return {map_.filter.apron(), false}; }
     void begin(const BuildInput& input) override {
         map_.tolerance = static_cast<float>(tolerance_of(values_, input.layout.samples()));
         map_.begin(input.layout);
+        channels_ = input.layout.channels;
     }
     void add(const rays::LightRays& tile) override { map_.add(tile); }
     void finish() override { map_.finish(); }
+
+    int channels() const override { return channels_; }
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
-        map_.lookup(queries, visibility);
+        techniques::lookup(map_.levels, map_.rule, queries, visibility);
     }
-    void touched(const Query& query, std::vector<const void*>& lines) const override { map_.touched(query, lines); }
+    void touched(const Query& query, std::vector<const void*>& lines) const override {
+        techniques::touched(map_.levels, map_.rule, query, lines);
+    }
     std::size_t bytes() const override { return map_.bytes(); }
     std::size_t working_bytes() const override { return map_.peak_bytes; }
     NodeStats nodes() const override { return map_.stats(); }
-    Cells cells() const override { return Cells::pixel; }
-    void stored(int x, int y, int, std::span<const float>, curves::Curve& out) const override {
-        map_.stored(x, y, out);
+
+    Cells cells() const override { return map_.filter.is_pixel() ? Cells::pixel : Cells::filtered; }
+    void stored(int x, int y, int channel, std::span<const float>, curves::Curve& out) const override {
+        read_function(map_.levels[0], map_.levels[0].pixel(x, y), channel, out);
+    }
+    void weights(int x, int y, const rays::LightRays& tile, std::vector<curves::WeightedRay>& out) const override {
+        map_.weights(x, y, tile, out);
     }
 
     std::span<const DeepLevel> levels() const { return map_.levels; }
@@ -81,7 +125,20 @@ public:
 private:
     ParameterValues values_;
     DeepMap map_;
+    int channels_ = 1;
 };
+
+// Offsets, colour flags and padding, which every level has.
+std::size_t least_bytes(const ParameterValues& values, const rays::MapLayout& layout) {
+    const int levels = values.word("mip") == "none" ? 1 : mip_levels(layout.width, layout.height);
+    std::size_t sum = 0;
+    for (int l = 0; l < levels; ++l) {
+        const std::size_t pixels = static_cast<std::size_t>(mip_size(layout.width, l)) * mip_size(layout.height, l);
+        sum += (pixels + 1) * sizeof(std::uint32_t) + DeepLevel::padding * sizeof(float);
+        if (layout.channels == 3) sum += (pixels + 63) / 64 * sizeof(std::uint64_t);
+    }
+    return sum;
+}
 
 }  // namespace
 
@@ -94,7 +151,7 @@ Technique deep() {
     return {"deep",
             "deep shadow map: visibility functions compressed within a tolerance",
             "Lokovic, Veach 2000",
-            1,
+            2,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Deep>(values); },
@@ -105,9 +162,8 @@ Technique deep() {
             [](const ParameterValues& values, std::span<const curves::Curve> functions) -> std::unique_ptr<Map> {
                 return std::make_unique<Deep>(values, functions);
             },
-            [](const ParameterValues&, const rays::MapLayout& layout) {
-                return make_cells(layout, Cells::pixel).count() * sizeof(std::uint32_t);
-            }};
+            least_bytes,
+            true};
 }
 
 }  // namespace shadowbench::techniques

@@ -1,41 +1,45 @@
-// The compressed pixels of a deep shadow map, their building and their lookup. Lokovic and Veach 2000, section 3.
+// A deep shadow map: light rays in, levels of compressed visibility functions out. Lokovic and Veach 2000, sections 3
+// and 5.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <vector>
 
-#include "techniques/cells.h"
-#include "techniques/deep/deep_level.h"
+#include "techniques/deep/deep_lookup.h"
+#include "techniques/deep/pixel_filter.h"
+#include "techniques/deep/pixel_run.h"
+#include "techniques/technique.h"
 
 namespace shadowbench::techniques {
 
 struct DeepMap {
-    float tolerance = 0.0f;
-    bool tent = false;  // lookup kernel: a tent twice as wide as the footprint, else a box
-    CellGrid grid;
-    std::vector<DeepLevel> levels = std::vector<DeepLevel>(1);
+    float tolerance = 0.0f;  // of the map's functions; see mip.h for those of coarser levels
+    PixelFilter filter;
+    LookupRule rule;
+    std::vector<DeepLevel> levels;  // the map, then its mip levels if the rule asks for them
     std::size_t peak_bytes = 0;
 
+    // Throws Error{bad_input} when the layout's apron is narrower than the filter's.
     void begin(const rays::MapLayout& map_layout);
     void add(const rays::LightRays& tile);
     void finish();
+    // Instead of those three: given functions, one pixel high.
+    void make(std::span<const curves::Curve> functions);
 
-    void lookup(std::span<const Query> queries, std::span<float> visibility) const;
-    void touched(const Query& q, std::vector<const void*>& lines) const;
-    std::size_t bytes() const { return levels[0].bytes(); }
-    NodeStats stats() const;
-    void stored(int x, int y, curves::Curve& out) const;
+    // See Map::weights; while the rays are still there.
+    void weights(int x, int y, const rays::LightRays& tile, std::vector<curves::WeightedRay>& out) const;
+
+    std::size_t bytes() const;
+    NodeStats stats() const;  // of the map's own functions, mip levels apart
 
 private:
-    struct TileNodes {
-        int x0 = 0, y0 = 0, width = 0;
-        std::vector<std::uint32_t> begin;  // pixels + 1
-        std::vector<curves::Vertex> vertices;
-        std::size_t scratch_bytes = 0;
-    };
+    void put_together(std::span<const PixelRun> runs, std::size_t scratch_bytes, int width, int height, int channels);
+    void add_coarser_levels();
+
     rays::MapLayout layout_;
-    std::vector<TileNodes> tiles_;
+    std::vector<PixelRun> runs_;              // one a tile
+    std::vector<std::size_t> scratch_bytes_;  // a tile
 };
 
 // The share of a tolerance that goes into drawing a medium's exponentials as lines; compression has the rest, so that

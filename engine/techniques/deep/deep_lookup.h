@@ -1,0 +1,42 @@
+// Lookups in a deep shadow map: Lokovic and Veach 2000, sections 3.4 and 5.3.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "techniques/deep/deep_level.h"
+#include "techniques/deep/segment_search.h"
+#include "techniques/technique.h"
+
+namespace shadowbench::techniques {
+
+enum class Mip {
+    none,     // the map alone
+    nearest,  // one level
+    blend,    // that level and the next coarser one, weighed by how near each is
+};
+
+// How a lookup weighs pixels around (x, y) over a footprint of `width`, all in pixels of the level in question. Pixel
+// (i, j) weighs f(i + 1/2 - x) f(j + 1/2 - y):
+//   box: 1 within width / 2, at least the nearest pixel; of coarser levels than the map, which have few pixels in a
+//        footprint, the part of the pixel that lies in it;
+//   tent: 1 - |d| / width, twice as wide; bilinear interpolation at a width of 1, which is the least.
+// A coarser level's pixel that the map's edge cuts weighs as much less.
+//
+// With mip levels, let l = log2(width / 1.5) for a box, log2(width) for a tent, width in map pixels. `nearest` reads
+// level floor(l), where a box is 1.5 to 3 pixels wide, a tent's half 1 to 2; `blend` that one and the next with weights
+// 1 - frac(l) and frac(l). So a lookup reads 4 x 4 pixels of one level and 3 x 3 of another at most, however wide it
+// is.
+struct LookupRule {
+    bool tent = false;
+    Mip mip = Mip::none;
+    Search search = Search::binary;
+};
+
+// See Map::lookup and Map::touched; levels[0] is the map, each further one half as wide.
+void lookup(std::span<const DeepLevel> levels, const LookupRule& rule, std::span<const Query> queries,
+            std::span<float> visibility);
+void touched(std::span<const DeepLevel> levels, const LookupRule& rule, const Query& query,
+             std::vector<const void*>& lines);
+
+}  // namespace shadowbench::techniques

@@ -1,0 +1,78 @@
+#include "techniques/deep/mip.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shadowbench::techniques {
+namespace {
+
+// The pixels of the level below that one pixel covers, with their shares.
+struct Children {
+    std::size_t count = 0;
+    std::array<std::size_t, 4> pixel{};
+    std::array<double, 4> share{};
+};
+
+// Map pixels, along one side, that a pixel of a level covers.
+int covered(int at, int level, int map_size) {
+    return static_cast<int>(std::min(1LL << level, map_size - (static_cast<long long>(at) << level)));
+}
+
+Children children_of(const DeepLevel& below, int level, const DeepLevel& map, int x, int y) {
+    Children children;
+    const double area =
+        static_cast<double>(covered(x, level, map.width)) * static_cast<double>(covered(y, level, map.height));
+    for (int cy = 2 * y; cy < std::min(2 * y + 2, below.height); ++cy)
+        for (int cx = 2 * x; cx < std::min(2 * x + 2, below.width); ++cx) {
+            children.pixel[children.count] = below.pixel(cx, cy);
+            children.share[children.count++] = static_cast<double>(covered(cx, level - 1, map.width)) *
+                                               static_cast<double>(covered(cy, level - 1, map.height)) / area;
+        }
+    return children;
+}
+
+void average(const DeepLevel& below, const Children& children, float tolerance, PixelScratch& scratch, PixelRun& run) {
+    bool coloured = false;
+    for (std::size_t i = 0; i < children.count; ++i) coloured = coloured || below.has_colour(children.pixel[i]);
+    const int functions = coloured ? 3 : 1;
+    std::array<curves::WeightedCurve, 4> terms;
+    for (int c = 0; c < functions; ++c) {
+        for (std::size_t i = 0; i < children.count; ++i) {
+            read_function(below, children.pixel[i], c, scratch.children[i]);
+            terms[i] = {scratch.children[i], children.share[i]};
+        }
+        curves::weighted_sum({terms.data(), children.count}, scratch.sweep, scratch.function[c]);
+    }
+    append(run, scratch, functions, tolerance);
+}
+
+}  // namespace
+
+int mip_levels(int width, int height) {
+    int levels = 1;
+    while (mip_size(width, levels - 1) > 1 || mip_size(height, levels - 1) > 1) ++levels;
+    return levels;
+}
+
+std::size_t add_mip_levels(std::vector<DeepLevel>& levels, float tolerance) {
+    const int count = mip_levels(levels[0].width, levels[0].height);
+    levels.reserve(static_cast<std::size_t>(count));
+    PixelScratch scratch;
+    std::size_t peak = 0;
+    for (int l = 1; l < count; ++l) {
+        const DeepLevel &map = levels[0], &below = levels.back();
+        const int width = mip_size(map.width, l), height = mip_size(map.height, l);
+        PixelRun run;
+        run.width = width;
+        run.channels = map.channels;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                average(below, children_of(below, l, map, x, y), std::ldexp(tolerance, -l), scratch, run);
+        peak = std::max(peak, run.bytes() + scratch.bytes());
+        levels.push_back(assemble(width, height, map.channels, {&run, 1}));
+    }
+    levels.shrink_to_fit();
+    return peak;
+}
+
+}  // namespace shadowbench::techniques

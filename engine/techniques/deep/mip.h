@@ -1,0 +1,33 @@
+// Mip-maps of a deep shadow map (Lokovic and Veach 2000, section 5.3).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "techniques/deep/deep_level.h"
+#include "techniques/deep/pixel_run.h"
+
+namespace shadowbench::techniques {
+
+// A pixel of level l covers 2^l by 2^l pixels of the map, fewer at the right and bottom edges of a map whose size is no
+// power of two. Its function is the mean of the stored functions of the four pixels (or two, or one) that it covers of
+// level l - 1, weighed by how many map pixels each covers, compressed within epsilon / 2^l, where level 0 was made
+// within epsilon.
+//
+// So the error e_l against the mean of the uncompressed functions of the map pixels covered is at most
+//     e_0 <= epsilon,  e_l <= (weighted mean of the four e_(l-1)) + epsilon / 2^l,
+// whence e_l <= epsilon (1 + 1/2 + ... + 1/2^l) = epsilon (2 - 2^-l) < 2 epsilon, up to the rounding of floats.
+
+// Levels of a map down to a single pixel, the map itself included.
+int mip_levels(int width, int height);
+
+// Side of a level, in its pixels, of a map side of `size` pixels.
+inline int mip_size(int size, int level) {
+    return static_cast<int>((static_cast<long long>(size) + (1LL << level) - 1) >> level);
+}
+
+// Appends all coarser levels to a map's level 0, made within `tolerance`. Returns the bytes held at most while building
+// one level, apart from the levels themselves.
+std::size_t add_mip_levels(std::vector<DeepLevel>& levels, float tolerance);
+
+}  // namespace shadowbench::techniques

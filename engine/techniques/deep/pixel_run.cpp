@@ -1,0 +1,102 @@
+#include "techniques/deep/pixel_run.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+// Calls visit(pixel of the level, pixel of the run) for the first pixel of every row.
+template <class Visit>
+void for_each_row(const DeepLevel& level, const PixelRun& run, const Visit& visit) {
+    for (std::size_t first = 0; first + 1 < run.begin.size(); first += run.width)
+        visit(level.pixel(run.x0, run.y0 + static_cast<int>(first) / run.width), first);
+}
+
+void append_one(PixelRun& run, curves::Curve& function, float tolerance) {
+    const std::size_t n = curves::compress(function, tolerance, function.data());
+    const std::size_t first = run.floats.size();
+    run.floats.resize(first + 2 * n);
+    float* depths = run.floats.data() + first;
+    for (std::size_t i = 0; i < n; ++i) {
+        depths[i] = function[i].z;
+        depths[n + i] = function[i].value;
+    }
+}
+
+void append_three(PixelRun& run, PixelScratch& scratch, float tolerance) {
+    const auto& f = scratch.function;
+    scratch.colour.resize(f[0].size() + f[1].size() + f[2].size());
+    const std::size_t n = curves::compress({f[0], f[1], f[2]}, tolerance, scratch.colour.data());
+    const std::size_t first = run.floats.size();
+    run.floats.resize(first + 4 * n);
+    float* depths = run.floats.data() + first;
+    for (std::size_t i = 0; i < n; ++i) {
+        depths[i] = scratch.colour[i].z;
+        for (std::size_t c = 0; c < 3; ++c) depths[(c + 1) * n + i] = scratch.colour[i].value[c];
+    }
+}
+
+}  // namespace
+
+std::size_t PixelScratch::bytes() const {
+    std::size_t vertices = 0;
+    for (const curves::Curve& curve : function) vertices += curve.capacity();
+    for (const curves::Curve& curve : children) vertices += curve.capacity();
+    return vertices * sizeof(curves::Vertex) + colour.capacity() * sizeof(curves::ColourVertex) + sweep.bytes();
+}
+
+void append(PixelRun& run, PixelScratch& scratch, int functions, float tolerance) {
+    const auto& f = scratch.function;
+    const bool coloured = functions == 3 && !(f[0] == f[1] && f[0] == f[2]);
+    if (coloured)
+        append_three(run, scratch, tolerance);
+    else
+        append_one(run, scratch.function[0], tolerance);
+    if (run.channels == 3) run.coloured.push_back(coloured);
+    run.begin.push_back(static_cast<std::uint32_t>(run.floats.size()));
+}
+
+DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun> runs) {
+    DeepLevel level;
+    level.width = width;
+    level.height = height;
+    level.channels = channels;
+    const std::size_t pixels = static_cast<std::size_t>(width) * height;
+    std::size_t total = 0;
+    for (const PixelRun& run : runs) total += run.floats.size();
+    if (total > std::numeric_limits<std::uint32_t>::max())
+        throw base::Error(base::ErrorCode::bad_input, "/techniques",
+                          "a deep map holds at most 2^32 numbers a level: raise the tolerance or lower the resolution");
+    level.offsets.assign(pixels + 1, 0);
+    if (channels == 3) level.coloured.assign((pixels + 63) / 64, 0);
+    for (const PixelRun& run : runs)
+        for_each_row(level, run, [&](std::size_t to, std::size_t from) {
+            for (std::size_t x = 0; x < static_cast<std::size_t>(run.width); ++x) {
+                level.offsets[to + x + 1] = run.begin[from + x + 1] - run.begin[from + x];
+                if (channels == 3 && run.coloured[from + x])
+                    level.coloured[(to + x) / 64] |= std::uint64_t{1} << (to + x) % 64;
+            }
+        });
+    for (std::size_t p = 0; p < pixels; ++p) level.offsets[p + 1] += level.offsets[p];
+    level.floats.assign(total + DeepLevel::padding, 0.0f);
+    for (const PixelRun& run : runs)
+        for_each_row(level, run, [&](std::size_t to, std::size_t from) {
+            std::copy(run.floats.begin() + run.begin[from],
+                      run.floats.begin() + run.begin[from + static_cast<std::size_t>(run.width)],
+                      level.floats.begin() + level.offsets[to]);
+        });
+    return level;
+}
+
+void read_function(const DeepLevel& level, std::size_t pixel, int channel, curves::Curve& out) {
+    const std::size_t n = level.nodes(pixel);
+    const float* depths = level.floats.data() + level.offsets[pixel];
+    const float* values = depths + (level.has_colour(pixel) ? channel + 1 : 1) * n;
+    out.resize(n);
+    for (std::size_t i = 0; i < n; ++i) out[i] = {depths[i], values[i]};
+}
+
+}  // namespace shadowbench::techniques

@@ -1,0 +1,49 @@
+// Building a DeepLevel: functions are compressed pixel by pixel into runs, and runs are put together.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "curves/compress.h"
+#include "curves/sweep.h"
+#include "techniques/deep/deep_level.h"
+
+namespace shadowbench::techniques {
+
+// The compressed functions of a rectangle of pixels, row after row, each laid out as in DeepLevel.
+struct PixelRun {
+    int x0 = 0, y0 = 0, width = 0;
+    int channels = 1;                     // of the map
+    std::vector<std::uint32_t> begin{0};  // pixels + 1 offsets into the floats
+    std::vector<float> floats;
+    std::vector<unsigned char> coloured;  // channels == 3: whether a pixel holds three
+
+    std::size_t bytes() const {
+        return begin.capacity() * sizeof(std::uint32_t) + floats.capacity() * sizeof(float) + coloured.capacity();
+    }
+};
+
+// One pixel before it is compressed, and the memory for making it; one a thread.
+struct PixelScratch {
+    std::array<curves::Curve, 3> function;
+    std::vector<curves::ColourVertex> colour;
+    curves::SweepScratch sweep;
+    std::array<curves::Curve, 4> children;
+
+    std::size_t bytes() const;
+};
+
+// Compresses the first `functions` (1 or 3) of the scratch and appends them as the run's next pixel. Three equal ones
+// are stored as one.
+void append(PixelRun& run, PixelScratch& scratch, int functions, float tolerance);
+
+// Runs that fill the level. Throws Error{bad_input} when it would hold more than 2^32 floats.
+DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun> runs);
+
+// The function of a channel; `out` is replaced.
+void read_function(const DeepLevel& level, std::size_t pixel, int channel, curves::Curve& out);
+
+}  // namespace shadowbench::techniques

@@ -1,0 +1,216 @@
+// Mip-maps of deep shadow maps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "curves/norms.h"
+#include "curves/sweep.h"
+#include "techniques/built.h"
+#include "techniques/deep/deep_map.h"
+#include "techniques/deep/mip.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+using rays::testing::capture;
+using rays::testing::Captured;
+using rays::testing::directional;
+using rays::testing::quad;
+using testing::build;
+using testing::Built;
+
+const Technique& deep() {
+    return find("deep", "");
+}
+
+scene::RaySettings oblong(int width, int height, int samples) {
+    scene::RaySettings settings = rays::testing::rays(width, samples);
+    settings.resolution = {width, height};
+    return settings;
+}
+
+DeepMap make_map(const Captured& rays, float tolerance) {
+    DeepMap map;
+    map.tolerance = tolerance;
+    map.rule.mip = Mip::blend;
+    map.begin(rays.layout);
+    for (const auto& tile : rays.tiles) map.add(tile);
+    map.finish();
+    return map;
+}
+
+// Uncompressed functions of all map pixels in one channel.
+std::vector<curves::Curve> exact_functions(const Captured& c, int channel) {
+    std::vector<curves::Curve> functions(static_cast<std::size_t>(c.layout.width) * c.layout.height);
+    curves::SweepScratch scratch;
+    for (const rays::LightRays& tile : c.tiles)
+        for (int p = 0; p < tile.width * tile.height; ++p) {
+            const int x = tile.x0 + p % tile.width, y = tile.y0 + p / tile.width;
+            curves::visibility(tile, static_cast<std::size_t>(p) * tile.samples, tile.samples, 1e-5, scratch,
+                               functions[static_cast<std::size_t>(y) * c.layout.width + x], channel);
+        }
+    return functions;
+}
+
+// The mean over the map pixels that pixel (x, y) of a level covers.
+curves::Curve exact_mean(const std::vector<curves::Curve>& functions, const rays::MapLayout& layout, int level, int x,
+                         int y) {
+    const int side = 1 << level;
+    std::vector<curves::WeightedCurve> terms;
+    for (int py = y * side; py < std::min((y + 1) * side, layout.height); ++py)
+        for (int px = x * side; px < std::min((x + 1) * side, layout.width); ++px)
+            terms.push_back({functions[static_cast<std::size_t>(py) * layout.width + px], 1.0});
+    for (curves::WeightedCurve& t : terms) t.weight = 1.0 / static_cast<double>(terms.size());
+    curves::SweepScratch scratch;
+    curves::Curve mean;
+    curves::weighted_sum(terms, scratch, mean);
+    return mean;
+}
+
+TEST(DeepMip, SizesGoDownToOnePixel) {
+    EXPECT_EQ(mip_levels(1, 1), 1);
+    EXPECT_EQ(mip_levels(2, 1), 2);
+    EXPECT_EQ(mip_levels(16, 16), 5);
+    EXPECT_EQ(mip_levels(17, 3), 6);
+    EXPECT_EQ(mip_size(17, 0), 17);
+    EXPECT_EQ(mip_size(17, 1), 9);
+    EXPECT_EQ(mip_size(17, 4), 2);
+    EXPECT_EQ(mip_size(17, 5), 1);
+}
+
+TEST(DeepMip, EveryLevelStaysWithinTwiceTheToleranceOfTheExactMean) {
+    for (const bool coloured : {false, true})
+        for (const auto& [width, height] : {std::pair{16, 16}, {21, 13}}) {
+            scene::Scene scene = testing::hairy_scene(coloured);
+            if (coloured) scene.objects[0].opacity = base::Vec3f(0.7f, 0.3f, 0.5f);
+            const Captured rays = capture(scene, directional(), oblong(width, height, 9));
+            const float tolerance = 0.04f;
+            const DeepMap map = make_map(rays, tolerance);
+            ASSERT_EQ(map.levels.size(), static_cast<std::size_t>(mip_levels(width, height)));
+            curves::Curve stored;
+            for (int c = 0; c < rays.layout.channels; ++c) {
+                const auto functions = exact_functions(rays, c);
+                for (std::size_t l = 0; l < map.levels.size(); ++l) {
+                    const DeepLevel& level = map.levels[l];
+                    double worst = 0.0;
+                    for (int y = 0; y < level.height; ++y)
+                        for (int x = 0; x < level.width; ++x) {
+                            read_function(level, level.pixel(x, y), c, stored);
+                            ASSERT_TRUE(curves::is_visibility(stored));
+                            const auto exact = exact_mean(functions, rays.layout, static_cast<int>(l), x, y);
+                            worst = std::max(worst, curves::distance(stored, exact, 0, 4).max);
+                        }
+                    EXPECT_LE(worst, tolerance * (2.0 - std::ldexp(1.0, -static_cast<int>(l))) + 1.2e-5)
+                        << "level " << l << " channel " << c;
+                    EXPECT_GT(worst, 0.0) << "nothing was compressed";
+                }
+            }
+        }
+}
+
+// The paper's estimate is 1.55 (section 5.3).
+TEST(DeepMip, AllLevelsTakeAboutHalfAsMuchAgainAsTheMap) {
+    scene::Scene scene;
+    scene.objects.push_back(rays::testing::curly_hair(1500, 12, 0.01f, 4));
+    const Captured rays = capture(scene, directional(), rays::testing::rays(64, 16));
+    const DeepMap map = make_map(rays, 0.02f);
+    const double ratio = static_cast<double>(map.bytes()) / static_cast<double>(map.levels[0].bytes());
+    RecordProperty("ratio", std::to_string(ratio));
+    EXPECT_GT(ratio, 1.2);
+    EXPECT_LT(ratio, 2.0);
+}
+
+TEST(DeepMip, PixelsAtOddEdgesWeighAsMuchAsTheyCover) {
+    scene::Scene scene;  // three of five columns in shade
+    scene.objects.push_back(quad({-1, -1, 0}, {1.2f, 0, 0}, {0, 2, 0}));
+    for (const char* parameters :
+         {R"({"mip": "blend"})", R"({"mip": "nearest"})", R"({"mip": "nearest", "kernel": "tent"})"}) {
+        const Built b = build(deep(), scene, directional(), rays::testing::rays(5, 4), parameters);
+        EXPECT_NEAR(b.lookup(2.5f, 2.5f, 5.0f, 1000.0f), 0.4f, 1e-6f) << parameters;
+        EXPECT_NEAR(b.lookup(2.5f, 2.5f, b.rays.tiles[0].z_front[0], 1000.0f), 1.0f, 1e-6f);
+        EXPECT_EQ(b.lookup(5.5f, 2.5f, 5.0f, 1000.0f), 1.0f) << "outside, though inside the last coarse pixel";
+    }
+    const Built none = build(deep(), scene, directional(), rays::testing::rays(5, 4));
+    const Built blend = build(deep(), scene, directional(), rays::testing::rays(5, 4), R"({"mip": "blend"})");
+    for (const float width : {5.0f, 9.0f, 12.0f})
+        EXPECT_NEAR(blend.lookup(2.5f, 2.5f, 5.0f, width + 7), none.lookup(2.5f, 2.5f, 5.0f, width + 7), 1e-6f);
+}
+
+TEST(DeepMip, NarrowLookupsReadTheMapItself) {
+    const auto scene = testing::hairy_scene(true);
+    const Built none = build(deep(), scene, directional(), rays::testing::rays(16, 16));
+    const Built blend = build(deep(), scene, directional(), rays::testing::rays(16, 16), R"({"mip": "blend"})");
+    base::Random random(8);
+    for (int i = 0; i < 500; ++i) {
+        const float x = static_cast<float>(random.uniform(0, 16)), y = static_cast<float>(random.uniform(0, 16));
+        const float z = static_cast<float>(random.uniform(0.3, 1.7)), w = static_cast<float>(random.uniform(0.1, 1.5));
+        ASSERT_EQ(blend.lookup(x, y, z, w), none.lookup(x, y, z, w));
+    }
+}
+
+// A footprint that covers whole pixels of one level is their mean, so the exact one within the error of that level.
+TEST(DeepMip, AWideFootprintOnPixelBordersIsTheMeanOfItsPixels) {
+    const auto scene = testing::hairy_scene(true);
+    const float tolerance = 0.02f;
+    const Built mip =
+        build(deep(), scene, directional(), rays::testing::rays(32, 4), R"({"mip": "nearest", "tolerance": 0.02})");
+    const Built exact = build(deep(), scene, directional(), rays::testing::rays(32, 4), R"({"tolerance": 0})");
+    double worst = 0.0;
+    for (const float width : {4.0f, 8.0f, 16.0f})  // two pixels of levels 1, 2 and 3
+        for (float y = 0.5f * width; y < 32.0f; y += 0.5f * width)
+            for (float x = 0.5f * width; x < 32.0f; x += 0.5f * width)
+                for (const float z : {0.8f, 1.0f, 1.3f})
+                    worst =
+                        std::max<double>(worst, std::abs(mip.lookup(x, y, z, width) - exact.lookup(x, y, z, width)));
+    EXPECT_LE(worst, 2.0 * tolerance);
+    EXPECT_GT(worst, 0.0);
+}
+
+// Between pixel borders a box must not snap to whole pixels: it would be off by half a coarse pixel.
+TEST(DeepMip, AWideBoxFollowsAnEdgeSmoothly) {
+    scene::Scene scene;  // the left half in shade
+    scene.objects.push_back(quad({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}));
+    for (const char* parameters : {R"({"mip": "nearest"})", R"({"mip": "blend"})"}) {
+        const Built b = build(deep(), scene, directional(), rays::testing::rays(64, 1), parameters);
+        for (const float width : {12.0f, 16.0f, 20.0f})
+            for (float x = 32.0f - width; x <= 32.0f + width; x += 0.25f) {
+                const float lit = std::clamp((x + 0.5f * width - 32.0f) / width, 0.0f, 1.0f);
+                ASSERT_NEAR(b.lookup(x, 32.0f, 5.0f, width), lit, 0.2f) << width << " at " << x;
+            }
+    }
+}
+
+TEST(DeepMip, BlendedLookupsDoNotJumpWhereLevelsChange) {
+    const Built b = build(deep(), testing::hairy_scene(true), directional(), rays::testing::rays(32, 4),
+                          R"({"mip": "blend", "kernel": "tent"})");
+    base::Random random(6);
+    for (const float width : {1.0f, 2.0f, 4.0f, 8.0f, 16.0f, 32.0f})
+        for (int i = 0; i < 100; ++i) {
+            const float x = static_cast<float>(random.uniform(0, 32)), y = static_cast<float>(random.uniform(0, 32));
+            ASSERT_NEAR(b.lookup(x, y, 1.0f, width * 0.9999f), b.lookup(x, y, 1.0f, width * 1.0001f), 1e-3f);
+        }
+}
+
+// A pixel of the wall takes one line for its offsets and one or two for its nodes.
+TEST(DeepMip, WideLookupsReadAFewPixelsHoweverWide) {
+    scene::Scene scene;
+    scene.objects.push_back(quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, 0.5f));
+    for (const char* kernel : {"box", "tent"})
+        for (const auto& [mip, pixels] : {std::pair{"nearest", 16u}, {"blend", 25u}}) {
+            const Built b = build(deep(), scene, directional(), rays::testing::rays(64, 1),
+                                  (std::string("{\"kernel\": \"") + kernel + "\", \"mip\": \"" + mip + "\"}").c_str());
+            std::vector<const void*> lines;
+            base::Random random(9);
+            for (int i = 0; i < 400; ++i) {
+                const Query q{static_cast<float>(random.uniform(0, 64)), static_cast<float>(random.uniform(0, 64)),
+                              5.0f, static_cast<float>(std::exp(random.uniform(0, 6)))};
+                lines.clear();
+                b.map->touched(q, lines);
+                ASSERT_LE(lines.size(), 3 * pixels) << kernel << " " << mip << " width " << q.width;
+                ASSERT_GT(lines.size(), 0u);
+            }
+        }
+}
+
+}  // namespace
+}  // namespace shadowbench::techniques
