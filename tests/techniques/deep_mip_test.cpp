@@ -7,6 +7,7 @@
 #include "curves/sweep.h"
 #include "techniques/built.h"
 #include "techniques/deep/deep_map.h"
+#include "techniques/deep/footprint.h"
 #include "techniques/deep/mip.h"
 
 namespace shadowbench::techniques {
@@ -148,6 +149,36 @@ TEST(DeepMip, NarrowLookupsReadTheMapItself) {
     }
 }
 
+// A tent at a coarse pixel's centre, one such pixel wide, is that pixel, whole or cut by the map's edge.
+TEST(DeepMip, ATentOverOneCoarsePixelIsThatPixel) {
+    const Built b = build(deep(), testing::hairy_scene(true), directional(), oblong(21, 13, 4),
+                          R"({"mip": "nearest", "kernel": "tent", "tolerance": 0})");
+    const Built none =
+        build(deep(), testing::hairy_scene(true), directional(), oblong(21, 13, 4), R"({"tolerance": 0})");
+    for (int y = 0; y < 13; y += 4)
+        for (int x = 0; x < 21; x += 4) {
+            if (x + 2 > 21 || y + 2 > 13) continue;  // its centre lies outside
+            double sum = 0.0;
+            int count = 0;
+            for (int py = y; py < std::min(y + 4, 13); ++py)
+                for (int px = x; px < std::min(x + 4, 21); ++px, ++count)
+                    sum += none.lookup(static_cast<float>(px) + 0.5f, static_cast<float>(py) + 0.5f, 1.0f);
+            const float at_x = static_cast<float>(x) + 2.0f, at_y = static_cast<float>(y) + 2.0f;
+            ASSERT_NEAR(b.lookup(at_x, at_y, 1.0f, 4.0f), sum / count, 1e-6) << x << " " << y;
+        }
+    // Near the corner the cut pixels take part: pixel (5, 3) of level 2 covers one map pixel.
+    const float corner = none.lookup(20.5f, 12.5f, 1.0f);
+    double row = 0.0, column = 0.0, inner = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        row += none.lookup(16.5f + static_cast<float>(i), 12.5f, 1.0f) / 4;
+        column += none.lookup(20.5f, 8.5f + static_cast<float>(i), 1.0f) / 4;
+        for (int j = 0; j < 4; ++j)
+            inner += none.lookup(16.5f + static_cast<float>(i), 8.5f + static_cast<float>(j), 1.0f) / 16;
+    }
+    // Centres of the coarse pixels: 18 and 22, 10 and 14; at (20, 12) all are as near, and the edge cuts to a quarter.
+    EXPECT_NEAR(b.lookup(20.0f, 12.0f, 1.0f, 4.0f), (inner + 0.25 * (row + column) + 0.0625 * corner) / 1.5625, 1e-6);
+}
+
 // A footprint that covers whole pixels of one level is their mean, so the exact one within the error of that level.
 TEST(DeepMip, AWideFootprintOnPixelBordersIsTheMeanOfItsPixels) {
     const auto scene = testing::hairy_scene(true);
@@ -191,23 +222,25 @@ TEST(DeepMip, BlendedLookupsDoNotJumpWhereLevelsChange) {
         }
 }
 
-// A pixel of the wall takes one line for its offsets and one or two for its nodes.
 TEST(DeepMip, WideLookupsReadAFewPixelsHoweverWide) {
-    scene::Scene scene;
-    scene.objects.push_back(quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, 0.5f));
-    for (const char* kernel : {"box", "tent"})
-        for (const auto& [mip, pixels] : {std::pair{"nearest", 16u}, {"blend", 25u}}) {
-            const Built b = build(deep(), scene, directional(), rays::testing::rays(64, 1),
-                                  (std::string("{\"kernel\": \"") + kernel + "\", \"mip\": \"" + mip + "\"}").c_str());
-            std::vector<const void*> lines;
-            base::Random random(9);
-            for (int i = 0; i < 400; ++i) {
-                const Query q{static_cast<float>(random.uniform(0, 64)), static_cast<float>(random.uniform(0, 64)),
-                              5.0f, static_cast<float>(std::exp(random.uniform(0, 6)))};
-                lines.clear();
-                b.map->touched(q, lines);
-                ASSERT_LE(lines.size(), 3 * pixels) << kernel << " " << mip << " width " << q.width;
-                ASSERT_GT(lines.size(), 0u);
+    const DeepMap map = make_map(capture(testing::hairy_scene(false), directional(), oblong(64, 43, 1)), 0.1f);
+    base::Random random(9);
+    for (const bool tent : {false, true})
+        for (int i = 0; i < 3000; ++i) {
+            const LookupRule rule{tent, Mip::blend, Search::binary};
+            const Query q{static_cast<float>(random.uniform(0, 64)), static_cast<float>(random.uniform(0, 43)), 1.0f,
+                          static_cast<float>(std::exp(random.uniform(-1, 6)))};
+            const LevelChoice choice = choose_levels(rule, q.width, map.levels.size());
+            for (int l = choice.fine; l <= choice.fine + (choice.coarser > 0.0f); ++l) {
+                int pixels = 0;
+                float weights = 0.0f;
+                for_each_pixel(map.levels, l, rule, q, [&](std::size_t pixel, float weight) {
+                    ASSERT_LT(pixel + 1, map.levels[static_cast<std::size_t>(l)].offsets.size());
+                    ++pixels;
+                    weights += weight;
+                });
+                ASSERT_LE(pixels, l == choice.fine ? 16 : 9) << "level " << l << " width " << q.width;
+                ASSERT_GT(weights, 0.0f);
             }
         }
 }

@@ -33,9 +33,11 @@ public:
     // Around `centre`, `width` wide, in the level's pixels, of which the map fills the first `filled`.
     Side(float centre, float width, float filled, bool tent)
         : centre_(centre), width_(width), filled_(filled), tent_(tent) {
-        const float reach = tent ? width : 0.5f * width;
-        begin = static_cast<int>(std::floor(std::max(centre - reach, 0.0f)));
-        end = static_cast<int>(std::ceil(std::min(centre + reach, filled)));
+        // A tent reaches the pixels whose centres lie in it, a box those that it overlaps.
+        const float reach = tent ? width : 0.5f * width, inwards = tent ? 0.5f : 0.0f;
+        const float last = std::ceil(filled);
+        begin = static_cast<int>(std::floor(std::max(centre - reach, 0.0f) + inwards));
+        end = static_cast<int>(std::min(std::ceil(centre + reach - inwards), last));
     }
     float weight(int pixel) const {
         const float x = static_cast<float>(pixel);
