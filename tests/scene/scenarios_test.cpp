@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> committed_scenarios() {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(fs::path(SHADOWBENCH_SOURCE_DIR) / "scenarios"))
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(SHADOWBENCH_SOURCE_DIR) / "scenarios"))
         if (entry.path().extension() == ".json") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
