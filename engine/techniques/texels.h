@@ -30,6 +30,19 @@ inline Filter read_filter(const ParameterValues& values) {
     return word == "point" ? Filter::point : word == "bilinear" ? Filter::bilinear : Filter::footprint;
 }
 
+// Calls visit(x, y, weight) for the four cells around a place in the map, with their bilinear weights; at the border
+// the outermost cells repeat.
+template <class Visit>
+void for_each_of_four(const CellGrid& grid, const Query& q, const Visit& visit) {
+    const float fx = q.x * grid.per_pixel_x - 0.5f, fy = q.y * grid.per_pixel_y - 0.5f;
+    const int x0 = static_cast<int>(std::floor(fx)), y0 = static_cast<int>(std::floor(fy));
+    const float wx = fx - static_cast<float>(x0), wy = fy - static_cast<float>(y0);
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i)
+            visit(std::clamp(x0 + i, 0, grid.width - 1), std::clamp(y0 + j, 0, grid.height - 1),
+                  (i ? wx : 1.0f - wx) * (j ? wy : 1.0f - wy));
+}
+
 // Texels row after row, without gaps, from the start of a cache line on. They are all that a map holds, built or under
 // construction: what a thread needs to fill one is small, of a fixed size and on its stack, and is not counted.
 struct Texels {
@@ -90,13 +103,7 @@ struct Texels {
         int cx, cy;
         if (!grid.find(q.x, q.y, cx, cy)) return;
         if (filter == Filter::point) return visit(grid.index(cx, cy), 1.0f);
-        const float fx = q.x * grid.per_pixel_x - 0.5f, fy = q.y * grid.per_pixel_y - 0.5f;
-        const int x0 = static_cast<int>(std::floor(fx)), y0 = static_cast<int>(std::floor(fy));
-        const float wx = fx - static_cast<float>(x0), wy = fy - static_cast<float>(y0);
-        for (int j = 0; j < 2; ++j)
-            for (int i = 0; i < 2; ++i)
-                visit(grid.index(std::clamp(x0 + i, 0, grid.width - 1), std::clamp(y0 + j, 0, grid.height - 1)),
-                      (i ? wx : 1.0f - wx) * (j ? wy : 1.0f - wy));
+        for_each_of_four(grid, q, [&](int x, int y, float weight) { visit(grid.index(x, y), weight); });
     }
 
 private:

@@ -1,9 +1,11 @@
 #include "techniques/uncompressed/uncompressed.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "curves/composite.h"
 #include "techniques/cells.h"
+#include "techniques/texels.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -18,8 +20,12 @@ struct TileFunctions {
     std::vector<Node> nodes;
 };
 
+const Parameter parameters[] = {filter_parameter};
+
 class Uncompressed final : public Map {
 public:
+    explicit Uncompressed(const ParameterValues& values) : filter_(read_filter(values)) {}
+
     void begin(const BuildInput& input) override {
         layout_ = input.layout;
         cells_ = make_cells(layout_, Cells::sample);
@@ -56,19 +62,22 @@ public:
 
     void finish() override {}
 
-    // The mean over the rays whose samples lie inside the footprint; of the nearest cell's ray when none does.
+    // By the footprint filter the mean over the rays whose samples lie inside it; of the nearest cell's ray when none
+    // does.
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            double sum = 0.0;
-            const int count =
-                for_each_ray(queries[i], [&](const Place& place) { sum += evaluate(place.nodes(), queries[i].z); });
-            visibility[i] = count ? static_cast<float>(sum / count) : 1.0f;
+            double sum = 0.0, weights = 0.0;
+            for_each_ray(queries[i], [&](const Place& place, double weight) {
+                sum += weight * evaluate(place.nodes(), queries[i].z);
+                weights += weight;
+            });
+            visibility[i] = weights > 0.0 ? static_cast<float>(std::min(sum / weights, 1.0)) : 1.0f;
         }
     }
 
     void touched(const Query& query, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();
-        for_each_ray(query, [&](const Place& place) {
+        for_each_ray(query, [&](const Place& place, double) {
             const std::span<const Node> ray = place.nodes();
             touch_lines(&place.tile, sizeof(place.tile), lines);
             touch_lines(&place.tile.begin[place.ray], 2 * sizeof(std::uint32_t), lines);
@@ -163,10 +172,14 @@ private:
         return a.value == 0.0f ? 0.0f : static_cast<float>(from * std::pow(to / from, u));
     }
 
+    // Calls visit(place, weight) for the rays of a query's filter; for none outside the map.
     template <class Visit>
-    int for_each_ray(const Query& q, const Visit& visit) const {
+    void for_each_ray(const Query& q, const Visit& visit) const {
         int cx, cy;
-        if (!cells_.find(q.x, q.y, cx, cy)) return 0;
+        if (!cells_.find(q.x, q.y, cx, cy)) return;
+        if (filter_ == Filter::point) return visit(place_of(cx, cy), 1.0);
+        if (filter_ == Filter::bilinear)
+            return for_each_of_four(cells_, q, [&](int x, int y, float weight) { visit(place_of(x, y), weight); });
         const double half = 0.5 * q.width;
         const auto clamp = [](double cell, int count) {
             return cell <= 0 ? 0 : cell >= count ? count - 1 : static_cast<int>(cell);
@@ -175,21 +188,18 @@ private:
         const int x1 = clamp((q.x + half) * layout_.samples_x, cells_.width);
         const int y0 = clamp((q.y - half) * layout_.samples_y, cells_.height);
         const int y1 = clamp((q.y + half) * layout_.samples_y, cells_.height);
-        int count = 0;
+        bool any = false;
         for (int y = y0; y <= y1; ++y)
             for (int x = x0; x <= x1; ++x) {
                 const rays::SamplePosition p = rays::sample_position(layout_, x, y);
                 if (std::abs(p.x - q.x) > half || std::abs(p.y - q.y) > half) continue;
-                visit(place_of(x, y));
-                ++count;
+                visit(place_of(x, y), 1.0);
+                any = true;
             }
-        if (count == 0) {
-            visit(place_of(cx, cy));
-            count = 1;
-        }
-        return count;
+        if (!any) visit(place_of(cx, cy), 1.0);
     }
 
+    Filter filter_;
     rays::MapLayout layout_;
     CellGrid cells_;
     std::vector<TileFunctions> tiles_;
@@ -198,18 +208,19 @@ private:
 }  // namespace
 
 Technique uncompressed() {
-    return {"uncompressed",
-            "every segment of every ray, evaluated exactly",
-            "Salvi et al. 2010 (reference)",
-            1,
-            {},
-            {},
-            [](const ParameterValues&) -> std::unique_ptr<Map> { return std::make_unique<Uncompressed>(); },
-            [](const ParameterValues&, const rays::MapLayout&) { return 1e-6; },
-            nullptr,
-            [](const ParameterValues&, const rays::MapLayout& layout) {
-                return make_cells(layout, Cells::sample).count() * sizeof(std::uint32_t);
-            }};
+    return {
+        "uncompressed",
+        "every segment of every ray, evaluated exactly",
+        "Salvi et al. 2010 (reference)",
+        1,
+        {},
+        parameters,
+        [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Uncompressed>(values); },
+        [](const ParameterValues&, const rays::MapLayout&) { return 1e-6; },
+        nullptr,
+        [](const ParameterValues&, const rays::MapLayout& layout) {
+            return make_cells(layout, Cells::sample).count() * sizeof(std::uint32_t);
+        }};
 }
 
 }  // namespace shadowbench::techniques
