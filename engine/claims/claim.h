@@ -57,6 +57,13 @@ struct Plot {
     std::vector<Series> series;
 };
 
+// Pictures side by side.
+struct Sheet {
+    std::string name;     // of the file, without ending
+    std::string caption;  // the columns, from left to right
+    std::string png;      // the file's bytes
+};
+
 struct PaperReport {
     std::string id, title;
     std::string conditions;              // what the measurements here differ in from the paper's, one paragraph
@@ -65,6 +72,7 @@ struct PaperReport {
     std::vector<Claim> claims;
     std::vector<Table> tables;
     std::vector<Plot> plots;
+    std::vector<Sheet> sheets;
 };
 
 // `measured` stands on the side of 1 where the paper's ratio stands: shape; within a factor of `near` of it, or

@@ -6,6 +6,7 @@
 
 #include "claims/fit.h"
 #include "claims/paper.h"
+#include "claims/sheet.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -333,6 +334,11 @@ void measure_lokovic(const Context& context) {
     figure_9(context);
     section_5_2(context);
     figure_12(context);
+    context.report->sheets.push_back(
+        picture_sheet(context, hair_ball,
+                      {"rays.resolution=512", "rays.samples_per_pixel=16",
+                       set_techniques(pcf(16, "centre") + "," + pcf(16, "sample") + R"(,{"type":"deep"},)" +
+                                      R"({"type":"deep","tolerance":0.02,"kernel":"tent"})")}));
 }
 
 }  // namespace shadowbench::claims

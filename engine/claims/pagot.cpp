@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "claims/paper.h"
+#include "claims/sheet.h"
 #include "rays/light_rays.h"
 #include "rays/light_view.h"
 #include "techniques/technique.h"
@@ -137,6 +138,7 @@ void measure_pagot(const Context& context) {
     compare(light_of(curved), "section 5, figure 7", 2, 3, 4, *context.report);
     compare(light_of(curved), "section 5, figure 7", 3, 3, 4, *context.report);
     crossing(light_of(flat), *context.report);
+    context.report->sheets.push_back(picture_sheet(context, "pagot2004_flat", {}));
 }
 
 }  // namespace shadowbench::claims

@@ -11,6 +11,7 @@
 #include "bench/document.h"
 #include "bench/load.h"
 #include "claims/paper.h"
+#include "claims/sheet.h"
 #include "rays/light_rays.h"
 #include "rays/light_view.h"
 #include "rays/tracer.h"
@@ -277,6 +278,10 @@ void measure_reeves(const Context& context) {
     figure_8(report);
     figure_9(context);
     figure_10(context);
+    report.sheets.push_back(
+        picture_sheet(context, "reeves1987_sphere",
+                      {R"(techniques=[{"type":"shadow_map"},{"type":"pcf","num_samples":4,"res_factor":1},)"
+                       R"({"type":"pcf","res_factor":1},{"type":"pcf","num_samples":64,"res_factor":1}])"}));
 }
 
 }  // namespace shadowbench::claims

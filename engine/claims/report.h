@@ -21,7 +21,8 @@ std::string to_json(std::span<const PaperReport> reports, const Conditions& cond
 // SVG text of a plot, drawn by gnuplot. Throws Error{internal} when gnuplot is not there or refuses.
 std::string to_svg(const Plot& plot);
 
-// <name>.md and <name>.json in this folder, and the plots as <plot name>.svg in its folder plots/. Throws Error{io}.
+// <name>.md and <name>.json in this folder, the plots as SVG in its folder plots/, and the sheets in pictures/. Throws
+// Error{io}.
 void write_reports(const std::filesystem::path& folder, const std::string& name, std::span<const PaperReport> reports,
                    const Conditions& conditions);
 

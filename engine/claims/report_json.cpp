@@ -64,6 +64,9 @@ void write_reports(const std::filesystem::path& folder, const std::string& name,
                                       {folder / (name + ".json"), to_json(reports, conditions)}};
     for (const PaperReport& report : reports)
         for (const Plot& plot : report.plots) files.push_back({folder / "plots" / (plot.name + ".svg"), to_svg(plot)});
+    for (const PaperReport& report : reports)
+        for (const Sheet& sheet : report.sheets)
+            files.push_back({folder / "pictures" / (sheet.name + ".png"), sheet.png});
     bench::write_files(files);
 }
 

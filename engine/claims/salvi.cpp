@@ -7,6 +7,7 @@
 
 #include "base/read_text.h"
 #include "claims/paper.h"
+#include "claims/sheet.h"
 #include "claims/texel.h"
 
 namespace shadowbench::claims {
@@ -239,6 +240,11 @@ void measure_salvi(const Context& context) {
     depth_range(context, light);
     figure_5(context);
     curve_figure(context, "salvi2010_hair", "salvi2010_figure6", "section 5.2, figure 6", 238);
+    context.report->sheets.push_back(picture_sheet(
+        context, "salvi2010_smoke",
+        {R"(techniques=[{"type":"avsm","nodes":4,"filter":"bilinear"},{"type":"avsm","filter":"bilinear"},)"
+         R"({"type":"avsm","nodes":12,"filter":"bilinear"},{"type":"opacity","filter":"bilinear"},)"
+         R"({"type":"fourier","filter":"bilinear"}])"}));
     curve_figure(context, "salvi2010_curves", "salvi2010_figure7", "section 5.2, figure 7", 282);
 }
 

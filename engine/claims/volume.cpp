@@ -9,6 +9,7 @@
 #include "base/read_text.h"
 #include "bench/document.h"
 #include "claims/paper.h"
+#include "claims/sheet.h"
 #include "claims/texel.h"
 
 namespace shadowbench::claims {
@@ -294,6 +295,11 @@ void measure_volume(const Context& context) {
     thresholds(sets, *context.report);
     memory(sets, *context.report);
     for (const DataSet& set : data_sets) curve_figure(context, set);
+    context.report->sheets.push_back(
+        picture_sheet(context, "volume_bucky",
+                      {"receivers.filter_width=1",
+                       R"(techniques=[{"type":"volume_deep"},{"type":"volume_deep","interpolation":"bucket"},)"
+                       R"({"type":"avsm","nodes":4},{"type":"avsm"}])"}));
 }
 
 }  // namespace shadowbench::claims
