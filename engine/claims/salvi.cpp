@@ -49,8 +49,8 @@ std::string ratio_text(double theirs, const Value& ours) {
 void table_1(const LightResult& light, PaperReport& report) {
     const Cell& eight = avsm(light, 8);
     Table table{"Table 1: ratios to AVSM 8, theirs / ours (256 x 256 texels)",
-                {"", "lookup", "build", "bytes", "ns a lookup here", "ms a build here", "MiB here", "error rms",
-                 "curve error max"},
+                {"", "lookup", "build", "bytes", "ns a lookup here", "x floor", "ms a build here", "MiB here",
+                 "error rms", "curve error max"},
                 {}};
     for (const Column& c : columns) {
         const Cell& cell = cell_of(light, c.technique, c.parameters);
@@ -58,6 +58,7 @@ void table_1(const LightResult& light, PaperReport& report) {
         table.rows.push_back({c.name, ratio_text(c.lookup_ms / 5.4, time_of(cell) / time_of(eight)),
                               ratio_text(c.build_ms / 0.7, of(cell.times->build_ms) / of(eight.times->build_ms)),
                               ratio_text(c.megabytes / 4.0, exactly(bytes)), to_text(time_of(cell)),
+                              cell.times->image_order.ratio ? to_text(of(*cell.times->image_order.ratio)) : "-",
                               to_text(of(cell.times->build_ms)),
                               fmt::format("{:.3g}", static_cast<double>(cell.bytes) / 1048576.0),
                               fmt::format("{:.3g}", cell.lookup->norms.rms),

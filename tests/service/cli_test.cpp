@@ -94,6 +94,7 @@ TEST_F(Cli, refuses_wrong_usage) {
     fails({}, 64, "subcommand");
     fails({"frobnicate"}, 64, "unknown command \"frobnicate\"");
     fails({"run"}, 64, "SCENARIO");
+    fails({"reproduce", "reeves"}, 64, "no paper \"reeves\"; there are: all, reeves1987, lokovic2000");
     fails({"run", path("tiny.json"), "--frobnicate"}, 64, "--frobnicate");
     fails({"run", path("tiny.json"), "--threads", "many"}, 64, "--threads");
     fails({"run", path("tiny.json"), "--threads", "-1"}, 64, "--threads");
