@@ -16,10 +16,6 @@ using bench::LightResult;
 
 constexpr const char* hair_ball = "lokovic2000_hairball";
 
-Value time_of(const Cell& cell) {
-    return of(cell.times->image_order.ns);
-}
-
 std::string pcf(int samples, const char* cells) {
     return fmt::format(R"({{"type":"pcf","num_samples":{},"res_factor":1,"cells":"{}"}})", samples, cells);
 }

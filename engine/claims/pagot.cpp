@@ -17,10 +17,6 @@ namespace {
 using bench::Cell;
 using bench::LightResult;
 
-Value time_of(const Cell& cell) {
-    return of(cell.times->image_order.ns);
-}
-
 // How many answers lookups give, at 400,000 places and depths of a map of 128 x 128 random depths.
 int outcomes_of(int side, int n) {
     rays::MapLayout layout;

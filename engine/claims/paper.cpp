@@ -85,6 +85,10 @@ const bench::Cell& cell_of(const bench::LightResult& light, const std::string& t
                 fmt::format("no cell has the parameters {}", fmt::join(parameters, ", ")));
 }
 
+Value time_of(const bench::Cell& cell) {
+    return of(cell.times->image_order.ns);
+}
+
 std::span<const Paper> all_papers() {
     return papers;
 }

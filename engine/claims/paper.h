@@ -36,6 +36,9 @@ const bench::LightResult& light_of(const bench::Result& result, const std::vecto
 const bench::Cell& cell_of(const bench::LightResult& light, const std::string& technique,
                            const std::vector<std::string>& parameters = {});
 
+// Nanoseconds of a lookup in image order.
+Value time_of(const bench::Cell& cell);
+
 struct Paper {
     const char* id;  // "lokovic2000"
     const char* title;

@@ -24,10 +24,6 @@ namespace {
 using bench::Cell;
 using bench::LightResult;
 
-Value time_of(const Cell& cell) {
-    return of(cell.times->image_order.ns);
-}
-
 double rms_of(const Cell& cell) {
     return cell.lookup->norms.rms;
 }

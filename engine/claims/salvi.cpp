@@ -33,10 +33,6 @@ const Column columns[] = {
     {"uncompressed", "uncompressed", {}, 278.0, 0.0, 20.0},
 };
 
-Value time_of(const Cell& cell) {
-    return of(cell.times->image_order.ns);
-}
-
 const Cell& avsm(const LightResult& light, int nodes, const char* order = "sorted") {
     return cell_of(light, "avsm", {fmt::format("nodes={}", nodes), fmt::format("order={}", order)});
 }

@@ -91,7 +91,7 @@ void table_of_techniques(const Sets& sets, PaperReport& report) {
             if (cell.status == bench::CellStatus::failed) continue;  // the claims that need it will say so
             table.rows.push_back(
                 {m.name, cell.parameters.empty() ? cell.technique : cell.technique + " " + cell.parameters,
-                 to_text(of(cell.times->build_ms)), to_text(of(cell.times->image_order.ns)),
+                 to_text(of(cell.times->build_ms)), to_text(time_of(cell)),
                  fmt::format("{:.3g}", bytes_a_texel(cell, m.light())), fmt::format("{:.2g}", cell.curve->norms.max),
                  fmt::format("{:.2g}", cell.curve->norms.rms), fmt::format("{:.2g}", rms(cell)),
                  fmt::format("{:.2g}", cell.lookup->norms.max)});
@@ -114,7 +114,7 @@ struct Frame {
 Frame frame_of(const LightResult& light) {
     const Cell& point = volume_deep(light, "smooth", 512, "point");  // the paper's lookup: one texel
     return {exactly(1e3 * static_cast<double>(light.rays) / light.agreement->times.capture_rays_per_second),
-            of(point.times->build_ms), 1e-6 * image_pixels * view_lookups * of(point.times->image_order.ns)};
+            of(point.times->build_ms), 1e-6 * image_pixels * view_lookups * time_of(point)};
 }
 
 void frames_a_second(const Sets& sets, PaperReport& report) {
