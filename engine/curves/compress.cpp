@@ -75,11 +75,11 @@ private:
     }
 };
 
-void write(Vertex& vertex, float z, const Values<1>& values) {
-    vertex = {z, static_cast<float>(values[0])};
+void write(Vertex& vertex, float z, const std::array<float, 1>& values) {
+    vertex = {z, values[0]};
 }
-void write(ColourVertex& vertex, float z, const Values<3>& values) {
-    vertex = {z, {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])}};
+void write(ColourVertex& vertex, float z, const std::array<float, 3>& values) {
+    vertex = {z, {values[0], values[1], values[2]}};
 }
 float value_of(const Vertex& vertex, int) {
     return vertex.value;
@@ -98,13 +98,22 @@ struct Output {
     Values<channels> value{};
 
     void emit(double at, const Values<channels>& aim) {
+        std::array<float, channels> rounded;
+        for (int c = 0; c < channels; ++c) rounded[c] = to_float(aim[c]);
         OutVertex vertex;
-        write(vertex, static_cast<float>(at), aim);
+        write(vertex, static_cast<float>(at), rounded);
         // In front of the first vertex the function is constant anyway.
         if (count == 1 && same_values(vertices[0], vertex)) count = 0;
         vertices[count++] = vertex;
         z = vertex.z;
-        for (int c = 0; c < channels; ++c) value[c] = value_of(vertex, c);
+        for (int c = 0; c < channels; ++c) value[c] = rounded[c];
+    }
+    // GCC 12 at -O2 joins two channels into one vector and then goes on with their values as they were before they were
+    // rounded: for three channels the rounding has to be seen to happen.
+    static float to_float(double aim_of_channel) {
+        if constexpr (channels == 1) return static_cast<float>(aim_of_channel);
+        const volatile float rounded = static_cast<float>(aim_of_channel);
+        return rounded;
     }
     static bool same_values(const OutVertex& a, const OutVertex& b) {
         for (int c = 0; c < channels; ++c)
