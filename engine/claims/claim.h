@@ -22,6 +22,7 @@ struct Value {
 Value exactly(double value);
 Value of(const bench::Sample& sample);
 Value operator/(const Value& a, const Value& b);  // both above 0; the widest interval that theirs allow
+Value operator+(const Value& a, const Value& b);
 Value operator-(const Value& a, const Value& b);
 Value operator*(double factor, const Value& a);
 
@@ -75,10 +76,14 @@ struct PaperReport {
     std::vector<Sheet> sheets;
 };
 
-// `measured` stands on the side of 1 where the paper's ratio stands: shape; within a factor of `near` of it, or
-// further from 1 than it: holds.
+// Every judgement is of the value and of both ends of its interval: the worst of the three counts.
+// Within a factor of `near` of the paper's ratio: holds; on the same side of 1: in shape.
 Verdict judge_ratio(double paper, const Value& measured, double near = 1.5);
+// Of a ratio that the paper gives as a gain: further from 1 than the paper's holds too.
+Verdict judge_gain(double paper, const Value& measured, double near = 1.5);
 // Within `tolerance` of the paper's value: holds; within `shape` of it: in shape.
 Verdict judge_value(double paper, const Value& measured, double tolerance, double shape);
+// At most `holds`: holds; at most `shape`: in shape.
+Verdict judge_at_most(const Value& measured, double holds, double shape);
 
 }  // namespace shadowbench::claims

@@ -10,10 +10,12 @@ namespace {
 constexpr const char* rules =
     "Every number is measured by the scenarios named, on the machine named; absolute times do not travel, so times "
     "stand "
-    "as ratios within one run. *holds*: the paper's value is met within the stated nearness, or passed on the paper's "
-    "own "
-    "side. *holds in shape*: the direction or the law is the paper's, the value is not. *does not hold here*: neither. "
-    "Intervals in brackets are of 95 % (bootstrap over repetitions).\n";
+    "as ratios within one run. *holds*: the paper's value is met (a ratio within a factor of 1.5), or bettered where "
+    "the "
+    "paper claims a gain. *holds in shape*: the direction or the law is the paper's, the value is not. *does not hold "
+    "here*: neither. Intervals in brackets are of 95 %; where one stands, the worst verdict of the value and of its "
+    "ends "
+    "counts.\n";
 
 const char* text_of(Verdict verdict) {
     return verdict == Verdict::holds      ? "**holds**"

@@ -154,7 +154,7 @@ DeepBlock samples_of_functions(const bench::Maps& maps, int y) {
             bench::stored(maps, x, y, c, depths, functions[static_cast<std::size_t>(c)]);
         if (!append_function(functions, maps.layout->z_min, block))
             throw base::Error(
-                base::ErrorCode::bad_input, "",
+                base::ErrorCode::bad_input, "--technique",
                 fmt::format("the function of cell ({}, {}) rises with depth, which a deep image cannot hold", x, y));
     }
     return block;

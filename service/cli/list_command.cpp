@@ -84,10 +84,14 @@ void list_scenarios(std::ostream& out) {
     if (files.empty())
         throw base::Error(base::ErrorCode::no_such_file, "scenarios",
                           "no scenario here; start in the project's folder, or name folders in SHADOWBENCH_SCENARIOS");
+    std::vector<Listed> list;
+    std::size_t width = 0;
     for (const fs::path& file : files) {
-        const Listed listed = describe(file);
-        out << fmt::format("{:<16}{}\n{:<16}{}\n", listed.name, listed.purpose, "", listed.file);
+        list.push_back(describe(file));
+        width = std::max(width, list.back().name.size() + 2);
     }
+    for (const Listed& listed : list)
+        out << fmt::format("{:<{}}{}\n{:<{}}{}\n", listed.name, width, listed.purpose, "", width, listed.file);
 }
 
 }  // namespace shadowbench::service

@@ -18,15 +18,30 @@ TEST(Claim, RatiosTakeTheWidestIntervalTheirPartsAllow) {
 }
 
 TEST(Claim, ARatioOnTheOtherSideOfOneDoesNotHold) {
-    EXPECT_EQ(judge_ratio(15.0, exactly(14.0)), Verdict::holds);
-    EXPECT_EQ(judge_ratio(15.0, exactly(60.0)), Verdict::holds) << "further from 1 than claimed";
-    EXPECT_EQ(judge_ratio(15.0, exactly(3.0)), Verdict::in_shape);
-    EXPECT_EQ(judge_ratio(15.0, exactly(0.9)), Verdict::fails);
-    EXPECT_EQ(judge_ratio(0.25, exactly(0.01)), Verdict::holds);
-    EXPECT_EQ(judge_ratio(0.25, exactly(0.8)), Verdict::in_shape);
-    EXPECT_EQ(judge_ratio(0.25, exactly(1.5)), Verdict::fails);
-    EXPECT_EQ(judge_ratio(1.1, exactly(0.95)), Verdict::holds) << "near it, though on the other side";
-    EXPECT_EQ(judge_ratio(2.0, exactly(std::numeric_limits<double>::quiet_NaN())), Verdict::fails);
+    for (const auto judge : {judge_ratio, judge_gain}) {
+        EXPECT_EQ(judge(15.0, exactly(14.0), 1.5), Verdict::holds);
+        EXPECT_EQ(judge(15.0, exactly(3.0), 1.5), Verdict::in_shape);
+        EXPECT_EQ(judge(15.0, exactly(0.9), 1.5), Verdict::fails);
+        EXPECT_EQ(judge(0.25, exactly(0.8), 1.5), Verdict::in_shape);
+        EXPECT_EQ(judge(0.25, exactly(1.5), 1.5), Verdict::fails);
+        EXPECT_EQ(judge(1.1, exactly(0.95), 1.5), Verdict::holds) << "near it, though on the other side";
+        EXPECT_EQ(judge(2.0, exactly(std::numeric_limits<double>::quiet_NaN()), 1.5), Verdict::fails);
+    }
+}
+
+TEST(Claim, OnlyAGainMayBeLargerThanClaimed) {
+    EXPECT_EQ(judge_gain(15.0, exactly(60.0)), Verdict::holds);
+    EXPECT_EQ(judge_ratio(15.0, exactly(60.0)), Verdict::in_shape);
+    EXPECT_EQ(judge_gain(0.25, exactly(0.01)), Verdict::holds);
+    EXPECT_EQ(judge_ratio(0.25, exactly(0.01)), Verdict::in_shape);
+}
+
+TEST(Claim, TheWorstEndOfAnIntervalDecides) {
+    EXPECT_EQ(judge_ratio(2.0, {2.0, 1.1, 2.5}), Verdict::in_shape);
+    EXPECT_EQ(judge_ratio(2.0, {2.0, 0.9, 2.5}), Verdict::fails);
+    EXPECT_EQ(judge_value(1.0, {1.0, 0.9, 1.3}, 0.1, 0.5), Verdict::in_shape);
+    EXPECT_EQ(judge_at_most({1.0, 0.9, 1.3}, 1.2, 2.0), Verdict::in_shape);
+    EXPECT_EQ(judge_at_most({1.0, 0.9, 1.1}, 1.2, 2.0), Verdict::holds);
 }
 
 TEST(Claim, AValueIsJudgedByItsDistance) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "techniques/built.h"
 
 namespace shadowbench::techniques {
@@ -137,6 +138,17 @@ TEST(Pcf, AnUnknownPixelIsTheSquareOfTheWidthAskedFor) {
 TEST(Pcf, PointsBehindTheLightAreLit) {
     const auto b = build(find("pcf", ""), half_wall(), directional(), rays::testing::rays(16, 1));
     EXPECT_EQ(b.lookup(2.5f, 8.5f, -1.0f), 1.0f);
+}
+
+TEST(Pcf, ABiasRangeThatEndsBeforeItBeginsIsRefused) {
+    scene::Scene scene;
+    scene.objects.push_back(rays::testing::quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}));
+    const auto with = [&](const char* parameters) {
+        return testing::build(find("pcf", ""), scene, rays::testing::directional(), rays::testing::rays(8, 1),
+                              parameters);
+    };
+    EXPECT_NO_THROW(with(R"({"bias0": 0.1, "bias1": 0.1})"));
+    EXPECT_THROW(with(R"({"bias0": 0.1})"), base::Error);
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include <bit>
 #include <type_traits>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "techniques/depth/depth.h"
 #include "techniques/depth/pcf_samples.h"
 #include "techniques/depth_map.h"
@@ -60,13 +63,19 @@ public:
         : settings_{static_cast<float>(v.number("num_samples")), static_cast<float>(v.number("res_factor")),
                     static_cast<float>(v.number("min_size")),    static_cast<float>(v.number("min_samples")),
                     static_cast<float>(v.number("bias0")),       static_cast<float>(v.number("bias1"))},
-          bias_range_(std::max(settings_.bias1 - settings_.bias0, 0.0f)),
+          bias_range_(settings_.bias1 - settings_.bias0),
           placement_(read_placement(v)),
           pixel_(v.is_word("region") && v.word("region") == "pixel"),
           width_(v.is_word("region") ? 0.0f : static_cast<float>(v.number("region"))),
           depths_(v) {}
 
-    void begin(const BuildInput& input) override { depths_.map.begin(input.layout); }
+    void begin(const BuildInput& input) override {
+        if (settings_.bias1 < settings_.bias0)
+            throw base::Error(
+                base::ErrorCode::bad_input, "/techniques",
+                fmt::format("bias1 is {}: it must be at least bias0, {}", settings_.bias1, settings_.bias0));
+        depths_.map.begin(input.layout);
+    }
     void add(const rays::LightRays& tile) override { depths_.map.add(tile); }
     void finish() override { depths_.finish(); }
 
