@@ -151,5 +151,28 @@ TEST(DeepColour, AnswersLieChannelAfterChannel) {
         }
 }
 
+// What a scene does not use costs nothing, from the rays to the map.
+TEST(DeepColour, AnOpaqueStillWhiteSceneStoresNoColourNoTimeNoVolume) {
+    scene::Scene scene;
+    scene.objects.push_back(quad({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}));
+    const Built b = build(deep(), scene, directional(), rays::testing::rays(16, 4));
+    EXPECT_EQ(b.rays.layout.channels, 1);
+    EXPECT_FALSE(b.rays.layout.moving);
+    EXPECT_FALSE(b.rays.layout.media);
+    std::size_t segments = 0;
+    for (const rays::LightRays& tile : b.rays.tiles) {
+        segments += tile.segments();
+        EXPECT_EQ(tile.transmittance.size(), tile.segments()) << "one channel";
+        EXPECT_EQ(tile.z_back.capacity(), 0u) << "no extents";
+        EXPECT_EQ(tile.submission.capacity(), 0u);
+    }
+    EXPECT_EQ(segments, 16u * 8 * 4);
+    // An offset a pixel and one more, two floats a node, and the padding: nothing else.
+    const std::size_t nodes = b.map->nodes().total;
+    EXPECT_EQ(nodes, 16u * 8 * 2) << "a step a covered pixel";
+    EXPECT_EQ(b.map->bytes(),
+              (16u * 16 + 1) * sizeof(std::uint32_t) + (2 * nodes + DeepLevel::padding) * sizeof(float));
+}
+
 }  // namespace
 }  // namespace shadowbench::techniques
