@@ -117,13 +117,11 @@ Contender make_contender(const scene::TechniqueRequest& request, const std::stri
     return contender;
 }
 
-techniques::RayNeeds needs_of(std::span<const Contender> contenders) {
-    techniques::RayNeeds all;
+void ask_for_needs(std::span<const Contender> contenders, rays::MapLayout& layout) {
     for (const Contender& contender : contenders) {
-        all.apron = std::max(all.apron, contender.needs.apron);
-        all.submission = all.submission || contender.needs.submission;
+        layout.apron = std::max(layout.apron, contender.needs.apron);
+        layout.submission = layout.submission || contender.needs.submission;
     }
-    return all;
 }
 
 std::vector<int> aprons_of(std::span<const Contender> contenders) {

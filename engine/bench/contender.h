@@ -27,8 +27,8 @@ struct Contender {
 // From the request of a scenario. Throws what read_parameters throws, with `where` as its place.
 Contender make_contender(const scene::TechniqueRequest& request, const std::string& where);
 
-// What all of them need together, for the layout of the capture.
-techniques::RayNeeds needs_of(std::span<const Contender> contenders);
+// Makes the layout of the capture ask for what all of them need together.
+void ask_for_needs(std::span<const Contender> contenders, rays::MapLayout& layout);
 
 // The aprons that contenders ask for, each once.
 std::vector<int> aprons_of(std::span<const Contender> contenders);

@@ -148,8 +148,7 @@ LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
     const scene::Scene& scene = job.scenario.scene;
     const rays::LightView view = rays::make_light_view(job.light, scene, job.scenario.rays.resolution, job.where);
     rays::MapLayout layout = rays::make_layout(scene, view, job.scenario.rays);
-    layout.apron = needs_of(contenders).apron;
-    layout.submission = needs_of(contenders).submission;
+    ask_for_needs(contenders, layout);
     check_memory(job.scenario, view, contenders, job.limits, "/rays");
     const techniques::BuildInput input{layout, view, job.casters};
     if (scene.deep_image) check_served(contenders, input);

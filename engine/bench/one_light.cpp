@@ -62,8 +62,7 @@ OneLight::OneLight(const nlohmann::json& document, const RunOptions& options, co
 void OneLight::capture(std::span<Contender> contenders, const ProgressCallback& progress, const Visit& visit) const {
     check_memory(*scenario_, view_, contenders, options_.limits, "/rays");
     rays::MapLayout layout = layout_;
-    layout.apron = needs_of(contenders).apron;
-    layout.submission = needs_of(contenders).submission;
+    ask_for_needs(contenders, layout);
     const rays::Capture capture(scenario_->scene, view_, layout);
     const RaySource source(capture, layout, options_.limits.kept_rays, stage(progress, "capture", layout));
     if (source.segments() == 0)

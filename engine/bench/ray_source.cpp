@@ -34,10 +34,12 @@ RaySource::RaySource(const rays::Capture& capture, const rays::MapLayout& layout
 }
 
 void RaySource::for_each_batch(int apron, const std::function<void(Batch)>& body) const {
-    if (!kept(apron))
-        capture_and_keep(apron, body);
-    else
+    if (kept(apron))
         body(tiles_.at(apron));
+    else if (too_large_.contains(apron))
+        capture_all(apron, body);
+    else
+        capture_and_keep(apron, body);
 }
 
 // Calls visit with each batch, which it may take.
@@ -64,7 +66,10 @@ void RaySource::capture_and_keep(int apron, const Visit& visit) const {
         }
         if (bytes > budget_) std::vector<rays::LightRays>().swap(kept);
     });
-    if (bytes > budget_) return;
+    if (bytes > budget_) {
+        too_large_.insert(apron);
+        return;
+    }
     budget_ -= bytes;
     tiles_[apron] = std::move(kept);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,7 @@ private:
     const rays::Capture& capture_;
     rays::MapLayout layout_;
     mutable std::map<int, std::vector<rays::LightRays>> tiles_;  // by apron: those that are kept
+    mutable std::set<int> too_large_;                            // aprons whose tiles do not fit
     mutable std::size_t budget_;                                 // of bytes that may be kept yet
     bool translucent_ = false;
     std::uint64_t rays_ = 0, segments_ = 0, bytes_ = 0;

@@ -5,11 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/random.h"
+#include "claims/hand_made.h"
 #include "claims/paper.h"
 #include "claims/sheet.h"
-#include "rays/light_rays.h"
-#include "rays/light_view.h"
-#include "techniques/technique.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -19,9 +17,6 @@ using bench::LightResult;
 
 // How many answers lookups give, at 400,000 places and depths of a map of 128 x 128 random depths.
 int outcomes_of(int side, int n) {
-    rays::MapLayout layout;
-    layout.width = layout.height = layout.tile_width = layout.tile_height = 128;
-    layout.z_max = 2.0f;
     rays::LightRays tile;
     tile.width = tile.height = 128;
     for (std::uint32_t ray = 0; ray <= 128u * 128u; ++ray) tile.begin.push_back(ray);
@@ -29,21 +24,13 @@ int outcomes_of(int side, int n) {
         tile.z_front.push_back(static_cast<float>(1.0 + base::to_unit(base::hash(1, ray))));
         tile.transmittance.push_back(0.0f);
     }
-    const techniques::Technique& row = techniques::find("multi_depth", "");
     const nlohmann::json parameters = {{"n", n}, {"select", "sorted"}, {"q", 25}, {"kernel", side}};
-    const auto map = row.create(techniques::read_parameters(row.parameters, parameters, ""));
-    const rays::LightView view;
-    map->begin({layout, view, nullptr});
-    map->add(tile);
-    map->finish();
-
     std::vector<techniques::Query> queries;
     for (std::uint64_t i = 0; i < 400000; ++i)
         queries.push_back({static_cast<float>(8.0 + 112.0 * base::to_unit(base::hash(2, i))),
                            static_cast<float>(8.0 + 112.0 * base::to_unit(base::hash(3, i))),
                            static_cast<float>(0.95 + 1.1 * base::to_unit(base::hash(4, i))), 1.0f});
-    std::vector<float> visibility(queries.size());
-    map->lookup(queries, visibility);
+    const std::vector<float> visibility = look_up("multi_depth", parameters, tile, 2.0f, queries);
     std::set<int> seen;  // as multiples of a millionth: outcomes are 1 / 200 apart and more
     for (const float v : visibility) seen.insert(static_cast<int>(v * 1e6f + 0.5f));
     return static_cast<int>(seen.size());

@@ -52,17 +52,22 @@ bool has_settings(const bench::VariantResult& variant, const std::vector<std::st
 
 }  // namespace
 
-bench::Result Context::run(const std::string& name, const std::vector<std::string>& set,
-                           const std::vector<std::string>& smaller) const {
+json Context::document(const std::string& name, const std::vector<std::string>& set) const {
     const std::filesystem::path file = scenarios / (name + ".json");
     json document = scene::parse_json(base::read_text(file), file.string());
     for (const std::string& assignment : set) bench::set_value(document, assignment);
+    return document;
+}
+
+bench::Result Context::run(const std::string& name, const std::vector<std::string>& set,
+                           const std::vector<std::string>& smaller) const {
+    json changed = document(name, set);
     if (quick)
-        for (const std::string& assignment : smaller) bench::set_value(document, assignment);
+        for (const std::string& assignment : smaller) bench::set_value(changed, assignment);
     bench::RunOptions options;
     options.data = data;
     options.threads = threads;
-    bench::Result result = bench::run(document, options, progress);
+    bench::Result result = bench::run(changed, options, progress);
     report->documents.push_back(fmt::format("{} {}", name, result.hash));
     return result;
 }

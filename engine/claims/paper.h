@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "bench/progress.h"
 #include "bench/result.h"
 #include "claims/claim.h"
@@ -21,6 +23,9 @@ struct Context {
     int threads = 0;     // 0: all processors
     bench::ProgressCallback progress;
     PaperReport* report = nullptr;  // where the scenarios that run are noted
+
+    // scenarios/papers/<name>.json with these changes ("path=value").
+    nlohmann::json document(const std::string& name, const std::vector<std::string>& set = {}) const;
 
     // Runs scenarios/papers/<name>.json with these changes ("path=value"), and with `smaller` too when quick.
     bench::Result run(const std::string& name, const std::vector<std::string>& set,

@@ -6,17 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
-#include "base/read_text.h"
 #include "bench/clock.h"
 #include "bench/document.h"
 #include "bench/load.h"
+#include "claims/hand_made.h"
 #include "claims/paper.h"
 #include "claims/sheet.h"
-#include "rays/light_rays.h"
-#include "rays/light_view.h"
 #include "rays/tracer.h"
 #include "render/shading_points.h"
-#include "techniques/technique.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -32,8 +29,7 @@ double rms_of(const Cell& cell) {
 
 // One thread, seconds of repetitions: finding what the camera sees and shading it, without any shadow.
 Value shading_seconds(const Context& context, const std::string& name, std::size_t& points) {
-    const std::filesystem::path file = context.scenarios / (name + ".json");
-    const auto variants = bench::expand(scene::parse_json(base::read_text(file), file.string()));
+    const auto variants = bench::expand(context.document(name));
     bench::ScenarioLoader loader(context.data);
     const scene::Scenario& scenario = loader.load(variants.front());
     const rays::Tracer tracer(scenario.scene, false);
@@ -140,9 +136,6 @@ void figures_6_and_7(const LightResult& light, PaperReport& report) {
 
 // Width of the transition, from 90 to 10 % lit, of lookups across the straight edge of an opaque half-plane; cells.
 double transition(double res_factor) {
-    rays::MapLayout layout;
-    layout.width = layout.height = layout.tile_width = layout.tile_height = 128;
-    layout.z_max = 3.0f;
     rays::LightRays tile;
     tile.width = tile.height = 128;
     tile.begin.push_back(0);
@@ -153,20 +146,13 @@ double transition(double res_factor) {
         }
         tile.begin.push_back(static_cast<std::uint32_t>(tile.z_front.size()));
     }
-    const techniques::Technique& row = techniques::find("pcf", "");
     const nlohmann::json parameters = {{"res_factor", res_factor}, {"num_samples", 64}, {"min_size", 0}};
-    const auto map = row.create(techniques::read_parameters(row.parameters, parameters, ""));
-    const rays::LightView view;
-    map->begin({layout, view, nullptr});
-    map->add(tile);
-    map->finish();
     std::vector<techniques::Query> queries;
     constexpr int rows = 64;
     for (int x = 0; x < 480; ++x)
         for (int y = 0; y < rows; ++y)
             queries.push_back({34.0f + 0.125f * static_cast<float>(x), 32.3f + static_cast<float>(y), 2.0f, 1.0f});
-    std::vector<float> visibility(queries.size());
-    map->lookup(queries, visibility);
+    const std::vector<float> visibility = look_up("pcf", parameters, tile, 3.0f, queries);
     int between = 0;
     for (int x = 0; x < 480; ++x) {
         double mean = 0.0;

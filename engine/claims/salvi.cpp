@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/read_text.h"
 #include "claims/paper.h"
 #include "claims/sheet.h"
 #include "claims/texel.h"
@@ -194,8 +193,7 @@ void figure_5(const Context& context) {
 
 void curve_figure(const Context& context, const char* scenario, const char* name, const char* place, int nodes_there) {
     PaperReport& report = *context.report;
-    const std::filesystem::path file = context.scenarios / (std::string(scenario) + ".json");
-    const TexelCurves curves = busiest_texel(scene::parse_json(base::read_text(file), file.string()), context.data);
+    const TexelCurves curves = busiest_texel(context.document(scenario), context.data);
     Plot plot{name,
               fmt::format("Transmittance of texel ({}, {})", curves.x, curves.y),
               "depth from light",

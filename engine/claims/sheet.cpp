@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/read_text.h"
-#include "bench/document.h"
 #include "render/image_file.h"
 #include "render/render.h"
 
@@ -19,15 +17,12 @@ void paste(const render::Image& from, int x0, int y0, render::Image& to) {
 }  // namespace
 
 Sheet picture_sheet(const Context& context, const std::string& name, const std::vector<std::string>& set) {
-    const std::filesystem::path file = context.scenarios / (name + ".json");
-    nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
-    for (const std::string& assignment : set) bench::set_value(document, assignment);
     render::RenderOptions options;
     options.run.data = context.data;
     options.run.threads = context.threads;
     options.size = context.quick ? base::Vec2i(192, 144) : base::Vec2i(384, 288);
     options.rays_per_side = context.quick ? 1 : 2;
-    const render::Rendering rendering = render::render(document, options, context.progress);
+    const render::Rendering rendering = render::render(context.document(name, set), options, context.progress);
 
     const base::Vec2i size = *options.size;
     std::vector<const render::TechniquePictures*> shown;

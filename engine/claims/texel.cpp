@@ -50,9 +50,10 @@ TexelCurves busiest_texel(const nlohmann::json& document, const scene::SearchPat
         rays::make_light_view(scenario.lights.front(), scenario.scene, scenario.rays.resolution, "/lights/0");
     rays::MapLayout layout = rays::make_layout(scenario.scene, view, scenario.rays);
     std::vector<bench::Contender> contenders = bench::make_contenders(scenario, variants.front());
-    layout.submission = bench::needs_of(contenders).submission;
-    if (layout.samples() != 1)
-        throw base::Error(base::ErrorCode::internal, scenario.name, "a texel's curve needs one ray a pixel");
+    bench::ask_for_needs(contenders, layout);
+    if (layout.samples() != 1 || layout.apron > 0)
+        throw base::Error(base::ErrorCode::internal, scenario.name,
+                          "a texel's curve needs one ray a pixel, and filters no wider");
     const rays::Capture capture(scenario.scene, view, layout);
     std::vector<rays::LightRays> tiles;
     for (int t = 0; t < layout.tiles(); ++t) tiles.push_back(capture.tile(t));

@@ -120,8 +120,7 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
     const rays::LightView view =
         rays::make_light_view(light, scenario.scene, scenario.rays.resolution, fmt::format("/lights/{}", index));
     rays::MapLayout layout = rays::make_layout(scenario.scene, view, scenario.rays);
-    layout.apron = bench::needs_of(contenders).apron;
-    layout.submission = bench::needs_of(contenders).submission;
+    bench::ask_for_needs(contenders, layout);
     bench::check_memory(scenario, view, contenders, limits, "/rays");
     const auto tiles = static_cast<std::size_t>(layout.tiles());
     const rays::Capture capture(scenario.scene, view, layout);
