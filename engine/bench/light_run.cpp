@@ -27,7 +27,9 @@ constexpr std::size_t agreement_rays = 20000;
 
 QuerySet make_queries(const LightJob& job, const rays::LightView& view) {
     const scene::Receivers& receivers = job.scenario.receivers;
-    QuerySet set = receivers.camera ? queries_of_points(job.seen, receivers, view) : probe_queries(receivers, view);
+    QuerySet set = receivers.camera            ? queries_of_points(job.seen, receivers, view)
+                   : !receivers.points.empty() ? point_queries(receivers, view)
+                                               : probe_queries(receivers, view);
     if (!set.queries.empty()) return set;
     throw base::Error(base::ErrorCode::bad_input, "/receivers",
                       set.dropped == 0 ? "there is nothing to ask for: the camera sees no surface and no medium"

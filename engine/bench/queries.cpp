@@ -142,6 +142,12 @@ QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Rec
     return set;
 }
 
+QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView& view) {
+    QuerySet set;
+    for (const Vec3d& point : receivers.points) append(query_of_point(point, receivers, view), set);
+    return set;
+}
+
 QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView& view) {
     QuerySet set;
     const double range = view.z_max - view.z_min;

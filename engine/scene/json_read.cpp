@@ -93,6 +93,10 @@ void read(const json& object, const char* key, std::vector<base::Vec3f>& values)
     get_list(object, key, values, triple<base::Vec3f>);
 }
 
+void read(const json& object, const char* key, std::vector<base::Vec3d>& values) {
+    get_list(object, key, values, triple<base::Vec3d>);
+}
+
 void read(const json& object, const char* key, std::vector<base::Vec2f>& values) {
     get_list(object, key, values, pair<base::Vec2f>);
 }

@@ -97,9 +97,8 @@ Camera load_camera(const json& from) {
 
 Receivers load_receivers(const json& from) {
     Receivers receivers;
-    if (from.value("type", "probes") == "camera") {
-        receivers.camera = load_camera(from);
-    }
+    if (from.value("type", "probes") == "camera") receivers.camera = load_camera(from);
+    read(from, "positions", receivers.points);
     read(from, "resolution", receivers.resolution);
     read(from, "media_lookups", receivers.media_lookups);
     read(from, "count", receivers.count);
@@ -159,8 +158,8 @@ Scenario load_scenario(const json& document, const SearchPath& path) {
     scenario.techniques = load_techniques(section(document, "techniques"));
     check_kind(document["scene"]);
     const bool deep = document["scene"].contains("deep_image");
-    if (deep && scenario.receivers.camera)
-        refuse("/receivers/type", "a deep image has no world for a camera: use probes");
+    if (deep && (scenario.receivers.camera || !scenario.receivers.points.empty()))
+        refuse("/receivers/type", "a deep image has no world for a camera or points: use probes");
     if (deep && !section(document, "lights").empty())
         refuse("/lights", "a deep image is its own light: leave lights out");
     if (!deep && section(document, "lights").empty()) refuse("/lights", "at least one light is needed");

@@ -129,6 +129,34 @@ TEST(LoadScenario, ReadsEverySetting) {
     expect_same(scenario.timing, Timing{14, 15});
 }
 
+TEST(LoadScenario, ReadsPointsThatReceiveLight) {
+    json document = minimal();
+    document["receivers"] = {{"type", "points"},
+                             {"positions", {{1, 2.125, 3}, {-1e18, 0.1, 5e-324}}},
+                             {"seed", 4},
+                             {"filter_width", 2.5},
+                             {"bias", 0.25}};
+    const Receivers receivers = load_scenario(document, {}).receivers;
+    EXPECT_FALSE(receivers.camera);
+    EXPECT_EQ(receivers.points, (std::vector<Vec3d>{{1, 2.125, 3}, {-1e18, 0.1, 5e-324}})) << "not rounded to float";
+    EXPECT_EQ(receivers.seed, 4u);
+    EXPECT_EQ(receivers.filter_width, 2.5);
+    EXPECT_EQ(receivers.bias, 0.25);
+
+    document["receivers"] = defaults_of(scenario_schema()["definitions"]["points"]);
+    document["receivers"].update(json{{"type", "points"}, {"positions", {{0, 0, 0}}}});
+    expect_same(load_scenario(document, {}).receivers, Receivers{});
+}
+
+TEST(LoadScenario, RefusesPointsThatAreNone) {
+    EXPECT_EQ(error_with("/receivers", R"({"type": "points"})").where(), "/receivers");
+    EXPECT_EQ(error_with("/receivers", R"({"type": "points", "positions": []})").where(), "/receivers/positions");
+    EXPECT_EQ(error_with("/receivers", R"({"type": "points", "positions": [[0, 0, 0], [0, 1e19, 0]]})").where(),
+              "/receivers/positions/1/1");
+    EXPECT_EQ(error_with("/receivers", R"({"type": "probes", "positions": [[0, 0, 0]]})").where(),
+              "/receivers/positions");
+}
+
 TEST(LoadScenario, HandsTechniquesTheirParametersUnread) {
     const Scenario scenario = load_scenario(minimal(), {});
     ASSERT_EQ(scenario.techniques.size(), 1u);
@@ -197,6 +225,8 @@ TEST(LoadScenario, ADeepImageHasNoOtherLightsAndNoCamera) {
     EXPECT_EQ(
         error_with("/receivers", R"({"type": "camera", "position": [0, 0, 5], "target": [0, 0, 0]})", deep()).where(),
         "/receivers/type");
+    EXPECT_EQ(error_with("/receivers", R"({"type": "points", "positions": [[0, 0, 5]]})", deep()).where(),
+              "/receivers/type");
     const base::Error missing = error_of([] { load_scenario(deep(), {"/nowhere"}); });
     EXPECT_EQ(missing.code(), base::ErrorCode::no_such_file);
     EXPECT_EQ(missing.where(), "/scene/deep_image/file");
