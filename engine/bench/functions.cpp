@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -42,7 +43,28 @@ std::vector<float> depths_of(const Curve& function) {
     return depths;
 }
 
-void check(const Map& map, std::span<const Curve> functions, FunctionResult& result) {
+// The largest rise from any depth to a deeper one, and the largest distance from [0, 1]; infinite where a value is no
+// number.
+struct Shape {
+    double rise = 0.0, outside = 0.0;
+};
+
+Shape shape_of(const Curve& function) {
+    Shape shape;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double least = infinity;
+    for (const curves::Vertex& vertex : function) {
+        const double value = vertex.value;
+        if (std::isnan(value)) return {infinity, infinity};
+        shape.rise = std::max(shape.rise, value - least);
+        shape.outside = std::max({shape.outside, -value, value - 1.0});
+        least = std::min(least, value);
+    }
+    return shape;
+}
+
+void check(const Map& map, const techniques::Promises& promises, std::span<const Curve> functions,
+           FunctionResult& result) {
     std::vector<double> errors;
     std::uint64_t over = 0;
     for (std::size_t i = 0; i < functions.size(); ++i) {
@@ -50,7 +72,11 @@ void check(const Map& map, std::span<const Curve> functions, FunctionResult& res
         map.stored(static_cast<int>(i), 0, 0, depths_of(functions[i]), stored);
         errors.push_back(curves::distance(stored, functions[i], 0.0, 0.0).max);
         over += !(errors.back() <= result.tolerance.value_or(0.0) + rounding);
-        result.broken += !curves::is_visibility(stored, static_cast<float>(rounding));
+        const Shape shape = shape_of(stored);
+        result.rise_max = std::max(result.rise_max, shape.rise);
+        result.outside_max = std::max(result.outside_max, shape.outside);
+        result.broken +=
+            (promises.monotone && shape.rise > rounding) || (promises.unit_range && shape.outside > rounding);
     }
     const metrics::ErrorNorms norms = metrics::error_norms(errors);
     result.error_max = norms.max;
@@ -110,7 +136,7 @@ FunctionResult describe(const TechniqueChoice& technique, std::span<const Curve>
     result.bytes = map.bytes();
     const double bound = technique.row->error_bound(technique.values, layout_of(functions));
     if (std::isfinite(bound)) result.tolerance = bound;
-    check(map, functions, result);
+    check(map, techniques::promises(*technique.row, technique.values), functions, result);
     return result;
 }
 

@@ -28,7 +28,8 @@ struct FunctionResult {
     double error_max = 0.0, error_rms = 0.0;      // over the functions, of each one's largest error (exact)
     std::optional<double> tolerance;              // the promised largest error; nothing when none is promised
     std::optional<std::uint64_t> over_tolerance;  // functions whose error is larger
-    std::uint64_t broken = 0;                     // functions that rise somewhere or leave [0, 1]
+    double rise_max = 0.0, outside_max = 0.0;     // by how much functions rise with depth, and leave [0, 1], at most
+    std::uint64_t broken = 0;                     // functions that do so though the technique promises that none does
     std::optional<FunctionTimes> times;           // nothing when a promise is broken
     std::vector<curves::Curve> stored;            // the functions as the technique holds them
 };

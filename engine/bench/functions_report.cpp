@@ -36,13 +36,16 @@ nlohmann::ordered_json to_json(const FunctionResult& result) {
             {"curve_error", {{"max", result.error_max}, {"rms", result.error_rms}}},
             {"tolerance", or_null(result.tolerance)},
             {"over_tolerance", or_null(result.over_tolerance)},
+            {"rise_max", result.rise_max},
+            {"outside_max", result.outside_max},
             {"broken", result.broken},
             {"times", std::move(times)}};
 }
 
 std::string to_table(std::span<const FunctionResult> results) {
     Table table({"technique", "functions", "vertices in", "nodes out", "bytes", "curve err max", "rms",
-                 "over tolerance", "broken", "ns/vertex", "random ns", "coherent ns", "status"});
+                 "over tolerance", "rises by", "leaves [0,1] by", "broken", "ns/vertex", "random ns", "coherent ns",
+                 "status"});
     for (const FunctionResult& r : results) {
         const auto time = [&](const Sample FunctionTimes::*sample) {
             return r.times ? fmt::format("{:.2f}", ((*r.times).*sample).median) : std::string("-");
@@ -50,11 +53,12 @@ std::string to_table(std::span<const FunctionResult> results) {
         table.add({r.parameters.empty() ? r.technique : r.technique + " " + r.parameters,
                    fmt::format("{}", r.functions), fmt::format("{}", r.vertices_in), fmt::format("{}", r.nodes_out),
                    fmt::format("{}", r.bytes), fmt::format("{:.6g}", r.error_max), fmt::format("{:.6g}", r.error_rms),
-                   r.over_tolerance ? fmt::format("{}", *r.over_tolerance) : "-", fmt::format("{}", r.broken),
+                   r.over_tolerance ? fmt::format("{}", *r.over_tolerance) : "-", fmt::format("{:.3g}", r.rise_max),
+                   fmt::format("{:.3g}", r.outside_max), fmt::format("{}", r.broken),
                    time(&FunctionTimes::build_ns_per_vertex), time(&FunctionTimes::lookup_random_ns),
                    time(&FunctionTimes::lookup_coherent_ns), r.times ? "ok" : "failed: a promise is broken"});
     }
-    return table.text("") + "broken: functions that rise somewhere or leave [0, 1]\n";
+    return table.text("") + "broken: functions that rise or leave [0, 1] where the technique promises that none does\n";
 }
 
 }  // namespace shadowbench::bench

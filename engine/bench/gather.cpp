@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
+
+#include "base/compensated.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -50,7 +51,7 @@ public:
     void start(const LightRays& tile, std::size_t ray) {
         next_ = tile.begin[ray];
         end_ = tile.begin[ray + 1];
-        std::fill(std::begin(passed_), std::end(passed_), 1.0);
+        std::fill(std::begin(passed_), std::end(passed_), base::CompensatedProduct());
         inside_.clear();
     }
 
@@ -72,23 +73,18 @@ public:
     }
 
     double transmittance(const LightRays& tile, int channel, double z) const {
-        double result = passed_[channel];
-        for (const std::size_t s : inside_) {
-            const double front = tile.z_front[s], back = tile.back(s);
-            const double least = std::numeric_limits<float>::min();
-            const double through = std::max<double>(tile.transmittance[s * tile.channels + channel], least);
-            result *= std::exp(std::log(through) * ((z - front) / (back - front)));
-        }
-        return result;
+        base::CompensatedSum inside;
+        for (const std::size_t s : inside_) inside.add(rays::optical_depth(tile, s, channel, z));
+        return passed_[channel].value() * std::exp(-inside.value());
     }
 
 private:
     void pass(const LightRays& tile, std::size_t s) {
-        for (int c = 0; c < tile.channels; ++c) passed_[c] *= tile.transmittance[s * tile.channels + c];
+        for (int c = 0; c < tile.channels; ++c) passed_[c].multiply(tile.transmittance[s * tile.channels + c]);
     }
 
     std::size_t next_ = 0, end_ = 0;
-    double passed_[3] = {1.0, 1.0, 1.0};
+    base::CompensatedProduct passed_[3];
     std::vector<std::size_t> inside_;  // media that reach beyond the depth
 };
 

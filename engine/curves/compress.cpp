@@ -3,84 +3,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "curves/compress_parts.h"
+
 namespace shadowbench::curves {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using namespace compression;
 
-// One function, or three that are compressed together.
-template <int channels>
-using Values = std::array<double, channels>;
-
-// All vertices at one z: the values on both sides.
-template <int channels>
-struct Group {
-    double z = 0.0;
-    Values<channels> before, after;
-};
-
-struct OneReader {
-    CurveView curve;
-    std::size_t next = 0;
-
-    bool more() const { return next < curve.size(); }
-    Group<1> read() {
-        const Vertex first = curve[next++];
-        float after = first.value;
-        while (next < curve.size() && curve[next].z == first.z) after = curve[next++].value;
-        return {first.z, {first.value}, {after}};
-    }
-};
-
-// Groups at every depth where one of the three has a vertex.
-struct ColourReader {
-    std::array<OneReader, 3> channel;
-    Group<1> last[3];  // what each channel had read last
-
-    explicit ColourReader(const std::array<CurveView, 3>& curves) {
-        for (int c = 0; c < 3; ++c) {
-            channel[c].curve = curves[c];
-            const double start = curves[c].empty() ? 1.0 : curves[c].front().value;
-            last[c] = {-kInfinity, {start}, {start}};
-        }
-    }
-    bool more() const { return channel[0].more() || channel[1].more() || channel[2].more(); }
-    Group<3> read() {
-        int first = -1;
-        for (int c = 0; c < 3; ++c)
-            if (channel[c].more() && (first < 0 || depth(c) < depth(first))) first = c;
-        const float z = depth(first);
-        Group<3> group{z, {}, {}};
-        for (int c = 0; c < 3; ++c) {
-            if (c == first || (channel[c].more() && depth(c) == z)) {
-                last[c] = channel[c].read();
-                group.before[c] = last[c].before[0];
-                group.after[c] = last[c].after[0];
-            } else {
-                group.before[c] = group.after[c] = between(c, z);
-            }
-        }
-        return group;
-    }
-
-private:
-    float depth(int c) const { return channel[c].curve[channel[c].next].z; }
-    // Where channel c has no vertex.
-    double between(int c, double z) const {
-        const double from = last[c].after[0];
-        if (!channel[c].more() || last[c].z == -kInfinity) return from;
-        const Vertex to = channel[c].curve[channel[c].next];
-        return std::max<double>(from + (to.value - from) * ((z - last[c].z) / (to.z - last[c].z)), to.value);
-    }
-};
-
-void write(Vertex& vertex, float z, const std::array<float, 1>& values) {
-    vertex = {z, values[0]};
-}
-void write(ColourVertex& vertex, float z, const std::array<float, 3>& values) {
-    vertex = {z, {values[0], values[1], values[2]}};
-}
 float value_of(const Vertex& vertex, int) {
     return vertex.value;
 }
@@ -99,7 +29,7 @@ struct Output {
 
     void emit(double at, const Values<channels>& aim) {
         std::array<float, channels> rounded;
-        for (int c = 0; c < channels; ++c) rounded[c] = to_float(aim[c]);
+        for (int c = 0; c < channels; ++c) rounded[c] = to_float<channels>(aim[c]);
         OutVertex vertex;
         write(vertex, static_cast<float>(at), rounded);
         // In front of the first vertex the function is constant anyway.
@@ -107,13 +37,6 @@ struct Output {
         vertices[count++] = vertex;
         z = vertex.z;
         for (int c = 0; c < channels; ++c) value[c] = rounded[c];
-    }
-    // GCC 12 at -O2 joins two channels into one vector and then goes on with their values as they were before they were
-    // rounded: for three channels the rounding has to be seen to happen.
-    static float to_float(double aim_of_channel) {
-        if constexpr (channels == 1) return static_cast<float>(aim_of_channel);
-        const volatile float rounded = static_cast<float>(aim_of_channel);
-        return rounded;
     }
     static bool same_values(const OutVertex& a, const OutVertex& b) {
         for (int c = 0; c < channels; ++c)

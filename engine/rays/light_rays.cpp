@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/compensated.h"
 #include "base/random.h"
 
 namespace shadowbench::rays {
@@ -61,19 +62,23 @@ LightRays channel(const LightRays& rays, int channel) {
     return one;
 }
 
+double optical_depth(const LightRays& rays, std::size_t segment, int channel, double z) {
+    const double front = rays.z_front[segment], back = rays.back(segment);
+    const float through = rays.transmittance[segment * rays.channels + channel];
+    const double thickness = -std::log(static_cast<double>(std::max(through, std::numeric_limits<float>::min())));
+    return thickness * ((z - front) / (back - front));
+}
+
 double transmittance(const LightRays& rays, std::size_t ray, int channel, double z) {
-    double result = 1.0;
-    for (std::size_t s = rays.begin[ray]; s < rays.begin[ray + 1]; ++s) {
-        const double front = rays.z_front[s], back = rays.back(s);
-        if (front >= z) break;
-        const double through = rays.transmittance[s * rays.channels + channel];
-        if (back <= z)
-            result *= through;
-        else  // inside a medium: its optical depth so far; a transmittance of 0 counts as the smallest normal float
-            result *= std::exp(std::log(std::max(through, static_cast<double>(std::numeric_limits<float>::min()))) *
-                               ((z - front) / (back - front)));
+    base::CompensatedProduct passed;
+    base::CompensatedSum inside;  // optical depth of the media that reach beyond z
+    for (std::size_t s = rays.begin[ray]; s < rays.begin[ray + 1] && rays.z_front[s] < z; ++s) {
+        if (rays.back(s) <= z)
+            passed.multiply(rays.transmittance[s * rays.channels + channel]);
+        else
+            inside.add(optical_depth(rays, s, channel, z));
     }
-    return result;
+    return passed.value() * std::exp(-inside.value());
 }
 
 }  // namespace shadowbench::rays

@@ -11,6 +11,7 @@
 
 #include "rays/hits.h"
 #include "rays/march.h"
+#include "rays/medium_floats.h"
 #include "rays/moving.h"
 #include "rays/prepared.h"
 #include "rays/project.h"
@@ -164,11 +165,21 @@ private:
             });
     }
 
-    void medium(std::uint32_t ray, float front, float back, double depth, const base::Vec3f& extinction) {
+    // A segment of optical depth `depth` in a unit of extinction. What its transmittances round away stays in
+    // `rounding` for the segments behind it.
+    void medium(std::uint32_t ray, float front, float back, double depth, const base::Vec3f& extinction,
+                StepRounding& rounding) {
+        const float most = std::max({extinction[0], extinction[1], extinction[2]});
+        if (depth * most > darkest) {
+            cut_where_dark(front, back, depth, extinction,
+                           [&](float from, float to, const float* t) { sink_.medium(ray, from, to, t); });
+            rounding = {};
+            return;
+        }
         float t[3];
-        t[0] = static_cast<float>(std::exp(-depth * extinction[0]));
+        t[0] = rounding.transmittance(0, depth * extinction[0]);
         for (int c = 1; c < 3; ++c)
-            t[c] = extinction[c] == extinction[0] ? t[0] : static_cast<float>(std::exp(-depth * extinction[c]));
+            t[c] = extinction[c] == extinction[0] ? t[0] : rounding.transmittance(c, depth * extinction[c]);
         if (!transmits_all(t)) sink_.medium(ray, front, back, t);
     }
 
@@ -179,9 +190,10 @@ private:
                 visit_sphere<moving>(
                     p, i, particles.radii[i], [&](std::uint32_t ray, double front, double back, double scale) {
                         front = std::max(front, view_.z_near);
-                        const float f = static_cast<float>(front), b = static_cast<float>(back);
-                        if (b > f)
-                            medium(ray, f, b, (back - front) * scale * particles.density[i], p.object->extinction);
+                        const float f = static_cast<float>(front);
+                        const float b = static_cast<float>(back) > f ? static_cast<float>(back) : next_depth(f);
+                        StepRounding alone;
+                        medium(ray, f, b, (back - front) * scale * particles.density[i], p.object->extinction, alone);
                     });
         }
     }
@@ -209,7 +221,8 @@ private:
         steps_.clear();
         p.marcher->march(to_world(view_, line.origin - moved), view_.right * d.x + view_.up * d.y + view_.forward * d.z,
                          line.scale, std::max(view_.z_near, -1e30), 1e30, steps_);
-        for (const MediumSegment& s : steps_) medium(ray, s.front, s.back, s.depth, p.object->extinction);
+        StepRounding rounding;
+        for (const MediumSegment& s : steps_) medium(ray, s.front, s.back, s.depth, p.object->extinction, rounding);
     }
 
     const LightView& view_;

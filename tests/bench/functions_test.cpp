@@ -52,6 +52,22 @@ TEST(MeasureFunctions, counts_no_tolerance_where_none_is_promised) {
     EXPECT_TRUE(to_json(result)["over_tolerance"].is_null());
 }
 
+// What a technique does not promise is told, and fails nothing.
+TEST(MeasureFunctions, tells_how_far_functions_rise_and_leave_their_range) {
+    const Curve knee{{0, 1}, {1, 0.95f}, {2, 0.6f}, {3, 0.2f}, {4, 0}, {5, 0}, {9, 0}};
+    const FunctionResult published = measure({knee}, "deep:tolerance=0.1,compression=published")[0];
+    EXPECT_GT(published.outside_max, 0.01);
+    EXPECT_LE(published.outside_max, 0.1 + 1e-6);
+    EXPECT_GT(published.rise_max, 0.01);
+    EXPECT_LE(published.rise_max, 0.1 + 1e-6);
+    EXPECT_EQ(published.broken, 0u);
+    EXPECT_EQ(published.over_tolerance, 0u);
+    EXPECT_TRUE(published.times);
+    const FunctionResult bounded = measure({knee}, "deep:tolerance=0.1")[0];
+    EXPECT_EQ(bounded.rise_max, 0.0);
+    EXPECT_EQ(bounded.outside_max, 0.0);
+}
+
 TEST(MeasureFunctions, needs_functions) {
     error_of([] { measure({}, "deep"); }, ErrorCode::bad_input, "");
 }

@@ -4,13 +4,16 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <ostream>
 #include <utility>
 #include <vector>
 
+#include "adversarial.h"
 #include "base/random.h"
+#include "curves/compress.h"
 #include "curves/curve.h"
 #include "rays/light_rays.h"
 
@@ -69,14 +72,102 @@ inline Curve from_moves(int start, const std::vector<std::pair<int, int>>& moves
     return curve;
 }
 
+// RapidCheck's numbers and lists grow with the case; here only the lists do, up to 40 moves.
+template <class T>
+rc::Gen<T> full_range(rc::Gen<T> gen) {
+    return rc::gen::resize(rc::kNominalSize, std::move(gen));
+}
+
 inline rc::Gen<Curve> any_function() {
-    const auto move = rc::gen::pair(rc::gen::inRange(0, 6), rc::gen::inRange(0, 7));
-    return rc::gen::apply(from_moves, rc::gen::inRange(0, 6),
-                          rc::gen::container<std::vector<std::pair<int, int>>>(move));
+    const auto move = full_range(rc::gen::pair(rc::gen::inRange(0, 6), rc::gen::inRange(0, 7)));
+    const auto moves = rc::gen::scale(0.4, rc::gen::container<std::vector<std::pair<int, int>>>(move));
+    return rc::gen::apply(from_moves, full_range(rc::gen::inRange(0, 6)), moves);
+}
+
+// One made to be hard on this tolerance.
+inline rc::Gen<Curve> any_adversarial_function(float tolerance) {
+    const auto piece = rc::gen::apply(
+        [](int stretch, int length, std::uint64_t seed) {
+            return Piece{stretch, length, seed};
+        },
+        rc::gen::inRange(0, kStretches), rc::gen::inRange(1, 9), rc::gen::inRange<std::uint64_t>(0, 1000));
+    const auto pieces = rc::gen::scale(0.05, rc::gen::container<std::vector<Piece>>(full_range(piece)));
+    return rc::gen::apply(
+        [=](int start, const std::vector<Piece>& some) { return from_pieces(tolerance, start, some); },
+        full_range(rc::gen::inRange(0, 49)), pieces);
 }
 
 inline rc::Gen<float> any_tolerance() {
     return rc::gen::element(0.02f, 0.0f, 1e-7f, 1e-4f, 0.005f, 0.1f, 0.5f, 1.0f, 3.0f);
+}
+
+// A function and what it is compressed with.
+struct Case {
+    Curve curve;
+    float tolerance;
+};
+
+inline std::ostream& operator<<(std::ostream& stream, const Case& c) {
+    stream << "tolerance " << c.tolerance;
+    for (const Vertex& v : c.curve) stream << ", " << v.z << ' ' << v.value;
+    return stream;
+}
+
+inline rc::Gen<Case> any_case() {
+    return rc::gen::mapcat(any_tolerance(), [](float tolerance) {
+        return rc::gen::map(rc::gen::oneOf(any_function(), any_adversarial_function(tolerance)), [=](Curve curve) {
+            return Case{std::move(curve), tolerance};
+        });
+    });
+}
+
+// Three functions at once, often with depths in common.
+struct ColourCase {
+    std::array<Curve, 3> curve;
+    float tolerance;
+
+    std::array<CurveView, 3> views() const { return {curve[0], curve[1], curve[2]}; }
+    std::size_t vertices() const { return curve[0].size() + curve[1].size() + curve[2].size(); }
+};
+
+inline std::ostream& operator<<(std::ostream& stream, const ColourCase& c) {
+    for (const Curve& curve : c.curve) stream << Case{curve, c.tolerance} << '\n';
+    return stream;
+}
+
+inline rc::Gen<ColourCase> any_three() {
+    return rc::gen::mapcat(any_tolerance(), [](float tolerance) {
+        const auto one = rc::gen::oneOf(any_function(), any_adversarial_function(tolerance));
+        return rc::gen::apply(
+            [=](Curve r, Curve g, Curve b, bool together) {
+                for (std::size_t i = 0; together && i < std::min(r.size(), g.size()); ++i) g[i].z = r[i].z;
+                if (together && g.size() > r.size()) g.resize(r.size());
+                return ColourCase{{std::move(r), std::move(g), std::move(b)}, tolerance};
+            },
+            one, one, one, rc::gen::arbitrary<bool>());
+    });
+}
+
+inline Curve channel(const std::vector<ColourVertex>& vertices, int c) {
+    Curve curve;
+    for (const ColourVertex& v : vertices) curve.push_back({v.z, v.value[c]});
+    return curve;
+}
+
+// What rounding may add to an error: one unit in the last place of the largest value; and what compress() allows
+// itself at its end, which only functions as faint as that can tell.
+inline double rounding_of(CurveView curve) {
+    return 0x1p-24 * (curve.empty() ? 1.0f : curve.front().value) + 0x1p-48;
+}
+
+// The same function in another unit of depth, 2^power as large. False where a float cannot hold it.
+inline bool scale_depths(Curve& curve, int power) {
+    for (Vertex& v : curve) {
+        const float scaled = std::ldexp(v.z, power);
+        if (std::ldexp(scaled, -power) != v.z) return false;
+        v.z = scaled;
+    }
+    return true;
 }
 
 struct Segment {

@@ -7,7 +7,7 @@ namespace {
 
 class FixedSeed : public testing::Environment {
 public:
-    void SetUp() override { setenv("RC_PARAMS", "seed=20000723 max_success=400", 0); }
+    void SetUp() override { setenv("RC_PARAMS", "seed=20000723 max_success=10000", 0); }
 };
 
 const testing::Environment* const fixed_seed = testing::AddGlobalTestEnvironment(new FixedSeed);

@@ -32,7 +32,7 @@ scene::RaySettings oblong(int width, int height, int samples) {
 
 DeepMap make_map(const Captured& rays, float tolerance) {
     DeepMap map;
-    map.tolerance = tolerance;
+    map.compression.tolerance = tolerance;
     map.rule.mip = Mip::blend;
     map.begin(rays.layout);
     for (const auto& tile : rays.tiles) map.add(tile);

@@ -214,7 +214,7 @@ Technique avsm() {
     return {"avsm",
             "adaptive volumetric shadow map: a fixed number of nodes a texel",
             "Salvi et al. 2010",
-            1,
+            2,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Avsm>(values); },

@@ -18,6 +18,16 @@ const Parameter parameters[] = {
      1,
      "noise",
      {"noise"}},
+    {"compression",
+     ParameterKind::choice,
+     "bounded: never rises, stays in [0, 1], ends on the exact value where one segment can; published: the paper's "
+     "text "
+     "word for word, which keeps the tolerance too, but rises by up to it and falls below 0 by up to it",
+     0,
+     0,
+     0,
+     "bounded",
+     {"bounded", "published"}},
     {"filter",
      ParameterKind::choice,
      "how the rays around a pixel's centre make its function; a gaussian falls to exp(-2) at its radius",
@@ -59,6 +69,10 @@ double tolerance_of(const ParameterValues& values, int samples) {
     return values.is_word("tolerance") ? 0.25 / std::sqrt(static_cast<double>(samples)) : values.number("tolerance");
 }
 
+bool is_published(const ParameterValues& values) {
+    return values.word("compression") == "published";
+}
+
 PixelFilter filter_of(const ParameterValues& values) {
     const std::string& shape = values.word("filter");
     return {shape == "box"    ? FilterShape::box
@@ -81,20 +95,21 @@ LookupRule rule_of(const ParameterValues& values) {
 class Deep final : public Map {
 public:
     explicit Deep(const ParameterValues& values) : values_(values) {
+        map_.compression.published = is_published(values);
         map_.filter = filter_of(values);
         map_.rule = rule_of(values);
     }
 
     // A map of given functions, one pixel high. There are no rays to filter.
     Deep(const ParameterValues& values, std::span<const curves::Curve> functions) : Deep(values) {
-        map_.tolerance = static_cast<float>(tolerance_of(values, 1));
+        map_.compression.tolerance = static_cast<float>(tolerance_of(values, 1));
         map_.filter = {};
         map_.make(functions);
     }
 
     RayNeeds needs() const override { return {map_.filter.apron(), false}; }
     void begin(const BuildInput& input) override {
-        map_.tolerance = static_cast<float>(tolerance_of(values_, input.layout.samples()));
+        map_.compression.tolerance = static_cast<float>(tolerance_of(values_, input.layout.samples()));
         map_.begin(input.layout);
         channels_ = input.layout.channels;
     }
@@ -151,7 +166,7 @@ Technique deep() {
     return {"deep",
             "deep shadow map: visibility functions compressed within a tolerance",
             "Lokovic, Veach 2000",
-            2,
+            3,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Deep>(values); },
@@ -163,7 +178,11 @@ Technique deep() {
                 return std::make_unique<Deep>(values, functions);
             },
             least_bytes,
-            true};
+            true,
+            [](const ParameterValues& values) -> Promises {
+                const bool bounded = !is_published(values);
+                return {.monotone = bounded, .unit_range = bounded};
+            }};
 }
 
 }  // namespace shadowbench::techniques

@@ -78,15 +78,16 @@ void DeepMap::add(const rays::LightRays& tile) {
     run.y0 = tile.tile / layout_.tiles_x() * layout_.tile_height;
     run.width = std::min(layout_.tile_width, layout_.width - run.x0);
     run.channels = layout_.channels;
-    const double linearisation = layout_.media ? linearisation_of(tolerance) : 0.0;
-    const float compression = static_cast<float>(std::max(0.0, tolerance - linearisation));
+    const double linearisation = layout_.media ? linearisation_of(compression.tolerance) : 0.0;
+    const Compression rest{static_cast<float>(std::max(0.0, compression.tolerance - linearisation)),
+                           compression.published};
     TileScratch scratch;
     if (!filter.is_pixel())
         for (std::size_t ray = 0; ray < tile.rays(); ++ray) scratch.offsets.push_back(ray_offset(layout_, tile, ray));
     const int y1 = std::min(run.y0 + layout_.tile_height, layout_.height);
     for (int y = run.y0; y < y1; ++y)
         for (int x = run.x0; x < run.x0 + run.width; ++x)
-            append(run, scratch.pixel, make_functions(filter, tile, x, y, linearisation, scratch), compression);
+            append(run, scratch.pixel, make_functions(filter, tile, x, y, linearisation, scratch), rest);
     scratch_bytes_[tile.tile] = scratch.bytes();
 }
 
@@ -104,7 +105,7 @@ void DeepMap::make(std::span<const curves::Curve> functions) {
     PixelScratch scratch;
     for (const curves::Curve& function : functions) {
         scratch.function[0] = function;
-        append(run, scratch, 1, tolerance);
+        append(run, scratch, 1, compression);
     }
     put_together({&run, 1}, scratch.bytes(), run.width, 1, 1);
     run = {};
@@ -120,7 +121,7 @@ void DeepMap::put_together(std::span<const PixelRun> runs, std::size_t scratch_b
 
 void DeepMap::add_coarser_levels() {
     if (rule.mip == Mip::none) return;
-    const std::size_t working = add_mip_levels(levels, tolerance);
+    const std::size_t working = add_mip_levels(levels, compression);
     peak_bytes = std::max(peak_bytes, working + bytes());
 }
 

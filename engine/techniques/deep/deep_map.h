@@ -14,7 +14,7 @@
 namespace shadowbench::techniques {
 
 struct DeepMap {
-    float tolerance = 0.0f;  // of the map's functions; see mip.h for those of coarser levels
+    Compression compression;  // of the map's functions; see mip.h for those of coarser levels
     PixelFilter filter;
     LookupRule rule;
     std::vector<DeepLevel> levels;  // the map, then its mip levels if the rule asks for them

@@ -31,7 +31,8 @@ Children children_of(const DeepLevel& below, int level, const DeepLevel& map, in
     return children;
 }
 
-void average(const DeepLevel& below, const Children& children, float tolerance, PixelScratch& scratch, PixelRun& run) {
+void average(const DeepLevel& below, const Children& children, const Compression& compression, PixelScratch& scratch,
+             PixelRun& run) {
     bool coloured = false;
     for (std::size_t i = 0; i < children.count; ++i) coloured = coloured || below.has_colour(children.pixel[i]);
     const int functions = coloured ? 3 : 1;
@@ -43,7 +44,7 @@ void average(const DeepLevel& below, const Children& children, float tolerance, 
         }
         curves::weighted_sum({terms.data(), children.count}, scratch.sweep, scratch.function[c]);
     }
-    append(run, scratch, functions, tolerance);
+    append(run, scratch, functions, compression);
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ int mip_levels(int width, int height) {
     return levels;
 }
 
-std::size_t add_mip_levels(std::vector<DeepLevel>& levels, float tolerance) {
+std::size_t add_mip_levels(std::vector<DeepLevel>& levels, const Compression& compression) {
     const int count = mip_levels(levels[0].width, levels[0].height);
     levels.reserve(static_cast<std::size_t>(count));
     PixelScratch scratch;
@@ -65,9 +66,9 @@ std::size_t add_mip_levels(std::vector<DeepLevel>& levels, float tolerance) {
         PixelRun run;
         run.width = width;
         run.channels = map.channels;
+        const Compression finer{std::ldexp(compression.tolerance, -l), compression.published};
         for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                average(below, children_of(below, l, map, x, y), std::ldexp(tolerance, -l), scratch, run);
+            for (int x = 0; x < width; ++x) average(below, children_of(below, l, map, x, y), finer, scratch, run);
         peak = std::max(peak, run.bytes() + scratch.bytes());
         levels.push_back(assemble(width, height, map.channels, {&run, 1}));
     }

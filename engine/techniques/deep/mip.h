@@ -26,8 +26,8 @@ inline int mip_size(int size, int level) {
     return static_cast<int>((static_cast<long long>(size) + (1LL << level) - 1) >> level);
 }
 
-// Appends all coarser levels to a map's level 0, made within `tolerance`. Returns the bytes held at most while building
-// one level, apart from the levels themselves.
-std::size_t add_mip_levels(std::vector<DeepLevel>& levels, float tolerance);
+// Appends all coarser levels to a map's level 0, made by this compression. Returns the bytes held at most while
+// building one level, apart from the levels themselves.
+std::size_t add_mip_levels(std::vector<DeepLevel>& levels, const Compression& compression);
 
 }  // namespace shadowbench::techniques

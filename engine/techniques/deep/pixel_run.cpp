@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "curves/compress_published.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -15,8 +16,9 @@ void for_each_row(const DeepLevel& level, const PixelRun& run, const Visit& visi
         visit(level.pixel(run.x0, run.y0 + static_cast<int>(first) / run.width), first);
 }
 
-void append_one(PixelRun& run, curves::Curve& function, float tolerance) {
-    const std::size_t n = curves::compress(function, tolerance, function.data());
+void append_one(PixelRun& run, curves::Curve& function, const Compression& how) {
+    const std::size_t n = how.published ? curves::compress_published(function, how.tolerance, function.data())
+                                        : curves::compress(function, how.tolerance, function.data());
     const std::size_t first = run.floats.size();
     run.floats.resize(first + 2 * n);
     float* depths = run.floats.data() + first;
@@ -26,10 +28,12 @@ void append_one(PixelRun& run, curves::Curve& function, float tolerance) {
     }
 }
 
-void append_three(PixelRun& run, PixelScratch& scratch, float tolerance) {
+void append_three(PixelRun& run, PixelScratch& scratch, const Compression& how) {
     const auto& f = scratch.function;
     scratch.colour.resize(f[0].size() + f[1].size() + f[2].size());
-    const std::size_t n = curves::compress({f[0], f[1], f[2]}, tolerance, scratch.colour.data());
+    const std::array<curves::CurveView, 3> three{f[0], f[1], f[2]};
+    const std::size_t n = how.published ? curves::compress_published(three, how.tolerance, scratch.colour.data())
+                                        : curves::compress(three, how.tolerance, scratch.colour.data());
     const std::size_t first = run.floats.size();
     run.floats.resize(first + 4 * n);
     float* depths = run.floats.data() + first;
@@ -48,13 +52,13 @@ std::size_t PixelScratch::bytes() const {
     return vertices * sizeof(curves::Vertex) + colour.capacity() * sizeof(curves::ColourVertex) + sweep.bytes();
 }
 
-void append(PixelRun& run, PixelScratch& scratch, int functions, float tolerance) {
+void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression) {
     const auto& f = scratch.function;
     const bool coloured = functions == 3 && !(f[0] == f[1] && f[0] == f[2]);
     if (coloured)
-        append_three(run, scratch, tolerance);
+        append_three(run, scratch, compression);
     else
-        append_one(run, scratch.function[0], tolerance);
+        append_one(run, scratch.function[0], compression);
     if (run.channels == 3) run.coloured.push_back(coloured);
     run.begin.push_back(static_cast<std::uint32_t>(run.floats.size()));
 }

@@ -36,9 +36,15 @@ struct PixelScratch {
     std::size_t bytes() const;
 };
 
+// How functions are compressed, and how closely.
+struct Compression {
+    float tolerance = 0.0f;
+    bool published = false;  // by curves/compress_published.h, not curves/compress.h
+};
+
 // Compresses the first `functions` (1 or 3) of the scratch and appends them as the run's next pixel. Three equal ones
 // are stored as one.
-void append(PixelRun& run, PixelScratch& scratch, int functions, float tolerance);
+void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression);
 
 // Runs that fill the level. Throws Error{bad_input} when it would hold more than 2^32 floats.
 DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun> runs);

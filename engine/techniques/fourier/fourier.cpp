@@ -134,7 +134,7 @@ Technique fourier() {
     return {"fourier",
             "Fourier opacity map: a truncated series of the absorption",
             "Jansen, Bavoil 2010",
-            1,
+            2,
             {.monotone = false, .localised = false, .leak = std::exp(-5.545)},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Fourier>(values); },

@@ -156,7 +156,7 @@ Technique opacity() {
     return {"opacity",
             "opacity shadow map: optical depth at uniform slices",
             "Kim, Neumann 2001",
-            1,
+            2,
             {.localised = false, .leak = std::exp(-5.545)},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Opacity>(values); },

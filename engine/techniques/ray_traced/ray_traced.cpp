@@ -1,5 +1,6 @@
 #include "techniques/ray_traced/ray_traced.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "base/error.h"
@@ -13,6 +14,17 @@ namespace {
 
 const Parameter parameters[] = {
     {"samples", ParameterKind::integer, "rays a lookup, jittered over its footprint", 16, 1, 65536},
+};
+
+// One side of a footprint, cut to a map of so many pixels.
+class Side {
+public:
+    Side(double middle, double width, int pixels)
+        : low_(std::max(middle - 0.5 * width, 0.0)), length_(std::min(middle + 0.5 * width, pixels * 1.0) - low_) {}
+    double at(double share) const { return low_ + share * length_; }
+
+private:
+    double low_, length_;
 };
 
 class RayTraced final : public Map {
@@ -47,18 +59,17 @@ public:
             base::Random random(key);
             rays::MapLayout pattern = pattern_;
             pattern.seed = key;
+            // What of the footprint lies in the map: one that hangs over has as many samples.
+            const Side across(q.x, q.width, view_.resolution.x), down(q.y, q.width, view_.resolution.y);
             double sum = 0.0;
-            int count = 0;
             for (int sy = 0; sy < pattern_.samples_y; ++sy)
                 for (int sx = 0; sx < pattern_.samples_x; ++sx) {
-                    const double x = q.x + q.width * ((sx + random.uniform()) / pattern_.samples_x - 0.5);
-                    const double y = q.y + q.width * ((sy + random.uniform()) / pattern_.samples_y - 0.5);
-                    if (!inside(x, view_.resolution.x) || !inside(y, view_.resolution.y)) continue;
+                    const double x = across.at((sx + random.uniform()) / pattern_.samples_x);
+                    const double y = down.at((sy + random.uniform()) / pattern_.samples_y);
                     const double time = rays::sample_time(pattern, sx, sy);
                     sum += tracer_->transmittance(view_, x, y, q.z, scratch, time)[channel_];
-                    ++count;
                 }
-            visibility[i] = count ? static_cast<float>(sum / count) : 1.0f;
+            visibility[i] = static_cast<float>(sum / pattern_.samples());
         }
     }
     void touched(const Query&, std::vector<const void*>&) const override {}
@@ -82,7 +93,7 @@ Technique ray_traced() {
     return {"ray_traced",
             "shadow rays through the scene, no map",
             "none: the cost of doing without",
-            1,
+            2,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<RayTraced>(values); },

@@ -1,0 +1,28 @@
+// Greedy compression as it is published (Lokovic and Veach 2000, section 3.3), word for word, beside the mended one of
+// compress.h.
+#pragma once
+
+#include "curves/compress.h"
+
+namespace shadowbench::curves {
+
+// As compress(), but for what the output keeps.
+//
+// The published text. The origin of the first segment is the first vertex. Every further vertex (z, v) narrows the
+// range of slopes from the origin to those that pass between (z, v - tolerance) and (z, v + tolerance). When that would
+// leave none, a segment with the middle slope ends at the z of the last vertex that was passed; its end is the next
+// origin. The last segment ends likewise at the last vertex. Nothing is cut at 0 or 1, nothing is kept from rising.
+//
+// What the text leaves open, filled in as plainly as can be:
+//  - a vertex at the origin's own z, where its range of slopes is 0 / 0: within the tolerance of the origin every slope
+//    passes it, else only the vertical does. The vertical passes all vertices at that z; its middle is the last one's
+//    value;
+//  - slopes are double, the origin is the vertex as written, rounded to float.
+std::size_t compress_published(CurveView curve, float tolerance, Vertex* out);
+
+Curve compress_published(CurveView curve, float tolerance);
+
+// Three functions at once: their vertices are the union of the depths of all, with the values on both sides of each.
+std::size_t compress_published(const std::array<CurveView, 3>& curves, float tolerance, ColourVertex* out);
+
+}  // namespace shadowbench::curves

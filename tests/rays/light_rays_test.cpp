@@ -1,0 +1,132 @@
+#include "rays/light_rays.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "base/random.h"
+#include "rays/extended_oracle.h"
+
+namespace shadowbench::rays {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr float kTiny = std::numeric_limits<float>::denorm_min();
+
+struct Segment {
+    float front, back, through;
+};
+
+LightRays ray_of(std::vector<Segment> segments) {
+    std::sort(segments.begin(), segments.end(),
+              [](const Segment& a, const Segment& b) { return std::tie(a.front, a.back) < std::tie(b.front, b.back); });
+    LightRays rays;
+    rays.width = rays.height = 1;
+    rays.begin = {0, static_cast<std::uint32_t>(segments.size())};
+    for (const Segment& s : segments) {
+        rays.z_front.push_back(s.front);
+        rays.z_back.push_back(s.back);
+        rays.transmittance.push_back(s.through);
+    }
+    return rays;
+}
+
+// Optical depth, up to z, of the media that z lies inside of: what the header's bound speaks of.
+double depth_around(const LightRays& rays, double z) {
+    double sum = 0.0;
+    for (std::size_t s = 0; s < rays.segments(); ++s)
+        if (rays.z_front[s] < z && z < rays.z_back[s]) sum += optical_depth(rays, s, 0, z);
+    return sum;
+}
+
+// Holds the oracle to the bound that its header states.
+void expect_agreement(const LightRays& rays, double z) {
+    const long double expected = testing::extended_transmittance(rays, 0, 0, z);
+    const double value = transmittance(rays, 0, 0, z);
+    const long double bound = 0x1p-51L * (1.0L + depth_around(rays, z)) * expected + 1e-290L;
+    EXPECT_LE(std::abs(value - expected), bound) << "at depth " << z << ": " << value;
+}
+
+std::vector<Segment> layers(int count, float through) {
+    std::vector<Segment> segments;
+    for (int i = 0; i < count; ++i) segments.push_back({static_cast<float>(i), static_cast<float>(i), through});
+    return segments;
+}
+
+// A plain product of doubles is off by a digit for every few layers.
+TEST(Transmittance, Of100000FaintLayersKeepsItsLastDigits) {
+    const LightRays rays = ray_of(layers(100'000, 1.0f - 1e-4f));
+    for (const double z : {1.0, 10.0, 5'000.5, 77'777.0, kInfinity}) expect_agreement(rays, z);
+    EXPECT_NEAR(transmittance(rays, 0, 0, kInfinity), std::exp(-10.0), 1e-7) << "1 - 1e-4 as a float";
+}
+
+TEST(Transmittance, Of100000LayersThatLetAThousandthThroughFallsToZeroAndNoFurther) {
+    const LightRays rays = ray_of(layers(100'000, 0.001f));
+    for (int z = 1; z < 120; ++z) expect_agreement(rays, z);
+    EXPECT_EQ(transmittance(rays, 0, 0, kInfinity), 0.0);
+}
+
+TEST(Transmittance, OfAMillionLayersNextToOneCountsThemAll) {
+    const float next = std::nextafter(1.0f, 0.0f);
+    const LightRays rays = ray_of(layers(1'000'000, next));
+    for (const double z : {1.0, 1000.0, 1e6}) expect_agreement(rays, z);
+    EXPECT_NEAR(transmittance(rays, 0, 0, kInfinity), std::exp(1e6 * std::log1p(-0x1p-24)), 1e-12);
+}
+
+// Optical depths of 1e-14 are 1 as floats: nothing is left of them to be lost.
+TEST(Transmittance, OfAMillionLayersThatAFloatCannotTellFrom1Is1) {
+    EXPECT_EQ(transmittance(ray_of(layers(1'000'000, static_cast<float>(std::exp(-1e-14)))), 0, 0, kInfinity), 1.0);
+}
+
+// A product of a thousand exponentials is off by as many roundings; a sum of optical depths is not.
+TEST(Transmittance, InsideManyMediaIsThatOfTheirOpticalDepths) {
+    std::vector<Segment> segments;
+    for (int i = 0; i < 1000; ++i)
+        segments.push_back({-static_cast<float>(i), 3.0f + 0.1f * static_cast<float>(i), 0.99f});
+    const LightRays rays = ray_of(segments);
+    for (double z = -1001; z < 110; z += 0.37) expect_agreement(rays, z);
+}
+
+TEST(Transmittance, OfAdversarialRaysStaysWithinItsBound) {
+    base::Random random(1);
+    const float throughs[] = {0.0f, kTiny,  1e-40f,       1e-38f,      1e-20f, 0.25f,
+                              0.5f, 0.999f, 1.0f - 1e-4f, 0.99999994f, 1.0f};
+    const float depths[] = {-1e6f, -3.0f, -kTiny, 0.0f, kTiny, 1e-3f, 1.0f, 1.0000001f, 2.0f, 1e6f, 1e30f};
+    for (int round = 0; round < 2000; ++round) {
+        std::vector<Segment> segments(random.below(12));
+        for (Segment& s : segments) {
+            const float a = depths[random.below(11)], b = depths[random.below(11)];
+            s = {std::min(a, b), random.below(3) ? std::max(a, b) : std::min(a, b), throughs[random.below(11)]};
+        }
+        const LightRays rays = ray_of(segments);
+        for (const float z : depths) {
+            expect_agreement(rays, z);
+            expect_agreement(rays, std::nextafter(static_cast<double>(z), kInfinity));
+        }
+    }
+}
+
+TEST(Transmittance, NeverLeavesItsRangeOnRandomRays) {
+    base::Random random(2);
+    for (int round = 0; round < 300; ++round) {
+        std::vector<Segment> segments(1 + random.below(40));
+        for (Segment& s : segments) {
+            s.front = static_cast<float>(random.uniform(0, 10));
+            s.back = random.below(2) ? s.front : s.front + static_cast<float>(random.uniform(0, 5));
+            s.through = static_cast<float>(random.uniform());
+        }
+        const LightRays rays = ray_of(segments);
+        for (int i = 0; i < 50; ++i) {
+            const double z = random.uniform(-1, 16);
+            expect_agreement(rays, z);
+            const double value = transmittance(rays, 0, 0, z);
+            ASSERT_TRUE(value >= 0.0 && value <= 1.0) << value;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace shadowbench::rays
