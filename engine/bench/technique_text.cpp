@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "bench/functions.h"
 
 namespace shadowbench::bench {
@@ -38,6 +39,7 @@ std::string place_of(const std::string& text) {
 
 TechniqueChoice read_any_technique(const std::string& text) {
     const std::string where = place_of(text);
+    if (!base::is_utf8(text)) throw Error(ErrorCode::usage, where, "the text is not UTF-8");
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string pairs = colon < text.size() ? text.substr(colon + 1) : std::string();
     TechniqueChoice choice;

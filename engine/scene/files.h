@@ -19,7 +19,7 @@ Hair read_hair(const std::filesystem::path& file, float radius);
 // By extension: .obj or .ply (ASCII and binary). Polygons are split into fans.
 Mesh read_mesh(const std::filesystem::path& file);
 
-// The alpha channel of an image (its luminance where it has none).
+// The alpha channel of an image (its luminance where it has none): PNG, JPEG, TIFF, OpenEXR, DDS or TGA.
 AlphaTexture read_alpha(const std::filesystem::path& file);
 
 // Raw values, x fastest; type "uint8" (scaled to [0, 1]) or "float32" (little-endian). The file's size must match.

@@ -1,6 +1,8 @@
 // The only file that includes valijson: it takes long to compile.
 // GCC 12 sees uninitialised members in std::regex when a sanitizer is on (GCC bug 105562).
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 #include <nlohmann/json.hpp>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
