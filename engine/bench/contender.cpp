@@ -18,7 +18,7 @@ namespace {
 using techniques::Query;
 
 constexpr std::size_t max_checked_cells = std::size_t{1} << 20;  // of one map: more take long and tell little
-constexpr float rounding = 1e-6f;                                // of an answer beyond [0, 1]
+constexpr float rounding = 1e-6f;                                // of an answer beyond [0, 1], or from 1
 
 // A layout that a technique cannot serve is bad input, not a fault of the technique: the message names its place.
 Maps begin_served(const Contender& contender, const techniques::BuildInput& input) {
@@ -187,6 +187,13 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
 void check_lookups(std::span<Contender> contenders, const Asked& judged, const Truth& truth) {
     for (Contender& contender : contenders)
         if (contender.ok()) judge(contender, judged, truth);
+}
+
+void check_lit(std::span<Contender> contenders) {
+    for (Contender& contender : contenders)
+        if (contender.ok() && !(contender.cell.lookup->norms.max <= rounding))
+            fail(contender, fmt::format("the light sees nothing that casts a shadow, but an answer is {:.6g} from 1",
+                                        contender.cell.lookup->norms.max));
 }
 
 }  // namespace shadowbench::bench

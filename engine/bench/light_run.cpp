@@ -161,9 +161,6 @@ LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
     const rays::Capture capture(scene, view, layout);
     const double setup_seconds = setup.seconds();
     const RaySource source(capture, layout, job.limits.kept_rays, stage(job, "capture", layout));
-    if (source.segments() == 0)
-        throw base::Error(base::ErrorCode::bad_input, job.where,
-                          fmt::format("light \"{}\" sees nothing that casts a shadow", job.light.name));
     report_capture(source, setup_seconds, result);
     if (job.casters) result.agreement = compare_with_tracer(capture, layout, view, *job.casters, agreement_rays);
 
@@ -174,6 +171,7 @@ LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
     build_all(contenders, source, input, job.limits.all, stage(job, "build", layout));
     check_functions(contenders, source, layout, stage(job, "check", layout));
     check_lookups(contenders, judged.asked(), truth);
+    if (sees_nothing(result)) check_lit(contenders);
     time_all(job, contenders, source, input, set.asked());
 
     for (Contender& contender : contenders) result.cells.push_back(std::move(contender.cell));

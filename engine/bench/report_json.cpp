@@ -133,6 +133,7 @@ json to_json(const LightResult& light) {
             {"segments", light.segments},
             {"ray_bytes", light.ray_bytes},
             {"rays_kept", light.kept},
+            {"sees_nothing", sees_nothing(light)},
             {"translucent", light.translucent},
             {"receivers", light.receivers},
             {"receivers_outside_map", light.dropped},

@@ -97,6 +97,12 @@ std::string capture_lines(const LightResult& light, int threads) {
     return text + "\n";
 }
 
+// Empty where the light sees something.
+std::string nothing_line(const LightResult& light) {
+    if (!sees_nothing(light)) return "";
+    return "    note: the light sees nothing that casts a shadow: its map is empty, and every answer has to be 1\n";
+}
+
 // Empty where the capture and Embree agree.
 std::string warning_line(const LightResult& light) {
     if (!light.agreement || agrees(*light.agreement)) return "";
@@ -138,7 +144,8 @@ std::string to_table(const Result& result) {
         for (const Setting& setting : variant.settings)
             text += fmt::format("{} = {}\n", setting.pointer, setting.value);
         for (const LightResult& light : variant.lights) {
-            text += capture_lines(light, result.times.threads) + warning_line(light) + reference_line(light);
+            text += capture_lines(light, result.times.threads) + nothing_line(light) + warning_line(light) +
+                    reference_line(light);
             Table table({"technique", "build ms", "ns/seg", "image ns", "x floor", "random ns", "x floor", "bytes",
                          "nodes mean", "max", "curve max", "lookup rms", "p99", "max", "front", "status"});
             for (const Cell& cell : light.cells) table.add(row_of(cell));

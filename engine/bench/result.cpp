@@ -19,6 +19,10 @@ bool agrees(const Agreement& agreement) {
     return static_cast<double>(std::max(agreement.other_crossings, agreement.other_transmittance)) <= allowed;
 }
 
+bool sees_nothing(const LightResult& light) {
+    return light.segments == 0;
+}
+
 bool any_failed(const Result& result) {
     for (const VariantResult& variant : result.variants)
         for (const LightResult& light : variant.lights)

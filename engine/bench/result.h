@@ -116,6 +116,9 @@ struct LightResult {
     std::vector<Cell> cells;
 };
 
+// Whether no ray meets anything that casts a shadow: all is lit, and the map of every technique is empty.
+bool sees_nothing(const LightResult& light);
+
 struct Setting {
     std::string pointer;
     std::string value;  // JSON text
