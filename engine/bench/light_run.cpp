@@ -107,6 +107,10 @@ void time_all(const LightJob& job, std::span<Contender> contenders, const RaySou
         if (job.watch) job.watch("timing lookups", r + 1, repetitions);
     }
     for (const LookupMeasurement& one : plans) {
+        // Far more places are timed than judged, and nothing may answer there what is no visibility either.
+        for (const LookupOrder* order : {&one.plan.image, &one.plan.random})
+            check_answers(contenders[one.contender], order->asked(), order->answers);
+        if (!contenders[one.contender].ok()) continue;
         CellTimes times;
         for (double& s : seconds[one.contender]) s *= 1e3;
         times.build_ms = summarise(std::move(seconds[one.contender]));

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -24,10 +23,6 @@ std::string count(std::uint64_t n) {
     return digits;
 }
 
-std::string error_text(double value) {
-    return std::isfinite(value) ? fmt::format("{:.2g}", value) : "-";
-}
-
 std::string time_text(double value) {
     const int decimals = value < 10 ? 2 : value < 1000 ? 1 : 0;
     return fmt::format("{:.{}f}", value, decimals);
@@ -43,10 +38,6 @@ std::string front_text(const Cell& cell) {
 std::string status_text(const Cell& cell) {
     if (cell.status == CellStatus::failed) return "failed: " + cell.reason;
     return cell.outside_promise ? "ok, but promised for opaque scenes only" : "ok";
-}
-
-std::string title(const Cell& cell) {
-    return cell.parameters.empty() ? cell.technique : cell.technique + " " + cell.parameters;
 }
 
 std::vector<std::string> row_of(const Cell& cell) {
