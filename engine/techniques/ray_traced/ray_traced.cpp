@@ -15,6 +15,18 @@ const Parameter parameters[] = {
     {"samples", ParameterKind::integer, "rays a lookup, jittered over its footprint", 16, 1, 65536},
 };
 
+// What a footprint covers along one side of the map. Where that is the whole map, and none of the rays need be spent
+// beyond it, the map is all.
+struct Stretch {
+    double middle, width;
+
+    double at(double share) const { return middle + width * (share - 0.5); }
+};
+Stretch stretch_of(double middle, double width, int pixels) {
+    if (middle - 0.5 * width <= 0.0 && middle + 0.5 * width >= pixels) return {0.5 * pixels, 1.0 * pixels};
+    return {middle, width};
+}
+
 class RayTraced final : public Map {
 public:
     explicit RayTraced(const ParameterValues& values) { rays::set_samples(pattern_, values.integer("samples")); }
@@ -37,10 +49,10 @@ public:
         std::vector<rays::TracedSegment> scratch;
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const Query& q = queries[i];
-            if (!inside(q.x, view_.resolution.x) || !inside(q.y, view_.resolution.y)) {
-                visibility[i] = 1.0f;
-                continue;
-            }
+            visibility[i] = 1.0f;
+            if (!inside(q.x, view_.resolution.x) || !inside(q.y, view_.resolution.y) || !(q.z > 0.0f)) continue;
+            const Stretch across = stretch_of(q.x, width_of(q), view_.resolution.x);
+            const Stretch down = stretch_of(q.y, width_of(q), view_.resolution.y);
             // The jitter depends on the query alone; so do the times, which spread over the shutter.
             const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
             const std::uint64_t key = base::hash(bits(q.x) << 32 | bits(q.y), bits(q.z));
@@ -51,14 +63,14 @@ public:
             int count = 0;
             for (int sy = 0; sy < pattern_.samples_y; ++sy)
                 for (int sx = 0; sx < pattern_.samples_x; ++sx) {
-                    const double x = q.x + q.width * ((sx + random.uniform()) / pattern_.samples_x - 0.5);
-                    const double y = q.y + q.width * ((sy + random.uniform()) / pattern_.samples_y - 0.5);
+                    const double x = across.at((sx + random.uniform()) / pattern_.samples_x);
+                    const double y = down.at((sy + random.uniform()) / pattern_.samples_y);
                     if (!inside(x, view_.resolution.x) || !inside(y, view_.resolution.y)) continue;
                     const double time = rays::sample_time(pattern, sx, sy);
                     sum += tracer_->transmittance(view_, x, y, q.z, scratch, time)[channel_];
                     ++count;
                 }
-            visibility[i] = count ? static_cast<float>(sum / count) : 1.0f;
+            if (count) visibility[i] = static_cast<float>(sum / count);
         }
     }
     void touched(const Query&, std::vector<const void*>&) const override {}
@@ -82,7 +94,7 @@ Technique ray_traced() {
     return {"ray_traced",
             "shadow rays through the scene, no map",
             "none: the cost of doing without",
-            1,
+            2,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<RayTraced>(values); },
