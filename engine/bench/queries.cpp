@@ -92,7 +92,9 @@ Footprint footprint_of(const CameraPoint& point, const rays::LightView& view) {
     Footprint f;
     in_map(point.across, f.ux, f.uy);
     in_map(point.down, f.vx, f.vy);
-    return f;
+    // Of a surface seen edge-on: as good as not known.
+    const bool finite = std::isfinite(f.ux) && std::isfinite(f.uy) && std::isfinite(f.vx) && std::isfinite(f.vy);
+    return finite ? f : Footprint{};
 }
 
 std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer) {

@@ -117,7 +117,7 @@ void check_not_parallel(const base::Vec3d& a, const base::Vec3d& b, const std::s
                         const std::string& message) {
     // Closer to parallel than this, float precision decides which way the plane of the two faces.
     constexpr double least_sine = 1e-6;
-    if (!(a.cross(b).length() > least_sine * a.length() * b.length())) refuse(where, message);
+    if (!(a.normalized().cross(b.normalized()).length() > least_sine)) refuse(where, message);
 }
 
 }  // namespace shadowbench::scene

@@ -4,6 +4,10 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
+#include <cstdint>
+#include <limits>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -17,6 +21,23 @@
 #include "scene/schema_text.h"
 
 namespace shadowbench::scene {
+namespace {
+
+// valijson takes whole numbers as signed ones of 64 bits: larger ones would pass as negative.
+void refuse_large_integers(const nlohmann::json& value, const nlohmann::json::json_pointer& at) {
+    constexpr auto largest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    if (value.is_number_unsigned() && value.get<std::uint64_t>() > largest)
+        throw base::Error(base::ErrorCode::bad_input, at.to_string(),
+                          fmt::format("{} is too large for any number here", value.get<std::uint64_t>()));
+    if (value.is_array())
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            if (value[i].is_structured() || value[i].is_number_unsigned()) refuse_large_integers(value[i], at / i);
+        }
+    if (value.is_object())
+        for (const auto& [key, child] : value.items()) refuse_large_integers(child, at / key);
+}
+
+}  // namespace
 
 const nlohmann::json& scenario_schema() {
     static const nlohmann::json schema = nlohmann::json::parse(scenario_schema_text());
@@ -24,6 +45,7 @@ const nlohmann::json& scenario_schema() {
 }
 
 void check_schema(const nlohmann::json& document, const nlohmann::json& schema) {
+    refuse_large_integers(document, nlohmann::json::json_pointer());
     valijson::Schema parsed;
     valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), parsed);
     const valijson::adapters::NlohmannJsonAdapter target(document);

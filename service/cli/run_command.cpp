@@ -161,7 +161,10 @@ void validate_command(const ScenarioArguments& arguments, std::ostream& out) {
                        validated.variants == 1 ? "" : "s", validated.lights, validated.lights == 1 ? "" : "s",
                        validated.techniques, validated.techniques == 1 ? "" : "s");
     for (const std::string& light : validated.blind)
-        out << fmt::format("note: light {} sees nothing that casts a shadow: no caster is inside its map\n", light);
+        out << fmt::format(
+            "note: light {} sees nothing that casts a shadow: no caster is inside its map and behind its "
+            "near plane\n",
+            light);
 }
 
 }  // namespace shadowbench::service

@@ -191,6 +191,43 @@ TEST(LoadScenario, StatesTheLimitOfLightRays) {
                 HasSubstr("limit"));
 }
 
+TEST(LoadScenario, RefusesNumbersThatAreNoneOrOfAnotherKindAtTheirPlace) {
+    // In places of whole numbers, of numbers and of numbers in a list.
+    for (const char* value : {"\"4\"", "null", "true", "1e300", "-1e300", "[1]", "1e19", "18446744073709551615"})
+        for (const char* place : {"/rays/samples_per_pixel", "/rays/seed", "/reference/queries", "/timing/lookups",
+                                  "/scene/objects/0/radius", "/scene/objects/0/centre/1", "/lights/0/direction/2"}) {
+            json document = minimal();
+            document["rays"] = {{"samples_per_pixel", 4}, {"seed", 1}};
+            document["reference"] = {{"queries", 1}};
+            document["timing"] = {{"lookups", 1}};
+            const base::Error error = error_with(place, value, document);
+            EXPECT_EQ(error.code(), base::ErrorCode::bad_input) << place << " " << value;
+            EXPECT_EQ(error.where(), place) << value;
+        }
+    for (const char* value : {"4.5", "4e30", "9223372036854775808", "99999999999999999999"})
+        EXPECT_EQ(error_with("/rays", (std::string(R"({"samples_per_pixel": )") + value + "}").c_str()).where(),
+                  "/rays/samples_per_pixel");
+}
+
+TEST(LoadScenario, StatesTheLimitsOfPlacesInMediaAndOfMarching) {
+    const base::Error places = error_with(
+        "/receivers", R"({"type": "camera", "position": [0, 0, 5], "target": [0, 0, 0], "media_lookups": 4096})");
+    EXPECT_NO_THROW(load_scenario(minimal(), {}));
+    EXPECT_EQ(places.where(), "/receivers/media_lookups");
+    EXPECT_THAT(places.message(), HasSubstr("limit is 268435456"));
+
+    json document = minimal();
+    document["scene"]["objects"] = {{{"type", "density_box"}, {"size", {2, 2, 2}}, {"step", 4e-6}}};
+    document["rays"] = {{"resolution", 1}, {"samples_per_pixel", 4}};
+    document["reference"] = {{"queries", 1}, {"samples_per_pixel", 4}};
+    EXPECT_NO_THROW(load_scenario(document, {})) << "a million steps";
+    EXPECT_EQ(error_with("/rays/resolution", "16384", document).where(), "/rays");
+    EXPECT_EQ(error_with("/reference/queries", "16777216", document).where(), "/reference");
+    const base::Error step = error_with("/scene/objects/0/step", "1e-18", document);
+    EXPECT_EQ(step.where(), "/scene/objects/0/step");
+    EXPECT_THAT(step.message(), HasSubstr("make it at least 3.46e-07"));
+}
+
 TEST(LoadScenario, RefusesCamerasThatSeeNothing) {
     const char* on_target = R"({"type": "camera", "position": [0, 0, 5], "target": [0, 0, 5]})";
     EXPECT_EQ(error_with("/receivers", on_target).where(), "/receivers/target");

@@ -160,7 +160,8 @@ TEST_F(Cli, says_that_a_light_sees_nothing) {
     }
     EXPECT_EQ(cli(with({"validate", path("tiny.json"), "--set", "sweeps={\"/rays/seed\":[1,2]}"}, aside)).out,
               "OK tiny: 2 variants of 1 light and 2 techniques\n"
-              "note: light directional_0 sees nothing that casts a shadow: no caster is inside its map\n");
+              "note: light directional_0 sees nothing that casts a shadow: no caster is inside its map and behind its "
+              "near plane\n");
 }
 
 TEST_F(Cli, refuses_what_exceeds_the_memory_limit_before_it_works) {
