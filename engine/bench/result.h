@@ -112,7 +112,7 @@ struct LightResult {
     std::uint64_t rays = 0, segments = 0;
     std::uint64_t ray_bytes = 0;
     bool kept = true;                          // all rays stayed in memory; else they were captured anew for each pass
-    bool translucent = false;                  // some crossing lets light through
+    bool translucent = false;                  // some crossing lets light through, or into a medium
     std::uint64_t receivers = 0, dropped = 0;  // dropped: outside the light's map
     std::optional<Agreement> agreement;
     ReferenceReport reference;

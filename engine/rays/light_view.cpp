@@ -50,12 +50,6 @@ void fit(LightView& view, Vec2d middle, Vec2d size) {
     view.lower = {middle.x - 0.5 * pixel * view.resolution.x, middle.y - 0.5 * pixel * view.resolution.y};
 }
 
-[[noreturn]] void sees_nothing(const std::string& where) {
-    throw base::Error(
-        base::ErrorCode::bad_input, where,
-        "the light sees nothing that casts a shadow: no caster is inside its map and behind its near plane");
-}
-
 LightView directional_view(const scene::Light& light, const base::Box3d& casters, Vec2i resolution) {
     LightView view;
     view.resolution = resolution;
@@ -107,9 +101,12 @@ LightView spot_view(const scene::Light& light, const base::Box3d& casters, Vec2i
         slope_x = std::max(slope_x, p.z > 0 ? std::abs(p.x / p.z) : infinity);
         slope_y = std::max(slope_y, p.z > 0 ? std::abs(p.y / p.z) : infinity);
     }
-    if (z_high <= view.z_near) sees_nothing(where);
     view.z_min = std::max(z_low, view.z_near);
     view.z_max = z_high;
+    if (z_high <= view.z_near) {  // all casters are behind the light: some depths around its target
+        view.z_min = view.z_near;
+        view.z_max = 2.0 * std::max(axis.length(), view.z_near);
+    }
 
     if (light.angle) {
         const double half = std::tan(*light.angle * std::numbers::pi / 360.0);
@@ -156,33 +153,34 @@ void check_volumes(const LightView& view, const scene::Scene& scene, const std::
     }
 }
 
-// Whether the casters' bounds surely miss the map: all corners outside of one of its sides.
-bool misses(const LightView& view, const base::Box3d& casters) {
-    const Vec2d high = view.lower + Vec2d(view.pixel.x * view.resolution.x, view.pixel.y * view.resolution.y);
-    int left = 0, right = 0, below = 0, above = 0;
-    for (const Vec3d& corner : corners(casters)) {
-        const Vec3d p = to_view(view, corner);
-        const double w = view.perspective ? p.z : 1.0;  // sides are planes through the light: x < lower * z, ...
-        left += p.x < view.lower.x * w;
-        right += p.x > high.x * w;
-        below += p.y < view.lower.y * w;
-        above += p.y > high.y * w;
-    }
-    return left == 8 || right == 8 || below == 8 || above == 8;
-}
-
 }  // namespace
 
 LightView make_light_view(const scene::Light& light, const scene::Scene& scene, Vec2i resolution,
                           const std::string& where) {
     if (light.type == scene::LightType::deep_image) return deep_image_view(*scene.deep_image);
     const base::Box3d casters = scene::bounds(scene, true);
-    if (casters.isEmpty()) sees_nothing(where);
+    if (casters.isEmpty()) throw base::Error(base::ErrorCode::bad_input, where, "nothing in the scene casts a shadow");
     const LightView view = light.type == scene::LightType::spot ? spot_view(light, casters, resolution, where)
                                                                 : directional_view(light, casters, resolution);
-    if (misses(view, casters)) sees_nothing(where);
     check_volumes(view, scene, where);
     return view;
+}
+
+// All corners outside of one of the map's sides, or none behind the near plane.
+bool misses_all(const LightView& view, const scene::Scene& scene) {
+    if (scene.deep_image) return false;
+    const Vec2d high = view.lower + Vec2d(view.pixel.x * view.resolution.x, view.pixel.y * view.resolution.y);
+    int left = 0, right = 0, below = 0, above = 0, before = 0;
+    for (const Vec3d& corner : corners(scene::bounds(scene, true))) {
+        const Vec3d p = to_view(view, corner);
+        const double w = view.perspective ? p.z : 1.0;  // sides are planes through the light: x < lower * z, ...
+        left += p.x < view.lower.x * w;
+        right += p.x > high.x * w;
+        below += p.y < view.lower.y * w;
+        above += p.y > high.y * w;
+        before += p.z <= view.z_near;
+    }
+    return left == 8 || right == 8 || below == 8 || above == 8 || before == 8;
 }
 
 Vec3d to_view(const LightView& view, const Vec3d& world) {

@@ -166,6 +166,20 @@ TEST(Run, finds_all_lit_where_the_light_sees_nothing) {
     EXPECT_NE(to_table(result).find("note: the light sees nothing"), std::string::npos);
 }
 
+// Nothing is left behind the ball, and yet what takes its front for a wall is off inside of it.
+TEST(Run, does_not_take_a_medium_for_opaque_where_no_light_leaves_it) {
+    json document = two_layers();
+    document["scene"]["objects"] = {
+        {{"type", "particles"}, {"centres", {{0, 0, 0}}}, {"radii", {4}}, {"density", {1e4}}}};
+    document["lights"][0]["extent"] = {2, 2};
+    document["techniques"] = {{{"type", "shadow_map"}}};
+    const LightResult light = run(document, {}, {}).variants[0].lights[0];
+    EXPECT_TRUE(light.translucent);
+    EXPECT_EQ(light.cells[0].status, CellStatus::ok) << light.cells[0].reason;
+    EXPECT_TRUE(light.cells[0].outside_promise);
+    EXPECT_GT(light.cells[0].curve->norms.max, 0.9);
+}
+
 TEST(Run, asks_at_given_points_and_refuses_points_that_are_all_outside_the_map) {
     json document = two_layers();
     document["receivers"] = {{"type", "points"},

@@ -142,24 +142,26 @@ TEST_F(Cli, says_which_value_is_wrong) {
     fails_with("sweeps={\"/rays/sed\":[1]}", 65, "/rays/sed");
 }
 
-TEST_F(Cli, says_which_light_sees_nothing) {
+// Whether its bounds tell it at once, or the light rays alone.
+TEST_F(Cli, says_that_a_light_sees_nothing) {
     const std::vector<std::string> aside{"--set", "lights.0.extent=[1,1]", "--set", "lights.0.target=[100,0,0]"};
     const std::vector<std::string> beside_the_ball{"--set", "lights.0.extent=[0.1,0.1]", "--set",
                                                    "lights.0.target=[0.9,0,0.9]"};  // but inside its bounds
-    for (const char* command : {"validate", "run"}) {
-        std::vector<std::string> arguments{command, path("tiny.json")};
-        arguments.insert(arguments.end(), aside.begin(), aside.end());
-        fails(arguments, 65, "/lights/0");
+    const auto with = [](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    };
+    for (const auto& light : {aside, beside_the_ball}) {
+        const Outcome empty = cli(with({"run", path("tiny.json"), "--out", path("out")}, light));
+        EXPECT_EQ(empty.code, 0) << empty.err;
+        EXPECT_NE(empty.out.find("note: the light sees nothing that casts a shadow"), std::string::npos) << empty.out;
+        EXPECT_TRUE(nlohmann::json::parse(read(path("out/result.json")))["variants"][0]["lights"][0]["sees_nothing"]);
+        fails(with({"export", path("tiny.json"), "--out", path("map.exr")}, light), 65, "/lights/0");
     }
-    std::vector<std::string> arguments{"run", path("tiny.json"), "--out", path("out")};
-    arguments.insert(arguments.end(), beside_the_ball.begin(), beside_the_ball.end());
-    const Outcome empty = cli(arguments);
-    EXPECT_EQ(empty.code, 0) << empty.err;
-    EXPECT_NE(empty.out.find("note: the light sees nothing that casts a shadow"), std::string::npos) << empty.out;
-    EXPECT_TRUE(nlohmann::json::parse(read(path("out/result.json")))["variants"][0]["lights"][0]["sees_nothing"]);
-    arguments = {"export", path("tiny.json"), "--out", path("map.exr")};
-    arguments.insert(arguments.end(), beside_the_ball.begin(), beside_the_ball.end());
-    fails(arguments, 65, "/lights/0");
+    EXPECT_EQ(cli(with({"validate", path("tiny.json"), "--set", "sweeps={\"/rays/seed\":[1,2]}"}, aside)).out,
+              "OK tiny: 2 variants of 1 light and 2 techniques\n"
+              "note: light directional_0 sees nothing that casts a shadow: no caster is inside its map and behind its "
+              "near plane\n");
 }
 
 TEST_F(Cli, refuses_what_exceeds_the_memory_limit_before_it_works) {
