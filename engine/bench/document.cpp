@@ -59,8 +59,13 @@ void set_value(json& document, const std::string& assignment) {
     const std::string path = assignment.substr(0, equals), text = assignment.substr(equals + 1);
     const json::json_pointer pointer = read_path(path, assignment);
 
-    json value = json::parse(text, nullptr, false);
-    if (value.is_discarded()) value = text;
+    json value;
+    if (!text.empty() && (text.front() == '{' || text.front() == '[')) {
+        value = scene::parse_json(text, "--set " + path);
+    } else {
+        value = json::parse(text, nullptr, false);
+        if (value.is_discarded()) value = text;
+    }
 
     json* place = find_place(document, pointer);
     if (!place)

@@ -63,7 +63,8 @@ struct Cell {
     CellStatus status = CellStatus::ok;
     std::string reason;            // why it failed
     bool outside_promise = false;  // made for opaque scenes alone, and this one is not
-    double error_bound = 0.0;      // the promised largest curve error; infinity: none
+    techniques::Promises promises;
+    double error_bound = 0.0;  // the promised largest curve error; infinity: none
     std::size_t bytes = 0, working_bytes = 0;
     techniques::NodeStats nodes;
     std::optional<CurveErrors> curve;
@@ -71,6 +72,9 @@ struct Cell {
     bool on_bytes_front = false;     // no other technique is both smaller and more accurate
     std::optional<CellTimes> times;  // nothing for a failed cell
 };
+
+// "deep tolerance=0.02": the technique and its parameters.
+std::string title(const Cell& cell);
 
 struct CaptureTimes {
     double seconds = 0.0;          // all tiles, on all threads
@@ -115,6 +119,9 @@ struct LightResult {
     CaptureTimes times;
     std::vector<Cell> cells;
 };
+
+// Whether no ray meets anything that casts a shadow: all is lit, and the map of every technique is empty.
+bool sees_nothing(const LightResult& light);
 
 struct Setting {
     std::string pointer;

@@ -25,7 +25,8 @@ json read_pairs(const std::string& pairs, const std::string& where) {
             throw Error(ErrorCode::usage, where, "expected name=value, as in deep:tolerance=0.02");
         json value = json::parse(pair.substr(equals + 1), nullptr, false);
         if (value.is_discarded()) value = pair.substr(equals + 1);
-        object[pair.substr(0, equals)] = std::move(value);
+        if (!object.emplace(pair.substr(0, equals), std::move(value)).second)
+            throw Error(ErrorCode::usage, where, pair.substr(0, equals) + " is given twice");
         first = comma + 1;
     }
     return object;

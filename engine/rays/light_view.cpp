@@ -31,6 +31,10 @@ std::array<Vec3d, 8> corners(const base::Box3d& box) {
     return result;
 }
 
+double largest(const Vec3d& place) {
+    return std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+}
+
 struct PlaneBounds {
     Vec2d low{infinity, infinity}, high{-infinity, -infinity};
     void add(double x, double y) {
@@ -47,8 +51,9 @@ void fit(LightView& view, Vec2d middle, Vec2d size) {
 }
 
 [[noreturn]] void sees_nothing(const std::string& where) {
-    throw base::Error(base::ErrorCode::bad_input, where,
-                      "the light sees nothing that casts a shadow: no caster is inside its map");
+    throw base::Error(
+        base::ErrorCode::bad_input, where,
+        "the light sees nothing that casts a shadow: no caster is inside its map and behind its near plane");
 }
 
 LightView directional_view(const scene::Light& light, const base::Box3d& casters, Vec2i resolution) {
@@ -68,7 +73,9 @@ LightView directional_view(const scene::Light& light, const base::Box3d& casters
     }
     // Depth 0 lies a little before the first caster: depths stay small, which keeps float z exact, and positive.
     const double scale = std::max({z_high - z_low, plane.high.x - plane.low.x, plane.high.y - plane.low.y, 1e-6});
-    const double start = z_low - 0.01 * scale;
+    // More than the rounding of places that far from the target, or depths could fall below 0.
+    const double rounding = 1e-12 * std::max(largest(casters.min), largest(casters.max) + largest(light.target));
+    const double start = z_low - std::max(0.01 * scale, rounding);
     view.origin += view.forward * start;
     view.z_min = z_low - start;
     view.z_max = z_high - start;
@@ -131,6 +138,24 @@ LightView deep_image_view(const scene::DeepImage& image) {
     return view;
 }
 
+// Voxels are told apart by their distance from the light, in double.
+void check_volumes(const LightView& view, const scene::Scene& scene, const std::string& where) {
+    constexpr double farthest = 1e13;  // in voxels
+    for (const scene::Object& object : scene.objects) {
+        const auto* volume = std::get_if<scene::GridVolume>(&object.shape);
+        if (!volume || !object.casts_shadow) continue;
+        const Vec3d extent = volume->upper - volume->lower;
+        const double voxel =
+            std::min({extent.x / volume->size.x, extent.y / volume->size.y, extent.z / volume->size.z});
+        const double away = std::max({largest(volume->lower - view.origin), largest(volume->upper - view.origin),
+                                      largest(volume->lower), largest(volume->upper), largest(view.origin)});
+        if (away > farthest * voxel)
+            throw base::Error(base::ErrorCode::bad_input, where,
+                              "the light, or the world's origin, is more than 1e13 voxels away from the volume \"" +
+                                  object.name + "\": bring them nearer or make the voxels larger");
+    }
+}
+
 // Whether the casters' bounds surely miss the map: all corners outside of one of its sides.
 bool misses(const LightView& view, const base::Box3d& casters) {
     const Vec2d high = view.lower + Vec2d(view.pixel.x * view.resolution.x, view.pixel.y * view.resolution.y);
@@ -156,6 +181,7 @@ LightView make_light_view(const scene::Light& light, const scene::Scene& scene, 
     const LightView view = light.type == scene::LightType::spot ? spot_view(light, casters, resolution, where)
                                                                 : directional_view(light, casters, resolution);
     if (misses(view, casters)) sees_nothing(where);
+    check_volumes(view, scene, where);
     return view;
 }
 

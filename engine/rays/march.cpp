@@ -99,6 +99,13 @@ void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double sc
         slope[a] = direction[a] * per_length;
         start[a] = (origin[a] - volume_.lower[a]) * per_length - 0.5 + slope[a] * t_min;
     }
+    // Seen from so far away that places along the ray are too coarse to tell voxels apart, there is nothing to march.
+    constexpr double slack = 0.25;
+    for (int a = 0; a < 3; ++a) {
+        const double end = start[a] + slope[a] * (t_max - t_min);
+        if (!(std::min(start[a], end) >= -0.5 - slack && std::max(start[a], end) <= volume_.size[a] - 0.5 + slack))
+            return;
+    }
     const double step = volume_.step / scale;
     const auto steps = static_cast<std::int64_t>(std::max(1.0, std::ceil((t_max - t_min) / step)));
     const auto place = [&](std::int64_t i) { return i >= steps ? t_max - t_min : static_cast<double>(i) * step; };

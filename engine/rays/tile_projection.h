@@ -73,6 +73,7 @@ private:
     void project(const Prepared& p, const scene::Hair& hair) {
         if (transmits_all(p.transmittance)) return;
         for (const std::uint32_t i : p.bins.of(tile_)) {
+            check_hits(sink_);
             const HairSegment s = hair_segment(p, hair, i);
             if constexpr (moving) {
                 const auto place = [&](const Vec3d& offset) { return place_hair(view_, s, offset); };
@@ -93,6 +94,7 @@ private:
     void project(const Prepared& p, const scene::Mesh& mesh) {
         if (transmits_all(p.transmittance)) return;
         for (const std::uint32_t i : p.bins.of(tile_)) {
+            check_hits(sink_);
             const base::Vec3i& corners = mesh.triangles[i];
             const base::Vec3f &a = p.points[corners.x], &b = p.points[corners.y], &c = p.points[corners.z];
             float textured[3];
@@ -158,11 +160,13 @@ private:
     template <bool moving>
     void project(const Prepared& p, const scene::Spheres& spheres) {
         if (transmits_all(p.transmittance)) return;
-        for (const std::uint32_t i : p.bins.of(tile_))
+        for (const std::uint32_t i : p.bins.of(tile_)) {
+            check_hits(sink_);
             visit_sphere<moving>(p, i, spheres.radii[i], [&](std::uint32_t ray, double front, double back, double) {
                 if (front > view_.z_near) sink_.surface(ray, front, p.transmittance);
                 sink_.surface(ray, back, p.transmittance);
             });
+        }
     }
 
     // A segment of optical depth `depth` in a unit of extinction. What its transmittances round away stays in
@@ -186,7 +190,8 @@ private:
     template <bool moving>
     void project(const Prepared& p, const scene::Particles& particles) {
         if constexpr (std::is_same_v<Sink, SegmentHits>) {
-            for (const std::uint32_t i : p.bins.of(tile_))
+            for (const std::uint32_t i : p.bins.of(tile_)) {
+                check_hits(sink_);
                 visit_sphere<moving>(
                     p, i, particles.radii[i], [&](std::uint32_t ray, double front, double back, double scale) {
                         front = std::max(front, view_.z_near);
@@ -195,6 +200,7 @@ private:
                         StepRounding alone;
                         medium(ray, f, b, (back - front) * scale * particles.density[i], p.object->extinction, alone);
                     });
+            }
         }
     }
 
@@ -216,6 +222,7 @@ private:
     // Through a volume that stands where the scene has it, by a ray moved the other way.
     void march(const Prepared& p, std::uint32_t ray, double x, double y, const Vec3d& moved) {
         if (!wanted_.empty() && !wanted_[ray / samples_]) return;
+        check_hits(sink_);
         const ViewLine line = view_line(view_, x, y);
         const Vec3d& d = line.direction;
         steps_.clear();

@@ -114,7 +114,10 @@ Mesh load_mesh(const json& from, const SearchPath& path, const std::string& wher
 Mesh load_quad(const json& from, const SearchPath& path, const std::string& where) {
     const Parallelogram quad = read_parallelogram(from, where);
     Mesh mesh;
-    for (const Vec3d& point : corners(quad)) mesh.positions.emplace_back(point);
+    for (const Vec3d& point : corners(quad)) {
+        if (!in_range(point)) refuse(where, fmt::format("corner and edges reach beyond {}", max_coordinate));
+        mesh.positions.emplace_back(point);
+    }
     mesh.triangles = {Vec3i(0, 1, 2), Vec3i(0, 2, 3)};
     mesh.corner_uv = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     load_alpha(from, path, where, mesh);

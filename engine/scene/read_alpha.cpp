@@ -121,6 +121,10 @@ AlphaTexture read_alpha(const std::filesystem::path& file) {
         if (spec.depth > 1 || channels < 1 || texels * static_cast<std::uint64_t>(channels) > max_texels)
             refuse_image(file, fmt::format("{} x {} x {} pixels of {} channels; the limit is {} values", spec.width,
                                            spec.height, spec.depth, channels, max_texels));
+        const std::uint64_t bytes = std::filesystem::file_size(file);
+        if (texels * static_cast<std::uint64_t>(channels) / max_values_per_byte > bytes)
+            refuse_image(file, fmt::format("{} x {} pixels in a file of {} bytes: it is damaged", spec.width,
+                                           spec.height, bytes));
         std::vector<float> values(texels * static_cast<std::uint64_t>(channels));
         // Some of its readers say that they read an image, and leave an error behind.
         if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()) || input->has_error())

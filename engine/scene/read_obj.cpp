@@ -129,6 +129,10 @@ public:
         : attributes_(attributes), file_(file) {
         const std::vector<tinyobj::real_t>& v = attributes.vertices;
         if (v.size() / 3 > max_mesh_elements) fail(fmt::format("over {} vertices", max_mesh_elements));
+        // The library's own reading of digits and exponents: it can lose numbers that the lines hold.
+        for (const auto* numbers : {&attributes.vertices, &attributes.texcoords})
+            for (const tinyobj::real_t number : *numbers)
+                if (!std::isfinite(number)) fail("a number has more digits or a larger exponent than can be read");
         for (std::size_t i = 0; i + 2 < v.size(); i += 3) mesh_.positions.emplace_back(v[i], v[i + 1], v[i + 2]);
     }
 

@@ -5,11 +5,14 @@
 #endif
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -23,8 +26,21 @@
 #include "scene/schema_text.h"
 
 namespace shadowbench::scene {
-
 namespace {
+
+// valijson takes whole numbers as signed ones of 64 bits: larger ones would pass as negative.
+void refuse_large_integers(const nlohmann::json& value, const nlohmann::json::json_pointer& at) {
+    constexpr auto largest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    if (value.is_number_unsigned() && value.get<std::uint64_t>() > largest)
+        throw base::Error(base::ErrorCode::bad_input, at.to_string(),
+                          fmt::format("{} is too large for any number here", value.get<std::uint64_t>()));
+    if (value.is_array())
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            if (value[i].is_structured() || value[i].is_number_unsigned()) refuse_large_integers(value[i], at / i);
+        }
+    if (value.is_object())
+        for (const auto& [key, child] : value.items()) refuse_large_integers(child, at / key);
+}
 
 // A schema takes longer to parse than a document to check, and a document with sweeps is checked once a variant: the
 // few schemas that there are, are kept.
@@ -50,6 +66,7 @@ const nlohmann::json& scenario_schema() {
 }
 
 void check_schema(const nlohmann::json& document, const nlohmann::json& schema) {
+    refuse_large_integers(document, nlohmann::json::json_pointer());
     const std::shared_ptr<const valijson::Schema> rules = parsed(schema);
     const valijson::adapters::NlohmannJsonAdapter target(document);
     valijson::Validator validator;

@@ -217,7 +217,7 @@ TEST(LoadVolume, ReadsRawValuesIntoTheirBox) {
     EXPECT_EQ(volume.upper, Vec3d(8, 1, 1));
     EXPECT_EQ(volume.step, 0.5);  // half of the smallest voxel edge
     EXPECT_EQ(std::get<GridVolume>(load(raw + R"(, "step": 0.125})", {folder}).shape).step, 0.125);
-    EXPECT_EQ(failure(raw + R"(, "step": 1e-5})", {folder}).where(), "/scene/objects/0/step");
+    EXPECT_EQ(failure(raw + R"(, "step": 1e-8})", {folder}).where(), "/scene/objects/0/step");
     EXPECT_EQ(failure(raw + R"(, "grid": "density"})", {folder}).where(), "/scene/objects/0/grid");
 }
 

@@ -99,7 +99,8 @@ public:
         const float* texel = texels_.at(cell);
         const Slices slices = slices_of(texel);
         std::array<float, most_slices + 1> own;
-        for (int i = 0; i <= count_; ++i) own[i] = slices.depth(i);
+        for (int i = 0; i < count_; ++i) own[i] = slices.depth(i);
+        own[count_] = slices.behind();
         sample_function(
             {own.data(), own.data() + count_ + 1}, depths, [&](float z) { return evaluate(texel, slices.place(z)); },
             out);

@@ -49,10 +49,8 @@ public:
         std::vector<rays::TracedSegment> scratch;
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const Query& q = queries[i];
-            if (!inside(q.x, view_.resolution.x) || !inside(q.y, view_.resolution.y)) {
-                visibility[i] = 1.0f;
-                continue;
-            }
+            visibility[i] = 1.0f;
+            if (!inside(q.x, view_.resolution.x) || !inside(q.y, view_.resolution.y) || !(q.z > 0.0f)) continue;
             // The jitter depends on the query alone; so do the times, which spread over the shutter.
             const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
             const std::uint64_t key = base::hash(bits(q.x) << 32 | bits(q.y), bits(q.z));
@@ -60,7 +58,7 @@ public:
             rays::MapLayout pattern = pattern_;
             pattern.seed = key;
             // What of the footprint lies in the map: one that hangs over has as many samples.
-            const Side across(q.x, q.width, view_.resolution.x), down(q.y, q.width, view_.resolution.y);
+            const Side across(q.x, width_of(q), view_.resolution.x), down(q.y, width_of(q), view_.resolution.y);
             double sum = 0.0;
             for (int sy = 0; sy < pattern_.samples_y; ++sy)
                 for (int sx = 0; sx < pattern_.samples_x; ++sx) {
