@@ -28,11 +28,11 @@ using base::ErrorCode;
 }
 
 // Number of voxels in a box, which must not be over the limit.
-double check_box(const openvdb::Coord& lower, const openvdb::Coord& upper, const std::filesystem::path& file) {
+double check_box(const openvdb::CoordBBox& box, std::uint64_t most_voxels, const std::filesystem::path& file) {
     double voxels = 1.0;
-    for (int axis = 0; axis < 3; ++axis) voxels *= std::max(0.0, static_cast<double>(upper[axis]) - lower[axis] + 1.0);
-    if (voxels > static_cast<double>(max_voxels))
-        fail(file, fmt::format("the active box has {} voxels; the limit is {}", voxels, max_voxels));
+    for (int axis = 0; axis < 3; ++axis) voxels *= static_cast<double>(box.max()[axis]) - box.min()[axis] + 1.0;
+    if (voxels > static_cast<double>(most_voxels))
+        fail(file, fmt::format("the active box has {} voxels; the limit is {}", voxels, most_voxels));
     return voxels;
 }
 
@@ -42,9 +42,6 @@ openvdb::FloatGrid::Ptr read_grid(const std::filesystem::path& file, const std::
     vdb.open(false);
     if (!vdb.hasGrid(name))
         fail(file, fmt::format("there is no grid \"{}\"; the grids are: {}", name, names.empty() ? "none" : names));
-    // Before its values are read: others than float ones are not checked.
-    if (const auto metadata = vdb.readGridMetadata(name); !metadata->isType<openvdb::FloatGrid>())
-        fail(file, fmt::format("the grid \"{}\" has {} values, not float", name, metadata->valueType()));
     const openvdb::FloatGrid::Ptr result = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(name));
     if (result->getGridClass() == openvdb::GRID_LEVEL_SET)
         fail(file, fmt::format("the grid \"{}\" is a level set, not a fog volume", name));
@@ -65,10 +62,10 @@ void check_transform(const openvdb::math::Transform& transform, const std::files
         }
 }
 
-GridVolume convert(const openvdb::FloatGrid& grid, const std::filesystem::path& file) {
+GridVolume convert(const openvdb::FloatGrid& grid, std::uint64_t most_voxels, const std::filesystem::path& file) {
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
     if (box.empty()) fail(file, "the grid has no active voxels");
-    const double voxels = check_box(box.min(), box.max(), file);
+    const double voxels = check_box(box, most_voxels, file);
 
     GridVolume volume;
     const openvdb::Coord size = box.dim();
@@ -101,7 +98,7 @@ void check_values(const GridVolume& volume, const std::filesystem::path& file) {
 
 }  // namespace
 
-GridVolume read_vdb(const std::filesystem::path& file, const std::string& grid) {
+GridVolume read_vdb(const std::filesystem::path& file, const std::string& grid, std::uint64_t most_voxels) {
     static std::once_flag once;
     std::call_once(once, [] { openvdb::initialize(); });
     std::error_code ignored;
@@ -112,7 +109,7 @@ GridVolume read_vdb(const std::filesystem::path& file, const std::string& grid) 
     try {
         const openvdb::FloatGrid::Ptr source = read_grid(file, grid);
         check_transform(source->transform(), file);
-        GridVolume volume = convert(*source, file);
+        GridVolume volume = convert(*source, most_voxels, file);
         check_values(volume, file);
         return volume;
     } catch (const Error&) {

@@ -4,8 +4,13 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -37,6 +42,22 @@ void refuse_large_integers(const nlohmann::json& value, const nlohmann::json::js
         for (const auto& [key, child] : value.items()) refuse_large_integers(child, at / key);
 }
 
+// A schema takes longer to parse than a document to check, and a document with sweeps is checked once a variant: the
+// few schemas that there are, are kept.
+std::shared_ptr<const valijson::Schema> parsed(const nlohmann::json& schema) {
+    constexpr std::size_t most = 4;
+    static std::mutex mutex;
+    static std::vector<std::pair<nlohmann::json, std::shared_ptr<const valijson::Schema>>> kept;
+    const std::lock_guard lock(mutex);
+    for (const auto& [source, result] : kept)
+        if (source == schema) return result;
+    const auto result = std::make_shared<valijson::Schema>();
+    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), *result);
+    if (kept.size() == most) kept.erase(kept.begin());
+    kept.emplace_back(schema, result);
+    return result;
+}
+
 }  // namespace
 
 const nlohmann::json& scenario_schema() {
@@ -46,15 +67,14 @@ const nlohmann::json& scenario_schema() {
 
 void check_schema(const nlohmann::json& document, const nlohmann::json& schema) {
     refuse_large_integers(document, nlohmann::json::json_pointer());
-    valijson::Schema parsed;
-    valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema), parsed);
+    const std::shared_ptr<const valijson::Schema> rules = parsed(schema);
     const valijson::adapters::NlohmannJsonAdapter target(document);
     valijson::Validator validator;
     // Results collect every fault; a valid document, the common case, does not pay for them.
-    if (validator.validate(parsed, target, nullptr)) return;
+    if (validator.validate(*rules, target, nullptr)) return;
 
     valijson::ValidationResults results;
-    validator.validate(parsed, target, &results);
+    validator.validate(*rules, target, &results);
     valijson::ValidationResults::Error first;
     std::vector<std::string> path;
     if (results.popError(first))

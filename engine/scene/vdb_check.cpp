@@ -29,18 +29,25 @@ enum Compression : std::uint32_t { zip = 1, active_mask = 2, blosc = 4 };
 // What is stored of a node's inactive values: its first byte.
 enum Inactive : std::int8_t { one_value = 2, mask_none = 3, mask_one = 4, mask_two = 5, all_values = 6 };
 
-struct MapSize {
+struct TypeSize {
     std::string_view type;
     std::uint64_t bytes;
 };
 constexpr std::array map_sizes{
-    MapSize{"AffineMap", 128},
-    MapSize{"UnitaryMap", 128},
-    MapSize{"ScaleMap", 120},
-    MapSize{"UniformScaleMap", 120},
-    MapSize{"TranslationMap", 24},
-    MapSize{"ScaleTranslateMap", 144},
-    MapSize{"UniformScaleTranslateMap", 144},
+    TypeSize{"AffineMap", 128},
+    TypeSize{"UnitaryMap", 128},
+    TypeSize{"ScaleMap", 120},
+    TypeSize{"UniformScaleMap", 120},
+    TypeSize{"TranslationMap", 24},
+    TypeSize{"ScaleTranslateMap", 144},
+    TypeSize{"UniformScaleTranslateMap", 144},
+};
+// Metadata that the library reads at its own size, whatever size the file tells.
+constexpr std::array metadata_sizes{
+    TypeSize{"bool", 1},   TypeSize{"int32", 4},  TypeSize{"int64", 8},  TypeSize{"float", 4},
+    TypeSize{"double", 8}, TypeSize{"vec2i", 8},  TypeSize{"vec2s", 8},  TypeSize{"vec2d", 16},
+    TypeSize{"vec3i", 12}, TypeSize{"vec3s", 12}, TypeSize{"vec3d", 24}, TypeSize{"vec4i", 16},
+    TypeSize{"vec4s", 16}, TypeSize{"vec4d", 32}, TypeSize{"mat4s", 64}, TypeSize{"mat4d", 128},
 };
 
 struct Grid {
@@ -106,12 +113,25 @@ private:
             reader_.need(size, 1, "metadata");
             const std::uint64_t at = reader_.position();
             if (name == key && size == bytes) place = at;
-            // Sizes of leaves, as many as it says first.
-            if (type == "__delayedload" && size >= 4 && reader_.value<std::uint32_t>("metadata") > reader_.size())
-                damaged("it tells of more leaves than it has bytes");
+            for (const TypeSize& row : metadata_sizes)
+                if (row.type == type && row.bytes != size) damaged(fmt::format("a {} of {} bytes", type, size));
+            if (type == "__delayedload" && size > 0) check_leaf_sizes(at + size);
             reader_.seek(at + size, "metadata");
         }
         return place;
+    }
+
+    // A number of leaves, then a byte and 8 bytes of each, both behind the length of their compressed form; 0: as they
+    // are, all bits set: left out.
+    void check_leaf_sizes(std::uint64_t end) {
+        const std::uint64_t leaves = reader_.value<std::uint32_t>("metadata");
+        if (leaves > reader_.size()) damaged("it tells of more leaves than it has bytes");
+        for (const std::uint64_t each : {1, 8}) {
+            const auto packed = reader_.value<std::uint32_t>("metadata");
+            if (each == 8 && packed == 0xffffffff) continue;
+            skip(packed > 0 ? packed : leaves * each, "metadata");
+        }
+        if (reader_.position() > end) damaged("the sizes of its leaves are longer than they say");
     }
 
     void read_header() {
@@ -154,7 +174,9 @@ private:
     }
 
     void check_grid(const Grid& grid) {
-        if (grid.type != "Tree_float_5_4_3") return;  // not read
+        // Before anything of it is read: others are not checked.
+        if (grid.type != "Tree_float_5_4_3")
+            reader_.fail(grid.begin, fmt::format("the grid \"{}\" is a {}, not float", grid.name, grid.type));
         half_ = grid.half;
         reader_.seek(grid.begin, "grid");
         compression_ = reader_.value<std::uint32_t>("compression");
@@ -187,7 +209,7 @@ private:
     void check_transform() {
         const std::uint64_t at = reader_.position();
         const std::string type = string("transform");
-        for (const MapSize& row : map_sizes)
+        for (const TypeSize& row : map_sizes)
             if (row.type == type) return skip(row.bytes, "transform");
         reader_.fail(at, type == "NonlinearFrustumMap"
                              ? "the grid is not a box in the world: its transform is a frustum"
