@@ -69,9 +69,11 @@ inline HandRays rays_of(int width, int height, int samples, const std::vector<Dr
     return given;
 }
 
+// Few at first, up to 40 in the end.
 inline rc::Gen<std::vector<Draw>> any_draws() {
-    return rc::gen::container<std::vector<Draw>>(rc::gen::tuple(rc::gen::inRange(0, 64), rc::gen::inRange(0, 18),
-                                                                rc::gen::inRange(0, 6), rc::gen::inRange(0, 13)));
+    const auto draw = rc::gen::tuple(rc::gen::inRange(0, 64), rc::gen::inRange(0, 18), rc::gen::inRange(0, 6),
+                                     rc::gen::inRange(0, 13));
+    return rc::gen::scale(0.4, rc::gen::container<std::vector<Draw>>(draw));
 }
 
 // Maps of 1 x 1 to 4 x 4 pixels of 1 to 4 rays.
