@@ -17,10 +17,11 @@ enum class ErrorCode {
 };
 
 // `where` is a JSON pointer ("/lights/0/angle"), "file", "file:offset" (bytes) or "file:line"; it may be empty.
-// what() is one line: "where: message".
+// what() is one line: "where: message". All three are printable UTF-8: control characters become spaces, and what is no
+// UTF-8 '?'.
 class Error : public std::exception {
 public:
-    Error(ErrorCode code, std::string where, std::string message);
+    Error(ErrorCode code, std::string_view where, std::string_view message);
 
     const char* what() const noexcept override { return line_.c_str(); }
     ErrorCode code() const { return code_; }

@@ -60,7 +60,7 @@ Crossed crossed(const std::vector<rays::TracedSegment>& segments) {
     Crossed result;
     for (const rays::TracedSegment& segment : segments) {
         result.surfaces += segment.front == segment.back;
-        for (int c = 0; c < 3; ++c) result.transmittance[c] *= static_cast<double>(segment.transmittance[c]);
+        for (int c = 0; c < 3; ++c) result.transmittance[c] *= segment.transmittance[c];
     }
     return result;
 }

@@ -18,7 +18,7 @@ namespace {
 using techniques::Query;
 
 constexpr std::size_t max_checked_cells = std::size_t{1} << 20;  // of one map: more take long and tell little
-constexpr float rounding = 1e-6f;                                // of an answer beyond [0, 1]
+constexpr float rounding = 1e-6f;                                // of an answer beyond [0, 1], or from 1
 
 // A layout that a technique cannot serve is bad input, not a fault of the technique: the message names its place.
 Maps begin_served(const Contender& contender, const techniques::BuildInput& input) {
@@ -82,17 +82,12 @@ void finish_all(std::span<Contender> contenders) {
 
 void judge(Contender& contender, const Asked& judged, const Truth& truth) {
     const std::vector<float> visibility = lookup_all(contender.maps, judged);
+    check_answers(contender, judged, visibility);
+    if (!contender.ok()) return;
     std::vector<double> errors(visibility.size());
     LookupErrors result;
-    const bool bounded = techniques::promises(*contender.row, contender.values).unit_range;
     for (std::size_t i = 0; i < visibility.size(); ++i) {
-        const float v = visibility[i];
-        if (!(bounded ? v >= -rounding && v <= 1.0f + rounding : std::isfinite(v))) {
-            const Query& q = judged.queries[i % judged.queries.size()];
-            return fail(contender, fmt::format("the lookup at ({}, {}, {}) answers {}, which is not {}", q.x, q.y, q.z,
-                                               v, bounded ? "in [0, 1]" : "finite"));
-        }
-        errors[i] = v - truth.value[i];
+        errors[i] = visibility[i] - truth.value[i];
         result.signed_mean += errors[i];
     }
     result.norms = metrics::error_norms(errors);
@@ -151,8 +146,8 @@ void build_all(std::span<Contender> contenders, const RaySource& source, const t
                std::size_t memory_limit, const RaySource::Watch& watch) {
     for (Contender& contender : contenders) {
         contender.cell.error_bound = contender.row->error_bound(contender.values, input.layout);
-        const techniques::Promises promises = techniques::promises(*contender.row, contender.values);
-        contender.cell.outside_promise = promises.opaque_only && source.translucent();
+        contender.cell.promises = techniques::promises(*contender.row, contender.values);
+        contender.cell.outside_promise = contender.cell.promises.opaque_only && source.translucent();
     }
     begin_all(contenders, input);
     const std::vector<int> aprons = aprons_of(contenders);
@@ -173,8 +168,8 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
     std::vector<Contender*> owners;
     for (Contender& contender : contenders) {
         if (!contender.ok()) continue;
-        checked.push_back({&contender.maps, techniques::promises(*contender.row, contender.values),
-                           contender.cell.error_bound, !contender.cell.outside_promise, contender.needs.apron});
+        checked.push_back({&contender.maps, contender.cell.promises, contender.cell.error_bound,
+                           !contender.cell.outside_promise, contender.needs.apron});
         owners.push_back(&contender);
     }
     const std::vector<CurveVerdict> verdicts = check_curves(source, layout, checked, max_checked_cells, watch);
@@ -184,9 +179,27 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
     }
 }
 
+void check_answers(Contender& contender, const Asked& asked, std::span<const float> answers) {
+    const bool bounded = contender.cell.promises.unit_range;
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+        const float v = answers[i];
+        if (bounded ? v >= -rounding && v <= 1.0f + rounding : std::isfinite(v)) continue;
+        const Query& q = asked.queries[i % asked.queries.size()];
+        return fail(contender, fmt::format("the lookup at ({}, {}, {}) answers {}, which is not {}", q.x, q.y, q.z, v,
+                                           bounded ? "in [0, 1]" : "finite"));
+    }
+}
+
 void check_lookups(std::span<Contender> contenders, const Asked& judged, const Truth& truth) {
     for (Contender& contender : contenders)
         if (contender.ok()) judge(contender, judged, truth);
+}
+
+void check_lit(std::span<Contender> contenders) {
+    for (Contender& contender : contenders)
+        if (contender.ok() && !(contender.cell.lookup->norms.max <= rounding))
+            fail(contender, fmt::format("the light sees nothing that casts a shadow, but an answer is {:.6g} from 1",
+                                        contender.cell.lookup->norms.max));
 }
 
 }  // namespace shadowbench::bench

@@ -50,7 +50,13 @@ void build_all(std::span<Contender> contenders, const RaySource& source, const t
 void check_functions(std::span<Contender> contenders, const RaySource& source, const rays::MapLayout& layout,
                      const RaySource::Watch& watch);
 
-// Compares the answers to the judged queries with the truth; an answer that is not finite or not in [0, 1] fails.
+// Fails for an answer that is not finite, or not in [0, 1] where that is promised. Answers stand channel after channel.
+void check_answers(Contender& contender, const Asked& asked, std::span<const float> answers);
+
+// Compares the answers to the judged queries with the truth, after check_answers.
 void check_lookups(std::span<Contender> contenders, const Asked& judged, const Truth& truth);
+
+// After check_lookups, for a light that sees nothing that casts a shadow: an answer other than 1 fails.
+void check_lit(std::span<Contender> contenders);
 
 }  // namespace shadowbench::bench

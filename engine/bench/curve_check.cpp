@@ -70,6 +70,20 @@ std::string fault_of(const Curve& curve, const techniques::Promises& promises) {
     return {};
 }
 
+// Where a technique promises exact values before and behind all that casts shadows, how it strays there; empty: it does
+// not.
+std::string fault_of_ends(const Curve& stored, const Curve& reference, double allowed) {
+    const auto first = [](const Curve& curve) { return curve.empty() ? 1.0 : curve.front().value; };
+    const auto last = [](const Curve& curve) { return curve.empty() ? 1.0 : curve.back().value; };
+    if (!(std::abs(first(stored) - first(reference)) <= rounding))
+        return fmt::format("before all that casts shadows it is {:.6g} instead of {:.6g}", first(stored),
+                           first(reference));
+    if (!(std::abs(last(stored) - last(reference)) <= allowed))
+        return fmt::format("behind all that casts shadows it is {:.6g} instead of {:.6g}", last(stored),
+                           last(reference));
+    return {};
+}
+
 // The reference curves of the cells that stand for a pixel, shared by all techniques that store such cells.
 struct PixelScratch {
     curves::SweepScratch sweep;
@@ -117,7 +131,10 @@ void check_cell(const Pass& pass, const CheckedMap& checked, int channel, const 
     }
     if (!errors.broken.empty()) return;
     std::string fault = fault_of(scratch.stored, checked.promises);
-    const double allowed = checked.error_bound + (pass.layout.media ? pass.linearisation : 0.0) + rounding;
+    const double slack = (pass.layout.media ? pass.linearisation : 0.0) + rounding;
+    const double allowed = checked.error_bound + slack;
+    if (fault.empty() && checked.bound_holds && !checked.promises.localised)
+        fault = fault_of_ends(scratch.stored, scratch.reference, checked.promises.leak + slack);
     if (fault.empty() && checked.bound_holds && !(d.max <= allowed))
         fault = fmt::format("the curve error {:.6g} is above the promised {:.6g}", d.max, checked.error_bound);
     if (!fault.empty()) errors.broken = fmt::format("cell ({}, {}): {}", cell.x, cell.y, fault);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "bench/pointer.h"
 #include "scene/scenario.h"
 #include "techniques/technique.h"
@@ -54,11 +55,17 @@ void set_value(json& document, const std::string& assignment) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
         throw Error(ErrorCode::usage, "--set " + assignment, "expected path=value, as in rays.samples_per_pixel=64");
+    if (!base::is_utf8(assignment)) throw Error(ErrorCode::usage, "--set " + assignment, "the text is not UTF-8");
     const std::string path = assignment.substr(0, equals), text = assignment.substr(equals + 1);
     const json::json_pointer pointer = read_path(path, assignment);
 
-    json value = json::parse(text, nullptr, false);
-    if (value.is_discarded()) value = text;
+    json value;
+    if (!text.empty() && (text.front() == '{' || text.front() == '[')) {
+        value = scene::parse_json(text, "--set " + path);
+    } else {
+        value = json::parse(text, nullptr, false);
+        if (value.is_discarded()) value = text;
+    }
 
     json* place = find_place(document, pointer);
     if (!place)

@@ -14,7 +14,8 @@ namespace shadowbench::bench {
 
 // Sets one value: "rays.samples_per_pixel=64" or "/rays/samples_per_pixel=64". The value is read as JSON, or taken as a
 // string where it is none. A part of the scenario that the document leaves out (such as "timing") is added; a sweep
-// over the same value is dropped. Throws Error{usage}: no '=', or a path whose parent is not there.
+// over the same value is dropped. Throws Error{usage}: no '=', or a path whose parent is not there; bad_input where an
+// object or array is no JSON.
 void set_value(nlohmann::json& document, const std::string& assignment);
 
 // The committed schema with the techniques' parameters, from the registry.

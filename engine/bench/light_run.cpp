@@ -27,7 +27,9 @@ constexpr std::size_t agreement_rays = 20000;
 
 QuerySet make_queries(const LightJob& job, const rays::LightView& view) {
     const scene::Receivers& receivers = job.scenario.receivers;
-    QuerySet set = receivers.camera ? queries_of_points(job.seen, receivers, view) : probe_queries(receivers, view);
+    QuerySet set = receivers.camera            ? queries_of_points(job.seen, receivers, view)
+                   : !receivers.points.empty() ? point_queries(receivers, view)
+                                               : probe_queries(receivers, view);
     if (!set.queries.empty()) return set;
     throw base::Error(base::ErrorCode::bad_input, "/receivers",
                       set.dropped == 0 ? "there is nothing to ask for: the camera sees no surface and no medium"
@@ -105,6 +107,10 @@ void time_all(const LightJob& job, std::span<Contender> contenders, const RaySou
         if (job.watch) job.watch("timing lookups", r + 1, repetitions);
     }
     for (const LookupMeasurement& one : plans) {
+        // Far more places are timed than judged, and nothing may answer there what is no visibility either.
+        for (const LookupOrder* order : {&one.plan.image, &one.plan.random})
+            check_answers(contenders[one.contender], order->asked(), order->answers);
+        if (!contenders[one.contender].ok()) continue;
         CellTimes times;
         for (double& s : seconds[one.contender]) s *= 1e3;
         times.build_ms = summarise(std::move(seconds[one.contender]));
@@ -159,9 +165,6 @@ LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
     const rays::Capture capture(scene, view, layout);
     const double setup_seconds = setup.seconds();
     const RaySource source(capture, layout, job.limits.kept_rays, stage(job, "capture", layout));
-    if (source.segments() == 0)
-        throw base::Error(base::ErrorCode::bad_input, job.where,
-                          fmt::format("light \"{}\" sees nothing that casts a shadow", job.light.name));
     report_capture(source, setup_seconds, result);
     if (job.casters) result.agreement = compare_with_tracer(capture, layout, view, *job.casters, agreement_rays);
 
@@ -172,6 +175,7 @@ LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
     build_all(contenders, source, input, job.limits.all, stage(job, "build", layout));
     check_functions(contenders, source, layout, stage(job, "check", layout));
     check_lookups(contenders, judged.asked(), truth);
+    if (sees_nothing(result)) check_lit(contenders);
     time_all(job, contenders, source, input, set.asked());
 
     for (Contender& contender : contenders) result.cells.push_back(std::move(contender.cell));

@@ -27,9 +27,9 @@ struct LightJob {
     StageWatch watch;
 };
 
-// Throws Error{bad_input}: the light sees nothing, no receiver is in its map, the memory limit is exceeded, or a
-// technique cannot serve this layout. A fault
-// of a technique is not an error: its cell is marked failed.
+// Throws Error{bad_input}: no receiver is in the light's map, the memory limit is exceeded, or a technique cannot serve
+// this layout. A fault of a technique is not an error: its cell is marked failed. Nor is a light that sees nothing: all
+// is lit then, and every answer has to be 1.
 LightResult run_light(const LightJob& job, std::vector<Contender> contenders);
 
 }  // namespace shadowbench::bench

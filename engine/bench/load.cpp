@@ -34,6 +34,7 @@ const scene::Scenario& ScenarioLoader::load(const Variant& variant) {
         next.scene = std::move(scenario_.scene);
         next.lights = std::move(scenario_.lights);
         scenario_ = std::move(next);
+        scene::check_marching(scenario_);
     } else {
         loaded_ = nullptr;
         scenario_ = {};  // the old scene goes before the new one comes

@@ -71,8 +71,7 @@ void warm_up(const Pass& pass) {
     for (int p = 0; p < least_warm_passes || (p < most_warm_passes && seconds < warm_time); ++p) seconds += pass();
 }
 
-void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bool floor_first,
-                std::vector<float>& out) {
+void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bool floor_first) {
     const int rounds = plan.rounds;
     const double lookups = static_cast<double>(order.queries.size()) * rounds;
     const double read = static_cast<double>(order.covered) * rounds;
@@ -80,8 +79,8 @@ void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bo
     const auto time_lookups = [&] {
         // The floor's reads settle lines in the cache that lookups alone do not: with them, order does not matter.
         if (plan.warm && !order.lines.empty()) warm_up([&] { return seconds_of_floor(order.lines, 1); });
-        if (plan.warm) warm_up([&] { return seconds_of_pass(maps, order.asked(), 1, out); });
-        order.ns.push_back(1e9 * seconds_of_pass(maps, order.asked(), rounds, out) / lookups);
+        if (plan.warm) warm_up([&] { return seconds_of_pass(maps, order.asked(), 1, order.answers); });
+        order.ns.push_back(1e9 * seconds_of_pass(maps, order.asked(), rounds, order.answers) / lookups);
     };
     const auto time_floor = [&] {
         if (order.lines.empty()) return;
@@ -133,9 +132,8 @@ LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, 
 }
 
 void time_repetition(const Maps& maps, LookupPlan& plan, bool floor_first) {
-    std::vector<float> out;
-    time_order(maps, plan.image, plan, floor_first, out);
-    time_order(maps, plan.random, plan, floor_first, out);
+    time_order(maps, plan.image, plan, floor_first);
+    time_order(maps, plan.random, plan, floor_first);
 }
 
 LookupTimes summarise(const LookupOrder& order) {

@@ -18,6 +18,7 @@ struct LookupOrder {
     std::vector<techniques::Footprint> footprints;  // one a query, or none
     std::vector<const void*> lines;  // that the first `covered` of the queries read; empty: no map is read
     std::size_t covered = 0;
+    std::vector<float> answers;        // of the last pass, channel after channel
     std::vector<double> ns, floor_ns;  // a lookup; one of each a repetition (floor_ns: none without lines)
 
     Asked asked() const { return {queries, footprints}; }

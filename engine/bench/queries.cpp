@@ -92,7 +92,9 @@ Footprint footprint_of(const CameraPoint& point, const rays::LightView& view) {
     Footprint f;
     in_map(point.across, f.ux, f.uy);
     in_map(point.down, f.vx, f.vy);
-    return f;
+    // Of a surface seen edge-on: as good as not known.
+    const bool finite = std::isfinite(f.ux) && std::isfinite(f.uy) && std::isfinite(f.vx) && std::isfinite(f.vy);
+    return finite ? f : Footprint{};
 }
 
 std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer) {
@@ -139,6 +141,12 @@ QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Rec
         append(query, set);
         if (query) set.footprints.push_back(footprint_of(point, view));
     }
+    return set;
+}
+
+QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView& view) {
+    QuerySet set;
+    for (const Vec3d& point : receivers.points) append(query_of_point(point, receivers, view), set);
     return set;
 }
 

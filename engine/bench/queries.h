@@ -54,6 +54,9 @@ techniques::Footprint footprint_of(const CameraPoint& point, const rays::LightVi
 QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Receivers& receivers,
                            const rays::LightView& view);
 
+// The receivers' given points as queries, in their order; without footprints.
+QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView& view);
+
 // Points spread evenly over the map and over the depths of what casts shadows, with a little behind it.
 QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView& view);
 

@@ -9,7 +9,10 @@
 namespace shadowbench::bench {
 namespace {
 
+// In a medium light dies away, even where none is left behind it.
 bool any_light(const rays::LightRays& tile) {
+    for (std::size_t s = 0; s < tile.z_back.size(); ++s)
+        if (tile.z_back[s] > tile.z_front[s]) return true;
     return std::any_of(tile.transmittance.begin(), tile.transmittance.end(), [](float t) { return t > 0.0f; });
 }
 

@@ -32,7 +32,7 @@ public:
     std::uint64_t rays() const { return rays_; }
     std::uint64_t segments() const { return segments_; }
     std::uint64_t bytes() const { return bytes_; }     // of all tiles
-    bool translucent() const { return translucent_; }  // some crossing transmits light
+    bool translucent() const { return translucent_; }  // some crossing transmits light, or is of a medium
     double seconds() const { return seconds_; }        // of the capture, on all threads
 
 private:

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "bench/report.h"
+#include "bench/verdict.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -101,6 +102,8 @@ const Column columns[] = {
     {"on_time_error_front",
      [](const Row& r) { return std::string(r.cell.times && r.cell.times->on_front ? "1" : "0"); }},
     {"on_bytes_error_front", [](const Row& r) { return std::string(r.cell.on_bytes_front ? "1" : "0"); }},
+    {"verdict", [](const Row& r) { return std::string(to_string(judge(r.cell, r.light).verdict)); }},
+    {"verdict_why", [](const Row& r) { return judge(r.cell, r.light).why; }},
 };
 
 // RFC 4180: a field with a comma, a quote or a line break stands in quotes, and its quotes are doubled.

@@ -4,6 +4,7 @@
 
 #include "bench/build_info.h"
 #include "bench/report.h"
+#include "bench/verdict.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -69,7 +70,8 @@ json to_json(const techniques::NodeStats& nodes) {
             {"histogram", nodes.histogram}};
 }
 
-json to_json(const Cell& cell) {
+json to_json(const Cell& cell, const LightResult& light) {
+    const Judgement judgement = judge(cell, light);
     return {{"technique", cell.technique},
             {"version", cell.version},
             {"parameters", json::parse(cell.parameters_json)},
@@ -77,6 +79,8 @@ json to_json(const Cell& cell) {
             {"where", cell.where},
             {"status", cell.status == CellStatus::ok ? "ok" : "failed"},
             {"reason", cell.reason},
+            {"verdict", to_string(judgement.verdict)},
+            {"verdict_why", judgement.why},
             {"outside_promise", cell.outside_promise},
             {"promised_curve_error", number(cell.error_bound)},
             {"bytes", cell.bytes},
@@ -126,13 +130,14 @@ json to_json(const ReferenceReport& reference) {
 
 json to_json(const LightResult& light) {
     json cells = json::array();
-    for (const Cell& cell : light.cells) cells.push_back(to_json(cell));
+    for (const Cell& cell : light.cells) cells.push_back(to_json(cell, light));
     return {{"light", light.name},
             {"map", to_json(light.layout)},
             {"rays", light.rays},
             {"segments", light.segments},
             {"ray_bytes", light.ray_bytes},
             {"rays_kept", light.kept},
+            {"sees_nothing", sees_nothing(light)},
             {"translucent", light.translucent},
             {"receivers", light.receivers},
             {"receivers_outside_map", light.dropped},

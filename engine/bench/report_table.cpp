@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -24,10 +23,6 @@ std::string count(std::uint64_t n) {
     return digits;
 }
 
-std::string error_text(double value) {
-    return std::isfinite(value) ? fmt::format("{:.2g}", value) : "-";
-}
-
 std::string time_text(double value) {
     const int decimals = value < 10 ? 2 : value < 1000 ? 1 : 0;
     return fmt::format("{:.{}f}", value, decimals);
@@ -43,10 +38,6 @@ std::string front_text(const Cell& cell) {
 std::string status_text(const Cell& cell) {
     if (cell.status == CellStatus::failed) return "failed: " + cell.reason;
     return cell.outside_promise ? "ok, but promised for opaque scenes only" : "ok";
-}
-
-std::string title(const Cell& cell) {
-    return cell.parameters.empty() ? cell.technique : cell.technique + " " + cell.parameters;
 }
 
 std::vector<std::string> row_of(const Cell& cell) {
@@ -97,6 +88,12 @@ std::string capture_lines(const LightResult& light, int threads) {
     return text + "\n";
 }
 
+// Empty where the light sees something.
+std::string nothing_line(const LightResult& light) {
+    if (!sees_nothing(light)) return "";
+    return "    note: the light sees nothing that casts a shadow: its map is empty, and every answer has to be 1\n";
+}
+
 // Empty where the capture and Embree agree.
 std::string warning_line(const LightResult& light) {
     if (!light.agreement || agrees(*light.agreement)) return "";
@@ -138,7 +135,8 @@ std::string to_table(const Result& result) {
         for (const Setting& setting : variant.settings)
             text += fmt::format("{} = {}\n", setting.pointer, setting.value);
         for (const LightResult& light : variant.lights) {
-            text += capture_lines(light, result.times.threads) + warning_line(light) + reference_line(light);
+            text += capture_lines(light, result.times.threads) + nothing_line(light) + warning_line(light) +
+                    reference_line(light);
             Table table({"technique", "build ms", "ns/seg", "image ns", "x floor", "random ns", "x floor", "bytes",
                          "nodes mean", "max", "curve max", "lookup rms", "p99", "max", "front", "status"});
             for (const Cell& cell : light.cells) table.add(row_of(cell));

@@ -14,9 +14,17 @@ Sample summarise(std::vector<double> raw) {
     return sample;
 }
 
+std::string title(const Cell& cell) {
+    return cell.parameters.empty() ? cell.technique : cell.technique + " " + cell.parameters;
+}
+
 bool agrees(const Agreement& agreement) {
     const double allowed = std::max(3.0, 1e-3 * static_cast<double>(agreement.rays));
     return static_cast<double>(std::max(agreement.other_crossings, agreement.other_transmittance)) <= allowed;
+}
+
+bool sees_nothing(const LightResult& light) {
+    return light.segments == 0;
 }
 
 bool any_failed(const Result& result) {

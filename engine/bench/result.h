@@ -63,7 +63,8 @@ struct Cell {
     CellStatus status = CellStatus::ok;
     std::string reason;            // why it failed
     bool outside_promise = false;  // made for opaque scenes alone, and this one is not
-    double error_bound = 0.0;      // the promised largest curve error; infinity: none
+    techniques::Promises promises;
+    double error_bound = 0.0;  // the promised largest curve error; infinity: none
     std::size_t bytes = 0, working_bytes = 0;
     techniques::NodeStats nodes;
     std::optional<CurveErrors> curve;
@@ -71,6 +72,9 @@ struct Cell {
     bool on_bytes_front = false;     // no other technique is both smaller and more accurate
     std::optional<CellTimes> times;  // nothing for a failed cell
 };
+
+// "deep tolerance=0.02": the technique and its parameters.
+std::string title(const Cell& cell);
 
 struct CaptureTimes {
     double seconds = 0.0;          // all tiles, on all threads
@@ -108,13 +112,16 @@ struct LightResult {
     std::uint64_t rays = 0, segments = 0;
     std::uint64_t ray_bytes = 0;
     bool kept = true;                          // all rays stayed in memory; else they were captured anew for each pass
-    bool translucent = false;                  // some crossing lets light through
+    bool translucent = false;                  // some crossing lets light through, or into a medium
     std::uint64_t receivers = 0, dropped = 0;  // dropped: outside the light's map
     std::optional<Agreement> agreement;
     ReferenceReport reference;
     CaptureTimes times;
     std::vector<Cell> cells;
 };
+
+// Whether no ray meets anything that casts a shadow: all is lit, and the map of every technique is empty.
+bool sees_nothing(const LightResult& light);
 
 struct Setting {
     std::string pointer;

@@ -1,5 +1,6 @@
 #include "bench/run.h"
 
+#include <algorithm>
 #include <ctime>
 #include <memory>
 
@@ -109,6 +110,9 @@ Validated validate(const nlohmann::json& document, const RunOptions& options) {
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
             const rays::LightView view = rays::make_light_view(scenario.lights[l], scenario.scene,
                                                                scenario.rays.resolution, pointer_of(scenario, l));
+            const std::string& name = scenario.lights[l].name;
+            const bool known = std::count(validated.blind.begin(), validated.blind.end(), name) > 0;
+            if (!known && rays::misses_all(view, scenario.scene)) validated.blind.push_back(name);
             check_memory(scenario, view, contenders, options.limits, "/rays");
             if (scenario.scene.deep_image)
                 check_served(contenders, {rays::make_layout(scenario.scene, view, scenario.rays), view, nullptr});

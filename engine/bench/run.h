@@ -27,6 +27,7 @@ Result run(const nlohmann::json& document, const RunOptions& options, const Prog
 struct Validated {
     std::string name;
     std::size_t variants = 0, lights = 0, techniques = 0;  // lights and techniques: of the first variant
+    std::vector<std::string> blind;                        // lights that surely see nothing that casts a shadow
 };
 
 // All that run() checks before it works: the document, its files, what its lights see, the memory limit,

@@ -1,6 +1,7 @@
 #include "bench/table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,6 +31,10 @@ std::string Table::text(const std::string& indent) const {
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
     return text;
+}
+
+std::string error_text(double value) {
+    return std::isfinite(value) ? fmt::format("{:.2g}", value) : "-";
 }
 
 std::string bytes_text(std::size_t bytes) {

@@ -18,6 +18,9 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
+// Two digits; "-" for what is not finite.
+std::string error_text(double value);
+
 // "512 B", "1.5 KiB", "23 MiB".
 std::string bytes_text(std::size_t bytes);
 

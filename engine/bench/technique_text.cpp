@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "bench/functions.h"
 
 namespace shadowbench::bench {
@@ -24,7 +25,8 @@ json read_pairs(const std::string& pairs, const std::string& where) {
             throw Error(ErrorCode::usage, where, "expected name=value, as in deep:tolerance=0.02");
         json value = json::parse(pair.substr(equals + 1), nullptr, false);
         if (value.is_discarded()) value = pair.substr(equals + 1);
-        object[pair.substr(0, equals)] = std::move(value);
+        if (!object.emplace(pair.substr(0, equals), std::move(value)).second)
+            throw Error(ErrorCode::usage, where, pair.substr(0, equals) + " is given twice");
         first = comma + 1;
     }
     return object;
@@ -38,6 +40,7 @@ std::string place_of(const std::string& text) {
 
 TechniqueChoice read_any_technique(const std::string& text) {
     const std::string where = place_of(text);
+    if (!base::is_utf8(text)) throw Error(ErrorCode::usage, where, "the text is not UTF-8");
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string pairs = colon < text.size() ? text.substr(colon + 1) : std::string();
     TechniqueChoice choice;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/markdown.h"
 #include "claims/report.h"
 
 namespace shadowbench::claims {
@@ -23,35 +24,15 @@ const char* text_of(Verdict verdict) {
                                           : "**does not hold here**";
 }
 
-// A bar would end the cell.
-std::string cell(std::string text) {
-    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.replace(at, 1, "\\|");
-    return text;
-}
-
-void add_row(std::string& out, const std::vector<std::string>& cells) {
-    out += "|";
-    for (const std::string& text : cells) out += " " + cell(text) + " |";
-    out += "\n";
-}
-
-void add_table(std::string& out, const std::vector<std::string>& header,
-               const std::vector<std::vector<std::string>>& rows) {
-    add_row(out, header);
-    add_row(out, std::vector<std::string>(header.size(), "---"));
-    for (const auto& row : rows) add_row(out, row);
-    out += "\n";
-}
-
 void add_paper(std::string& out, const PaperReport& report) {
     out += fmt::format("## {}\n\n{}\n\n", report.title, report.conditions);
     std::vector<std::vector<std::string>> rows;
     for (const Claim& claim : report.claims)
         rows.push_back({claim.place, claim.says, claim.measured, text_of(claim.verdict), claim.why});
-    add_table(out, {"where", "the paper says", "measured here", "verdict", "why"}, rows);
+    out += bench::markdown_table({"where", "the paper says", "measured here", "verdict", "why"}, rows);
     for (const Table& table : report.tables) {
         out += fmt::format("### {}\n\n", table.title);
-        add_table(out, table.header, table.rows);
+        out += bench::markdown_table(table.header, table.rows);
     }
     for (const Plot& plot : report.plots) out += fmt::format("![{}](plots/{}.svg)\n\n", plot.title, plot.name);
     for (const Sheet& sheet : report.sheets)

@@ -1,5 +1,5 @@
 // Text files of functions: records of a line `n` followed by n lines `z T`; z non-decreasing, T non-increasing and in
-// [0, 1], equal z is a step. Empty lines and lines that start with # are skipped.
+// [0, 1], |z| at most 1e18, equal z is a step. Empty lines and lines that start with # are skipped.
 #pragma once
 
 #include <filesystem>

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "base/parallel.h"
 
 namespace shadowbench::rays {
@@ -43,6 +46,8 @@ void add_triangle(const LightView& view, const Vec3d& a, const Vec3d& b, const V
     }
 }
 
+constexpr double max_entries = 0x1p30;  // 4 GiB
+
 Bins make_bins(const LightView& view, const MapLayout& layout, std::size_t primitives,
                const std::function<PlaneBox(std::size_t)>& bounds) {
     struct TileRange {
@@ -68,6 +73,14 @@ Bins make_bins(const LightView& view, const MapLayout& layout, std::size_t primi
                          tile_of(y1, layout.tiles_y())};
         }
     });
+
+    double entries = 0.0;
+    for (const TileRange& r : ranges) entries += (r.x1 - r.x0 + 1.0) * (r.y1 - r.y0 + 1.0);
+    if (entries > max_entries)
+        throw base::Error(base::ErrorCode::bad_input, "/rays",
+                          fmt::format("an object's {} primitives touch {:.3g} tiles of the map in all; the limit is "
+                                      "{:.3g}: make the map, the primitives or their motion smaller",
+                                      primitives, entries, max_entries));
 
     Bins bins;
     bins.begin.assign(layout.tiles() + 1, 0);

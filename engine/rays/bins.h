@@ -58,7 +58,7 @@ struct Bins {
 };
 
 // `bounds(i)` gives the view-plane bounds of primitive i; it is called from several threads. In each tile the
-// primitives keep their order.
+// primitives keep their order. Throws Error{bad_input} where the lists would not fit in memory.
 Bins make_bins(const LightView& view, const MapLayout& layout, std::size_t primitives,
                const std::function<PlaneBox(std::size_t)>& bounds);
 

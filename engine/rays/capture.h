@@ -35,9 +35,9 @@ public:
     Capture(const Capture&) = delete;
     Capture& operator=(const Capture&) = delete;
 
-    // Thread-safe. The rays depend on the tile alone. Throws Error{bad_input} when a tile's segments do not fit 32
-    // bits. `wanted`, one a pixel of the tile, names the pixels that are needed (empty: all); rays of the others may
-    // lack what is slow to find. `apron` is at most the layout's: so many pixels around the tile are covered too.
+    // Thread-safe. The rays depend on the tile alone. Throws Error{bad_input} when a tile has more than 2^28
+    // segments. `wanted`, one a pixel of the tile, names the pixels that are needed (empty: all); rays of the others
+    // may lack what is slow to find. `apron` is at most the layout's: so many pixels around the tile are covered too.
     LightRays tile(int index, std::span<const unsigned char> wanted = {}, int apron = 0) const;
 
     std::size_t bytes() const;  // held for all tiles

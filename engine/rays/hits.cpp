@@ -15,9 +15,7 @@ namespace {
 // Offsets of each ray's hits, by counting; `begin` has rays + 1 entries.
 template <class Hits>
 void count(const Hits& hits, std::size_t rays, std::vector<std::uint32_t>& begin) {
-    if (hits.hits.size() > std::numeric_limits<std::uint32_t>::max())
-        throw base::Error(base::ErrorCode::bad_input, "/rays",
-                          "a tile holds more than 2^32 segments: ask for fewer samples a pixel");
+    check_hits(hits);
     begin.assign(rays + 1, 0);
     for (const auto& hit : hits.hits) ++begin[hit.ray + 1];
     for (std::size_t r = 0; r < rays; ++r) begin[r + 1] += begin[r];
@@ -54,6 +52,13 @@ void find_submission(const std::vector<T>& found, Less less, LightRays& tile) {
 }
 
 }  // namespace
+
+void refuse_hits() {
+    throw base::Error(
+        base::ErrorCode::bad_input, "/rays",
+        "a tile of the map holds more than 2^28 segments: ask for fewer samples a pixel, for larger steps "
+        "of the volumes, or for fewer objects");
+}
 
 void sort_hits(const SurfaceHits& hits, std::size_t rays, bool submission, LightRays& tile) {
     count(hits, rays, tile.begin);

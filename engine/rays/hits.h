@@ -1,12 +1,24 @@
 // What a tile's rays cross, in the order found, and its sorting into light rays.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "rays/light_rays.h"
 
 namespace shadowbench::rays {
+
+// More would take gigabytes, a tile at a time in every thread.
+constexpr std::size_t max_tile_hits = std::size_t{1} << 28;
+
+// Throws Error{bad_input} above that number. Asked once a primitive, or ray of a volume.
+void refuse_hits();
+template <class Sink>
+void check_hits(const Sink& sink) {
+    if (sink.hits.size() > max_tile_hits) [[unlikely]]
+        refuse_hits();
+}
 
 // Opaque or translucent surfaces of one channel: what most scenes have, and all that they pay for.
 struct SurfaceHits {

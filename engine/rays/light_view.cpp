@@ -31,6 +31,10 @@ std::array<Vec3d, 8> corners(const base::Box3d& box) {
     return result;
 }
 
+double largest(const Vec3d& place) {
+    return std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+}
+
 struct PlaneBounds {
     Vec2d low{infinity, infinity}, high{-infinity, -infinity};
     void add(double x, double y) {
@@ -44,11 +48,6 @@ void fit(LightView& view, Vec2d middle, Vec2d size) {
     const double pixel = std::max(size.x / view.resolution.x, size.y / view.resolution.y);
     view.pixel = {pixel, pixel};
     view.lower = {middle.x - 0.5 * pixel * view.resolution.x, middle.y - 0.5 * pixel * view.resolution.y};
-}
-
-[[noreturn]] void sees_nothing(const std::string& where) {
-    throw base::Error(base::ErrorCode::bad_input, where,
-                      "the light sees nothing that casts a shadow: no caster is inside its map");
 }
 
 LightView directional_view(const scene::Light& light, const base::Box3d& casters, Vec2i resolution) {
@@ -68,7 +67,9 @@ LightView directional_view(const scene::Light& light, const base::Box3d& casters
     }
     // Depth 0 lies a little before the first caster: depths stay small, which keeps float z exact, and positive.
     const double scale = std::max({z_high - z_low, plane.high.x - plane.low.x, plane.high.y - plane.low.y, 1e-6});
-    const double start = z_low - 0.01 * scale;
+    // More than the rounding of places that far from the target, or depths could fall below 0.
+    const double rounding = 1e-12 * std::max(largest(casters.min), largest(casters.max) + largest(light.target));
+    const double start = z_low - std::max(0.01 * scale, rounding);
     view.origin += view.forward * start;
     view.z_min = z_low - start;
     view.z_max = z_high - start;
@@ -100,9 +101,12 @@ LightView spot_view(const scene::Light& light, const base::Box3d& casters, Vec2i
         slope_x = std::max(slope_x, p.z > 0 ? std::abs(p.x / p.z) : infinity);
         slope_y = std::max(slope_y, p.z > 0 ? std::abs(p.y / p.z) : infinity);
     }
-    if (z_high <= view.z_near) sees_nothing(where);
     view.z_min = std::max(z_low, view.z_near);
     view.z_max = z_high;
+    if (z_high <= view.z_near) {  // all casters are behind the light: some depths around its target
+        view.z_min = view.z_near;
+        view.z_max = 2.0 * std::max(axis.length(), view.z_near);
+    }
 
     if (light.angle) {
         const double half = std::tan(*light.angle * std::numbers::pi / 360.0);
@@ -131,19 +135,22 @@ LightView deep_image_view(const scene::DeepImage& image) {
     return view;
 }
 
-// Whether the casters' bounds surely miss the map: all corners outside of one of its sides.
-bool misses(const LightView& view, const base::Box3d& casters) {
-    const Vec2d high = view.lower + Vec2d(view.pixel.x * view.resolution.x, view.pixel.y * view.resolution.y);
-    int left = 0, right = 0, below = 0, above = 0;
-    for (const Vec3d& corner : corners(casters)) {
-        const Vec3d p = to_view(view, corner);
-        const double w = view.perspective ? p.z : 1.0;  // sides are planes through the light: x < lower * z, ...
-        left += p.x < view.lower.x * w;
-        right += p.x > high.x * w;
-        below += p.y < view.lower.y * w;
-        above += p.y > high.y * w;
+// Voxels are told apart by their distance from the light, in double.
+void check_volumes(const LightView& view, const scene::Scene& scene, const std::string& where) {
+    constexpr double farthest = 1e13;  // in voxels
+    for (const scene::Object& object : scene.objects) {
+        const auto* volume = std::get_if<scene::GridVolume>(&object.shape);
+        if (!volume || !object.casts_shadow) continue;
+        const Vec3d extent = volume->upper - volume->lower;
+        const double voxel =
+            std::min({extent.x / volume->size.x, extent.y / volume->size.y, extent.z / volume->size.z});
+        const double away = std::max({largest(volume->lower - view.origin), largest(volume->upper - view.origin),
+                                      largest(volume->lower), largest(volume->upper), largest(view.origin)});
+        if (away > farthest * voxel)
+            throw base::Error(base::ErrorCode::bad_input, where,
+                              "the light, or the world's origin, is more than 1e13 voxels away from the volume \"" +
+                                  object.name + "\": bring them nearer or make the voxels larger");
     }
-    return left == 8 || right == 8 || below == 8 || above == 8;
 }
 
 }  // namespace
@@ -152,11 +159,28 @@ LightView make_light_view(const scene::Light& light, const scene::Scene& scene, 
                           const std::string& where) {
     if (light.type == scene::LightType::deep_image) return deep_image_view(*scene.deep_image);
     const base::Box3d casters = scene::bounds(scene, true);
-    if (casters.isEmpty()) sees_nothing(where);
+    if (casters.isEmpty()) throw base::Error(base::ErrorCode::bad_input, where, "nothing in the scene casts a shadow");
     const LightView view = light.type == scene::LightType::spot ? spot_view(light, casters, resolution, where)
                                                                 : directional_view(light, casters, resolution);
-    if (misses(view, casters)) sees_nothing(where);
+    check_volumes(view, scene, where);
     return view;
+}
+
+// All corners outside of one of the map's sides, or none behind the near plane.
+bool misses_all(const LightView& view, const scene::Scene& scene) {
+    if (scene.deep_image) return false;
+    const Vec2d high = view.lower + Vec2d(view.pixel.x * view.resolution.x, view.pixel.y * view.resolution.y);
+    int left = 0, right = 0, below = 0, above = 0, before = 0;
+    for (const Vec3d& corner : corners(scene::bounds(scene, true))) {
+        const Vec3d p = to_view(view, corner);
+        const double w = view.perspective ? p.z : 1.0;  // sides are planes through the light: x < lower * z, ...
+        left += p.x < view.lower.x * w;
+        right += p.x > high.x * w;
+        below += p.y < view.lower.y * w;
+        above += p.y > high.y * w;
+        before += p.z <= view.z_near;
+    }
+    return left == 8 || right == 8 || below == 8 || above == 8 || before == 8;
 }
 
 Vec3d to_view(const LightView& view, const Vec3d& world) {

@@ -30,9 +30,13 @@ struct LightView {
     double z_max = 1.0;
 };
 
-// Sees the casters of the scene. Throws Error{bad_input} at `where` when no caster is in view.
+// Sees the casters of the scene, or nothing where none is in view. Throws Error{bad_input} at `where` when there is no
+// caster, or at its angle when that has to fit casters which no angle fits.
 LightView make_light_view(const scene::Light& light, const scene::Scene& scene, Vec2i resolution,
                           const std::string& where);
+
+// Whether the bounds of what casts shadows surely miss the map: then no light ray meets anything.
+bool misses_all(const LightView& view, const scene::Scene& scene);
 
 // View space: coordinates along right, up, forward from the origin.
 Vec3d to_view(const LightView& view, const Vec3d& world);

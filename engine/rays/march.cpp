@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "rays/medium_floats.h"
 #include "scene/scene.h"
 
 namespace shadowbench::rays {
@@ -98,9 +99,29 @@ void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double sc
         slope[a] = direction[a] * per_length;
         start[a] = (origin[a] - volume_.lower[a]) * per_length - 0.5 + slope[a] * t_min;
     }
+    // Seen from so far away that places along the ray are too coarse to tell voxels apart, there is nothing to march.
+    constexpr double slack = 0.25;
+    for (int a = 0; a < 3; ++a) {
+        const double end = start[a] + slope[a] * (t_max - t_min);
+        if (!(std::min(start[a], end) >= -0.5 - slack && std::max(start[a], end) <= volume_.size[a] - 0.5 + slack))
+            return;
+    }
     const double step = volume_.step / scale;
     const auto steps = static_cast<std::int64_t>(std::max(1.0, std::ceil((t_max - t_min) / step)));
     const auto place = [&](std::int64_t i) { return i >= steps ? t_max - t_min : static_cast<double>(i) * step; };
+
+    // Steps whose ends are one float join the next one that is longer; before a gap the last of them are made so long.
+    double joined = 0.0;
+    const auto add = [&](float front, float back, double depth) {
+        joined += depth;
+        if (joined <= 0.0 || front == back) return;
+        out.push_back({front, back, joined});
+        joined = 0.0;
+    };
+    const auto end_joined = [&](double t) {
+        const float front = static_cast<float>(t_min + t);
+        if (joined > 0.0) add(front, next_depth(front), 0.0);
+    };
 
     double before = -1.0;  // density at the step's start; below 0: not known
     for (std::int64_t i = 0; i < steps; ++i) {
@@ -108,6 +129,7 @@ void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double sc
         if (before <= 0.0) {
             const Vec3d index = start + slope * t;
             if (const double ahead = empty_ahead(index, slope); ahead > 0.0) {  // skip whole steps inside the block
+                end_joined(t);
                 i = std::max(i, static_cast<std::int64_t>((t + ahead) / step) - 1);
                 before = -1.0;
                 continue;
@@ -116,11 +138,11 @@ void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double sc
         }
         const double next = place(i + 1);
         const double here = density(start + slope * next);
-        const float front = static_cast<float>(t_min + t), back = static_cast<float>(t_min + next);
-        if (before + here > 0.0 && back > front)
-            out.push_back({front, back, 0.5 * (before + here) * (next - t) * scale});
+        add(static_cast<float>(t_min + t), static_cast<float>(t_min + next),
+            0.5 * (before + here) * (next - t) * scale);
         before = here;
     }
+    end_joined(t_max - t_min);
 }
 
 bool sphere_stretch(const Vec3d& origin, const Vec3d& direction, const Vec3d& centre, double radius, double& front,

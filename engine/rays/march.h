@@ -26,7 +26,9 @@ public:
 
     // Marches [t_min, t_max] at regular steps from where the ray enters the box, joins the samples by the trapezoid
     // rule (Lokovic and Veach 2000, section 3.2) and appends the steps that hold something. Neighbouring steps share
-    // their ends exactly. A step is volume.step of world length; the last one may be shorter.
+    // their ends exactly. A step is volume.step of world length; the last one may be shorter. Every segment is at least
+    // one float long: steps shorter than that are joined. Appends nothing where the origin is so far away that distances
+    // from it in double cannot tell voxels apart.
     void march(const base::Vec3d& origin, const base::Vec3d& direction, double scale, double t_min, double t_max,
                std::vector<MediumSegment>& out) const;
 

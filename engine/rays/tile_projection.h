@@ -11,6 +11,7 @@
 
 #include "rays/hits.h"
 #include "rays/march.h"
+#include "rays/medium_floats.h"
 #include "rays/moving.h"
 #include "rays/prepared.h"
 #include "rays/project.h"
@@ -72,6 +73,7 @@ private:
     void project(const Prepared& p, const scene::Hair& hair) {
         if (transmits_all(p.transmittance)) return;
         for (const std::uint32_t i : p.bins.of(tile_)) {
+            check_hits(sink_);
             const HairSegment s = hair_segment(p, hair, i);
             if constexpr (moving) {
                 const auto place = [&](const Vec3d& offset) { return place_hair(view_, s, offset); };
@@ -92,6 +94,7 @@ private:
     void project(const Prepared& p, const scene::Mesh& mesh) {
         if (transmits_all(p.transmittance)) return;
         for (const std::uint32_t i : p.bins.of(tile_)) {
+            check_hits(sink_);
             const base::Vec3i& corners = mesh.triangles[i];
             const base::Vec3f &a = p.points[corners.x], &b = p.points[corners.y], &c = p.points[corners.z];
             float textured[3];
@@ -157,32 +160,47 @@ private:
     template <bool moving>
     void project(const Prepared& p, const scene::Spheres& spheres) {
         if (transmits_all(p.transmittance)) return;
-        for (const std::uint32_t i : p.bins.of(tile_))
+        for (const std::uint32_t i : p.bins.of(tile_)) {
+            check_hits(sink_);
             visit_sphere<moving>(p, i, spheres.radii[i], [&](std::uint32_t ray, double front, double back, double) {
                 if (front > view_.z_near) sink_.surface(ray, front, p.transmittance);
                 sink_.surface(ray, back, p.transmittance);
             });
+        }
     }
 
-    void medium(std::uint32_t ray, float front, float back, double depth, const base::Vec3f& extinction) {
+    // A segment of optical depth `depth` in a unit of extinction. What its transmittances round away stays in
+    // `rounding` for the segments behind it.
+    void medium(std::uint32_t ray, float front, float back, double depth, const base::Vec3f& extinction,
+                StepRounding& rounding) {
+        const float most = std::max({extinction[0], extinction[1], extinction[2]});
+        if (depth * most > darkest) {
+            cut_where_dark(front, back, depth, extinction,
+                           [&](float from, float to, const float* t) { sink_.medium(ray, from, to, t); });
+            rounding = {};
+            return;
+        }
         float t[3];
-        t[0] = static_cast<float>(std::exp(-depth * extinction[0]));
+        t[0] = rounding.transmittance(0, depth * extinction[0]);
         for (int c = 1; c < 3; ++c)
-            t[c] = extinction[c] == extinction[0] ? t[0] : static_cast<float>(std::exp(-depth * extinction[c]));
+            t[c] = extinction[c] == extinction[0] ? t[0] : rounding.transmittance(c, depth * extinction[c]);
         if (!transmits_all(t)) sink_.medium(ray, front, back, t);
     }
 
     template <bool moving>
     void project(const Prepared& p, const scene::Particles& particles) {
         if constexpr (std::is_same_v<Sink, SegmentHits>) {
-            for (const std::uint32_t i : p.bins.of(tile_))
+            for (const std::uint32_t i : p.bins.of(tile_)) {
+                check_hits(sink_);
                 visit_sphere<moving>(
                     p, i, particles.radii[i], [&](std::uint32_t ray, double front, double back, double scale) {
                         front = std::max(front, view_.z_near);
-                        const float f = static_cast<float>(front), b = static_cast<float>(back);
-                        if (b > f)
-                            medium(ray, f, b, (back - front) * scale * particles.density[i], p.object->extinction);
+                        const float f = static_cast<float>(front);
+                        const float b = static_cast<float>(back) > f ? static_cast<float>(back) : next_depth(f);
+                        StepRounding alone;
+                        medium(ray, f, b, (back - front) * scale * particles.density[i], p.object->extinction, alone);
                     });
+            }
         }
     }
 
@@ -204,12 +222,14 @@ private:
     // Through a volume that stands where the scene has it, by a ray moved the other way.
     void march(const Prepared& p, std::uint32_t ray, double x, double y, const Vec3d& moved) {
         if (!wanted_.empty() && !wanted_[ray / samples_]) return;
+        check_hits(sink_);
         const ViewLine line = view_line(view_, x, y);
         const Vec3d& d = line.direction;
         steps_.clear();
         p.marcher->march(to_world(view_, line.origin - moved), view_.right * d.x + view_.up * d.y + view_.forward * d.z,
                          line.scale, std::max(view_.z_near, -1e30), 1e30, steps_);
-        for (const MediumSegment& s : steps_) medium(ray, s.front, s.back, s.depth, p.object->extinction);
+        StepRounding rounding;
+        for (const MediumSegment& s : steps_) medium(ray, s.front, s.back, s.depth, p.object->extinction, rounding);
     }
 
     const LightView& view_;

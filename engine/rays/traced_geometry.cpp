@@ -88,7 +88,7 @@ void collect(const RTCFilterFunctionNArguments* args) {
     }
     args->valid[0] = 0;
     if (is_between(q.ray, t) && (opacity.x > 0 || opacity.y > 0 || opacity.z > 0))
-        q.out->push_back({t, t, Vec3f(1, 1, 1) - opacity});
+        q.out->push_back({t, t, Vec3d(1.0) - Vec3d(opacity)});
 }
 
 struct SphereList {
@@ -142,7 +142,7 @@ void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
             q.out->push_back({front, back, transmitted(object.extinction, length * particles->density[args->primID])});
     } else {
         for (const double t : {front, back})
-            if (is_between(q.ray, t)) q.out->push_back({t, t, Vec3f(1, 1, 1) - object.opacity});
+            if (is_between(q.ray, t)) q.out->push_back({t, t, Vec3d(1.0) - Vec3d(object.opacity)});
     }
 }
 
@@ -256,11 +256,10 @@ bool trace_nearest(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, 
     return true;
 }
 
-Vec3f transmitted(const Vec3f& extinction, double optical_depth) {
-    Vec3f t;
-    t[0] = static_cast<float>(std::exp(-optical_depth * extinction[0]));
-    for (int c = 1; c < 3; ++c)
-        t[c] = extinction[c] == extinction[0] ? t[0] : static_cast<float>(std::exp(-optical_depth * extinction[c]));
+Vec3d transmitted(const Vec3f& extinction, double optical_depth) {
+    Vec3d t;
+    t[0] = std::exp(-optical_depth * extinction[0]);
+    for (int c = 1; c < 3; ++c) t[c] = extinction[c] == extinction[0] ? t[0] : std::exp(-optical_depth * extinction[c]);
     return t;
 }
 

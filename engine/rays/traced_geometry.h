@@ -39,7 +39,7 @@ void trace_all(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, std:
 bool trace_nearest(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, SurfaceHit& out);
 
 // What is left of light after an optical depth of one unit of extinction.
-base::Vec3f transmitted(const base::Vec3f& extinction, double optical_depth);
+base::Vec3d transmitted(const base::Vec3f& extinction, double optical_depth);
 
 // Where the ray starts as seen from an object that stands still where it stands at time 0.
 inline base::Vec3d origin_beside(const scene::Object& object, const TracedRay& ray) {

@@ -55,7 +55,7 @@ struct Tracer::State {
             volume.marcher.march(origin_beside(*volume.object, ray), ray.direction, ray.direction.length(), ray.t_min,
                                  ray.t_max, steps);
             for (const MediumSegment& s : steps)
-                if (const Vec3f t = transmitted(volume.object->extinction, s.depth); t != Vec3f(1, 1, 1))
+                if (const Vec3d t = transmitted(volume.object->extinction, s.depth); t != Vec3d(1.0))
                     out.push_back({s.front, s.back, t});
         }
     }
@@ -108,7 +108,7 @@ Vec3d Tracer::transmittance(const LightView& view, double x, double y, double z,
         all_segments(view.origin + view.right * px + view.up * py, view.forward, 0.0, z, scratch, time);
     Vec3d result(1, 1, 1);
     for (const TracedSegment& s : scratch)
-        if (s.front < z) result *= Vec3d(s.transmittance);
+        if (s.front < z) result *= s.transmittance;
     return result;
 }
 

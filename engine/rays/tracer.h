@@ -18,7 +18,7 @@ namespace shadowbench::rays {
 // A segment in the ray's own parameter t (world length when the direction has unit length).
 struct TracedSegment {
     double front, back;  // equal for a surface
-    base::Vec3f transmittance;
+    base::Vec3d transmittance;
 };
 
 struct SurfaceHit {

@@ -9,7 +9,7 @@ namespace {
 using base::Vec3d;
 
 constexpr double opaque = 1e-4;        // transmittance behind which nothing is looked up
-constexpr double least_light = 1e-30;  // of a segment: keeps its extinction finite
+constexpr double least_light = 1e-300; // of a segment: keeps its extinction finite
 
 // Where extinction changes: what starts or ends there.
 struct Change {
@@ -31,7 +31,7 @@ std::vector<Change> changes(std::span<const rays::TracedSegment> segments) {
         if (!(s.front < s.back)) continue;
         Vec3d extinction;
         for (int c = 0; c < 3; ++c)
-            extinction[c] = -std::log(std::max<double>(s.transmittance[c], least_light)) / (s.back - s.front);
+            extinction[c] = -std::log(std::max(s.transmittance[c], least_light)) / (s.back - s.front);
         result.push_back({s.front, extinction, 1});
         result.push_back({s.back, -extinction, -1});
     }

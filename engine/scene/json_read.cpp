@@ -93,6 +93,10 @@ void read(const json& object, const char* key, std::vector<base::Vec3f>& values)
     get_list(object, key, values, triple<base::Vec3f>);
 }
 
+void read(const json& object, const char* key, std::vector<base::Vec3d>& values) {
+    get_list(object, key, values, triple<base::Vec3d>);
+}
+
 void read(const json& object, const char* key, std::vector<base::Vec2f>& values) {
     get_list(object, key, values, pair<base::Vec2f>);
 }
@@ -113,7 +117,7 @@ void check_not_parallel(const base::Vec3d& a, const base::Vec3d& b, const std::s
                         const std::string& message) {
     // Closer to parallel than this, float precision decides which way the plane of the two faces.
     constexpr double least_sine = 1e-6;
-    if (!(a.cross(b).length() > least_sine * a.length() * b.length())) refuse(where, message);
+    if (!(a.normalized().cross(b.normalized()).length() > least_sine)) refuse(where, message);
 }
 
 }  // namespace shadowbench::scene

@@ -29,6 +29,7 @@ void read(const json& object, const char* key, std::optional<base::Vec2d>& value
 void read(const json& object, const char* key, std::optional<base::Vec3d>& value);
 void read(const json& object, const char* key, std::vector<float>& values);
 void read(const json& object, const char* key, std::vector<base::Vec3f>& values);
+void read(const json& object, const char* key, std::vector<base::Vec3d>& values);
 void read(const json& object, const char* key, std::vector<base::Vec2f>& values);
 void read(const json& object, const char* key, std::vector<base::Vec3i>& values);
 

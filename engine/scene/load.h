@@ -23,6 +23,7 @@ void merge_equal_points(Hair& hair);
 // Shapes that several object types share.
 Mesh load_mesh(const nlohmann::json& from, const SearchPath& path, const std::string& where);
 Mesh load_quad(const nlohmann::json& from, const SearchPath& path, const std::string& where);
+Mesh load_layers(const nlohmann::json& from, const std::string& where);
 GridVolume load_volume(const nlohmann::json& from, const SearchPath& path, const std::string& where);
 GridVolume load_cloud(const nlohmann::json& from, const std::string& where);
 GridVolume load_density_box(const nlohmann::json& from, const std::string& where);

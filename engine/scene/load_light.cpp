@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/json_read.h"
+#include "scene/limits.h"
 #include "scene/load.h"
 
 namespace shadowbench::scene {
@@ -24,7 +25,8 @@ void load_spot(const json& from, const std::string& where, Light& light) {
     read(from, "angle", light.angle);
     read(from, "near", light.near);
     light.direction = light.target - light.position;
-    if (!(light.direction.length() > 0.0)) refuse(where + "/target", "the light stands on its target");
+    if (!(light.direction.length() >= min_length))
+        refuse(where + "/target", "the light stands on its target: move one of them");
     light.direction.normalize();
 }
 

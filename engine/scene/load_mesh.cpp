@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -37,6 +39,10 @@ Mesh inline_mesh(const json& from, const std::string& where) {
     return mesh;
 }
 
+bool in_range(const Vec3d& position) {
+    return std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)}) <= max_coordinate;
+}
+
 void place(const json& from, const std::string& where, Mesh& mesh) {
     double scale = 1.0;
     Vec3d translate(0, 0, 0);
@@ -44,9 +50,8 @@ void place(const json& from, const std::string& where, Mesh& mesh) {
     read(from, "translate", translate);
     for (Vec3f& position : mesh.positions) {
         const Vec3d placed = Vec3d(position.x, position.y, position.z) * scale + translate;
-        for (int axis = 0; axis < 3; ++axis)
-            if (!(std::abs(placed[axis]) <= max_coordinate))
-                refuse(where, fmt::format("scale and translate move a vertex beyond {}", max_coordinate));
+        if (!in_range(placed))
+            refuse(where, fmt::format("scale and translate move a vertex beyond {}", max_coordinate));
         position = Vec3f(placed);
     }
 }
@@ -61,6 +66,28 @@ void load_alpha(const json& from, const SearchPath& path, const std::string& whe
     if (mesh.corner_uv.empty())
         refuse(where + "/alpha_texture", "the mesh has no texture coordinates to place a texture by");
     mesh.alpha = std::make_shared<const AlphaTexture>(read_alpha(find_file(path, name, where + "/alpha_texture")));
+}
+
+struct Parallelogram {
+    Vec3d corner{0, 0, 0}, edge_u{0, 0, 0}, edge_v{0, 0, 0};
+};
+
+Parallelogram read_parallelogram(const json& from, const std::string& where) {
+    Parallelogram shape;
+    read(from, "corner", shape.corner);
+    read(from, "edge_u", shape.edge_u);
+    read(from, "edge_v", shape.edge_v);
+    check_direction(shape.edge_u, where + "/edge_u");
+    check_direction(shape.edge_v, where + "/edge_v");
+    check_not_parallel(shape.edge_u, shape.edge_v, where + "/edge_v",
+                       "edge_u and edge_v lie along one line: no area between them");
+    return shape;
+}
+
+// In the order of its outline.
+std::array<Vec3d, 4> corners(const Parallelogram& shape) {
+    const Vec3d& corner = shape.corner;
+    return {corner, corner + shape.edge_u, corner + shape.edge_u + shape.edge_v, corner + shape.edge_v};
 }
 
 }  // namespace
@@ -85,19 +112,35 @@ Mesh load_mesh(const json& from, const SearchPath& path, const std::string& wher
 }
 
 Mesh load_quad(const json& from, const SearchPath& path, const std::string& where) {
-    Vec3d corner(0, 0, 0), edge_u(0, 0, 0), edge_v(0, 0, 0);
-    read(from, "corner", corner);
-    read(from, "edge_u", edge_u);
-    read(from, "edge_v", edge_v);
-    check_direction(edge_u, where + "/edge_u");
-    check_direction(edge_v, where + "/edge_v");
-    check_not_parallel(edge_u, edge_v, where + "/edge_v", "edge_u and edge_v lie along one line: no area between them");
+    const Parallelogram quad = read_parallelogram(from, where);
     Mesh mesh;
-    for (const Vec3d& point : {corner, corner + edge_u, corner + edge_u + edge_v, corner + edge_v})
+    for (const Vec3d& point : corners(quad)) {
+        if (!in_range(point)) refuse(where, fmt::format("corner and edges reach beyond {}", max_coordinate));
         mesh.positions.emplace_back(point);
+    }
     mesh.triangles = {Vec3i(0, 1, 2), Vec3i(0, 2, 3)};
     mesh.corner_uv = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     load_alpha(from, path, where, mesh);
+    return mesh;
+}
+
+Mesh load_layers(const json& from, const std::string& where) {
+    const Parallelogram first = read_parallelogram(from, where);
+    Vec3d offset(0, 0, 0);
+    int count = 0;
+    read(from, "offset", offset);
+    read(from, "count", count);
+    Mesh mesh;
+    mesh.positions.reserve(4 * static_cast<std::size_t>(count));
+    mesh.triangles.reserve(2 * static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+        const int at = 4 * i;
+        for (const Vec3d& point : corners(first)) mesh.positions.emplace_back(point + offset * i);
+        mesh.triangles.emplace_back(at, at + 1, at + 2);
+        mesh.triangles.emplace_back(at, at + 2, at + 3);
+    }
+    for (const Vec3f& position : mesh.positions)
+        if (!in_range(Vec3d(position))) refuse(where, fmt::format("the layers reach beyond {}", max_coordinate));
     return mesh;
 }
 

@@ -23,6 +23,9 @@ Shape mesh(const json& from, const SearchPath& path, const std::string& where) {
 Shape quad(const json& from, const SearchPath& path, const std::string& where) {
     return load_quad(from, path, where);
 }
+Shape layers(const json& from, const SearchPath&, const std::string& where) {
+    return load_layers(from, where);
+}
 
 Shape sphere(const json& from, const SearchPath&, const std::string&) {
     double radius = 0.0;
@@ -126,6 +129,7 @@ constexpr std::array rows{
     Row{"sphere", sphere},
     Row{"spheres", spheres},
     Row{"quad", quad},
+    Row{"layers", layers},
     Row{"hair", hair},
     Row{"hair_ball", hair_ball},
     Row{"volume", volume},

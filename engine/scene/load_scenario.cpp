@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <set>
+#include <variant>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,9 +21,47 @@ const json& section(const json& document, const char* key) {
     return found == document.end() ? none : *found;
 }
 
+double bytes_of(const Mesh& mesh) {
+    return 12.0 * static_cast<double>(mesh.positions.size() + mesh.triangles.size()) +
+           8.0 * static_cast<double>(mesh.corner_uv.size()) +
+           (mesh.alpha ? 4.0 * static_cast<double>(mesh.alpha->alpha.size()) : 0.0);
+}
+double bytes_of(const Spheres& spheres) {
+    return 16.0 * static_cast<double>(spheres.centres.size());
+}
+double bytes_of(const Hair& hair) {
+    return 16.0 * static_cast<double>(hair.points.size());
+}
+double bytes_of(const GridVolume& volume) {
+    return 4.0 * static_cast<double>(volume.density.size());
+}
+double bytes_of(const Particles& particles) {
+    return 20.0 * static_cast<double>(particles.centres.size());
+}
+
+void check_marching(const Scene& scene, const char* where, double rays) {
+    double steps = 0.0;
+    for (const Object& object : scene.objects)
+        if (const auto* volume = std::get_if<GridVolume>(&object.shape); volume && object.casts_shadow)
+            steps += (volume->upper - volume->lower).length() / volume->step;
+    if (steps * rays > max_all_march_steps)
+        refuse(where,
+               fmt::format("{:.3g} rays of up to {:.3g} steps through volumes; the limit is {:.3g} steps in all: "
+                           "ask for fewer rays or give the volumes a larger step",
+                           rays, steps, max_all_march_steps));
+}
+
 void load_objects(const json& objects, const SearchPath& path, Scene& scene) {
-    for (std::size_t i = 0; i < objects.size(); ++i)
-        scene.objects.push_back(load_object(objects[i], i, path, fmt::format("/scene/objects/{}", i)));
+    double bytes = 0.0;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const std::string where = fmt::format("/scene/objects/{}", i);
+        scene.objects.push_back(load_object(objects[i], i, path, where));
+        bytes += std::visit([](const auto& shape) { return bytes_of(shape); }, scene.objects.back().shape);
+        if (bytes > max_scene_bytes)
+            refuse(where, fmt::format("the objects up to this one take {:.3g} bytes; the limit is {:.3g}: make them "
+                                      "coarser or fewer",
+                                      bytes, max_scene_bytes));
+    }
     if (std::none_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return o.casts_shadow; }))
         refuse("/scene/objects", "the scene is empty of shadows: no object has casts_shadow true");
 }
@@ -89,7 +128,8 @@ Camera load_camera(const json& from) {
     read(from, "up", camera.up);
     read(from, "fov", camera.fov);
     const Vec3d view = camera.target - camera.position;
-    if (!(view.length() > 0.0)) refuse("/receivers/target", "the camera stands on its target");
+    if (!(view.length() >= min_length))
+        refuse("/receivers/target", "the camera stands on its target: move one of them");
     check_direction(camera.up, "/receivers/up");
     check_not_parallel(camera.up, view, "/receivers/up", "up points along the view");
     return camera;
@@ -97,9 +137,8 @@ Camera load_camera(const json& from) {
 
 Receivers load_receivers(const json& from) {
     Receivers receivers;
-    if (from.value("type", "probes") == "camera") {
-        receivers.camera = load_camera(from);
-    }
+    if (from.value("type", "probes") == "camera") receivers.camera = load_camera(from);
+    read(from, "positions", receivers.points);
     read(from, "resolution", receivers.resolution);
     read(from, "media_lookups", receivers.media_lookups);
     read(from, "count", receivers.count);
@@ -110,6 +149,12 @@ Receivers load_receivers(const json& from) {
         static_cast<std::uint64_t>(receivers.resolution.x) * static_cast<std::uint64_t>(receivers.resolution.y);
     if (pixels > max_camera_pixels)
         refuse("/receivers/resolution", fmt::format("{} pixels; the limit is {}", pixels, max_camera_pixels));
+    const std::uint64_t points = pixels * (static_cast<std::uint64_t>(receivers.media_lookups) + 1);
+    if (receivers.camera && points > max_camera_points)
+        refuse("/receivers/media_lookups",
+               fmt::format("{} pixels of {} places in media are up to {} receivers; the limit is {}: ask for fewer of "
+                           "either",
+                           pixels, receivers.media_lookups, points, max_camera_points));
     return receivers;
 }
 
@@ -146,6 +191,14 @@ std::vector<TechniqueRequest> load_techniques(const json& list) {
 
 }  // namespace
 
+void check_marching(const Scenario& scenario) {
+    const RaySettings& rays = scenario.rays;
+    check_marching(scenario.scene, "/rays",
+                   static_cast<double>(rays.resolution.x) * rays.resolution.y * rays.samples_per_pixel);
+    check_marching(scenario.scene, "/reference",
+                   static_cast<double>(scenario.reference.queries) * scenario.reference.samples_per_pixel);
+}
+
 Scenario load_scenario(const json& document, const SearchPath& path) {
     check_schema(document, scenario_schema());
     Scenario scenario;
@@ -159,8 +212,8 @@ Scenario load_scenario(const json& document, const SearchPath& path) {
     scenario.techniques = load_techniques(section(document, "techniques"));
     check_kind(document["scene"]);
     const bool deep = document["scene"].contains("deep_image");
-    if (deep && scenario.receivers.camera)
-        refuse("/receivers/type", "a deep image has no world for a camera: use probes");
+    if (deep && (scenario.receivers.camera || !scenario.receivers.points.empty()))
+        refuse("/receivers/type", "a deep image has no world for a camera or points: use probes");
     if (deep && !section(document, "lights").empty())
         refuse("/lights", "a deep image is its own light: leave lights out");
     if (!deep && section(document, "lights").empty()) refuse("/lights", "at least one light is needed");
@@ -173,6 +226,7 @@ Scenario load_scenario(const json& document, const SearchPath& path) {
         scenario.rays.samples_per_pixel = 1;
         scenario.rays.pattern = Pattern::regular;
     } else {
+        check_marching(scenario);
         scenario.lights = load_lights(document["lights"], bounds(scenario.scene, true));
     }
     return scenario;

@@ -17,8 +17,9 @@ void read_box(const json& from, const std::string& where, Vec3d& lower, Vec3d& u
     read(from, "lower", lower);
     read(from, "upper", upper);
     for (int axis = 0; axis < 3; ++axis)
-        if (!(lower[axis] < upper[axis]))
-            refuse(where + "/upper", "every coordinate of upper must be above that of lower");
+        if (!(upper[axis] - lower[axis] >= min_length))
+            refuse(where + "/upper",
+                   fmt::format("every coordinate of upper must be above that of lower, by {} at least", min_length));
 }
 
 void check_voxels(const Vec3i& size, const std::string& where) {
@@ -33,7 +34,8 @@ void read_step(const json& from, const std::string& where, GridVolume& volume) {
     read(from, "step", volume.step);
     if (extent.length() > max_march_steps * volume.step)
         refuse(where + "/step",
-               fmt::format("a step of {} crosses the volume in more than {} steps", volume.step, max_march_steps));
+               fmt::format("a step of {} crosses the volume in more than {} steps: make it at least {:.3g}",
+                           volume.step, max_march_steps, extent.length() / max_march_steps));
 }
 
 GridVolume load_raw(const json& from, const std::filesystem::path& file, const std::string& where) {

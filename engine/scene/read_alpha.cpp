@@ -1,14 +1,18 @@
 #include "scene/read_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "scene/exr_check.h"
 #include "scene/file_reader.h"
 #include "scene/files.h"
 #include "scene/limits.h"
@@ -39,6 +43,41 @@ void check_dds_size(const OIIO::ImageSpec& spec, const std::filesystem::path& fi
     reader.need(bytes, 1, "pixels");
 }
 
+// OpenImageIO 2.4 loses memory when a PNG file ends inside a chunk. Layout: PNG specification, section 5: a signature,
+// chunks of a length, a type, so many bytes and a checksum; IEND is the last one.
+void check_png_chunks(const std::filesystem::path& file) {
+    FileReader reader(file);
+    std::uint64_t next = 8;
+    for (std::string type; type != "IEND"; next += 4) {
+        reader.seek(next, "chunk");
+        std::uint32_t length = 0;
+        for (const std::uint8_t byte : reader.value<std::array<std::uint8_t, 4>>("chunk")) length = length << 8 | byte;
+        const auto name = reader.value<std::array<char, 4>>("chunk");
+        type.assign(name.begin(), name.end());
+        reader.need(std::uint64_t{length} + 4, 1, "chunk");
+        next += 8 + std::uint64_t{length};
+    }
+}
+
+// What a file is shows in its first bytes, but for a TARGA file, which only its name tells. OpenImageIO knows many more
+// formats, and would try each; few of their readers stand damaged files.
+struct Format {
+    const char* name;  // OpenImageIO's
+    std::string_view begin;
+};
+constexpr std::array formats{
+    Format{"png", "\x89PNG"},     Format{"jpeg", "\xff\xd8\xff"},        Format{"tiff", {"II*\0", 4}},
+    Format{"tiff", {"MM\0*", 4}}, Format{"openexr", "\x76\x2f\x31\x01"}, Format{"dds", "DDS "}};
+
+// Empty when it is none of them.
+std::string format_of(const std::filesystem::path& file) {
+    FileReader reader(file);
+    const std::vector<char> begin = reader.array<char>(std::min<std::uint64_t>(reader.size(), 4), "header");
+    for (const Format& format : formats)
+        if (std::string_view(begin.data(), begin.size()).starts_with(format.begin)) return format.name;
+    return file.extension() == ".tga" ? "targa" : "";
+}
+
 // Luminance weights of ITU-R BT.709.
 float luminance(const float* pixel, int channels) {
     return channels < 3 ? pixel[0] : 0.2126f * pixel[0] + 0.7152f * pixel[1] + 0.0722f * pixel[2];
@@ -47,11 +86,14 @@ float luminance(const float* pixel, int channels) {
 }  // namespace
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored))
-        throw base::Error(base::ErrorCode::no_such_file, file.string(), "there is no such file");
-    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
-    if (!input) refuse_image(file, "not a readable image: " + OIIO::geterror());
+    const std::string format = format_of(file);
+    if (format.empty()) refuse_image(file, "not a PNG, JPEG, TIFF, OpenEXR, DDS or (by its name) TGA file");
+    if (format == "openexr") check_exr(file);
+    if (format == "png") check_png_chunks(file);
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
+    OIIO::ImageSpec ignored;
+    if (!input || !input->open(file.string(), ignored))
+        refuse_image(file, "not a readable image: " + (input ? input->geterror() : OIIO::geterror()));
     const OIIO::ImageSpec& spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.width > max_image_side || spec.height > max_image_side)
         refuse_image(file,
@@ -79,6 +121,10 @@ AlphaTexture read_alpha(const std::filesystem::path& file) {
         if (spec.depth > 1 || channels < 1 || texels * static_cast<std::uint64_t>(channels) > max_texels)
             refuse_image(file, fmt::format("{} x {} x {} pixels of {} channels; the limit is {} values", spec.width,
                                            spec.height, spec.depth, channels, max_texels));
+        const std::uint64_t bytes = std::filesystem::file_size(file);
+        if (texels * static_cast<std::uint64_t>(channels) / max_values_per_byte > bytes)
+            refuse_image(file, fmt::format("{} x {} pixels in a file of {} bytes: it is damaged", spec.width,
+                                           spec.height, bytes));
         std::vector<float> values(texels * static_cast<std::uint64_t>(channels));
         // Some of its readers say that they read an image, and leave an error behind.
         if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()) || input->has_error())

@@ -111,6 +111,12 @@ DeepImage read_deep_image(const std::filesystem::path& file) {
         int part = 0;
         const OIIO::ImageSpec spec = find_deep_part(*input, file, part);
         const Channels channels = find_channels(spec, file);
+        const std::uint64_t pixels = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+        const std::uint64_t bytes = std::filesystem::file_size(file);
+        if (pixels > max_texels || pixels / max_values_per_byte > bytes)
+            refuse_image(file,
+                         fmt::format("{} x {} pixels in a file of {} bytes; the limit is {} pixels, and {} a byte",
+                                     spec.width, spec.height, bytes, max_texels, max_values_per_byte));
         OIIO::DeepData data;
         if (!input->read_native_deep_image(part, 0, data))
             refuse_image(file, "damaged or cut short: " + input->geterror());

@@ -9,7 +9,7 @@
 
 namespace shadowbench::scene {
 
-// Throws Error: no_such_file, or bad_input when no format reads it.
+// PNG, JPEG, TIFF, OpenEXR, DDS and TGA. Throws Error: no_such_file, io, or bad_input for other files and damaged ones.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file);
 
 // Throws Error{bad_input} with the file as place, and nowhere else in the message.

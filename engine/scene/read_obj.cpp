@@ -1,11 +1,15 @@
-// Wavefront OBJ through tinyobjloader. The library takes what is not a number as 0 and drops faces it cannot use, so
-// the lines are checked first; that also gives faults their line.
+// Wavefront OBJ through tinyobjloader. The library takes what is not a number as 0, drops faces it cannot use, and
+// takes memory for counts that stand in other lines. So it is given vertices, texture coordinates and faces alone,
+// checked; that also gives faults their line.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <sstream>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
@@ -38,17 +42,21 @@ public:
     void check(std::string_view line) {
         ++number_;
         const std::string_view keyword = next_word(line);
+        if (keyword != "v" && keyword != "vt" && keyword != "f") return;
+        kept_ += keyword;
         if (keyword == "v") {
             numbers(line, 3);
             ++vertices_;
         }
         if (keyword == "vt") numbers(line, 1);
         if (keyword == "f") corners(line);
+        kept_ += '\n';
     }
 
-    // Faces may stand before their vertices, so whether all of these are there is known at the end only.
-    void finish() {
-        if (highest_ <= vertices_) return;
+    // The checked lines. Faces may stand before their vertices, so whether all of these are there is known at the end
+    // only.
+    std::string finish() {
+        if (highest_ <= vertices_) return std::move(kept_);
         number_ = highest_at_;
         fail(fmt::format("a face names vertex {}, but there are {}", highest_, vertices_));
     }
@@ -58,7 +66,7 @@ private:
         throw Error(ErrorCode::bad_input, fmt::format("{}:{}", file_.string(), number_), message);
     }
 
-    void numbers(std::string_view line, int least) const {
+    void numbers(std::string_view line, int least) {
         int count = 0;
         for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++count) {
             if (word.front() == '+') word.remove_prefix(1);
@@ -66,6 +74,7 @@ private:
             const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
             if (fault != std::errc() || end != word.data() + word.size() || !(std::abs(value) <= max_coordinate))
                 fail(fmt::format("\"{}\" is not a finite number below {}", word.substr(0, 40), max_coordinate));
+            kept_.append(1, ' ').append(word);
         }
         if (count < least) fail(fmt::format("{} numbers where {} are needed", count, least));
     }
@@ -75,14 +84,20 @@ private:
         constexpr int most = 255;
         int count = 0;
         for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++count) {
-            std::int64_t vertex = 0;
-            const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), vertex);
-            if (fault != std::errc() || (end != word.data() + word.size() && *end != '/') ||
+            std::int64_t vertex = 0, uv = 0;
+            const char* const last = word.data() + word.size();
+            std::from_chars_result read = std::from_chars(word.data(), last, vertex);
+            const bool has_uv =
+                read.ec == std::errc() && last - read.ptr > 1 && read.ptr[0] == '/' && read.ptr[1] != '/';
+            if (has_uv) read = std::from_chars(read.ptr + 1, last, uv);
+            // The index of a normal may follow.
+            if (read.ec != std::errc() || (read.ptr != last && *read.ptr != '/') || uv != static_cast<int>(uv) ||
                 word.find_first_not_of("0123456789-/") != std::string_view::npos)
                 fail(fmt::format("\"{}\" is not a face's corner", word.substr(0, 40)));
             // Negative numbers count back from the last vertex so far.
             if (vertex == 0 || vertex < -vertices_)
                 fail(fmt::format("a face names vertex {}, but there are {} so far", vertex, vertices_));
+            kept_ += has_uv ? fmt::format(" {}/{}", vertex, uv) : fmt::format(" {}", vertex);
             if (vertex <= highest_) continue;
             highest_ = vertex;
             highest_at_ = number_;
@@ -95,16 +110,17 @@ private:
     std::int64_t vertices_ = 0;
     std::int64_t highest_ = 0;  // vertex that a face names, and the line of that face
     std::size_t highest_at_ = 0;
+    std::string kept_;
 };
 
-void check_lines(const std::string& text, const std::filesystem::path& file) {
+std::string checked_lines(const std::string& text, const std::filesystem::path& file) {
     LineCheck check(file);
     for (std::size_t from = 0; from < text.size();) {
         const std::size_t to = std::min(text.find('\n', from), text.size());
         check.check(std::string_view(text).substr(from, to - from));
         from = to + 1;
     }
-    check.finish();
+    return check.finish();
 }
 
 class Converter {
@@ -113,6 +129,10 @@ public:
         : attributes_(attributes), file_(file) {
         const std::vector<tinyobj::real_t>& v = attributes.vertices;
         if (v.size() / 3 > max_mesh_elements) fail(fmt::format("over {} vertices", max_mesh_elements));
+        // The library's own reading of digits and exponents: it can lose numbers that the lines hold.
+        for (const auto* numbers : {&attributes.vertices, &attributes.texcoords})
+            for (const tinyobj::real_t number : *numbers)
+                if (!std::isfinite(number)) fail("a number has more digits or a larger exponent than can be read");
         for (std::size_t i = 0; i + 2 < v.size(); i += 3) mesh_.positions.emplace_back(v[i], v[i + 1], v[i + 2]);
     }
 
@@ -161,14 +181,13 @@ private:
 }  // namespace
 
 Mesh read_obj(const std::filesystem::path& file) {
-    std::string text = base::read_text(file);
+    const std::string text = base::read_text(file);
     if (text.empty()) throw Error(ErrorCode::bad_input, file.string(), "the file is empty");
-    check_lines(text, file);
     tinyobj::attrib_t attributes;
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::string warnings, faults;
-    std::istringstream stream(std::move(text));
+    std::istringstream stream(checked_lines(text, file));
     if (!tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &faults, &stream, nullptr, false, false))
         throw Error(ErrorCode::bad_input, file.string(), "not a readable OBJ file: " + faults);
     Converter converter(attributes, file);

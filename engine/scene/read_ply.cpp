@@ -104,11 +104,13 @@ Mesh read_ply(const std::filesystem::path& file) {
     for (const PlyElement& element : source.elements()) {
         source.check_length(element);
         if (element.name == "vertex") {
+            // Faces name the vertices of the first.
+            if (vertices) source.fail("a second element \"vertex\"; one is read");
             vertices = read_vertices(source, element);
         } else if (element.name == "face") {
             if (!vertices) source.fail("faces stand before the vertices");
             read_faces(source, element, *vertices, mesh);
-        } else {
+        } else if (!element.properties.empty()) {
             for (std::uint64_t i = 0; i < element.count; ++i)
                 for (const PlyProperty& property : element.properties) source.skip(property);
         }

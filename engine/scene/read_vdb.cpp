@@ -1,7 +1,5 @@
 // The only file that includes OpenVDB: it takes long to compile.
-#include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
-#include <openvdb/io/GridDescriptor.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
@@ -9,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
-#include <fstream>
 #include <mutex>
 #include <new>
 
@@ -18,6 +15,7 @@
 #include "base/error.h"
 #include "scene/files.h"
 #include "scene/limits.h"
+#include "scene/vdb_check.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -30,89 +28,21 @@ using base::ErrorCode;
 }
 
 // Number of voxels in a box, which must not be over the limit.
-double check_box(const openvdb::Coord& lower, const openvdb::Coord& upper, const std::filesystem::path& file) {
+double check_box(const openvdb::CoordBBox& box, std::uint64_t most_voxels, const std::filesystem::path& file) {
     double voxels = 1.0;
-    for (int axis = 0; axis < 3; ++axis) voxels *= std::max(0.0, static_cast<double>(upper[axis]) - lower[axis] + 1.0);
-    if (voxels > static_cast<double>(max_voxels))
-        fail(file, fmt::format("the active box has {} voxels; the limit is {}", voxels, max_voxels));
+    for (int axis = 0; axis < 3; ++axis) voxels *= static_cast<double>(box.max()[axis]) - box.min()[axis] + 1.0;
+    if (voxels > static_cast<double>(most_voxels))
+        fail(file, fmt::format("the active box has {} voxels; the limit is {}", voxels, most_voxels));
     return voxels;
 }
 
-// The grids a file says it has. OpenVDB does not look whether its reads succeed: a file that is cut short would give a
-// grid with holes. So the ends of the grids, which stand in their descriptors, are held against the size of the file
-// first.
-class Contents : private openvdb::io::Archive {
-public:
-    Contents(const std::filesystem::path& file, const std::string& wanted) {
-        std::ifstream stream(file, std::ios::binary);
-        if (!stream) throw Error(ErrorCode::io, file.string(), "cannot be opened");
-        stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
-        readHeader(stream);
-        if (!inputHasGridOffsets()) fail(file, "the file was written as a stream, without the places of its grids");
-        setFormatVersion(stream);
-        setLibraryVersion(stream);
-        openvdb::MetaMap().readMeta(stream);
-        const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file));
-        for (std::int32_t left = readGridCount(stream); left > 0; --left) {
-            openvdb::io::GridDescriptor grid;
-            grid.read(stream);
-            if (grid.getEndPos() < stream.tellg() || grid.getEndPos() > size)
-                throw Error(ErrorCode::bad_input, fmt::format("{}:{}", file.string(), size),
-                            fmt::format("the file is cut short or damaged: the grid \"{}\" ends at byte {}",
-                                        grid.gridName(), grid.getEndPos()));
-            names_ += (names_.empty() ? "" : ", ") + grid.gridName();
-            if (grid.gridName() == wanted) check_claims(stream, grid, file);
-            grid.seekToEnd(stream);
-        }
-    }
-
-    const std::string& names() const { return names_; }
-
-private:
-    // Refuses what the library would take memory for before it notices that the file does not hold it.
-    void check_claims(std::istream& stream, const openvdb::io::GridDescriptor& grid,
-                      const std::filesystem::path& file) {
-        // Older files have another order, other grids another tree; an instance has none.
-        if (openvdb::io::getFormatVersion(stream) < openvdb::OPENVDB_FILE_VERSION_GRID_INSTANCING ||
-            grid.gridType() != openvdb::FloatGrid::gridType() || grid.isInstance())
-            return;
-        grid.seekToGrid(stream);
-        readGridCompression(stream);
-        openvdb::MetaMap metadata;
-        metadata.readMeta(stream);
-        const auto lower = metadata.getMetadata<openvdb::Vec3IMetadata>(openvdb::GridBase::META_FILE_BBOX_MIN);
-        const auto upper = metadata.getMetadata<openvdb::Vec3IMetadata>(openvdb::GridBase::META_FILE_BBOX_MAX);
-        if (lower && upper) check_box(openvdb::Coord(lower->value()), openvdb::Coord(upper->value()), file);
-        openvdb::math::Transform().read(stream);
-        struct {
-            std::int32_t buffers;
-            float background;
-            std::uint32_t tiles, children;
-        } root;
-        static_assert(sizeof root == 16);
-        stream.read(reinterpret_cast<char*>(&root), sizeof root);
-        // A child begins with its place and two masks, a bit a slot each; a tile has its place, value and state.
-        constexpr std::uint64_t child_bytes = 12 + 2 * openvdb::FloatTree::RootNodeType::ChildNodeType::NUM_VALUES / 8;
-        constexpr std::uint64_t tile_bytes = 12 + 4 + 1;
-        const auto left = static_cast<std::uint64_t>(std::max<std::int64_t>(0, grid.getEndPos() - stream.tellg()));
-        if (root.children * child_bytes + root.tiles * tile_bytes > left)
-            fail(file, fmt::format("the file is damaged: the grid \"{}\" has {} nodes and {} tiles in {} bytes",
-                                   grid.gridName(), root.children, root.tiles, left));
-    }
-
-    std::string names_;
-};
-
 openvdb::FloatGrid::Ptr read_grid(const std::filesystem::path& file, const std::string& name) {
-    const Contents contents(file, name);
+    const std::string names = check_vdb(file, name);
     openvdb::io::File vdb(file.string());
     vdb.open(false);
     if (!vdb.hasGrid(name))
-        fail(file, fmt::format("there is no grid \"{}\"; the grids are: {}", name,
-                               contents.names().empty() ? "none" : contents.names()));
-    const openvdb::GridBase::Ptr grid = vdb.readGrid(name);
-    openvdb::FloatGrid::Ptr result = openvdb::gridPtrCast<openvdb::FloatGrid>(grid);
-    if (!result) fail(file, fmt::format("the grid \"{}\" has {} values, not float", name, grid->valueType()));
+        fail(file, fmt::format("there is no grid \"{}\"; the grids are: {}", name, names.empty() ? "none" : names));
+    const openvdb::FloatGrid::Ptr result = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(name));
     if (result->getGridClass() == openvdb::GRID_LEVEL_SET)
         fail(file, fmt::format("the grid \"{}\" is a level set, not a fog volume", name));
     return result;
@@ -125,16 +55,17 @@ void check_transform(const openvdb::math::Transform& transform, const std::files
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column) {
             const double value = matrix[row][column];
+            if (!std::isfinite(value)) fail(file, "the grid's transform is not finite");
             if (row == column && !(value > 0.0)) fail(file, "the grid's transform mirrors or flattens it");
             if (row != column && value != 0.0)
                 fail(file, "the grid's transform turns or shears it: it must be axis-aligned");
         }
 }
 
-GridVolume convert(const openvdb::FloatGrid& grid, const std::filesystem::path& file) {
+GridVolume convert(const openvdb::FloatGrid& grid, std::uint64_t most_voxels, const std::filesystem::path& file) {
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
     if (box.empty()) fail(file, "the grid has no active voxels");
-    const double voxels = check_box(box.min(), box.max(), file);
+    const double voxels = check_box(box, most_voxels, file);
 
     GridVolume volume;
     const openvdb::Coord size = box.dim();
@@ -155,8 +86,11 @@ GridVolume convert(const openvdb::FloatGrid& grid, const std::filesystem::path& 
 void check_values(const GridVolume& volume, const std::filesystem::path& file) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(volume.lower[axis]) <= max_coordinate) || !(std::abs(volume.upper[axis]) <= max_coordinate) ||
-            !(volume.lower[axis] < volume.upper[axis]))
-            fail(file, "the grid's world box is not finite");
+            !(volume.upper[axis] - volume.lower[axis] >= min_length))
+            fail(file,
+                 fmt::format("the grid's world box runs from {} to {} along an axis; both must be finite, at most {} "
+                             "from 0 and {} apart at least: mend its transform",
+                             volume.lower[axis], volume.upper[axis], max_coordinate, min_length));
     for (const float density : volume.density)
         if (!(density >= 0.0f && density <= static_cast<float>(max_coordinate)))
             fail(file, fmt::format("the grid has the density {}, which is not a finite number of at least 0", density));
@@ -164,7 +98,7 @@ void check_values(const GridVolume& volume, const std::filesystem::path& file) {
 
 }  // namespace
 
-GridVolume read_vdb(const std::filesystem::path& file, const std::string& grid) {
+GridVolume read_vdb(const std::filesystem::path& file, const std::string& grid, std::uint64_t most_voxels) {
     static std::once_flag once;
     std::call_once(once, [] { openvdb::initialize(); });
     std::error_code ignored;
@@ -175,7 +109,7 @@ GridVolume read_vdb(const std::filesystem::path& file, const std::string& grid) 
     try {
         const openvdb::FloatGrid::Ptr source = read_grid(file, grid);
         check_transform(source->transform(), file);
-        GridVolume volume = convert(*source, file);
+        GridVolume volume = convert(*source, most_voxels, file);
         check_values(volume, file);
         return volume;
     } catch (const Error&) {

@@ -16,7 +16,8 @@ struct Tap {
 Tap tap(float position, int count) {
     const float below = std::floor(position);
     const float wrapped = below - std::floor(below / static_cast<float>(count)) * static_cast<float>(count);
-    const int first = std::clamp(static_cast<int>(wrapped), 0, count - 1);
+    // Far from 0 rounding takes it out of the texture, and beyond int.
+    const int first = static_cast<int>(std::clamp(wrapped, 0.0f, static_cast<float>(count - 1)));
     return {first, first + 1 == count ? 0 : first + 1, position - below};
 }
 

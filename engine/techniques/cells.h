@@ -67,6 +67,11 @@ void for_each_cell(const rays::MapLayout& layout, const CellGrid& grid, Cells ce
         }
 }
 
+// The width of a query's filter: 0 for what is no width.
+inline float width_of(const Query& q) {
+    return std::max(0.0f, q.width);  // in this order: a comparison with what is not a number is false
+}
+
 // Cells [x0, x1) x [y0, y1) whose centres lie within half the footprint's width of (px, py): the box filter of a lookup
 // (Lokovic and Veach 2000, section 3.4, with f a box). At least the nearest cell; clipped to the map; empty outside it.
 struct CellRange {
@@ -75,19 +80,20 @@ struct CellRange {
 inline CellRange footprint(const CellGrid& grid, const Query& q) {
     int cx, cy;
     if (!grid.find(q.x, q.y, cx, cy)) return {};
+    // Cut to the map while they are floats, which hold any width; what is left is not negative, so that an integer cuts
+    // off its fraction as floor() would.
     const auto range = [](float centre, float half, int nearest, int count, int& low, int& high) {
-        low = static_cast<int>(std::floor(centre - half + 0.5f));
-        high = static_cast<int>(std::floor(centre + half + 0.5f));
+        low = static_cast<int>(std::max(centre - half + 0.5f, 0.0f));
+        high = std::min(static_cast<int>(std::min(centre + half + 0.5f, static_cast<float>(count))), count);
         if (low >= high) {
             low = nearest;
             high = nearest + 1;
         }
-        low = std::max(low, 0);
-        high = std::min(high, count);
     };
+    const float half = 0.5f * width_of(q);
     CellRange r;
-    range(q.x * grid.per_pixel_x, 0.5f * q.width * grid.per_pixel_x, cx, grid.width, r.x0, r.x1);
-    range(q.y * grid.per_pixel_y, 0.5f * q.width * grid.per_pixel_y, cy, grid.height, r.y0, r.y1);
+    range(q.x * grid.per_pixel_x, half * grid.per_pixel_x, cx, grid.width, r.x0, r.x1);
+    range(q.y * grid.per_pixel_y, half * grid.per_pixel_y, cy, grid.height, r.y0, r.y1);
     return r;
 }
 

@@ -75,8 +75,8 @@ ParameterValues read_parameters(std::span<const Parameter> declared, const json&
     for (const Parameter& p : declared) result.values.emplace(p.name, standard(p));
     for (const auto& [key, value] : object.items()) {
         if (key == "type") continue;
-        const auto p =
-            std::find_if(declared.begin(), declared.end(), [&](const Parameter& d) { return key == d.name; });
+        const auto p = std::find_if(declared.begin(), declared.end(),
+                                    [&name = key](const Parameter& d) { return name == d.name; });
         if (p == declared.end()) {
             std::string names;
             for (const Parameter& d : declared) names += fmt::format("{}{}", names.empty() ? "" : ", ", d.name);
@@ -93,7 +93,7 @@ json to_json(const ParameterValues& values) {
     json object = json::object();
     for (const auto& [name, value] : values.values)
         std::visit(
-            [&](const auto& v) {
+            [&object, &name = name](const auto& v) {
                 if constexpr (std::is_same_v<std::decay_t<decltype(v)>, double>) {
                     if (v == std::floor(v) && std::abs(v) < 1e15)
                         object[name] = static_cast<long long>(v);

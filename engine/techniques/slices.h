@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rays/light_rays.h"
 
@@ -13,7 +14,8 @@ inline double optical_depth(float through, double most) {
     return through > 0.0f ? std::min(-static_cast<double>(std::log(through)), most) : most;
 }
 
-// Interval i of `count` reaches from depth(i) to depth(i + 1).
+// Interval i of `count` reaches from depth(i) to depth(i + 1). Where low and high are equal or nearly so (all depths
+// denormal) the scale is infinite: then what lies behind `near` lies behind all intervals.
 struct Slices {
     float near = 0.0f;
     float scale = 0.0f;  // intervals a unit of depth
@@ -32,6 +34,12 @@ struct Slices {
     }
     int interval(float place) const { return std::min(static_cast<int>(place), count - 1); }
     float depth(int i) const { return static_cast<float>(near + i / static_cast<double>(scale)); }
+    // A depth behind all intervals, as near to the last one as the roundings of place() allow.
+    float behind() const {
+        const double range = count / static_cast<double>(scale);
+        return std::nextafter(static_cast<float>(near + range * (1.0 + 0x1p-21)),
+                              std::numeric_limits<float>::infinity());
+    }
 
     // Calls add(interval, part) for the parts of a segment of constant extinction. A surface goes as a whole into the
     // interval that begins at its depth or before: at the slice where that interval ends it is felt, at the slice where
@@ -43,7 +51,7 @@ struct Slices {
         const float end = place(back);
         int last = interval(end);
         if (last > first && end == static_cast<float>(last)) --last;  // it ends where that interval begins
-        if (first == last) return add(first, depth_of_segment);
+        if (first == last || !std::isfinite(scale)) return add(first, depth_of_segment);
         const double u0 = (static_cast<double>(front) - near) * scale, u1 = (static_cast<double>(back) - near) * scale;
         const double rate = depth_of_segment / (u1 - u0);
         double rest = depth_of_segment;

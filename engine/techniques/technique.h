@@ -22,15 +22,21 @@ struct LightView;
 namespace shadowbench::techniques {
 
 // "How much light reaches light-space point (x, y, z), over a footprint of `width` map pixels?"
+//
+// Any floats may be asked for, and the answer is always a number:
+//   a position outside the map, one that is not a number among them, is lit;
+//   a depth that is not a number lies before everything, as -infinity does; infinity lies behind everything;
+//   a width that is negative or not a number counts as 0, which asks for the nearest cell; one wider than the map, be
+//   it infinite, covers the whole map and takes no longer than that.
 struct Query {
     float x, y;   // map pixels
     float z;      // planar depth
-    float width;  // of the filter, map pixels, > 0
+    float width;  // of the filter, map pixels
 };
 
 // The receiver's own pixel as it lies in the map: a parallelogram around the query's (x, y), its two edges in map
-// pixels. All 0: not known. Beside the queries and not in them: few techniques read it, and lookups that do not would
-// pay for the longer query.
+// pixels. All 0: not known; one that is not finite counts as not known too. Beside the queries and not in them: few
+// techniques read it, and lookups that do not would pay for the longer query.
 struct Footprint {
     float ux = 0, uy = 0, vx = 0, vy = 0;
 

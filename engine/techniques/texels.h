@@ -82,12 +82,12 @@ struct Texels {
                 visibility[i] = evaluate(at(grid.index(x, y)), depth);
                 continue;
             }
-            float sum = 0.0f, weights = 0.0f;
+            double sum = 0.0, weights = 0.0;  // of up to millions of texels: sums of float would stop growing
             for_each(queries[i], [&](std::size_t cell, float weight) {
                 sum += weight * evaluate(at(cell), depth);
                 weights += weight;
             });
-            visibility[i] = std::min(sum / weights, highest);
+            visibility[i] = std::min(static_cast<float>(sum / weights), highest);
         }
     }
 

@@ -21,6 +21,7 @@ constexpr int promise_broken = 2;  // less accurate than it says
 
 constexpr const char* examples = R"(Examples:
   shadowbench run scenarios/quickstart.json
+  shadowbench run scenarios/hard --verdicts results/stability.md
   shadowbench run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64
   shadowbench render quickstart --size 512x384 --out pictures
   shadowbench validate smoke_vdb --data ~/volumes
@@ -29,7 +30,7 @@ constexpr const char* examples = R"(Examples:
   shadowbench list techniques
   shadowbench reproduce lokovic2000 --quick
   shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
-SCENARIO is a file, or the name of one in ./scenarios or in the folders of $SHADOWBENCH_SCENARIOS.
+SCENARIO is a file, or the name of one in ./scenarios or in the folders of $SHADOWBENCH_SCENARIOS; for run also a folder.
 Exit codes: 0 ok; 2 a technique broke what it promises; 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
 
 struct Arguments {
@@ -48,8 +49,7 @@ void repeatable(CLI::Option* option) {
     option->allow_extra_args(false);
 }
 
-void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
-    command.add_option("SCENARIO", arguments.scenario, "A scenario file, or its name")->required();
+void add_job_options(CLI::App& command, JobArguments& arguments) {
     repeatable(command.add_option("--set", arguments.set,
                                   "path=value: change one value of the scenario, as in rays.samples_per_pixel=64 or "
                                   "/techniques/0/tolerance=0.01; a sweep over it is dropped"));
@@ -63,13 +63,18 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
         ->capture_default_str();
 }
 
+void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
+    command.add_option("SCENARIO", arguments.scenario, "A scenario file, or its name")->required();
+    add_job_options(command, arguments);
+}
+
 void add_folder_option(CLI::App& command, std::string& folder, const char* text) {
     command.add_option("--out", folder, text)->check([](const std::string& name) {
         return std::string(name.empty() ? "the folder has no name" : "");
     });
 }
 
-void add_only_option(CLI::App& command, ScenarioArguments& arguments) {
+void add_only_option(CLI::App& command, JobArguments& arguments) {
     repeatable(command.add_option("--only", arguments.only, "Only techniques of this type"));
 }
 
@@ -96,10 +101,22 @@ void add_export_commands(CLI::App& app, Arguments& arguments) {
 }
 
 void add_commands(CLI::App& app, Arguments& arguments) {
-    CLI::App* run = app.add_subcommand("run", "Run a scenario: print a table, write result.json and result.csv");
-    add_scenario_options(*run, arguments.run);
+    CLI::App* run = app.add_subcommand("run",
+                                       "Run scenarios: print a table, write result.json and result.csv; of several "
+                                       "also a verdict per technique and scenario");
+    run->add_option("SCENARIO", arguments.run.scenarios,
+                    "Scenario files, their names, or folders: each *.json directly in one. All are checked before the "
+                    "first is run")
+        ->required();
+    add_job_options(*run, arguments.run);
     add_only_option(*run, arguments.run);
-    add_folder_option(*run, arguments.run.out, "Folder of the results [results/runs/<scenario name>]");
+    add_folder_option(*run, arguments.run.out,
+                      "Folder of the results [results/runs/<scenario name>]; of several scenarios or a folder, each "
+                      "gets DIR/<scenario name> [results/runs/<scenario name>]");
+    run->add_option("--verdicts", arguments.run.verdicts,
+                    "Markdown file of the verdicts [of several scenarios or a folder: verdicts.md in the folder of "
+                    "the results]")
+        ->check([](const std::string& name) { return std::string(name.empty() ? "the file has no name" : ""); });
 
     CLI::App* render = app.add_subcommand(
         "render", "Render what the camera sees through every technique: pictures as EXR and PNG, and images.json");

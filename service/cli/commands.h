@@ -7,8 +7,7 @@
 
 namespace shadowbench::service {
 
-struct ScenarioArguments {
-    std::string scenario;           // a path, or a name in the scenario folders
+struct JobArguments {
     std::vector<std::string> set;   // path=value
     std::vector<std::string> data;  // folders
     std::vector<std::string> only;  // technique ids
@@ -16,8 +15,14 @@ struct ScenarioArguments {
     double memory_limit = 16.0;     // GiB
 };
 
-struct RunArguments : ScenarioArguments {
-    std::string out;  // folder; empty: results/runs/<scenario name>
+struct ScenarioArguments : JobArguments {
+    std::string scenario;  // a path, or a name in the scenario folders
+};
+
+struct RunArguments : JobArguments {
+    std::vector<std::string> scenarios;  // each a path or a name, of a scenario or of a folder of them
+    std::string out;                     // folder; empty: results/runs/<scenario name>
+    std::string verdicts;                // file; empty: verdicts.md beside the results of several scenarios
 };
 
 struct RenderArguments : ScenarioArguments {
@@ -51,7 +56,7 @@ struct ReproduceArguments {
     int threads = 0;  // 0: all processors
 };
 
-// Whether every technique kept its promises.
+// Whether every technique kept its promises in every scenario.
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
 // Whether every technique answered with visibilities.
 bool render_command(const RenderArguments& arguments, std::ostream& out, std::ostream& err);

@@ -13,18 +13,21 @@ namespace shadowbench::service {
 
 namespace fs = std::filesystem;
 
-Job read_job(const ScenarioArguments& arguments) {
-    const fs::path file = find_scenario(arguments.scenario);
+Job read_job(const JobArguments& arguments, const fs::path& scenario) {
     Job job;
-    nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
+    nlohmann::json document = scene::parse_json(base::read_text(scenario), scenario.string());
     for (const std::string& assignment : arguments.set) bench::set_value(document, assignment);
     job.document = std::make_shared<const nlohmann::json>(std::move(document));
-    job.options.data = data_path(arguments.data, file);
+    job.options.data = data_path(arguments.data, scenario);
     job.options.only = arguments.only;
     job.options.threads = arguments.threads;
     job.options.limits.all = static_cast<std::size_t>(arguments.memory_limit * 1024.0 * 1024.0 * 1024.0);
     job.options.limits.kept_rays = std::min(job.options.limits.kept_rays, job.options.limits.all / 2);
     return job;
+}
+
+Job read_job(const ScenarioArguments& arguments) {
+    return read_job(arguments, find_scenario(arguments.scenario));
 }
 
 fs::path output_folder(const std::string& told, const fs::path& otherwise, const nlohmann::json& document) {

@@ -18,6 +18,7 @@ struct Job {
 };
 
 // Throws base::Error.
+Job read_job(const JobArguments& arguments, const std::filesystem::path& scenario);
 Job read_job(const ScenarioArguments& arguments);
 
 // As told, or in `otherwise` by the scenario's name.

@@ -1,35 +1,157 @@
+#include <deque>
+#include <map>
 #include <memory>
+#include <optional>
 #include <ostream>
+#include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "base/error.h"
+#include "base/pending_file.h"
 #include "bench/report.h"
+#include "bench/report_verdicts.h"
 #include "bench/run.h"
 #include "bench/write_result.h"
 #include "service/cli/commands.h"
 #include "service/cli/job.h"
 #include "service/cli/progress_bar.h"
+#include "service/cli/scenario_files.h"
 
 namespace shadowbench::service {
 
 namespace fs = std::filesystem;
 
-bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
-    const Job job = read_job(arguments);
-    const fs::path folder = output_folder(arguments.out, "results/runs", *job.document);
-    bench::Undo made;  // a run that fails leaves no folder
-    bench::make_writable(folder, made);
+namespace {
 
+constexpr const char* standard_folder = "results/runs";
+
+struct Planned {
+    fs::path file;
+    Job job;
+    fs::path folder;  // of its results
+};
+
+// The place of an error in one of several scenarios: its file, then the place in it.
+base::Error in_file(const base::Error& error, const fs::path& file) {
+    const std::string name = file.string();
+    if (error.where().rfind(name, 0) == 0) return error;
+    return {error.code(), error.where().empty() ? name : name + ": " + error.where(), error.message()};
+}
+
+void refuse_equal_names(const std::vector<Planned>& plan) {
+    std::map<fs::path, fs::path> files;
+    for (const Planned& one : plan) {
+        const auto [other, is_new] = files.emplace(one.folder, one.file);
+        if (!is_new)
+            throw base::Error(base::ErrorCode::bad_input, one.file.string() + ": /name",
+                              fmt::format("{} has the same name, and so the same folder of results, {}",
+                                          other->second.string(), one.folder.string()));
+    }
+}
+
+// All that are asked for. Of several, each is checked first: a fault in one is found before the first is run.
+std::vector<Planned> make_plan(const RunArguments& arguments, bool& several) {
+    std::vector<fs::path> files;
+    several = arguments.scenarios.size() > 1;
+    for (const std::string& name : arguments.scenarios) {
+        const FoundScenarios found = find_scenarios(name);
+        several = several || found.folder;
+        files.insert(files.end(), found.files.begin(), found.files.end());
+    }
+    std::vector<Planned> plan;
+    if (!several) {
+        Job job = read_job(arguments, files[0]);
+        fs::path folder = output_folder(arguments.out, standard_folder, *job.document);
+        plan.push_back({files[0], std::move(job), std::move(folder)});
+        return plan;
+    }
+    for (const fs::path& file : files) {
+        try {
+            Job job = read_job(arguments, file);
+            bench::validate(*job.document, job.options);
+            fs::path folder = output_folder("", arguments.out.empty() ? standard_folder : arguments.out, *job.document);
+            plan.push_back({file, std::move(job), std::move(folder)});
+        } catch (const base::Error& error) {
+            throw in_file(error, file);
+        }
+    }
+    refuse_equal_names(plan);
+    return plan;
+}
+
+bench::Result run_one(const Planned& planned, const std::string& place, std::ostream& err) {
     std::unique_ptr<ProgressBar> bar;
     if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
-    const bench::Result result = bench::run(*job.document, job.options, [&](const bench::Progress& progress) {
-        if (bar) bar->show(progress);
+    return bench::run(*planned.job.document, planned.job.options, [&](bench::Progress progress) {
+        if (!bar) return;
+        if (!place.empty()) progress.place = place + (progress.place.empty() ? "" : " ") + progress.place;
+        bar->show(progress);
     });
-    bar.reset();
-    bench::write_result(folder, result);
-    made.keep();
-    out << bench::to_table(result) << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
-    return !bench::any_failed(result);
+}
+
+// What is known of a scenario that could not be run.
+bench::ScenarioOutcome not_run(const nlohmann::json& document, const base::Error& error) {
+    bench::ScenarioOutcome outcome;
+    outcome.result.name = document.at("name").get<std::string>();
+    outcome.result.purpose = document.value("purpose", "");
+    outcome.error = error.what();
+    return outcome;
+}
+
+// Where the verdicts go; empty: nowhere.
+fs::path verdicts_file(const RunArguments& arguments, bool several) {
+    if (!arguments.verdicts.empty() || !several) return arguments.verdicts;
+    return fs::path(arguments.out.empty() ? standard_folder : arguments.out) / "verdicts.md";
+}
+
+}  // namespace
+
+bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
+    bool several = false;
+    const std::vector<Planned> plan = make_plan(arguments, several);
+    // Before hours are spent on what goes there. A run that fails leaves no folder.
+    bench::Undo made_for_verdicts;
+    const fs::path verdicts = verdicts_file(arguments, several);
+    if (verdicts.has_parent_path()) bench::make_writable(verdicts.parent_path(), made_for_verdicts);
+    if (!verdicts.empty()) {
+        const base::PendingFile writable(verdicts);
+    }
+    std::deque<bench::Undo> made;
+    for (const Planned& planned : plan) bench::make_writable(planned.folder, made.emplace_back());
+
+    std::vector<bench::ScenarioOutcome> outcomes;
+    std::optional<base::Error> first_error;
+    bool kept = true;
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        const Planned& one = plan[i];
+        try {
+            const std::string place =
+                several ? fmt::format("{}/{} {}", i + 1, plan.size(), one.folder.filename().string()) : "";
+            outcomes.push_back({run_one(one, place, err), ""});
+        } catch (const base::Error& error) {
+            if (!several) throw;
+            // What validation cannot find: the others are run all the same.
+            if (!first_error) first_error = in_file(error, one.file);
+            outcomes.push_back(not_run(*one.job.document, error));
+            continue;
+        }
+        const bench::Result& result = outcomes.back().result;
+        bench::write_result(one.folder, result);
+        made[i].keep();
+        kept = kept && !bench::any_failed(result);
+        out << bench::to_table(result) << fmt::format("written: {0}/result.json, {0}/result.csv\n", one.folder.string())
+            << std::flush;
+    }
+    if (several) out << bench::verdicts_text(outcomes);
+    if (!verdicts.empty()) {
+        bench::write_files({{verdicts, bench::verdicts_markdown(outcomes)}});
+        made_for_verdicts.keep();
+        out << fmt::format("written: {}\n", verdicts.string());
+    }
+    if (first_error) throw *first_error;
+    return kept;
 }
 
 void validate_command(const ScenarioArguments& arguments, std::ostream& out) {
@@ -38,6 +160,11 @@ void validate_command(const ScenarioArguments& arguments, std::ostream& out) {
     out << fmt::format("OK {}: {} variant{} of {} light{} and {} technique{}\n", validated.name, validated.variants,
                        validated.variants == 1 ? "" : "s", validated.lights, validated.lights == 1 ? "" : "s",
                        validated.techniques, validated.techniques == 1 ? "" : "s");
+    for (const std::string& light : validated.blind)
+        out << fmt::format(
+            "note: light {} sees nothing that casts a shadow: no caster is inside its map and behind its "
+            "near plane\n",
+            light);
 }
 
 }  // namespace shadowbench::service

@@ -1,5 +1,6 @@
 #include "service/cli/scenario_files.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
@@ -19,6 +20,24 @@ std::vector<fs::path> folders_of(const char* variable) {
     for (std::string folder; std::getline(list, folder, ':');)
         if (!folder.empty()) folders.emplace_back(folder);
     return folders;
+}
+
+std::vector<fs::path> scenarios_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code ignored;
+    for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
+        if (entry->is_regular_file(ignored) && entry->path().extension() == ".json") files.push_back(entry->path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+// The folder that a name means, or an empty path.
+fs::path scenario_folder(const std::string& name) {
+    std::error_code ignored;
+    if (fs::is_directory(name, ignored)) return name;
+    for (const fs::path& folder : scenario_folders())
+        if (fs::is_directory(folder / name, ignored)) return folder / name;
+    return {};
 }
 
 }  // namespace
@@ -51,6 +70,19 @@ fs::path find_scenario(const std::string& name) {
     }
     throw Error(ErrorCode::no_such_file, name,
                 "there is no such scenario file, nor one of this name in" + looked_in.substr(1));
+}
+
+FoundScenarios find_scenarios(const std::string& name) {
+    try {
+        return {{find_scenario(name)}, false};
+    } catch (const Error&) {
+        const fs::path folder = scenario_folder(name);
+        if (folder.empty()) throw;
+        FoundScenarios found{scenarios_in(folder), true};
+        if (found.files.empty())
+            throw Error(ErrorCode::no_such_file, folder.string(), "there is no scenario (*.json) in this folder");
+        return found;
+    }
 }
 
 scene::SearchPath data_path(const std::vector<std::string>& given, const fs::path& scenario) {

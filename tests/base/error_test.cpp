@@ -22,6 +22,13 @@ TEST(Error, WhatIsOneLine) {
     EXPECT_STREQ(Error(ErrorCode::io, "a\rb", "c\nd").what(), "a b: c d");
 }
 
+// A message that quotes a file must not move a terminal's cursor, nor make the JSON that holds it unwritable.
+TEST(Error, IsPrintableUtf8) {
+    const Error error(ErrorCode::bad_input, "h\u00e4r.ply:3", "\"\x1b[2J\xc2\x9b\x7f\xff\xe4\" is not a number");
+    EXPECT_EQ(error.where(), "h\u00e4r.ply:3");
+    EXPECT_EQ(error.message(), "\" [2J????\" is not a number");
+}
+
 TEST(Error, CodesAreTheExitCodesOfTheProcess) {
     EXPECT_EQ(static_cast<int>(ErrorCode::usage), 64);
     EXPECT_EQ(static_cast<int>(ErrorCode::bad_input), 65);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "bench/errors.h"
 #include "bench/fake_map.h"
@@ -99,6 +101,45 @@ TEST_F(Contenders, whose_values_promise_no_range_may_leave_it) {
     FakeAnswers infinite = raw;
     infinite.lookup = std::numeric_limits<float>::infinity();
     EXPECT_EQ(judge(infinite).status, CellStatus::failed);
+}
+
+// A series or slices are off between, which they may be, but not before and behind all.
+TEST_F(Contenders, that_promise_the_ends_alone_fail_where_those_are_wrong) {
+    const techniques::Promises ends{.localised = false, .leak = 0.004};
+    const auto with = [&](curves::Curve function) {
+        return judge({.function = std::move(function), .lookup = 0.4f, .promises = ends});
+    };
+    const Cell right = with({{1.0f, 1.0f}, {1.0f, 0.4f}, {3.0f, 0.395f}, {3.0f, 0.0039f}});
+    EXPECT_EQ(right.status, CellStatus::ok) << right.reason;
+    const Cell leaks = with({{1.0f, 1.0f}, {1.0f, 0.4f}, {3.0f, 0.395f}, {3.0f, 0.0041f}});
+    EXPECT_EQ(leaks.status, CellStatus::failed);
+    EXPECT_NE(leaks.reason.find("behind all that casts shadows it is 0.0041 instead of 0"), std::string::npos)
+        << leaks.reason;
+    const Cell dark = with({{1.0f, 0.995f}, {1.0f, 0.4f}, {3.0f, 0.4f}, {3.0f, 0.0f}});
+    EXPECT_NE(dark.reason.find("before all that casts shadows it is 0.995 instead of 1"), std::string::npos)
+        << dark.reason;
+    EXPECT_EQ(with({}).status, CellStatus::failed) << "a function that is lit everywhere";
+}
+
+TEST_F(Contenders, that_are_not_lit_where_nothing_casts_a_shadow_fail) {
+    std::vector<Contender> contenders(2);
+    contenders[0].cell.lookup = LookupErrors{};
+    contenders[1].cell.lookup = LookupErrors{{1e-3, 0, 0, 0}, 0};
+    check_lit(contenders);
+    EXPECT_TRUE(contenders[0].ok());
+    EXPECT_FALSE(contenders[1].ok());
+    EXPECT_NE(contenders[1].cell.reason.find("0.001"), std::string::npos) << contenders[1].cell.reason;
+}
+
+// The answers of one channel behind those of the other: the place named is that of the query.
+TEST_F(Contenders, whose_timed_answers_are_no_visibilities_fail) {
+    const techniques::Query asked[] = {{1.5f, 1.5f, 2.0f, 1.0f}, {6.5f, 3.5f, 2.0f, 1.0f}};
+    Contender contender;
+    check_answers(contender, asked, std::vector<float>{0.0f, 1.0f, 0.5f, 1.0f});
+    EXPECT_TRUE(contender.ok()) << contender.cell.reason;
+    check_answers(contender, asked, std::vector<float>{0.0f, 1.0f, 0.5f, std::numeric_limits<float>::quiet_NaN()});
+    EXPECT_FALSE(contender.ok());
+    EXPECT_NE(contender.cell.reason.find("(6.5, 3.5, 2)"), std::string::npos) << contender.cell.reason;
 }
 
 TEST_F(Contenders, that_refuse_the_layout_are_bad_input) {

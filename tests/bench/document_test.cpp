@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "bench/errors.h"
@@ -37,6 +39,34 @@ TEST(SetValue, takes_what_is_no_json_as_a_string) {
     set_value(document, "techniques.0.tolerance=noise");
     EXPECT_EQ(document["rays"]["pattern"], "regular");
     EXPECT_EQ(document["techniques"][0]["tolerance"], "noise");
+}
+
+TEST(SetValue, takes_what_is_no_finite_number_as_a_string_that_the_schema_refuses) {
+    for (const char* value : {"NaN", "nan", "inf", "-Infinity", "1e999", "0x10", "1,5", "\"64\"", ""})
+        for (const char* path : {"rays.samples_per_pixel", "rays.seed", "lights.0.direction.1"}) {
+            json document = small_document();
+            set_value(document, std::string(path) + "=" + value);
+            std::string where = std::string("/") + path;
+            std::replace(where.begin(), where.end(), '.', '/');
+            error_of([&] { expand(document); }, ErrorCode::bad_input, where);
+        }
+}
+
+TEST(SetValue, holds_nested_values_to_the_rules_of_documents) {
+    json document = small_document();
+    set_value(document, "lights.0.direction=[0, -2, 0]");
+    EXPECT_EQ(document["lights"][0]["direction"], json({0, -2, 0}));
+    const std::string deep(100000, '[');  // copied recursively, it would overflow the stack
+    error_of([&] { set_value(document, "name=" + deep); }, ErrorCode::bad_input, "--set name:1:65");
+    error_of([&] { set_value(document, R"(rays={"seed": 1, "seed": 2})"); }, ErrorCode::bad_input, "--set rays:1:13");
+}
+
+TEST(SetValue, refuses_an_index_that_fits_no_integer) {
+    json document = small_document();
+    const std::string assignment = "lights.99999999999999999999999.direction=1";
+    error_of([&] { set_value(document, assignment); }, ErrorCode::usage, "--set " + assignment);
+    document["sweeps"] = {{"/lights/99999999999999999999999/direction", {1, 2}}};
+    error_of([&] { expand(document); }, ErrorCode::bad_input, "/sweeps/~1lights~199999999999999999999999~1direction");
 }
 
 TEST(SetValue, adds_a_part_that_the_document_leaves_out) {

@@ -92,5 +92,16 @@ TEST(ReadTechnique, refuses_what_cannot_be) {
     refuses("ray_traced", "");
 }
 
+TEST(ReadTechnique, refuses_values_that_are_no_finite_numbers_and_names_given_twice) {
+    const auto refuses = [](const std::string& text, const std::string& below) {
+        error_of([&] { read_any_technique(text); }, ErrorCode::usage, "--technique " + text + below);
+    };
+    for (const char* value : {"nan", "inf", "1e999", "0x1p-3", "-1e-300", ""})
+        refuses(std::string("deep:tolerance=") + value, "/tolerance");
+    refuses("deep:tolerance=0,02", "");
+    refuses("avsm:nodes=99999999999999999999", "/nodes");
+    refuses("deep:tolerance=0.1,tolerance=0.2", "");  // one of the two would be lost without a word
+}
+
 }  // namespace
 }  // namespace shadowbench::bench

@@ -74,6 +74,8 @@ TEST(LookupPlan, keeps_one_time_and_one_floor_a_repetition) {
     const Maps maps = fake_maps(3);
     LookupPlan plan = plan_lookups(maps, some_queries(100), 100, 3);
     for (int r = 0; r < 4; ++r) time_repetition(maps, plan, r % 2 == 1);
+    EXPECT_EQ(plan.image.answers, std::vector<float>(100, 1.0f));
+    EXPECT_EQ(plan.random.answers, plan.image.answers);
     const LookupTimes times = summarise(plan.random);
     EXPECT_EQ(times.ns.raw.size(), 4u);
     ASSERT_TRUE(times.floor && times.ratio);

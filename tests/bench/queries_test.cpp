@@ -46,6 +46,32 @@ TEST(ProbeQueries, fill_the_map_and_reach_a_little_behind_the_casters) {
     EXPECT_GT(deepest, 3.05f);
 }
 
+TEST(PointQueries, keep_their_order_and_count_what_is_outside_the_map) {
+    HalfCovered half = half_covered();
+    scene::Receivers receivers;
+    receivers.points = {{0.0, -2.0, 0.0}, {5.0, -2.0, 0.0}, {0.5, 3.0, -0.5}, {0.0, -2.0, 1.5}};
+    receivers.bias = 0.25;
+    receivers.filter_width = 3.0;
+    const QuerySet set = point_queries(receivers, half.view);
+    EXPECT_EQ(set.dropped, 2u);
+    EXPECT_TRUE(set.footprints.empty()) << "a point is no pixel";
+    ASSERT_EQ(set.queries.size(), 2u);
+    EXPECT_FLOAT_EQ(set.queries[0].x, 4.0f);
+    EXPECT_FLOAT_EQ(set.queries[0].z, 1.75f);
+    EXPECT_FLOAT_EQ(set.queries[1].x, 6.0f);
+    EXPECT_FLOAT_EQ(set.queries[1].z, -3.25f) << "behind where a directional light starts to count: still in its map";
+    EXPECT_EQ(set.queries[1].width, 3.0f);
+
+    half.view.perspective = true;
+    half.view.z_near = 0.5;
+    receivers.bias = 0.0;
+    receivers.points = {{0, -0.5, 0}, {0, std::nextafter(-0.5, -1.0), 0}, {0, 0, 0}, {0, 2, 0}};
+    const QuerySet near = point_queries(receivers, half.view);
+    EXPECT_EQ(near.dropped, 3u) << "at the near plane, at the light, behind the light";
+    ASSERT_EQ(near.queries.size(), 1u);
+    EXPECT_FLOAT_EQ(near.queries[0].z, 0.5f);
+}
+
 TEST(QueriesOfPoints, move_towards_the_light_and_drop_what_it_does_not_see) {
     const HalfCovered half = half_covered();
     scene::Receivers receivers;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -131,6 +132,67 @@ TEST(Run, refuses_a_camera_that_looks_past_the_lights_map) {
     json document = two_layers();
     document["receivers"] = {{"type", "camera"}, {"position", {0, 5, 5}}, {"target", {0, 50, 5}}, {"up", {0, 0, 1}}};
     error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
+}
+
+// Every technique, opaque and translucent, with an aperture of its own or none, meets a map without a single segment.
+TEST(Run, finds_all_lit_where_the_light_sees_nothing) {
+    json document = json::parse(R"({
+        "name": "nothing",
+        "scene": {"objects": [
+            {"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": [0.2, 0.5, 0.8]},
+            {"type": "particles", "centres": [[0, -2, 0]], "radii": [0.9], "density": [1]}]},
+        "lights": [{"type": "directional", "direction": [0, -1, 0], "target": [0.9, 0, 0.9], "extent": [0.1, 0.1]},
+                   {"type": "spot", "position": [0.9, 4, 0.9], "target": [0.9, 0, 0.9], "angle": 1}],
+        "rays": {"resolution": [8, 4], "samples_per_pixel": 4},
+        "receivers": {"type": "probes", "count": 200, "filter_width": 2},
+        "reference": {"samples_per_pixel": 16, "queries": 50, "spread_seeds": 2},
+        "timing": {"repetitions": 1, "lookups": 64}
+    })");
+    for (const techniques::Technique& row : techniques::all()) document["techniques"].push_back({{"type", row.id}});
+    const Result result = run(document, {}, {});
+    for (const LightResult& light : result.variants[0].lights) {
+        EXPECT_TRUE(sees_nothing(light));
+        EXPECT_FALSE(light.translucent);
+        EXPECT_EQ(light.reference.error_max, 0.0);
+        for (const Cell& cell : light.cells) {
+            EXPECT_EQ(cell.status, CellStatus::ok) << light.name << " " << cell.technique << ": " << cell.reason;
+            ASSERT_TRUE(cell.lookup) << cell.technique;
+            EXPECT_EQ(cell.lookup->norms.max, 0.0) << light.name << " " << cell.technique;
+            EXPECT_EQ(cell.curve ? cell.curve->norms.max : 0.0, 0.0) << light.name << " " << cell.technique;
+            ASSERT_TRUE(cell.times) << cell.technique;
+            EXPECT_TRUE(std::isfinite(cell.times->ns_per_segment)) << cell.technique;
+        }
+    }
+    EXPECT_NE(to_table(result).find("note: the light sees nothing"), std::string::npos);
+}
+
+// Nothing is left behind the ball, and yet what takes its front for a wall is off inside of it.
+TEST(Run, does_not_take_a_medium_for_opaque_where_no_light_leaves_it) {
+    json document = two_layers();
+    document["scene"]["objects"] = {
+        {{"type", "particles"}, {"centres", {{0, 0, 0}}}, {"radii", {4}}, {"density", {1e4}}}};
+    document["lights"][0]["extent"] = {2, 2};
+    document["techniques"] = {{{"type", "shadow_map"}}};
+    const LightResult light = run(document, {}, {}).variants[0].lights[0];
+    EXPECT_TRUE(light.translucent);
+    EXPECT_EQ(light.cells[0].status, CellStatus::ok) << light.cells[0].reason;
+    EXPECT_TRUE(light.cells[0].outside_promise);
+    EXPECT_GT(light.cells[0].curve->norms.max, 0.9);
+}
+
+TEST(Run, asks_at_given_points_and_refuses_points_that_are_all_outside_the_map) {
+    json document = two_layers();
+    document["receivers"] = {{"type", "points"},
+                             {"positions", {{-0.5, 0.5, 0}, {0.5, 0.5, 0}, {-0.5, 1.5, 0}, {0, 0, 9}}}};
+    document["techniques"] = {{{"type", "uncompressed"}}};
+    const LightResult light = run(document, {}, {}).variants[0].lights[0];
+    EXPECT_EQ(light.receivers, 3u);
+    EXPECT_EQ(light.dropped, 1u);
+    EXPECT_EQ(light.reference.judged, 3u);
+    EXPECT_LT(light.cells[0].lookup->norms.max, 1e-6) << "no edge is near them";
+    document["receivers"]["positions"] = {{0, 0, 9}, {7, 0, 0}};
+    const std::string message = error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
+    EXPECT_NE(message.find("none of the 2 receivers"), std::string::npos) << message;
 }
 
 TEST(Run, refuses_a_technique_that_a_deep_image_cannot_serve) {

@@ -231,6 +231,24 @@ TEST(Linearise, StopsWhereNoFloatIsLeftBetween) {
     EXPECT_TRUE(is_visibility(curve));
 }
 
+// Pieces of a few floats: rounded to the nearest, some of them would be longer than they may be, by a quarter and more.
+TEST(Linearise, ErrsByNoMoreWhereFloatsAreFew) {
+    for (const int floats : {3, 16, 100, 256, 1000, 10'000})
+        for (const double depth : {0.1, 1.0, 5.0, 80.0})
+            for (const double error : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+                const double length = floats * 0x1p-23;
+                const std::vector<Node> nodes{{1.0, 1.0}, {1.0 + length, std::exp(-depth)}};
+                Curve curve;
+                linearise(nodes, error, curve);
+                double worst = 0.0;
+                for (int i = 0; i <= floats; ++i) {
+                    const float z = 1.0f + static_cast<float>(i) * 0x1p-23f;
+                    worst = std::max(worst, std::abs(evaluate(curve, z) - std::exp(-depth * (z - 1.0) / length)));
+                }
+                EXPECT_LE(worst, error + 0x1p-23) << floats << " floats, depth " << depth;
+            }
+}
+
 TEST(Linearise, AnErrorOfZeroStillEnds) {
     Curve curve;
     linearise({{0.0, 1.0}, {1.0, 0.0}}, 0.0, curve);

@@ -72,6 +72,10 @@ TEST(FunctionsFile, SaysWhereAndWhatIsWrong) {
     expect_refused("1\n1 one\n", 2, "two numbers");
     expect_refused("1\n1,5 1\n", 2, "two numbers");
     expect_refused("1\n1e99 1\n", 2, "two numbers");
+    expect_refused("1\n1e39 1\n", 2, "two numbers");
+    expect_refused("1\n0x1p3 1\n", 2, "two numbers");
+    expect_refused("1\n2e18 1\n", 2, "beyond 1e+18");  // of two such depths the difference may be no float
+    expect_refused("1\n-3e38 1\n", 2, "beyond 1e+18");
     expect_refused("1\ninf 1\n", 2, "not finite");
     expect_refused("1\nnan 1\n", 2, "not finite");
     expect_refused("1\n1 nan\n", 2, "outside [0, 1]");

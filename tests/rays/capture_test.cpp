@@ -335,11 +335,18 @@ TEST(Capture, PixelsThatAreWantedGetTheSameRays) {
                 EXPECT_EQ(transmittance(part, ray, 0, z), transmittance(c.tiles[0], ray, 0, z));
 }
 
-TEST(Capture, AViewWithoutCastersIsRefused) {
+TEST(Capture, AViewWithoutCastersHasRaysWithoutSegments) {
     scene::Scene scene;
     scene.objects.push_back(testing::quad({50, -1, 0}, {2, 0, 0}, {0, 2, 0}));
-    EXPECT_THROW(make_light_view(testing::directional(), scene, {8, 8}, "/lights/0"), std::exception);
-    EXPECT_THROW(make_light_view(testing::spot({0, 0, -100}, 40), scene, {8, 8}, "/lights/0"), std::exception);
+    scene::Light away = testing::spot({0, 0, 100}, 40);
+    away.target = {0, 0, 200};
+    for (const scene::Light& light : {testing::directional(), testing::spot({0, 0, -100}, 40), away}) {
+        const auto c = testing::capture(scene, light, testing::rays(8, 4));
+        ASSERT_EQ(c.tiles.size(), 1u);
+        EXPECT_EQ(c.tiles[0].rays(), 256u);
+        EXPECT_EQ(c.tiles[0].segments(), 0u);
+        EXPECT_LT(c.layout.z_min, c.layout.z_max);
+    }
 }
 
 TEST(Capture, LightInsideASphereSeesOnlyItsFarSide) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "base/error.h"
 #include "rays/scenes.h"
 
@@ -66,22 +68,36 @@ TEST(LightView, ADirectionalLightCanShineAlongItsUpVector) {
     EXPECT_NEAR(view.right.dot(view.forward), 0, 1e-12);
 }
 
-TEST(LightView, CastersBehindASpotAreAnErrorWithItsPlace) {
-    try {
-        make_light_view(testing::spot({0, 0, -5}, 30), one_sphere(), {8, 8}, "/lights/3");
-        // The light looks from z = -5 at the origin: the sphere is in view.
-    } catch (const base::Error& e) {
-        FAIL() << e.what();
-    }
+TEST(LightView, ASpotThatLooksAwayFromAllCastersHasDepthsAllTheSame) {
+    const scene::Scene scene = one_sphere();
+    EXPECT_FALSE(misses_all(make_light_view(testing::spot({0, 0, -5}, 30), scene, {8, 8}, "/lights/3"), scene))
+        << "from z = -5 it looks at the sphere in the origin";
     scene::Light away = testing::spot({0, 0, 5}, 30);
     away.target = {0, 0, 10};
+    const LightView view = make_light_view(away, scene, {8, 8}, "/lights/3");
+    EXPECT_TRUE(misses_all(view, scene));
+    EXPECT_EQ(view.z_min, view.z_near);
+    EXPECT_GT(view.z_max, 5.0) << "the target is among them";
+    away.angle.reset();
     try {
-        make_light_view(away, one_sphere(), {8, 8}, "/lights/3");
-        FAIL() << "nothing is in view";
+        make_light_view(away, scene, {8, 8}, "/lights/3");
+        FAIL() << "no angle fits what is behind the light";
     } catch (const base::Error& e) {
         EXPECT_EQ(e.code(), base::ErrorCode::bad_input);
-        EXPECT_EQ(e.where(), "/lights/3");
+        EXPECT_EQ(e.where(), "/lights/3/angle");
     }
+}
+
+TEST(LightView, MissesAllWhereEveryCasterIsBesideTheMap) {
+    scene::Scene scene = one_sphere();
+    scene::Light light = testing::directional();
+    for (const auto& [x, misses] : {std::pair{0.0, false}, {1.9, false}, {50.0, true}, {-50.0, true}}) {
+        light.target = {x, 0, 0};
+        light.extent = base::Vec2d(2, 2);
+        EXPECT_EQ(misses_all(make_light_view(light, scene, {8, 8}, "/lights/0"), scene), misses) << x;
+    }
+    for (scene::Object& object : scene.objects) object.casts_shadow = false;
+    EXPECT_THROW(make_light_view(light, scene, {8, 8}, "/lights/0"), base::Error) << "there is no caster at all";
 }
 
 }  // namespace

@@ -131,6 +131,34 @@ TEST(March, IsClippedToTheStretchAskedFor) {
     EXPECT_TRUE(segments.empty()) << "beside the box";
 }
 
+TEST(March, StepsShorterThanAFloatLoseNothing) {
+    // At a depth of 1e6 floats are 1/16 apart: fifteen of sixteen steps have both ends at one float.
+    scene::GridVolume g = grid({4, 4, 4}, 0.004);
+    for (float& d : g.density) d = 1;
+    std::vector<MediumSegment> segments;
+    VolumeMarcher(g).march({0, 0, -1e6}, {0, 0, 1}, 1.0, 0, 1e30, segments);
+    EXPECT_NEAR(depth_of(segments), 6.0, 1e-6);
+    double before = 0.0;
+    for (const MediumSegment& s : segments) {
+        EXPECT_LT(s.front, s.back);
+        EXPECT_NEAR(before, s.front - (1e6 - 3), 0.1) << "each step's depth stays where it was";
+        before += s.depth;
+    }
+    EXPECT_LE(segments.size(), 97u) << "6 units of 16 floats, and one float more";
+}
+
+TEST(March, ABoxThinnerThanAFloatIsThere) {
+    scene::GridVolume g = grid({1, 1, 1}, 1.0);
+    g.density[0] = 1000;
+    g.lower.z = 1.0;
+    g.upper.z = 1.0 + 1e-9;
+    std::vector<MediumSegment> segments;
+    VolumeMarcher(g).march({0, 0, 0}, {0, 0, 1}, 1.0, 0, 1e30, segments);
+    ASSERT_EQ(segments.size(), 1u);
+    EXPECT_NEAR(segments[0].depth, 1e-6, 1e-12);
+    EXPECT_LT(segments[0].front, segments[0].back);
+}
+
 TEST(SphereStretch, KeepsItsDigitsFarAway) {
     double front, back;
     ASSERT_TRUE(sphere_stretch({0, 0, -1e6}, {0, 0, 1}, {0.001, 0, 0}, 0.002, front, back));

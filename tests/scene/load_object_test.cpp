@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "scene/procedural.h"
@@ -91,6 +93,53 @@ TEST(LoadObject, MakesAQuadOfTwoTriangles) {
               "/scene/objects/0/edge_u");
 }
 
+Mesh layers(const std::string& rest) {
+    return std::get<Mesh>(load(R"({"type": "layers", "edge_u": [2, 0, 0], "edge_v": [0, 0, 3], )" + rest + "}").shape);
+}
+
+TEST(LoadObject, MakesLayersOfQuads) {
+    const Mesh mesh = layers(R"("corner": [1, 0, 0], "offset": [0, -0.5, 0.25], "count": 3)");
+    ASSERT_EQ(mesh.positions.size(), 12u);
+    ASSERT_EQ(mesh.triangles.size(), 6u);
+    for (int i = 0; i < 3; ++i) {
+        const auto moved = std::get<Mesh>(load(fmt::format(R"({{"type": "quad", "corner": [1, {}, {}],
+                                                               "edge_u": [2, 0, 0], "edge_v": [0, 0, 3]}})",
+                                                           -0.5 * i, 0.25 * i))
+                                              .shape);
+        for (int k = 0; k < 2; ++k)
+            for (int corner = 0; corner < 3; ++corner)
+                EXPECT_EQ(mesh.positions[mesh.triangles[2 * i + k][corner]],
+                          moved.positions[moved.triangles[k][corner]]);
+    }
+    EXPECT_EQ(layers(R"("corner": [1, 0, 0], "offset": [0, 0, 0], "count": 5)").positions.size(), 20u);
+}
+
+// Summed in float, layers far from the origin would drift or fall onto one another.
+TEST(LoadObject, PutsLayersOneUlpApart) {
+    const double ulp = std::ldexp(1.0, -13);  // of floats in [1024, 2048)
+    const Mesh mesh = layers(fmt::format(R"("corner": [0, 1024.1, 0], "offset": [0, {}, 0], "count": 5000)", ulp));
+    ASSERT_EQ(mesh.positions.size(), 20000u);
+    float y = 1024.1f;
+    for (std::size_t i = 0; i < mesh.positions.size(); i += 4) {
+        for (std::size_t k = 0; k < 4; ++k) ASSERT_EQ(mesh.positions[i + k].y, y) << i;
+        y = std::nextafter(y, 2048.0f);
+    }
+    // A third of an ulp apart, positions are those of exact multiples rounded once: three layers fall onto one float.
+    const Mesh close = layers(fmt::format(R"("corner": [0, 1024, 0], "offset": [0, {}, 0], "count": 3000)", ulp / 3));
+    for (int i = 0; i < 3000; ++i)
+        ASSERT_EQ(close.positions[4 * i].y, static_cast<float>(1024.0L + static_cast<long double>(ulp) / 3 * i)) << i;
+}
+
+TEST(LoadObject, RefusesLayersThatAreNone) {
+    const auto where = [](const std::string& rest) {
+        return failure(R"({"type": "layers", "corner": [0, 0, 0], "edge_v": [0, 0, 3], )" + rest + "}").where();
+    };
+    EXPECT_EQ(where(R"("edge_u": [2, 0, 0], "offset": [0, 1, 0], "count": 0)"), "/scene/objects/0/count");
+    EXPECT_EQ(where(R"("edge_u": [2, 0, 0], "offset": [0, 1, 0], "count": 1000001)"), "/scene/objects/0/count");
+    EXPECT_EQ(where(R"("edge_u": [2, 0, 0], "offset": [0, 1e17, 0], "count": 100)"), "/scene/objects/0");
+    EXPECT_EQ(where(R"("edge_u": [0, 0, 2], "offset": [0, 1, 0], "count": 1)"), "/scene/objects/0/edge_v");
+}
+
 TEST(LoadObject, PutsATextureOnAQuad) {
     // A binary grey image of one texel.
     const auto folder = test::write_file("grey.pgm", std::string("P5 1 1 255\n\x33", 12)).parent_path();
@@ -168,7 +217,7 @@ TEST(LoadVolume, ReadsRawValuesIntoTheirBox) {
     EXPECT_EQ(volume.upper, Vec3d(8, 1, 1));
     EXPECT_EQ(volume.step, 0.5);  // half of the smallest voxel edge
     EXPECT_EQ(std::get<GridVolume>(load(raw + R"(, "step": 0.125})", {folder}).shape).step, 0.125);
-    EXPECT_EQ(failure(raw + R"(, "step": 1e-5})", {folder}).where(), "/scene/objects/0/step");
+    EXPECT_EQ(failure(raw + R"(, "step": 1e-8})", {folder}).where(), "/scene/objects/0/step");
     EXPECT_EQ(failure(raw + R"(, "grid": "density"})", {folder}).where(), "/scene/objects/0/grid");
 }
 

@@ -129,6 +129,34 @@ TEST(LoadScenario, ReadsEverySetting) {
     expect_same(scenario.timing, Timing{14, 15});
 }
 
+TEST(LoadScenario, ReadsPointsThatReceiveLight) {
+    json document = minimal();
+    document["receivers"] = {{"type", "points"},
+                             {"positions", {{1, 2.125, 3}, {-1e18, 0.1, 5e-324}}},
+                             {"seed", 4},
+                             {"filter_width", 2.5},
+                             {"bias", 0.25}};
+    const Receivers receivers = load_scenario(document, {}).receivers;
+    EXPECT_FALSE(receivers.camera);
+    EXPECT_EQ(receivers.points, (std::vector<Vec3d>{{1, 2.125, 3}, {-1e18, 0.1, 5e-324}})) << "not rounded to float";
+    EXPECT_EQ(receivers.seed, 4u);
+    EXPECT_EQ(receivers.filter_width, 2.5);
+    EXPECT_EQ(receivers.bias, 0.25);
+
+    document["receivers"] = defaults_of(scenario_schema()["definitions"]["points"]);
+    document["receivers"].update(json{{"type", "points"}, {"positions", {{0, 0, 0}}}});
+    expect_same(load_scenario(document, {}).receivers, Receivers{});
+}
+
+TEST(LoadScenario, RefusesPointsThatAreNone) {
+    EXPECT_EQ(error_with("/receivers", R"({"type": "points"})").where(), "/receivers");
+    EXPECT_EQ(error_with("/receivers", R"({"type": "points", "positions": []})").where(), "/receivers/positions");
+    EXPECT_EQ(error_with("/receivers", R"({"type": "points", "positions": [[0, 0, 0], [0, 1e19, 0]]})").where(),
+              "/receivers/positions/1/1");
+    EXPECT_EQ(error_with("/receivers", R"({"type": "probes", "positions": [[0, 0, 0]]})").where(),
+              "/receivers/positions");
+}
+
 TEST(LoadScenario, HandsTechniquesTheirParametersUnread) {
     const Scenario scenario = load_scenario(minimal(), {});
     ASSERT_EQ(scenario.techniques.size(), 1u);
@@ -161,6 +189,43 @@ TEST(LoadScenario, StatesTheLimitOfLightRays) {
                            "resolution": 16384})")
                     .message(),
                 HasSubstr("limit"));
+}
+
+TEST(LoadScenario, RefusesNumbersThatAreNoneOrOfAnotherKindAtTheirPlace) {
+    // In places of whole numbers, of numbers and of numbers in a list.
+    for (const char* value : {"\"4\"", "null", "true", "1e300", "-1e300", "[1]", "1e19", "18446744073709551615"})
+        for (const char* place : {"/rays/samples_per_pixel", "/rays/seed", "/reference/queries", "/timing/lookups",
+                                  "/scene/objects/0/radius", "/scene/objects/0/centre/1", "/lights/0/direction/2"}) {
+            json document = minimal();
+            document["rays"] = {{"samples_per_pixel", 4}, {"seed", 1}};
+            document["reference"] = {{"queries", 1}};
+            document["timing"] = {{"lookups", 1}};
+            const base::Error error = error_with(place, value, document);
+            EXPECT_EQ(error.code(), base::ErrorCode::bad_input) << place << " " << value;
+            EXPECT_EQ(error.where(), place) << value;
+        }
+    for (const char* value : {"4.5", "4e30", "9223372036854775808", "99999999999999999999"})
+        EXPECT_EQ(error_with("/rays", (std::string(R"({"samples_per_pixel": )") + value + "}").c_str()).where(),
+                  "/rays/samples_per_pixel");
+}
+
+TEST(LoadScenario, StatesTheLimitsOfPlacesInMediaAndOfMarching) {
+    const base::Error places = error_with(
+        "/receivers", R"({"type": "camera", "position": [0, 0, 5], "target": [0, 0, 0], "media_lookups": 4096})");
+    EXPECT_NO_THROW(load_scenario(minimal(), {}));
+    EXPECT_EQ(places.where(), "/receivers/media_lookups");
+    EXPECT_THAT(places.message(), HasSubstr("limit is 268435456"));
+
+    json document = minimal();
+    document["scene"]["objects"] = {{{"type", "density_box"}, {"size", {2, 2, 2}}, {"step", 4e-6}}};
+    document["rays"] = {{"resolution", 1}, {"samples_per_pixel", 4}};
+    document["reference"] = {{"queries", 1}, {"samples_per_pixel", 4}};
+    EXPECT_NO_THROW(load_scenario(document, {})) << "a million steps";
+    EXPECT_EQ(error_with("/rays/resolution", "16384", document).where(), "/rays");
+    EXPECT_EQ(error_with("/reference/queries", "16777216", document).where(), "/reference");
+    const base::Error step = error_with("/scene/objects/0/step", "1e-18", document);
+    EXPECT_EQ(step.where(), "/scene/objects/0/step");
+    EXPECT_THAT(step.message(), HasSubstr("make it at least 3.46e-07"));
 }
 
 TEST(LoadScenario, RefusesCamerasThatSeeNothing) {
@@ -197,6 +262,8 @@ TEST(LoadScenario, ADeepImageHasNoOtherLightsAndNoCamera) {
     EXPECT_EQ(
         error_with("/receivers", R"({"type": "camera", "position": [0, 0, 5], "target": [0, 0, 0]})", deep()).where(),
         "/receivers/type");
+    EXPECT_EQ(error_with("/receivers", R"({"type": "points", "positions": [[0, 0, 5]]})", deep()).where(),
+              "/receivers/type");
     const base::Error missing = error_of([] { load_scenario(deep(), {"/nowhere"}); });
     EXPECT_EQ(missing.code(), base::ErrorCode::no_such_file);
     EXPECT_EQ(missing.where(), "/scene/deep_image/file");

@@ -68,5 +68,16 @@ TEST(ParseJson, ExcerptOfALongLineIsShort) {
               250u);
 }
 
+TEST(ParseJson, RefusesNumbersThatNoDoubleHoldsAndWordsForThem) {
+    for (const char* number :
+         {"1e999", "-1e999", "NaN", "nan", "Infinity", "-inf", "0x10", "01", "1.", ".5", "+1"}) {
+        const base::Error error =
+            test::error_of([&] { parse_json(std::string("{\n  \"a\": [") + number + "]\n}", "a.json"); });
+        EXPECT_EQ(error.code(), base::ErrorCode::bad_input) << number;
+        EXPECT_TRUE(error.where().starts_with("a.json:2:")) << error.what();
+    }
+    EXPECT_EQ(parse_json("[1e-999, 5e-324]", "").at(1).get<double>(), 5e-324);
+}
+
 }  // namespace
 }  // namespace shadowbench::scene

@@ -70,6 +70,21 @@ TEST(ReadObj, RefusesIndicesThatAreNotThere) {
         EXPECT_EQ(error_of([&] { read(corners + face); }).code(), base::ErrorCode::bad_input) << face;
 }
 
+// tinyobjloader takes memory for the counts of a "t" line, and ends lines at a lone carriage return.
+TEST(ReadObj, TakesNothingFromOtherLines) {
+    const std::string face = "f 1 2 3\n";
+    for (const char* line : {"t x 2000000000/2000000000/2000000000\n", "t x -1/0/0\n", "l 1 99\np 7\n", "vw 0 nan\n",
+                             "# \rt x -1/0/0\r\n", "g a\rf 1 2 99\n", "vn nan x\n"}) {
+        const Mesh mesh = read(corners + line + face);
+        EXPECT_THAT(mesh.triangles, ElementsAre(Vec3i(0, 1, 2))) << line;
+    }
+}
+
+TEST(ReadObj, TakesNormalsOfAFaceForNothing) {
+    EXPECT_THAT(read(corners + "vt 0 0\nf 1//1 2//-7 3//\n").corner_uv, IsEmpty());
+    EXPECT_EQ(read(corners + "vt 0 0\nf 1/1/9 2/-1/9 3/1/\n").corner_uv.size(), 3u);
+}
+
 TEST(ReadObj, FacesMayStandBeforeTheirVertices) {
     EXPECT_THAT(read("f 1 2 3\n" + corners).triangles, ElementsAre(Vec3i(0, 1, 2)));
 }

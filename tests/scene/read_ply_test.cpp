@@ -107,5 +107,21 @@ TEST(ReadPly, RefusesValuesThatMakeNoMesh) {
     EXPECT_THAT(message("element vertex", "element point"), HasSubstr("before the vertices"));
 }
 
+// The triangles of the first one would index the vertices of the second.
+TEST(ReadPly, RefusesVerticesTwice) {
+    std::string twice = ascii;
+    twice.insert(twice.find("end_header"), "element vertex 0\nproperty float x\nproperty float y\nproperty float z\n");
+    EXPECT_THAT(error_of([&] { read(twice); }).message(), HasSubstr("second element"));
+}
+
+// Nothing in the file bounds how many of them there are: counting to the largest number in turn would take days.
+TEST(ReadPly, DoesNotCountElementsWithoutProperties) {
+    std::string many;
+    for (int i = 0; i < 100'000; ++i) many += "element nothing 200000000\n";
+    std::string bytes = ascii;
+    bytes.insert(bytes.find("element vertex"), many);
+    EXPECT_EQ(read(bytes).triangles.size(), 2u);
+}
+
 }  // namespace
 }  // namespace shadowbench::scene

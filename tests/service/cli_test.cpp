@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -141,19 +142,26 @@ TEST_F(Cli, says_which_value_is_wrong) {
     fails_with("sweeps={\"/rays/sed\":[1]}", 65, "/rays/sed");
 }
 
-TEST_F(Cli, says_which_light_sees_nothing) {
+// Whether its bounds tell it at once, or the light rays alone.
+TEST_F(Cli, says_that_a_light_sees_nothing) {
     const std::vector<std::string> aside{"--set", "lights.0.extent=[1,1]", "--set", "lights.0.target=[100,0,0]"};
     const std::vector<std::string> beside_the_ball{"--set", "lights.0.extent=[0.1,0.1]", "--set",
                                                    "lights.0.target=[0.9,0,0.9]"};  // but inside its bounds
-    for (const char* command : {"validate", "run"}) {
-        std::vector<std::string> arguments{command, path("tiny.json")};
-        arguments.insert(arguments.end(), aside.begin(), aside.end());
-        fails(arguments, 65, "/lights/0");
+    const auto with = [](std::vector<std::string> arguments, const std::vector<std::string>& more) {
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    };
+    for (const auto& light : {aside, beside_the_ball}) {
+        const Outcome empty = cli(with({"run", path("tiny.json"), "--out", path("out")}, light));
+        EXPECT_EQ(empty.code, 0) << empty.err;
+        EXPECT_NE(empty.out.find("note: the light sees nothing that casts a shadow"), std::string::npos) << empty.out;
+        EXPECT_TRUE(nlohmann::json::parse(read(path("out/result.json")))["variants"][0]["lights"][0]["sees_nothing"]);
+        fails(with({"export", path("tiny.json"), "--out", path("map.exr")}, light), 65, "/lights/0");
     }
-    std::vector<std::string> arguments{"run", path("tiny.json"), "--out", path("out")};
-    arguments.insert(arguments.end(), beside_the_ball.begin(), beside_the_ball.end());
-    fails(arguments, 65, "/lights/0");
-    EXPECT_FALSE(fs::exists(path("out")));
+    EXPECT_EQ(cli(with({"validate", path("tiny.json"), "--set", "sweeps={\"/rays/seed\":[1,2]}"}, aside)).out,
+              "OK tiny: 2 variants of 1 light and 2 techniques\n"
+              "note: light directional_0 sees nothing that casts a shadow: no caster is inside its map and behind its "
+              "near plane\n");
 }
 
 TEST_F(Cli, refuses_what_exceeds_the_memory_limit_before_it_works) {
@@ -187,6 +195,117 @@ TEST_F(Cli, runs_and_writes_json_and_csv) {
     EXPECT_EQ(result["variants"][0]["lights"][0]["cells"][0]["status"], "ok");
     EXPECT_EQ(read(path("out/deep/result.csv")).rfind("scenario,", 0), 0u);
     EXPECT_EQ(std::distance(fs::directory_iterator(path("out/deep")), {}), 2) << "no temporary file stays";
+}
+
+// The tiny scenario under other names, in a folder.
+class CliOfMany : public Cli {
+protected:
+    void SetUp() override {
+        Cli::SetUp();
+        fs::create_directories(folder_ / "set" / "below");
+        for (const char* name : {"b", "a"}) scenario(name);
+        scenario("below/c");
+        write("set/notes.txt", "not a scenario");
+    }
+    // One value set, or none.
+    std::string scenario(const std::string& name, const std::string& pointer = "", const std::string& value = "") {
+        nlohmann::json document = nlohmann::json::parse(tiny);
+        document["name"] = fs::path(name).filename().string();
+        if (!pointer.empty()) document[nlohmann::json::json_pointer(pointer)] = nlohmann::json::parse(value);
+        return write("set/" + name + ".json", document.dump());
+    }
+    // What a folder of results holds.
+    std::vector<std::string> names_in(const std::string& name) const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder_ / name))
+            names.push_back(entry.path().filename().string());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+    using Names = std::vector<std::string>;
+};
+
+TEST_F(CliOfMany, runs_every_scenario_directly_in_a_folder_by_name) {
+    const Outcome outcome = cli({"run", path("set"), "--out", path("out")});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(names_in("out"), (Names{"a", "b", "verdicts.md"}));
+    EXPECT_EQ(names_in("out/a"), (Names{"result.csv", "result.json"}));
+    EXPECT_EQ(nlohmann::json::parse(read(path("out/b/result.json")))["name"], "b");
+    EXPECT_EQ(outcome.out.rfind("a\n", 0), 0u) << "the first table is that of a\n" << outcome.out;
+    EXPECT_LT(outcome.out.find("\nb\n"), outcome.out.find("verdicts (K kept")) << "verdicts come last";
+    EXPECT_NE(outcome.out.find("2 scenarios: 4 verdicts kept, 0 degraded, 0 failed."), std::string::npos);
+    const std::string verdicts = read(path("out/verdicts.md"));
+    EXPECT_NE(verdicts.find("| a | K | K |\n| b | K | K |\n"), std::string::npos) << verdicts;
+}
+
+TEST_F(CliOfMany, writes_the_same_verdicts_on_any_number_of_threads) {
+    ASSERT_EQ(cli({"run", path("set"), "--out", path("one"), "--threads", "1"}).code, 0);
+    ASSERT_EQ(cli({"run", path("set"), "--out", path("two"), "--threads", "2"}).code, 0);
+    EXPECT_EQ(read(path("one/verdicts.md")), read(path("two/verdicts.md")));
+}
+
+TEST_F(CliOfMany, runs_scenarios_that_are_named_one_by_one) {
+    const Outcome outcome = cli({"run", path("set/b.json"), "--set", "rays.seed=5", path("tiny.json"), "--out",
+                                 path("out"), "--verdicts", path("told/here.md")});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(names_in("out"), (Names{"b", "tiny"}));
+    EXPECT_EQ(nlohmann::json::parse(read(path("out/tiny/result.json")))["scenario"]["rays"]["seed"], 5);
+    EXPECT_NE(read(path("told/here.md")).find("## tiny\n"), std::string::npos);
+}
+
+TEST_F(CliOfMany, writes_verdicts_of_one_scenario_only_where_told) {
+    ASSERT_EQ(cli({"run", path("tiny.json"), "--out", path("out")}).code, 0);
+    EXPECT_EQ(names_in("out"), (Names{"result.csv", "result.json"}));
+    ASSERT_EQ(cli({"run", path("tiny.json"), "--out", path("out"), "--verdicts", path("v.md")}).code, 0);
+    EXPECT_EQ(names_in("out"), (Names{"result.csv", "result.json"}));
+    EXPECT_NE(read(path("v.md")).find("| tiny | K | K |"), std::string::npos);
+    fails({"run", path("tiny.json"), "--out", path("out"), "--verdicts", path("set")}, 74, path("set"));
+    fails({"run", path("tiny.json"), "--verdicts", ""}, 64, "--verdicts");
+}
+
+TEST_F(CliOfMany, checks_all_before_it_runs_the_first) {
+    scenario("z", "/rays/samples_per_pixel", "0");
+    fails({"run", path("set"), "--out", path("out")}, 65, path("set/z.json") + ": /rays/samples_per_pixel: ");
+    write("set/z.json", "{\n  \"name\": z\n}");
+    fails({"run", path("set"), "--out", path("out")}, 65, "shadowbench: " + path("set/z.json") + ":2:");
+    scenario("z", "/name", "\"b\"");
+    fails({"run", path("set"), "--out", path("out")}, 65, path("set/z.json") + ": /name: " + path("set/b.json"));
+    fails({"run", path("set"), "--out", path("out"), "--only", "avsm"}, 64, path("set/a.json"));
+    EXPECT_FALSE(fs::exists(path("out")));
+}
+
+// None of its receivers is inside the map: known only once it runs.
+TEST_F(CliOfMany, runs_the_others_where_one_cannot_be_run) {
+    scenario("aa", "/receivers", R"({"type": "points", "positions": [[50, 0, 0]]})");
+    const Outcome outcome = cli({"run", path("set"), "--out", path("out")});
+    EXPECT_EQ(outcome.code, 65);
+    EXPECT_EQ(outcome.err.rfind("shadowbench: " + path("set/aa.json") + ": /receivers: none of", 0), 0u) << outcome.err;
+    EXPECT_EQ(names_in("out"), (Names{"a", "b", "verdicts.md"})) << "no folder for what has no result";
+    EXPECT_NE(read(path("out/verdicts.md")).find("Could not be run: /receivers: none of"), std::string::npos);
+    EXPECT_NE(outcome.out.find("could not be run: aa: /receivers"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CliOfMany, tells_by_its_exit_code_that_a_promise_is_broken_in_any) {
+    // 512,000 segments are more than the memory limit, and no estimate can know it.
+    scenario("aa", "/scene/objects/0", R"({"type": "layers", "corner": [-1, 0, -1], "edge_u": [2, 0, 0],
+        "edge_v": [0, 0, 2], "offset": [0, -0.001, 0], "count": 2000, "opacity": 0.001})");
+    const Outcome outcome = cli({"run", path("set"), "--out", path("out"), "--memory-limit", "0.001"});
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(names_in("out"), (Names{"a", "aa", "b", "verdicts.md"}));
+    EXPECT_NE(outcome.out.find("failed: aa, uncompressed: the map grew beyond the memory limit"), std::string::npos)
+        << outcome.out;
+    EXPECT_NE(read(path("out/verdicts.md")).find("| b | K | K |"), std::string::npos);
+}
+
+TEST_F(CliOfMany, finds_folders_by_name) {
+    setenv("SHADOWBENCH_SCENARIOS", folder_.c_str(), 1);
+    const Outcome found = cli({"run", "set", "--out", path("out")});
+    unsetenv("SHADOWBENCH_SCENARIOS");
+    EXPECT_EQ(found.code, 0) << found.err;
+    EXPECT_EQ(names_in("out"), (Names{"a", "b", "verdicts.md"}));
+    fs::create_directories(folder_ / "hollow");
+    fails({"run", path("hollow")}, 66, path("hollow") + ": there is no scenario");
+    fails({"run", path("tiny.json"), path("gone")}, 66, "gone");
 }
 
 TEST_F(Cli, says_at_once_that_results_cannot_be_written) {

@@ -1,9 +1,11 @@
 // The streaming compression of one texel.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <cmath>
 
+#include "techniques/any_rays.h"
 #include "techniques/avsm/order.h"
 #include "techniques/avsm/stream.h"
 #include "techniques/avsm/texel.h"
@@ -119,6 +121,46 @@ TEST(AvsmStream, NeverHoldsMoreThanItsNodesAndKeepsFirstAndLast) {
                 }
             }
         }
+}
+
+// The same of nasty segments in the order in which they are drawn, after each of them, and of values alone.
+template <Sampling sampling>
+void check_stream(int capacity, const std::vector<Segment>& segments) {
+    constexpr float far = 1e32f;
+    TransmittanceStream<64, sampling> stream(capacity, far);
+    float first = far;
+    double total = 1.0;
+    std::vector<float> ends = {far};
+    for (const Segment& s : segments) {
+        stream.insert(s.front, s.back, s.through);
+        if (s.through < 1.0f) first = std::min(first, s.front);
+        total *= s.through;
+        ends.push_back(s.front);
+        ends.push_back(s.back);
+        const auto found = nodes(stream);
+        RC_ASSERT(static_cast<int>(found.size()) == stream.size());
+        RC_ASSERT(stream.size() <= capacity);
+        RC_ASSERT(found.front().first == first);
+        RC_ASSERT(found.front().second == (first < far ? 1.0f : static_cast<float>(total)));
+        RC_ASSERT(found.back().first == far);
+        RC_ASSERT(std::abs(found.back().second - total) <= 1e-5 * total + 1e-37);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            RC_ASSERT(std::count(ends.begin(), ends.end(), found[i].first) > 0);
+            RC_ASSERT(found[i].second >= 0.0f);
+            if (i == 0) continue;
+            RC_ASSERT(found[i].first >= found[i - 1].first);
+            RC_ASSERT(found[i].second <= found[i - 1].second);
+        }
+    }
+}
+
+RC_GTEST_PROP(AvsmStream, HoldsItsPromisesAfterEverySegmentInAnyOrder, ()) {
+    const std::vector<Segment> segments = *testing::any_segments();
+    const int capacity = *rc::gen::element(2, 3, 4, 8, 16, 64);
+    if (*rc::gen::arbitrary<bool>())
+        check_stream<Sampling::linear>(capacity, segments);
+    else
+        check_stream<Sampling::exponential>(capacity, segments);
 }
 
 TEST(AvsmStream, NothingIsAddedBehindAnOpaqueSurface) {

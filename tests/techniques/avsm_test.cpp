@@ -124,7 +124,10 @@ TEST(Avsm, SubmissionOrderIsAskedForAndMissed) {
     EXPECT_FALSE(make(R"({"order": "shuffled"})")->needs().submission);
     EXPECT_TRUE(make(R"({"order": "captured"})")->needs().submission);
     try {
-        testing::OneRay("avsm", R"({"order": "captured"})", {{1, 2, 0.5f}}, 0, 10);
+        const testing::HandRays given{1, 1, 1, {{{1, 2, 0.5f}}}};
+        rays::LightRays rays = light_rays(given);
+        rays.submission.clear();
+        testing::make_map(row, read_parameters(row.parameters, {{"order", "captured"}}, ""), rays, layout_of(given));
         FAIL() << "rays without an order were taken";
     } catch (const base::Error& error) {
         EXPECT_EQ(error.code(), base::ErrorCode::internal);

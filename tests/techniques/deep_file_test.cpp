@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include <cstring>
+#include <limits>
 
 #include "base/error.h"
 #include "base/read_text.h"
@@ -94,17 +95,45 @@ TEST(DeepFile, BringsEveryLevelBackToTheBit) {
             }
 }
 
-TEST(DeepFile, KeepsValuesThatAreNoNumbersToo) {
+// A search among depths that are out of order, or a value that is no number, would leave [0, 1] in some lookup.
+TEST(DeepFile, RefusesNodesThatAreNoVisibility) {
     const TestFile file;
-    std::vector<DeepLevel> levels = {{1, 1, 1, {0, 4}, {}, {}}};
-    for (const std::uint32_t bits : {0x7f800001u, 0xffc12345u, 0x80000000u, 0x00000001u}) {
-        float value;
-        std::memcpy(&value, &bits, sizeof value);
-        levels[0].floats.push_back(value);
+    constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<float> right = {1, 2, 2, 1, 0.5f, 0};
+    const auto write = [&](std::size_t index, float value) {
+        std::vector<DeepLevel> levels = {{1, 1, 1, {0, 6}, right, {}}};
+        levels[0].floats[index] = value;
+        levels[0].floats.resize(6 + DeepLevel::padding);
+        write_deep_file(file.path, levels, 16, {});
+        return std::filesystem::file_size(file.path) - (6 - index) * sizeof(float);
+    };
+    write(0, 1);
+    expect_same(read_levels(DeepFile(file.path)),
+                {{1, 1, 1, {0, 6}, {1, 2, 2, 1, 0.5f, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {}}});
+    for (const auto& [index, value] : {std::pair<std::size_t, float>{0, nan},
+                                       {0, -infinity},
+                                       {1, nan},
+                                       {1, 0.5f},
+                                       {2, infinity},
+                                       {3, nan},
+                                       {3, 1.5f},
+                                       {4, infinity},
+                                       {5, -0.25f}}) {
+        const std::uint64_t place = write(index, value);
+        const base::Error error = fault(file.path);
+        EXPECT_EQ(error.code(), base::ErrorCode::bad_input) << index << " " << value;
+        EXPECT_EQ(error.where(), file.path.string() + ":" + std::to_string(place));
     }
-    levels[0].floats.resize(4 + DeepLevel::padding);
-    write_deep_file(file.path, levels, 16, {});
-    expect_same(read_levels(DeepFile(file.path)), levels);
+}
+
+TEST(DeepFile, RefusesNotesThatAreNotFinite) {
+    const TestFile file;
+    const auto levels = random_levels(2, 2, 1, 3);
+    for (const DeepFileNotes& notes : {DeepFileNotes{std::numeric_limits<float>::quiet_NaN(), 0, 1, ""},
+                                       DeepFileNotes{0, -std::numeric_limits<float>::infinity(), 1, ""}}) {
+        write_deep_file(file.path, levels, 2, notes);
+        expect_refused(file.path, 64, "tolerance or depth");
+    }
 }
 
 TEST(DeepFile, TellsWhatItIsOf) {

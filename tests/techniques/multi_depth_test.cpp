@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <cmath>
 #include <set>
 
+#include "techniques/any_rays.h"
 #include "techniques/built.h"
 #include "techniques/depths.h"
 #include "techniques/multi_depth/select_depths.h"
+#include "techniques/variants.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -225,6 +228,39 @@ TEST(MultiDepth, PromisesAnErrorOnlyWhereACellStandsForItselfAlone) {
     EXPECT_EQ(bound({{"n", 1}}), 0.0);
     EXPECT_EQ(bound({{"n", 4}, {"q", 1}}), 0.0);
     EXPECT_EQ(bound({{"n", 2}}), std::numeric_limits<double>::infinity());
+}
+
+RC_GTEST_PROP(MultiDepth, AnswersAreCountsOverSortedDepthsThatHoldTheCellsOwn, ()) {
+    const testing::HandRays given = *testing::any_rays({.media = false});
+    const Technique& row = find("multi_depth", "");
+    ParameterValues values = testing::defaults(row);
+    const int n = *rc::gen::inRange(1, 9), side = *rc::gen::inRange(1, 5);
+    values.values["n"] = static_cast<double>(n);
+    values.values["kernel"] = static_cast<double>(side);
+    values.values["q"] = static_cast<double>(*rc::gen::element(9, 1, 2, 25, 289));
+    values.values["select"] = std::string(*rc::gen::element("both", "maximum", "minimum", "sorted"));
+    values.values["storage"] = std::string(*rc::gen::element("raw", "tiles", "bounding_box"));
+    const testing::HandMap made = make_map(row, values, given);
+
+    const auto outcomes = static_cast<float>(n * side * side);
+    std::vector<Query> queries;
+    for (const float z : testing::telling_depths(given))
+        for (int y = 0; y < given.height; ++y) queries.push_back({0.3f, static_cast<float>(y) + 0.6f, z, 1.0f});
+    for (const float answer : made.lookup(queries)) {
+        const float count = (1.0f - answer) * outcomes;
+        RC_ASSERT(std::abs(count - std::round(count)) <= 1e-4f);
+    }
+
+    curves::Curve stored;
+    made.map->stored(0, 0, 0, {}, stored);
+    RC_ASSERT(curves::is_visibility(stored));
+    RC_ASSERT(stored.size() <= 2u * static_cast<std::size_t>(n));
+    RC_ASSERT(std::is_sorted(stored.begin(), stored.end(), [](const auto& a, const auto& b) { return a.z < b.z; }));
+    float own = no_depth;
+    for (const testing::Segment& s : given.rays[0])
+        if (s.through < 1.0f) own = std::min(own, s.front);
+    if (own != no_depth)
+        RC_ASSERT(std::any_of(stored.begin(), stored.end(), [own](const auto& v) { return v.z == own; }));
 }
 
 }  // namespace

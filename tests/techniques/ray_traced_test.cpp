@@ -50,5 +50,16 @@ TEST(RayTraced, SeesAStillSceneAsItStands) {
     EXPECT_EQ(b.lookup(8 * 1.2f, 7.3f, 1e6f, 0.001f), 1.0f) << "where it would move to";
 }
 
+TEST(RayTraced, AFootprintThatHangsOverTheMapIsCutToIt) {
+    scene::Scene scene;  // dark where x < 0, which is the map's left half
+    scene.objects.push_back(rays::testing::quad({-3, -3, 0}, {3, 0, 0}, {0, 6, 0}));
+    const Built b = build(find("ray_traced", ""), scene, rays::testing::directional(), rays::testing::rays(16, 4),
+                          R"({"samples": 64})");
+    EXPECT_EQ(b.lookup(8.0f, 8.0f, 1e6f, 1000.0f), 0.5f) << "eight columns of samples, four in the dark";
+    EXPECT_EQ(b.lookup(15.0f, 8.0f, 1e6f, 10.0f), 1.0f);
+    EXPECT_NEAR(b.lookup(0.0f, 8.0f, 1e6f, 20.0f), 0.2f, 0.08f) << "0 to 10, of which 8 are dark";
+    EXPECT_EQ(b.lookup(0.01f, 15.99f, 1e6f, 15.0f), 0.0f);
+}
+
 }  // namespace
 }  // namespace shadowbench::techniques

@@ -48,6 +48,16 @@ TEST_P(Texels, AFootprintIsTheMeanOfItsTexels) {
     EXPECT_EQ(b.lookup(8.3f, 6.8f, 1.0f, 0.01f), point.lookup(8.3f, 6.8f, 1.0f)) << "one texel at least";
 }
 
+TEST_P(Texels, AQuarterOfAMillionTexelsHaveTheMeanOfOne) {
+    // Added up in float, each 0.3 is rounded the same way once the sum is large: to 0.297 above 65,536.
+    scene::Scene scene;
+    scene.objects.push_back(rays::testing::quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, 0.7f));
+    const auto b =
+        testing::build(find(GetParam(), ""), scene, rays::testing::directional(), rays::testing::rays(64, 64));
+    const float one = b.lookup(32.0f, 32.0f, 1e6f, 0.01f);
+    EXPECT_NEAR(b.lookup(32.0f, 32.0f, 1e6f, 64.0f), one, 1e-7f);
+}
+
 TEST_P(Texels, TheCentreIsOneRayOfEachPixel) {
     const auto all = build("{}", 4), one = build(R"({"cells": "centre", "filter": "point"})", 4);
     EXPECT_EQ(one.map->bytes() * 4, all.map->bytes());

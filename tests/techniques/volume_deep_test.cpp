@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <cmath>
 
+#include "techniques/any_rays.h"
 #include "techniques/one_ray.h"
+#include "techniques/variants.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -149,6 +152,35 @@ TEST(VolumeDeep, StoredIsWhatLookupsAnswer) {
 
 TEST(VolumeDeep, ATexelIsFourFloats) {
     EXPECT_EQ(slab(1).map->bytes(), 16u);
+}
+
+// What is stored where a threshold is never reached is the maximum opacity, at a depth of the ray.
+RC_GTEST_PROP(VolumeDeep, AThresholdThatIsNeverReachedActsAsTheMaximum, ()) {
+    const testing::HandRays given{1, 1, 1, {*testing::any_segments()}};
+    const Technique& row = find("volume_deep", "");
+    ParameterValues values = testing::defaults(row);
+    values.values["steps"] = static_cast<double>(*rc::gen::element(512, 1, 2, 33));
+    if (*rc::gen::arbitrary<bool>()) values.values["interpolation"] = std::string("bucket");
+    const testing::HandMap made = make_map(row, values, given);
+    double through = 1.0;
+    for (const Segment& s : given.rays[0]) through *= s.through;
+    const float left = made({0.5f, 0.5f, INFINITY, 0.0f}), most = 1.0f - left;
+    RC_ASSERT(std::abs(left - through) <= 1e-6);
+
+    curves::Curve stored;
+    made.map->stored(0, 0, 0, {}, stored);
+    RC_ASSERT(!stored.empty() || left == 1.0f);
+    if (stored.empty()) return;
+    RC_ASSERT(curves::is_visibility(stored));
+    RC_ASSERT(stored.front().value == 1.0f);
+    RC_ASSERT(stored.back().value == left);
+    RC_ASSERT(stored.front().z >= made.layout.z_min);
+    RC_ASSERT(stored.back().z <= made.layout.z_max);
+    RC_ASSERT(stored.size() % 2 == 0u);
+    if (most < 0.1f) RC_ASSERT(stored.size() == 2u);
+    // Before the last depth nothing is darker than the last threshold that was reached.
+    for (std::size_t i = 0; i + 1 < stored.size(); ++i)
+        RC_ASSERT(stored[i].value >= 1.0f - std::min(most, 0.9f) - 1e-7f);
 }
 
 }  // namespace

@@ -104,7 +104,9 @@ public:
             [&](const float* texel, float z) { return evaluate_(texel, nodes_, z); });
     }
     void touched(const Query& query, std::vector<const void*>& lines) const override {
+        const std::size_t before = lines.size();
         texels_.for_each(query, [&](std::size_t cell, float) { touch_lines(texels_.at(cell), 8 * nodes_, lines); });
+        keep_unique(lines, before);
     }
 
     std::size_t bytes() const override { return texels_.bytes(); }
@@ -191,12 +193,12 @@ private:
             run.template operator()<64>();
     }
 
-    // Nodes before the far plane and one there; an empty texel has 0.
+    // Nodes but those that repeat the one at the far plane; an empty texel has 0.
     std::uint32_t used(std::size_t cell) const {
         const float* t = texels_.at(cell);
-        std::uint32_t n = 0;
-        while (n < static_cast<std::uint32_t>(nodes_) && t[n] < layout_.z_max) ++n;
-        return n == 0 ? 0 : std::min<std::uint32_t>(n + 1, nodes_);
+        int n = nodes_;
+        while (n > 1 && t[n - 2] == t[n - 1] && t[nodes_ + n - 2] == t[nodes_ + n - 1]) --n;
+        return n == 1 ? 0 : static_cast<std::uint32_t>(n);
     }
 
     Texels texels_;
@@ -214,7 +216,7 @@ Technique avsm() {
     return {"avsm",
             "adaptive volumetric shadow map: a fixed number of nodes a texel",
             "Salvi et al. 2010",
-            1,
+            2,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Avsm>(values); },

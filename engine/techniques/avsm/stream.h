@@ -14,7 +14,8 @@ namespace shadowbench::techniques {
 
 // A transmittance curve of at most `capacity` nodes, 2 to max_capacity, sampled between them as lookups will. The last
 // one is always at the far plane; depths do not decrease, values neither increase nor leave [0, 1]; the value before
-// the first node is its own.
+// the first node is its own. Each segment rounds the values behind it by up to 2^-24 of themselves, as the published
+// floats do.
 //
 // Segments may come in any order. While no node has been dropped, the order changes the curve by rounding alone as long
 // as everything between two nodes is what the sampling takes it for: always for surfaces, and for overlapping media
@@ -113,7 +114,7 @@ private:
             else if (depth_[node] == back)
                 value_[node] *= through;
             else
-                value_[node] *= std::exp(log_through * ((depth_[node] - front) / (back - front)));
+                value_[node] *= std::max(std::exp(log_through * ((depth_[node] - front) / (back - front))), through);
         }
         for (int node = end;; node = next_[node]) {
             value_[node] *= through;
@@ -138,10 +139,12 @@ private:
         return value_between(previous_[node], node, z);
     }
 
+    // Never outside of the two values, by no digit: the node that it makes would rise above one or fall below the
+    // other.
     float value_between(int before, int behind, float z) const {
         const float u = (z - depth_[before]) / (depth_[behind] - depth_[before]);
         if constexpr (sampling == Sampling::exponential) return decay(value_[before], value_[behind], u);
-        return value_[before] + u * (value_[behind] - value_[before]);
+        return std::clamp(value_[before] + u * (value_[behind] - value_[before]), value_[behind], value_[before]);
     }
 
     int link_before(int node, float depth, float value) {

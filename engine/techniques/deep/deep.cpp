@@ -166,7 +166,7 @@ Technique deep() {
     return {"deep",
             "deep shadow map: visibility functions compressed within a tolerance",
             "Lokovic, Veach 2000",
-            2,
+            3,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Deep>(values); },

@@ -24,7 +24,8 @@
 //   tiles, each of n pixels, row after row
 //        n + 1 uint32 where each pixel's floats begin, counted in floats from the tile's first; last, where they end
 //        uint32s      3 channels only: bit p % 32 of word p / 32 tells that pixel p holds three channels
-//        floats       a function of k nodes: k depths, then k values of each channel that the pixel holds
+//        floats       a function of k nodes: k depths, finite and not decreasing, then k values of each channel that
+//                     the pixel holds, in [0, 1]
 //
 // Checksums are the CRC-32 of zlib and PNG (polynomial 0xedb88320).
 #pragma once
@@ -120,6 +121,7 @@ private:
     void read_header();
     void read_directory();
     void check_table(const Entry& entry, std::size_t pixels, const std::byte* tile) const;
+    void check_nodes(const Entry& entry, std::size_t pixels, const std::byte* tile) const;
 
     std::filesystem::path name_;
     int descriptor_ = -1;

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -35,6 +38,8 @@ std::string fault_of(const Header& h) {
     if (h.levels < 1 || h.levels > max_levels(h.width, h.height)) return fmt::format("{} levels", h.levels);
     if (h.tile_size < 1 || h.tile_size > max_deep_tile) return fmt::format("tiles of {} pixels a side", h.tile_size);
     if (h.text_bytes > max_text) return fmt::format("a text of {} bytes", h.text_bytes);
+    for (const float number : {h.tolerance, h.z_min, h.z_max})
+        if (!std::isfinite(number)) return fmt::format("a tolerance or depth of {}", number);
     return "";
 }
 
@@ -170,12 +175,36 @@ void DeepFile::check_table(const Entry& entry, std::size_t pixels, const std::by
         fail(entry.offset + pixels * 4, fmt::format("the tile has {} floats, its pixels {}", floats, begin));
 }
 
+// Lookups search the depths and join the values, and must not leave [0, 1].
+void DeepFile::check_nodes(const Entry& entry, std::size_t pixels, const std::byte* tile) const {
+    const auto* first = reinterpret_cast<const float*>(tile);
+    const auto place = [&](const float& number) {
+        return entry.offset + static_cast<std::uint64_t>(&number - first) * 4;
+    };
+    for (std::size_t p = 0; p < pixels; ++p) {
+        const DeepFunction f = function_of(tile, pixels, channels_, p);
+        float before = std::numeric_limits<float>::lowest();
+        for (const float& depth : std::span(f.depths, f.nodes)) {
+            if (!(depth >= before && depth <= std::numeric_limits<float>::max()))
+                fail(place(depth), fmt::format("pixel {} of the tile has the depth {} behind {}; depths are finite and "
+                                               "do not decrease",
+                                               p, depth, before));
+            before = depth;
+        }
+        for (const float& value : std::span(f.depths + f.nodes, std::size_t{f.nodes} * f.channels))
+            if (!(value >= 0.0f && value <= 1.0f))
+                fail(place(value),
+                     fmt::format("pixel {} of the tile has the visibility {}, which is not in [0, 1]", p, value));
+    }
+}
+
 void DeepFile::read_tile(std::size_t tile, std::byte* to) const {
     const Entry& entry = directory_[tile];
     read(entry.offset, to, tile_bytes(tile));
     if (checksum(to, tile_bytes(tile)) != entry.checksum)
         fail(entry.offset, fmt::format("tile {} of {} bytes is damaged: its checksum differs", tile, tile_bytes(tile)));
     check_table(entry, tile_pixels(tile), to);
+    check_nodes(entry, tile_pixels(tile), to);
 }
 
 DeepFunction function_of(const std::byte* tile, std::size_t pixels, int channels, std::size_t pixel) {

@@ -85,15 +85,16 @@ private:
     }
 
     Values average(int level, const Query& q) {
-        Values sum{};
-        float weights = 0.0f;
+        std::array<double, channels> sum{};  // of up to a million pixels: sums of float would lose digits
+        double weights = 0.0;
         for_each_pixel(levels_, level, rule_, q, [&](std::size_t pixel, float weight) {
             const Values one = evaluate<channels>(levels_[static_cast<std::size_t>(level)], pixel, q.z, search_);
             for (int c = 0; c < channels; ++c) sum[c] += weight * one[c];
             weights += weight;
         });
-        for (float& value : sum) value = std::min(value / weights, 1.0f);
-        return sum;
+        Values mean;
+        for (int c = 0; c < channels; ++c) mean[c] = std::min(static_cast<float>(sum[c] / weights), 1.0f);
+        return mean;
     }
 
     std::span<const DeepLevel> levels_;

@@ -55,7 +55,7 @@ private:
 // Calls visit(pixel, weight) for pixels of the map itself.
 template <class Visit>
 void for_each_map_pixel(const DeepLevel& map, const LookupRule& rule, const Query& q, const Visit& visit) {
-    const float width = rule.tent ? std::max(q.width, 1.0f) : q.width;
+    const float width = rule.tent ? std::max(1.0f, q.width) : q.width;
     const CellRange r = footprint(grid_of(map), {q.x, q.y, q.z, rule.tent ? 2.0f * width : width});
     const auto weigh = [&](int pixel, float centre) {
         return rule.tent ? std::max(1.0f - std::abs(static_cast<float>(pixel) + 0.5f - centre) / width, 0.0f) : 1.0f;

@@ -5,7 +5,7 @@
 namespace shadowbench::techniques {
 namespace {
 
-constexpr float largest_half = 1e9f;  // cells: beyond, a footprint says nothing about the map
+constexpr float largest_half = 1e9f;  // cells or pixels: beyond, a footprint says nothing about the map
 
 // The box with these half-sizes around the place of a lookup.
 Region box_region(const PcfSettings& settings, float sres, float tres) {
@@ -42,8 +42,9 @@ Partition partition(const PcfSettings& settings, float sres, float tres) {
 }
 
 Region square_region(const PcfSettings& settings, const CellGrid& grid, float width) {
-    return box_region(settings, std::max(0.5f * width * grid.per_pixel_x * settings.res_factor, settings.min_size),
-                      std::max(0.5f * width * grid.per_pixel_y * settings.res_factor, settings.min_size));
+    const float half = std::min(std::max(0.0f, 0.5f * width), largest_half);  // 0 for what is not a number
+    return box_region(settings, std::max(half * grid.per_pixel_x * settings.res_factor, settings.min_size),
+                      std::max(half * grid.per_pixel_y * settings.res_factor, settings.min_size));
 }
 
 bool footprint_region(const PcfSettings& settings, const CellGrid& grid, const Footprint& f, bool shape, Region& out) {
@@ -53,11 +54,12 @@ bool footprint_region(const PcfSettings& settings, const CellGrid& grid, const F
     if (!f.known() || !(half_x < largest_half && half_y < largest_half)) return false;
     const float sres = std::max(half_x, settings.min_size), tres = std::max(half_y, settings.min_size);
     if (!(sres > 0.0f && tres > 0.0f)) return false;
-    if (!shape || half_x == 0.0f || half_y == 0.0f) {
+    const float stretch_x = to_x * (sres / half_x), stretch_y = to_y * (tres / half_y);
+    const bool flat = !(std::isfinite(stretch_x) && std::isfinite(stretch_y));  // too thin to be stretched to a size
+    if (!shape || flat) {
         out = box_region(settings, sres, tres);
         return true;
     }
-    const float stretch_x = to_x * (sres / half_x), stretch_y = to_y * (tres / half_y);
     const float ux = f.ux * stretch_x, uy = f.uy * stretch_y, vx = f.vx * stretch_x, vy = f.vy * stretch_y;
     const Partition p = partition(settings, 0.5f * std::sqrt(ux * ux + uy * uy), 0.5f * std::sqrt(vx * vx + vy * vy));
     const float ns = static_cast<float>(p.ns), nt = static_cast<float>(p.nt);

@@ -35,8 +35,8 @@ struct Region {
     int ns = 1, nt = 1;
 };
 
-// The region of a square of `width` map pixels. Its half-sizes are those of the square in cells times res_factor, and
-// at least min_size.
+// The region of a square of `width` map pixels, as technique.h understands widths. Its half-sizes are those of the
+// square in cells times res_factor, and at least min_size.
 Region square_region(const PcfSettings& settings, const CellGrid& grid, float width);
 
 // The region of a known footprint: its bounding box, treated likewise, or the parallelogram stretched along the axes of

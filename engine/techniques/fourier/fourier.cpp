@@ -91,6 +91,7 @@ public:
         for (int i = 0; i <= count; ++i)
             own[i] =
                 static_cast<float>(layout_.z_min + (static_cast<double>(layout_.z_max) - layout_.z_min) * i / count);
+        own[count] = std::max(own[count], std::nextafter(layout_.z_min, std::numeric_limits<float>::infinity()));
         sample_function(
             {own.data(), own.data() + count + 1}, depths,
             [&](float z) { return evaluate(texels_.at(cell), weights_at(z)); }, out);
@@ -134,7 +135,7 @@ Technique fourier() {
     return {"fourier",
             "Fourier opacity map: a truncated series of the absorption",
             "Jansen, Bavoil 2010",
-            1,
+            2,
             {.monotone = false, .localised = false, .leak = std::exp(-5.545)},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Fourier>(values); },

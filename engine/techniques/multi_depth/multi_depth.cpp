@@ -122,8 +122,11 @@ private:
         int x, y;
         if (!grid.find(q.x, q.y, x, y)) return false;
         const float side = static_cast<float>(side_);
+        // Beyond twice the map a step, only the middle place is inside; its digits must not be lost in the width.
+        const float width =
+            spread_ ? std::min(width_of(q), 2.0f * side * static_cast<float>(std::max(grid.width, grid.height))) : 0.0f;
         const auto line = [&](float middle, float per_pixel, int cells, int* places) {
-            const float step = spread_ ? q.width * per_pixel / side : 1.0f;
+            const float step = spread_ ? width * per_pixel / side : 1.0f;
             const float first = middle * per_pixel - 0.5f * (side - 1.0f) * step;
             int count = 0;
             for (int i = 0; i < side_; ++i) {

@@ -99,7 +99,8 @@ public:
         const float* texel = texels_.at(cell);
         const Slices slices = slices_of(texel);
         std::array<float, most_slices + 1> own;
-        for (int i = 0; i <= count_; ++i) own[i] = slices.depth(i);
+        for (int i = 0; i < count_; ++i) own[i] = slices.depth(i);
+        own[count_] = slices.behind();
         sample_function(
             {own.data(), own.data() + count_ + 1}, depths, [&](float z) { return evaluate(texel, slices.place(z)); },
             out);
@@ -156,7 +157,7 @@ Technique opacity() {
     return {"opacity",
             "opacity shadow map: optical depth at uniform slices",
             "Kim, Neumann 2001",
-            1,
+            2,
             {.localised = false, .leak = std::exp(-5.545)},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Opacity>(values); },

@@ -1,5 +1,6 @@
 #include "techniques/ray_traced/ray_traced.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "base/error.h"
@@ -13,6 +14,17 @@ namespace {
 
 const Parameter parameters[] = {
     {"samples", ParameterKind::integer, "rays a lookup, jittered over its footprint", 16, 1, 65536},
+};
+
+// One side of a footprint, cut to a map of so many pixels.
+class Side {
+public:
+    Side(double middle, double width, int pixels)
+        : low_(std::max(middle - 0.5 * width, 0.0)), length_(std::min(middle + 0.5 * width, pixels * 1.0) - low_) {}
+    double at(double share) const { return low_ + share * length_; }
+
+private:
+    double low_, length_;
 };
 
 class RayTraced final : public Map {
@@ -37,28 +49,25 @@ public:
         std::vector<rays::TracedSegment> scratch;
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const Query& q = queries[i];
-            if (!inside(q.x, view_.resolution.x) || !inside(q.y, view_.resolution.y)) {
-                visibility[i] = 1.0f;
-                continue;
-            }
+            visibility[i] = 1.0f;
+            if (!inside(q.x, view_.resolution.x) || !inside(q.y, view_.resolution.y) || !(q.z > 0.0f)) continue;
             // The jitter depends on the query alone; so do the times, which spread over the shutter.
             const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
             const std::uint64_t key = base::hash(bits(q.x) << 32 | bits(q.y), bits(q.z));
             base::Random random(key);
             rays::MapLayout pattern = pattern_;
             pattern.seed = key;
+            // What of the footprint lies in the map: one that hangs over has as many samples.
+            const Side across(q.x, width_of(q), view_.resolution.x), down(q.y, width_of(q), view_.resolution.y);
             double sum = 0.0;
-            int count = 0;
             for (int sy = 0; sy < pattern_.samples_y; ++sy)
                 for (int sx = 0; sx < pattern_.samples_x; ++sx) {
-                    const double x = q.x + q.width * ((sx + random.uniform()) / pattern_.samples_x - 0.5);
-                    const double y = q.y + q.width * ((sy + random.uniform()) / pattern_.samples_y - 0.5);
-                    if (!inside(x, view_.resolution.x) || !inside(y, view_.resolution.y)) continue;
+                    const double x = across.at((sx + random.uniform()) / pattern_.samples_x);
+                    const double y = down.at((sy + random.uniform()) / pattern_.samples_y);
                     const double time = rays::sample_time(pattern, sx, sy);
                     sum += tracer_->transmittance(view_, x, y, q.z, scratch, time)[channel_];
-                    ++count;
                 }
-            visibility[i] = count ? static_cast<float>(sum / count) : 1.0f;
+            visibility[i] = static_cast<float>(sum / pattern_.samples());
         }
     }
     void touched(const Query&, std::vector<const void*>&) const override {}
@@ -82,7 +91,7 @@ Technique ray_traced() {
     return {"ray_traced",
             "shadow rays through the scene, no map",
             "none: the cost of doing without",
-            1,
+            2,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<RayTraced>(values); },

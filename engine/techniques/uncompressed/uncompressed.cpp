@@ -20,6 +20,23 @@ struct TileFunctions {
     std::vector<Node> nodes;
 };
 
+// Values are floats, and below the smallest normal one they no longer tell how steeply a function falls. Where one
+// falls through it between two nodes, the last float depth above gets a node, and the next one, so that neither end of
+// the fall is drawn with the slope of the other.
+void add_where_floats_end(const curves::Node& a, const curves::Node& b, std::vector<Node>& out) {
+    constexpr double floor = std::numeric_limits<float>::min();
+    if (!(a.value > floor && b.value < floor && a.z < b.z)) return;
+    const double rate = std::log(a.value / b.value) / (b.z - a.z);
+    const auto value = [&](float z) { return static_cast<float>(a.value * std::exp(-rate * (z - a.z))); };
+    const double end = a.z + std::log(a.value / floor) / rate;
+    float above = static_cast<float>(end);
+    if (above > end) above = std::nextafter(above, -std::numeric_limits<float>::infinity());
+    if (above > a.z) out.push_back({above, value(above)});
+    const float below =
+        std::nextafter(std::max(above, static_cast<float>(a.z)), std::numeric_limits<float>::infinity());
+    if (below < b.z) out.push_back({below, std::min(value(below), out.back().value)});
+}
+
 const Parameter parameters[] = {filter_parameter};
 
 class Uncompressed final : public Map {
@@ -53,8 +70,10 @@ public:
         tile.begin.assign(1, 0);
         for (std::size_t r = 0; r < rays.rays(); ++r) {
             curves::composite(rays, r, 0, nodes);
-            for (const curves::Node& n : nodes)
-                tile.nodes.push_back({static_cast<float>(n.z), static_cast<float>(n.value)});
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                if (i > 0) add_where_floats_end(nodes[i - 1], nodes[i], tile.nodes);
+                tile.nodes.push_back({static_cast<float>(nodes[i].z), static_cast<float>(nodes[i].value)});
+            }
             tile.begin.push_back(static_cast<std::uint32_t>(tile.nodes.size()));
         }
         tile.nodes.shrink_to_fit();
@@ -169,7 +188,7 @@ private:
         const double floor = std::numeric_limits<float>::min();
         const double from = std::max<double>(a.value, floor), to = std::max<double>(b.value, floor);
         const double u = (static_cast<double>(z) - a.z) / (static_cast<double>(b.z) - a.z);
-        return a.value == 0.0f ? 0.0f : static_cast<float>(from * std::pow(to / from, u));
+        return a.value == 0.0f ? 0.0f : std::min(static_cast<float>(from * std::pow(to / from, u)), a.value);
     }
 
     // Calls visit(place, weight) for the rays of a query's filter; for none outside the map.
@@ -180,7 +199,7 @@ private:
         if (filter_ == Filter::point) return visit(place_of(cx, cy), 1.0);
         if (filter_ == Filter::bilinear)
             return for_each_of_four(cells_, q, [&](int x, int y, float weight) { visit(place_of(x, y), weight); });
-        const double half = 0.5 * q.width;
+        const double half = 0.5 * width_of(q);
         const auto clamp = [](double cell, int count) {
             return cell <= 0 ? 0 : cell >= count ? count - 1 : static_cast<int>(cell);
         };
@@ -212,7 +231,7 @@ Technique uncompressed() {
         "uncompressed",
         "every segment of every ray, evaluated exactly",
         "Salvi et al. 2010 (reference)",
-        1,
+        2,
         {},
         parameters,
         [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Uncompressed>(values); },

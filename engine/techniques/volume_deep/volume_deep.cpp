@@ -126,7 +126,7 @@ Technique volume_deep() {
     return {"volume_deep",
             "deep shadow map of volumes: depths at 10, 50 and 90 % opacity, and the maximum opacity",
             "Deep Shadow Maps from Volumetric Data",
-            1,
+            2,
             {.localised = false},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<VolumeDeep>(values); },

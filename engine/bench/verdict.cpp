@@ -1,0 +1,52 @@
+#include "bench/verdict.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace shadowbench::bench {
+namespace {
+
+// What a verdict without a bound goes by.
+struct Strayed {
+    double error;
+    std::string text;
+};
+
+Strayed strayed(const Cell& cell) {
+    if (cell.curve) {
+        const double error = cell.curve->norms.max;
+        return {error, fmt::format("curve error {:.2g}", error)};
+    }
+    const double error = cell.lookup ? cell.lookup->norms.rms : 0.0;
+    return {error, fmt::format("lookup error rms {:.2g}", error)};
+}
+
+// Why no bound is promised.
+std::string cause(const Cell& cell) {
+    if (cell.outside_promise) return "made for opaque scenes, and this one lets light through";
+    if (!cell.curve) return "stores no function, and promises no bound on the noise of its answers";
+    if (!cell.promises.localised) return "exact only before and behind all that casts shadows";
+    return fmt::format("promises no bound on its error (at most {} node{} a function here)", cell.nodes.max,
+                       cell.nodes.max == 1 ? "" : "s");
+}
+
+}  // namespace
+
+Judgement judge(const Cell& cell, const LightResult& light) {
+    if (cell.status == CellStatus::failed) return {Verdict::failed, cell.reason};
+    if (cell.curve && std::isfinite(cell.error_bound) && !cell.outside_promise)
+        return {Verdict::kept,
+                fmt::format("curve error {:.2g}, promised {:.2g}", cell.curve->norms.max, cell.error_bound)};
+    const Strayed far = strayed(cell);
+    const double noise = light.reference.noise_tolerance;
+    if (far.error <= noise)
+        return {Verdict::kept, fmt::format("{}, within the noise tolerance {:.2g}", far.text, noise)};
+    return {Verdict::degraded, fmt::format("{}: {}, noise tolerance {:.2g}", cause(cell), far.text, noise)};
+}
+
+const char* to_string(Verdict verdict) {
+    return verdict == Verdict::kept ? "kept" : verdict == Verdict::degraded ? "degraded" : "failed";
+}
+
+}  // namespace shadowbench::bench

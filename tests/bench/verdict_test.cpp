@@ -1,0 +1,82 @@
+#include "bench/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace shadowbench::bench {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Rays of 16 samples a pixel: a noise tolerance of 0.125.
+LightResult light() {
+    LightResult result;
+    result.segments = 1;
+    result.reference.noise_tolerance = 0.125;
+    return result;
+}
+
+Cell cell(double curve_max, double bound) {
+    Cell made;
+    made.error_bound = bound;
+    made.curve = CurveErrors{};
+    made.curve->norms = {curve_max, 0.01, 0.005, 0.02};
+    made.lookup = LookupErrors{{0.5, 0.2, 0.1, 0.4}, 0.0};
+    made.nodes.add(8);
+    return made;
+}
+
+void expect(const Cell& judged, Verdict verdict, const std::string& says) {
+    const Judgement judgement = judge(judged, light());
+    EXPECT_STREQ(to_string(judgement.verdict), to_string(verdict)) << judgement.why;
+    EXPECT_NE(judgement.why.find(says), std::string::npos) << judgement.why;
+}
+
+TEST(Verdict, of_a_broken_promise_is_failed_whatever_the_figures) {
+    Cell broken = cell(0.0, 0.5);
+    broken.status = CellStatus::failed;
+    broken.reason = "cell (3, 4): the value rises";
+    expect(broken, Verdict::failed, "cell (3, 4): the value rises");
+}
+
+// The check has held it to the bound: a loose promise, well above the noise, is kept all the same.
+TEST(Verdict, of_a_bound_that_held_is_kept) {
+    expect(cell(0.3, 0.4), Verdict::kept, "curve error 0.3, promised 0.4");
+    expect(cell(0.0, 0.0), Verdict::kept, "promised 0");
+}
+
+TEST(Verdict, without_a_bound_goes_by_the_noise_tolerance) {
+    expect(cell(0.125, infinity), Verdict::kept, "within the noise tolerance 0.12");
+    expect(cell(0.1251, infinity), Verdict::degraded, "at most 8 nodes");
+    expect(cell(0.1251, infinity), Verdict::degraded, "curve error 0.13");
+}
+
+TEST(Verdict, of_an_opaque_technique_in_a_translucent_scene_does_not_rest_on_its_bound) {
+    Cell opaque = cell(0.4, 0.0);
+    opaque.outside_promise = true;
+    expect(opaque, Verdict::degraded, "made for opaque scenes");
+    opaque.curve->norms.max = 0.1;
+    expect(opaque, Verdict::kept, "within the noise tolerance");
+}
+
+TEST(Verdict, names_what_is_promised_before_and_behind_alone) {
+    Cell series = cell(0.4, infinity);
+    series.promises.localised = false;
+    expect(series, Verdict::degraded, "exact only before and behind");
+}
+
+TEST(Verdict, of_a_technique_that_stores_nothing_goes_by_the_rms_of_its_lookups) {
+    Cell traced = cell(0.0, infinity);
+    traced.curve.reset();
+    expect(traced, Verdict::degraded, "lookup error rms 0.2");
+    traced.lookup->norms.rms = 0.12;
+    expect(traced, Verdict::kept, "lookup error rms 0.12");
+    // A bound on the error of functions says nothing of one that has none.
+    traced.error_bound = 1.0;
+    traced.lookup->norms.rms = 0.2;
+    expect(traced, Verdict::degraded, "stores no function");
+}
+
+}  // namespace
+}  // namespace shadowbench::bench

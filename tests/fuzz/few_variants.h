@@ -1,0 +1,27 @@
+// Inputs whose answer would be right but long are not for fuzzing.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include <nlohmann/json.hpp>
+
+namespace shadowbench::fuzz {
+
+// Whether the sweeps of a document make few scenarios and techniques, all in all.
+inline bool few_variants(const nlohmann::json& document) {
+    constexpr std::size_t most = 32;
+    if (!document.is_object()) return true;
+    std::size_t variants = 1;
+    const auto count = [&](const nlohmann::json& list) {
+        if (list.is_array()) variants *= std::clamp<std::size_t>(list.size(), 1, most + 1);
+        return variants <= most;
+    };
+    if (const auto sweeps = document.find("sweeps"); sweeps != document.end() && sweeps->is_object())
+        for (const nlohmann::json& values : *sweeps)
+            if (!count(values)) return false;
+    const auto techniques = document.find("techniques");
+    return techniques == document.end() || count(*techniques);
+}
+
+}  // namespace shadowbench::fuzz

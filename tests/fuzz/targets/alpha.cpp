@@ -1,0 +1,11 @@
+#include "fuzz/expect.h"
+#include "fuzz/target.h"
+#include "scene/files.h"
+
+// The first byte says what the file is called: the name and the content need not agree.
+void shadowbench::fuzz::alpha(std::string_view bytes) {
+    constexpr const char* extensions[] = {".png", ".tga", ".dds", ".tif", ".exr", ".jpg", ".bmp", ".xyz"};
+    const char* extension = extensions[take<unsigned char>(bytes) % std::size(extensions)];
+    const InputFile file(bytes, extension);
+    attempt({base::ErrorCode::bad_input}, [&] { expect_sound(scene::read_alpha(file.path())); });
+}

@@ -1,0 +1,52 @@
+// A deep shadow map written to a file and read through a cache answers as the map in memory, to the bit.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "techniques/any_rays.h"
+#include "techniques/deep/deep.h"
+#include "techniques/deep/tile_cache.h"
+#include "techniques/deep_levels.h"
+#include "techniques/variants.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+bool same_bits(std::span<const float> a, std::span<const float> b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+RC_GTEST_PROP(DeepFileLookup, AnswersAsTheMapInMemory, ()) {
+    const Technique& row = find("deep", "");
+    testing::HandRays given = *testing::any_rays();
+    given.coloured = *rc::gen::arbitrary<bool>();
+    ParameterValues values = testing::defaults(row);
+    values.values["tolerance"] = *rc::gen::element(0.01, 1e-3, 0.25);
+    const bool mip = *rc::gen::arbitrary<bool>();
+    if (mip) values.values["mip"] = std::string("nearest");
+    const testing::HandMap made = make_map(row, values, given);
+
+    const testing::TestFile path;
+    write_deep_file(path.path, levels(*made.map), *rc::gen::inRange(1, 5), {});
+    const DeepFile file(path.path);
+    TileCache cache(file, static_cast<std::size_t>(*rc::gen::inRange(1, 4)));
+    std::vector<Query> queries;
+    base::Random random(static_cast<std::uint64_t>(*rc::gen::inRange(0, 1000)));
+    for (const float z : testing::telling_depths(given))
+        queries.push_back({static_cast<float>(random.uniform(-0.2, given.width)),
+                           static_cast<float>(random.uniform(-0.2, given.height)), z,
+                           static_cast<float>(random.uniform(0, mip ? 1.5 : 5))});  // so wide that level 0 is asked
+    std::vector<float> answers(queries.size() * static_cast<std::size_t>(made.map->channels()));
+    lookup(cache, 0, queries, answers);
+    RC_ASSERT(same_bits(answers, made.lookup(queries)));
+
+    const std::vector<DeepLevel> read = read_levels(file);
+    RC_ASSERT(read.size() == levels(*made.map).size());
+    for (std::size_t l = 0; l < read.size(); ++l) {
+        RC_ASSERT(read[l].offsets == levels(*made.map)[l].offsets);
+        RC_ASSERT(read[l].coloured == levels(*made.map)[l].coloured);
+        RC_ASSERT(same_bits(read[l].floats, levels(*made.map)[l].floats));
+    }
+}
+
+}  // namespace
+}  // namespace shadowbench::techniques

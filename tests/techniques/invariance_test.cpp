@@ -1,0 +1,160 @@
+// What must change nothing: the unit of depth, the order of hits at one depth, the order of the rays of a pixel.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "techniques/any_rays.h"
+#include "techniques/variants.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+using testing::HandMap;
+using testing::HandRays;
+using testing::is;
+using testing::Segment;
+using testing::Segments;
+
+class Invariance : public ::testing::TestWithParam<const Technique*> {
+protected:
+    const Technique& row() const { return *GetParam(); }
+};
+
+// Anywhere in the map, of narrow and wide filters, at each depth.
+std::vector<Query> any_queries(const HandRays& given) {
+    const std::vector<float> depths = testing::telling_depths(given);
+    const auto seed = static_cast<std::uint64_t>(*rc::gen::inRange(0, 1000));
+    std::vector<Query> queries;
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        base::Random random(base::hash(seed, i));
+        queries.push_back({static_cast<float>(random.uniform(0, given.width)),
+                           static_cast<float>(random.uniform(0, given.height)), depths[i],
+                           static_cast<float>(random.uniform(0, 3))});
+    }
+    return queries;
+}
+
+// Drops what would take a ray below 1e-20 without being opaque.
+void keep_above_faint(Segments& ray) {
+    float through = 1.0f;
+    std::erase_if(ray, [&](const Segment& s) {
+        if (s.through > 0.0f && through * s.through < 1e-20f) return true;
+        through *= s.through > 0.0f ? s.through : 1.0f;
+        return false;
+    });
+}
+
+// Multiplying every depth by a power of two changes no digit of anything but depths, so long as neither they nor their
+// products with values are denormal. Not so for pcf and ray_traced, which draw their samples by the digits of a query's
+// depth; nor for a bias, which is a length too.
+TEST_P(Invariance, TheUnitOfDepthChangesNothing) {
+    if (is(row(), "pcf") || is(row(), "ray_traced")) return;
+    std::vector<ParameterValues> settings = testing::variants(row());
+    for (ParameterValues& values : settings)
+        if (values.values.count("bias")) values.values["bias"] = 0.0;
+    rc::detail::checkGTest([&] {
+        HandRays given = *testing::any_rays({.hostile = false});
+        for (Segments& ray : given.rays) keep_above_faint(ray);
+        const float scale = std::ldexp(1.0f, *rc::gen::inRange(-30, 31));
+        const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
+        RC_LOG() << testing::text_of(row(), values) << " scaled by " << scale << '\n';
+        HandRays scaled = given;
+        for (Segments& ray : scaled.rays)
+            for (Segment& s : ray) s = {s.front * scale, s.back * scale, s.through};
+        rays::MapLayout layout = layout_of(given), scaled_layout = layout;
+        scaled_layout.z_min *= scale;
+        scaled_layout.z_max *= scale;
+        const HandMap one = testing::make_map(row(), values, light_rays(given), layout);
+        const HandMap two = testing::make_map(row(), values, light_rays(scaled), scaled_layout);
+        std::vector<Query> queries = any_queries(given);
+        const std::vector<float> answers = one.lookup(queries);
+        for (Query& q : queries) q.z *= scale;
+        RC_ASSERT(two.lookup(queries) == answers);
+        RC_ASSERT(two.map->bytes() == one.map->bytes());
+    });
+}
+
+// Whether two maps answer alike to some slack.
+void check_alike(const HandMap& one, const HandMap& two, const std::vector<Query>& queries, double slack) {
+    const std::vector<float> a = one.lookup(queries), b = two.lookup(queries);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Query& q = queries[i % queries.size()];
+        if (!(std::abs(a[i] - b[i]) <= slack)) RC_LOG() << q.x << ' ' << q.y << ' ' << q.z << ' ' << q.width << '\n';
+        RC_ASSERT(std::abs(a[i] - b[i]) <= slack);
+    }
+}
+
+template <class Value>
+void shuffle(std::vector<Value>& values, base::Random& random) {
+    for (std::size_t k = values.size(); k > 1; --k) std::swap(values[k - 1], values[random.below(k)]);
+}
+
+// Rows whose answers are means over the rays of a pixel, or products over the hits of a ray, up to rounding. An avsm
+// drops nodes hit after hit, so that the order counts as soon as one is dropped: it is asked with room for all.
+std::vector<ParameterValues> roomy(const Technique& row) {
+    std::vector<ParameterValues> found;
+    for (ParameterValues values : testing::variants(row)) {
+        if (is(row, "avsm")) {
+            if (values.word("order") != "sorted") continue;
+            values.values["nodes"] = 64.0;
+        }
+        if (is(row, "deep")) values.values["tolerance"] = 0.0131;  // at which no two values meet
+        found.push_back(values);
+    }
+    return found;
+}
+
+// The contract leaves open in which order hits that begin and end at one depth come.
+TEST_P(Invariance, TheOrderOfHitsAtOneDepthChangesNothing) {
+    if (is(row(), "ray_traced")) return;
+    const std::vector<ParameterValues> settings = roomy(row());
+    rc::detail::checkGTest([&] {
+        const auto draws = *testing::any_draws();
+        std::vector<testing::Draw> few(draws.begin(), draws.begin() + std::min<std::ptrdiff_t>(draws.size(), 12));
+        for (testing::Draw& draw : few) std::get<1>(draw) %= 2, std::get<2>(draw) %= 2;  // two depths, two lengths
+        HandRays given = testing::rays_of(2, 1, 1, few, {.hostile = false});
+        const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
+        RC_LOG() << testing::text_of(row(), values) << '\n' << given << '\n';
+        const std::vector<Query> queries = any_queries(given);
+        const HandMap one = make_map(row(), values, given);
+        base::Random random(static_cast<std::uint64_t>(*rc::gen::inRange(0, 1000)));
+        for (Segments& ray : given.rays) shuffle(ray, random);
+        check_alike(one, make_map(row(), values, given), queries, is(row(), "avsm") ? 1e-5 : 1e-6);
+    });
+}
+
+// Over whole pixels, whose every ray weighs the same.
+TEST_P(Invariance, TheOrderOfTheRaysOfAPixelChangesNoMean) {
+    if (is(row(), "shadow_map") || is(row(), "pcf") || is(row(), "multi_depth") || is(row(), "ray_traced")) return;
+    std::vector<ParameterValues> settings = roomy(row());
+    std::erase_if(settings, [&](const ParameterValues& values) {
+        if (is(row(), "deep")) return values.word("filter") != "box" || values.number("radius") != 0.5;
+        const bool centre = values.values.count("cells") && values.word("cells") == "centre";
+        return centre || values.word("filter") != "footprint";
+    });
+    rc::detail::checkGTest([&] {
+        const bool media = *rc::gen::arbitrary<bool>();
+        HandRays given = *testing::any_rays({.media = media, .hostile = false});
+        const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
+        RC_LOG() << testing::text_of(row(), values) << '\n';
+        std::vector<Query> queries;
+        for (const float z : testing::telling_depths(given))
+            queries.push_back({0.5f + static_cast<float>(*rc::gen::inRange(0, given.width)), 0.5f, z, 1.0f});
+        const HandMap one = make_map(row(), values, given);
+        base::Random random(static_cast<std::uint64_t>(*rc::gen::inRange(0, 1000)));
+        const auto samples = static_cast<std::size_t>(given.samples);
+        for (std::size_t first = 0; first < given.rays.size(); first += samples) {
+            std::vector<Segments> pixel(given.rays.begin() + first, given.rays.begin() + first + samples);
+            shuffle(pixel, random);
+            std::copy(pixel.begin(), pixel.end(), given.rays.begin() + first);
+        }
+        // Surfaces add up exactly in a deep map. Sums of media are rounded otherwise in another order, and compression
+        // may then choose others of the functions within its tolerance.
+        const double slack = !is(row(), "deep") ? 1e-6 : media ? 2 * values.number("tolerance") + 1e-6 : 0.0;
+        check_alike(one, make_map(row(), values, given), queries, slack);
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, Invariance, ::testing::ValuesIn(testing::rows()), testing::name_of_row);
+
+}  // namespace
+}  // namespace shadowbench::techniques

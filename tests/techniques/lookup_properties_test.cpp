@@ -1,0 +1,148 @@
+// What a lookup of one cell answers is the function that the map says it stores, for random rays.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "curves/cases.h"
+#include "curves/norms.h"
+#include "techniques/any_rays.h"
+#include "techniques/variants.h"
+
+namespace shadowbench::techniques {
+namespace {
+
+using testing::HandMap;
+using testing::HandRays;
+
+// Settings under which a lookup of width 0 reads one cell and adds nothing of its own.
+std::vector<ParameterValues> pointwise(const Technique& row) {
+    std::vector<ParameterValues> found = testing::variants(row);
+    for (ParameterValues& values : found) {
+        const auto set = [&](const char* name, const ParameterValues::Value& value) {
+            if (values.values.count(name)) values.values[name] = value;
+        };
+        for (const char* bias : {"bias", "bias0", "bias1"}) set(bias, 0.0);
+        if (testing::is(row, "deep")) {
+            set("mip", std::string("none"));
+            set("kernel", std::string("box"));
+        } else {
+            set("filter", std::string("point"));
+        }
+        if (testing::is(row, "multi_depth")) set("kernel", 1.0);
+        if (testing::is(row, "pcf")) {
+            set("region", std::string("query"));
+            set("min_size", 0.0);
+        }
+    }
+    return found;
+}
+
+// The middle of a cell.
+Query middle(const rays::MapLayout& layout, Cells cells, int x, int y) {
+    const auto nx = static_cast<float>(cells == Cells::sample ? layout.samples_x : 1);
+    const auto ny = static_cast<float>(cells == Cells::sample ? layout.samples_y : 1);
+    return {(static_cast<float>(x) + 0.5f) / nx, (static_cast<float>(y) + 0.5f) / ny, 0.0f, 0.0f};
+}
+
+// At depths on both sides of every step, in every channel; `slack` is for means that are counted otherwise.
+void check_cell(const HandMap& made, const std::vector<float>& depths, int x, int y, float slack) {
+    std::vector<Query> queries(depths.size(), middle(made.layout, made.map->cells(), x, y));
+    for (std::size_t i = 0; i < depths.size(); ++i) queries[i].z = depths[i];
+    const std::vector<float> answers = made.lookup(queries);
+    curves::Curve stored;
+    for (int c = 0; c < made.map->channels(); ++c) {
+        made.map->stored(x, y, c, depths, stored);
+        for (std::size_t i = 0; i < depths.size(); ++i) {
+            const float answer = answers[static_cast<std::size_t>(c) * depths.size() + i];
+            const float value = curves::evaluate(stored, depths[i]);
+            if (answer != value) RC_LOG() << "at depth " << depths[i] << " of channel " << c << '\n';
+            RC_ASSERT(std::abs(answer - value) <= slack);
+        }
+    }
+}
+
+class LookupProperties : public ::testing::TestWithParam<const Technique*> {
+protected:
+    const Technique& row() const { return *GetParam(); }
+    // One minus a count over their number, where the function holds a count over their number.
+    float slack() const { return testing::is(row(), "multi_depth") ? 1e-7f : 0.0f; }
+};
+
+TEST_P(LookupProperties, AnswerAsTheStoredFunction) {
+    if (testing::is(row(), "ray_traced")) return;  // stores none
+    const std::vector<ParameterValues> settings = pointwise(row());
+    rc::detail::checkGTest([&] {
+        HandRays given = *testing::any_rays();
+        given.coloured = row().coloured && *rc::gen::arbitrary<bool>();
+        const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
+        RC_LOG() << testing::text_of(row(), values) << '\n';
+        const rays::MapLayout exact = testing::layout_of(given);
+        const HandMap made = testing::make_map(row(), values, testing::light_rays(given),
+                                               *rc::gen::arbitrary<bool>() ? exact : testing::outward(exact));
+        const bool samples = made.map->cells() == Cells::sample;
+        const int x = *rc::gen::inRange(0, exact.width * (samples ? exact.samples_x : 1));
+        const int y = *rc::gen::inRange(0, exact.height * (samples ? exact.samples_y : 1));
+        check_cell(made, testing::telling_depths(given), x, y, slack());
+    });
+}
+
+TEST_P(LookupProperties, AnswerAsTheStoredFunctionOfGivenFunctions) {
+    if (!row().from_curves) return;
+    const std::vector<ParameterValues> settings = pointwise(row());
+    rc::detail::checkGTest([&] {
+        std::vector<curves::Curve> functions{*curves::cases::any_function()};
+        if (*rc::gen::arbitrary<bool>()) functions.push_back(*curves::cases::any_function());
+        const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
+        RC_LOG() << testing::text_of(row(), values) << '\n';
+        HandMap made;
+        made.map = row().from_curves(values, functions);
+        made.layout.width = static_cast<int>(functions.size());
+        std::vector<float> depths;
+        for (const curves::Curve& function : functions)
+            for (const curves::Vertex& v : function)
+                depths.insert(depths.end(), {std::nextafter(v.z, -INFINITY), v.z, std::nextafter(v.z, INFINITY)});
+        std::sort(depths.begin(), depths.end());
+        curves::Curve stored;
+        for (int f = 0; f < made.layout.width; ++f) {
+            check_cell(made, depths, f, 0, 0.0f);
+            made.map->stored(f, 0, 0, depths, stored);
+            RC_ASSERT(curves::is_visibility(stored));
+            const double bound = row().error_bound(values, made.layout);
+            RC_ASSERT(curves::distance(stored, functions[static_cast<std::size_t>(f)], 0, 1).max <= bound + 1e-6);
+        }
+    });
+}
+
+// Whatever the filters and the rays are, near and far from the map.
+TEST_P(LookupProperties, AnswersStayInTheirRange) {
+    if (testing::is(row(), "ray_traced")) return;  // sees a scene, not these rays
+    const std::vector<ParameterValues> settings = testing::variants(row());
+    rc::detail::checkGTest([&] {
+        HandRays given = *testing::any_rays();
+        given.coloured = row().coloured && *rc::gen::arbitrary<bool>();
+        const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
+        RC_LOG() << testing::text_of(row(), values) << '\n';
+        const HandMap made = testing::make_map(row(), values, given);
+        const std::vector<float> depths = testing::telling_depths(given);
+        const float side = static_cast<float>(std::max(given.width, given.height));
+        std::vector<Query> queries;
+        base::Random random(static_cast<std::uint64_t>(*rc::gen::inRange(0, 1000)));
+        for (const float z : depths)
+            queries.push_back({static_cast<float>(random.uniform(-0.1, 1) * side),
+                               static_cast<float>(random.uniform(-0.1, 1) * side), z,
+                               static_cast<float>(std::exp2(random.uniform(-10, 10)))});
+        const Promises promised = promises(row(), values);
+        for (const float answer : made.lookup(queries)) {
+            RC_ASSERT(std::isfinite(answer));
+            RC_ASSERT(answer >= 0.0f);
+            RC_ASSERT(answer <= 1.0f || !promised.unit_range);
+        }
+        curves::Curve stored;
+        made.map->stored(0, 0, 0, depths, stored);
+        RC_ASSERT(curves::is_visibility(stored) || !promised.monotone);
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, LookupProperties, ::testing::ValuesIn(testing::rows()), testing::name_of_row);
+
+}  // namespace
+}  // namespace shadowbench::techniques

@@ -1,0 +1,60 @@
+// Settings of a row to test it with.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "techniques/technique.h"
+
+namespace shadowbench::techniques::testing {
+
+inline ParameterValues defaults(const Technique& row) {
+    return read_parameters(row.parameters, nlohmann::json::object(), "");
+}
+
+// The defaults first; every word with every other one; each number at its least and its greatest, among the default
+// words and among the last ones.
+inline std::vector<ParameterValues> variants(const Technique& row) {
+    std::vector<ParameterValues> found{defaults(row)};
+    for (const Parameter& p : row.parameters)
+        for (std::size_t i = 0, before = found.size(); i < before; ++i)
+            for (const char* word : p.words) {
+                if (std::string(word) == p.standard_word) continue;
+                found.push_back(found[i]);
+                found.back().values[p.name] = std::string(word);
+            }
+    std::vector<ParameterValues> words{found.front()};
+    if (found.size() > 1) words.push_back(found.back());
+    for (const ParameterValues& these : words)
+        for (const Parameter& p : row.parameters) {
+            if (p.kind == ParameterKind::choice) continue;
+            for (const double number : {p.min, p.max}) {
+                found.push_back(these);
+                found.back().values[p.name] = number;
+                if (p.name == std::string("bias0")) found.back().values["bias1"] = number;  // never less than bias0
+            }
+        }
+    return found;
+}
+
+inline bool is(const Technique& row, std::string_view id) {
+    return row.id == id;
+}
+
+inline std::string text_of(const Technique& row, const ParameterValues& values) {
+    return row.id + (" " + to_string(values, row.parameters, false));
+}
+
+// For INSTANTIATE_TEST_SUITE_P.
+inline std::vector<const Technique*> rows() {
+    std::vector<const Technique*> result;
+    for (const Technique& row : all()) result.push_back(&row);
+    return result;
+}
+inline std::string name_of_row(const ::testing::TestParamInfo<const Technique*>& test) {
+    return test.param->id;
+}
+
+}  // namespace shadowbench::techniques::testing
