@@ -51,6 +51,7 @@ public:
     // Takes out all that end at or before z; ended() names them until the next call.
     void close(double z) {
         ended_.clear();
+        double steepest = 0.0;
         while (!empty() && first_back() <= z) {
             const std::size_t number = by_back_.front().number;
             std::pop_heap(by_back_.begin(), by_back_.end(), std::greater<>());
@@ -58,7 +59,9 @@ public:
             ended_.push_back(number);
             media_[number].ended = true;
             if (media_[number].counted) count(media_[number], -1.0);
+            steepest = std::max(steepest, media_[number].extinction);
         }
+        if (extinction_.value() < kLost * steepest) count_again();
         for (const std::size_t number : fresh_)
             if (!media_[number].ended) {
                 count(media_[number], 1.0);
@@ -92,6 +95,15 @@ private:
         extinction_.add(sign * medium.per_depth());
         extinction_front_.add(sign * (medium.per_depth() * (medium.front - origin_)));
     }
+
+    // What a medium more than 2^80 times as dense as all that stay has left of the sums is not enough.
+    void count_again() {
+        extinction_ = extinction_front_ = base::CompensatedSum();
+        for (const End& end : by_back_)
+            if (media_[end.number].counted) count(media_[end.number], 1.0);
+    }
+
+    static constexpr double kLost = 0x1p-80;
 
     std::vector<Medium> media_;
     std::vector<End> by_back_;        // a heap, the first end on top

@@ -8,30 +8,35 @@ namespace shadowbench::curves {
 
 namespace {
 
-constexpr double kFinest = 1.95;  // of 2: see subdivide
+// One exponential piece from `a` to `b`, a.z < b.z.
+struct Piece {
+    Node a, b;
+    double optical_depth;
 
-// The same where pieces are so short that the rounding of a depth to float makes some of them longer than they may be:
-// one after the other, each from the vertex before as it was rounded, its end rounded towards that. A piece is one
-// float long at least, whatever it errs by between two depths that no float holds.
-void subdivide_short(const Node& a, const Node& b, double error, double optical_depth, Curve& out) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    const double step = std::sqrt(kFinest * error), last = b.value < error ? 0.0 : std::sqrt(b.value);
-    double value = a.value;
-    float z = out.back().z;
-    while (value > error) {
-        const double root = std::max(std::sqrt(value) - step, std::sqrt(error));
-        if (root <= last) return;
-        const double end = a.z + (b.z - a.z) * std::log(a.value / (root * root)) / optical_depth;
-        float next = static_cast<float>(end);
-        if (next > end) next = std::nextafter(next, -infinity);
-        z = std::max(next, std::nextafter(z, infinity));
-        if (!(z < b.z)) return;
-        value = a.value * std::exp(-optical_depth * ((z - a.z) / (b.z - a.z)));
+    double depth_of(double value) const { return a.z + (b.z - a.z) * std::log(a.value / value) / optical_depth; }
+    double value_at(float z) const {  // of the rounded depth: the function may be steep
+        return a.value * std::exp(-optical_depth * ((z - a.z) / (b.z - a.z)));
+    }
+};
+
+// Where a step of sqrt(T) spans so few floats that rounding its ends would make it notably longer: each step starts
+// from the vertex written last and ends at a float that it reaches, at least the next one. `out` ends with the piece's
+// first vertex.
+void place_on_floats(const Piece& piece, double low, double step, Curve& out) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (double value = piece.a.value; value > low * low;) {
+        const double reached = piece.depth_of(std::pow(std::max(std::sqrt(value) - step, low), 2));
+        const float next = std::nextafter(out.back().z, kInfinity);
+        float z = static_cast<float>(std::min(reached, piece.b.z));
+        if (z > reached) z = std::nextafter(z, -kInfinity);
+        z = std::max(z, next);
+        if (!(z < piece.b.z)) return;
+        value = piece.value_at(z);
         out.push_back({z, static_cast<float>(value)});
     }
 }
 
-// Inner vertices of one exponential piece from `a` to `b`, a.z < b.z.
+// Inner vertices of a piece.
 //
 // The chord over optical depth D that starts at value T errs by T (1 - m + m ln m), m = (1 - exp(-D)) / D, which is
 // about T D^2 / 8: half the square of the step of sqrt(T). So equal steps of sqrt(T) spend the error evenly. The bound
@@ -40,19 +45,19 @@ void subdivide_short(const Node& a, const Node& b, double error, double optical_
 void subdivide(const Node& a, const Node& b, double error, Curve& out) {
     const double drop = a.value - b.value;
     if (a.value <= error || drop * drop <= 8.0 * b.value * error) return;  // D <= (T0 - T1) / sqrt(T0 T1): no logarithm
-    const double optical_depth = std::log(a.value / std::max(b.value, std::numeric_limits<double>::min()));
-    const double high = std::sqrt(a.value), low = std::sqrt(std::max(b.value, error));
-    const double pieces = std::ceil((high - low) / std::sqrt(kFinest * error));
-    const double longest_float = 0x1p-23 * std::max(std::abs(a.z), std::abs(b.z));
-    if (b.z - a.z < 128.0 * pieces * longest_float) return subdivide_short(a, b, error, optical_depth, out);
+    const Piece piece{a, b, std::log(a.value / std::max(b.value, std::numeric_limits<double>::min()))};
+    const double high = std::sqrt(a.value), low = std::sqrt(std::max(b.value, error)), step = std::sqrt(1.95 * error);
+    // The first step is the shortest, about 2 step / high of optical depth.
+    const double shortest = (b.z - a.z) * 2.0 * step / (high * piece.optical_depth);
+    const double spacing = std::max(0x1p-24 * std::max(std::abs(a.z), std::abs(b.z)), 0x1p-149);  // of floats
+    if (shortest < 128.0 * spacing) return place_on_floats(piece, low, step, out);
+    const double pieces = std::ceil((high - low) / step);
     const int count = static_cast<int>(pieces);
     const int last = b.value < error ? count : count - 1;
     for (int i = 1; i <= last; ++i) {
         const double root = high + (low - high) * (i / pieces);
-        const float z = static_cast<float>(a.z + (b.z - a.z) * std::log(a.value / (root * root)) / optical_depth);
-        if (!(z > out.back().z && z < b.z)) continue;  // no float is left between
-        const double share = (z - a.z) / (b.z - a.z);  // of the rounded depth: the function may be steep
-        out.push_back({z, static_cast<float>(a.value * std::exp(-optical_depth * share))});
+        const float z = static_cast<float>(piece.depth_of(root * root));
+        if (z > out.back().z && z < b.z) out.push_back({z, static_cast<float>(piece.value_at(z))});
     }
 }
 

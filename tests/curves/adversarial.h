@@ -106,6 +106,57 @@ inline Curve from_pieces(float tolerance, int start, const std::vector<Piece>& p
     return curve;
 }
 
+// A piece of a light ray.
+struct Segment {
+    float front, back, through;
+};
+
+// Depths around one centre: itself, floats next to it, near and far ones; each may come again.
+class DepthPalette {
+public:
+    explicit DepthPalette(base::Random& random) : random_(random) {
+        const float centres[] = {0.0f, adversarial::kTiny, 1e-3f, 1.0f, 3.0f, 1e6f};
+        centre_ = centres[random.below(6)];
+    }
+    float depth() {
+        float z = centre_;
+        switch (random_.below(6)) {
+            case 0:
+                return z;
+            case 1:
+            case 2:
+                for (std::uint64_t steps = random_.below(12); steps > 0; --steps) z = std::nextafter(z, 1e30f);
+                return z;
+            case 3:
+                return static_cast<float>(z * random_.uniform(1, 1.001) + random_.uniform(0, 1e-3));
+            case 4:
+                return static_cast<float>(z + static_cast<double>(random_.below(8)));
+            default:
+                return static_cast<float>(z + std::pow(10.0, random_.uniform(-6, 9)));
+        }
+    }
+
+private:
+    base::Random& random_;
+    float centre_;
+};
+
+// Up to `most` segments, surfaces alone or with media that overlap; opaque, faint and denormal ones among them.
+inline std::vector<Segment> adversarial_ray(base::Random& random, DepthPalette& palette, std::uint64_t most,
+                                            bool media) {
+    const float throughs[] = {0.0f,   adversarial::kTiny, 1e-40f,      1e-38f,      1e-20f, 0.1f, 0.5f,
+                              0.999f, 1.0f - 1e-4f,       0.99999994f, 0.99999994f, 1.0f,   0.9f};
+    const bool dark = random.below(4) == 0;  // else most rays would end at once
+    std::vector<Segment> segments(random.below(most + 1));
+    for (Segment& s : segments) {
+        const float a = palette.depth(), b = media && random.below(3) > 0 ? palette.depth() : a;
+        const float drawn = static_cast<float>(random.uniform(0.5, 1.0));
+        s = {std::min(a, b), std::max(a, b),
+             random.below(2) ? drawn : throughs[random.below(dark ? 13 : 8) + (dark ? 0 : 5)]};
+    }
+    return segments;
+}
+
 // By chance alone, for tests without a generator of cases.
 inline Curve adversarial_function(float tolerance, base::Random& random) {
     std::vector<Piece> pieces(random.below(5));

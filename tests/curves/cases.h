@@ -26,6 +26,19 @@ inline std::ostream& operator<<(std::ostream& stream, const Vertex& v) {
 
 }  // namespace shadowbench::curves
 
+namespace shadowbench::rays {
+
+inline std::ostream& operator<<(std::ostream& stream, const LightRays& rays) {
+    stream.precision(9);
+    for (std::size_t ray = 0; ray < rays.rays(); ++ray)
+        for (std::size_t s = rays.begin[ray]; s < rays.begin[ray + 1]; ++s)
+            stream << "ray " << ray << " from " << rays.z_front[s] << " to " << rays.back(s) << " lets "
+                   << rays.transmittance[s] << " through\n";
+    return stream;
+}
+
+}  // namespace shadowbench::rays
+
 namespace shadowbench::curves::cases {
 
 // Value of a function by definition, in double; O(log n).
@@ -170,18 +183,14 @@ inline bool scale_depths(Curve& curve, int power) {
     return true;
 }
 
-struct Segment {
-    float front, back, through;
-};
-
-// Rays of one pixel, each a list of segments, sorted here.
+// Rays of one pixel, each a list of segments, sorted here; those at the same depths stay in their order.
 inline rays::LightRays make_rays(std::vector<std::vector<Segment>> segments, bool media) {
     rays::LightRays rays;
     rays.width = rays.height = 1;
     rays.samples = static_cast<int>(segments.size());
     rays.begin.push_back(0);
     for (auto& ray : segments) {
-        std::sort(ray.begin(), ray.end(), [](const Segment& a, const Segment& b) {
+        std::stable_sort(ray.begin(), ray.end(), [](const Segment& a, const Segment& b) {
             return a.front != b.front ? a.front < b.front : a.back < b.back;
         });
         for (const Segment& segment : ray) {

@@ -1,8 +1,10 @@
 #include "curves/composite.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include "cases.h"
+#include "rays/extended_oracle.h"
 
 namespace shadowbench::curves {
 namespace {
@@ -86,6 +88,36 @@ TEST(Composite, RandomRaysMatchTheOracleEverywhere) {
     }
 }
 
+// The worst is a medium a few floats thick far behind the depth where another began: see the header.
+RC_GTEST_PROP(Composite, AdversarialRaysMatchTheOracleInExtendedPrecision, ()) {
+    base::Random random(*cases::full_range(rc::gen::inRange<std::uint64_t>(0, 1u << 20)));
+    cases::DepthPalette palette(random);
+    const auto most = *cases::full_range(rc::gen::inRange<std::uint64_t>(1, 16));
+    const bool media = *rc::gen::arbitrary<bool>();
+    const auto rays = make_rays({cases::adversarial_ray(random, palette, most, media)}, media);
+    std::vector<Node> nodes;
+    composite(rays, 0, 0, nodes);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (i > 0) RC_ASSERT(nodes[i].value <= nodes[i - 1].value && nodes[i].z >= nodes[i - 1].z);
+        const auto exact = rays::testing::extended_transmittance(rays, 0, 0, nodes[i].z);
+        RC_ASSERT(std::abs(join(nodes, nodes[i].z) - exact) <= 2e-9L);
+    }
+    for (int i = 0; i < 30; ++i) {
+        const double z = palette.depth();
+        RC_ASSERT(std::abs(join(nodes, z) - rays::testing::extended_transmittance(rays, 0, 0, z)) <= 2e-9L);
+    }
+}
+
+// What a medium 10^40 times as dense leaves of the sums of extinctions would drown the others.
+TEST(Composite, AMediumOneDenormalThickLeavesNoErrorInThoseAroundIt) {
+    const float tiny = std::numeric_limits<float>::denorm_min();
+    const auto rays = make_rays({{{0, tiny, 0.5f}, {0, 3 * tiny, 0.7f}, {0, 1, 0.5f}, {tiny, 2, 0.8f}}}, true);
+    std::vector<Node> nodes;
+    composite(rays, 0, 0, nodes);
+    for (const double z : {1e-6, 0.5, 1.0, 1.5, 2.0})
+        EXPECT_NEAR(join(nodes, z), rays::transmittance(rays, 0, 0, z), 1e-12) << z;
+}
+
 // A running sum of extinctions keeps the rounding error of the thin dense layer (1e7 per unit) and would show it in the
 // thousands of faint segments behind it.
 TEST(Composite, ADenseSegmentLeavesNoErrorInFaintOnesBehindIt) {
@@ -152,6 +184,26 @@ TEST(Linearise, ErrsByAtMostWhatIsAskedFor) {
             ASSERT_TRUE(is_visibility(curve));
         }
     }
+}
+
+// Where a piece of the exponential is as short as a float is apart from the next, vertices have to stand on the floats
+// there are: without them the chord passes at 0.5 where the function is 0.
+TEST(Linearise, ErrsNoMoreInMediaAFewFloatsThick) {
+    for (const float front : {0.0f, 1e-3f, 1.0f, 1e6f})
+        for (const double through : {1e-38, 1e-6, 0.1, 0.6})
+            for (const int floats : {2, 3, 7, 20, 100, 1000})
+                for (const double error : {0.01, 1e-4}) {
+                    std::vector<float> depths{front};
+                    while (static_cast<int>(depths.size()) <= floats)
+                        depths.push_back(std::nextafter(depths.back(), 2e6f));
+                    const std::vector<Node> nodes{{front, 1.0}, {depths.back(), through}};
+                    Curve curve;
+                    linearise(nodes, error, curve);
+                    ASSERT_TRUE(is_visibility(curve));
+                    for (const float z : depths)
+                        ASSERT_NEAR(evaluate(curve, z), join(nodes, z), error + 1e-6)
+                            << front << ' ' << through << ' ' << floats;
+                }
 }
 
 // From 1 to exp(-20) within 0.01, the integral of sqrt(T / 0.08) over optical depth asks for 6.4 pieces, and one to the
