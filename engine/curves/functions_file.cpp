@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/read_text.h"
-#include "scene/limits.h"
 
 namespace shadowbench::curves {
 
@@ -98,8 +98,8 @@ Vertex parse_vertex(std::string_view line, const Lines& lines) {
     if (!take(text, vertex.z) || !take(text, vertex.value) || !text.empty())
         lines.fail(fmt::format("expected two numbers `z T`, found `{}`", shown(line)));
     if (!std::isfinite(vertex.z)) lines.fail(fmt::format("depth {} is not finite", vertex.z));
-    if (std::abs(vertex.z) > static_cast<float>(scene::max_coordinate))
-        lines.fail(fmt::format("depth {} is beyond {}: scale the depths down", vertex.z, scene::max_coordinate));
+    if (std::abs(vertex.z) > static_cast<float>(base::max_coordinate))
+        lines.fail(fmt::format("depth {} is beyond {}: scale the depths down", vertex.z, base::max_coordinate));
     if (!(vertex.value >= 0.0f && vertex.value <= 1.0f))
         lines.fail(fmt::format("transmittance {} is outside [0, 1]", vertex.value));
     return vertex;

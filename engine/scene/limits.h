@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "base/limits.h"
+
 namespace shadowbench::scene {
 
 inline constexpr std::uint64_t max_light_rays = std::uint64_t{1} << 32;      // width * height * samples_per_pixel
@@ -20,11 +22,8 @@ inline constexpr double max_all_march_steps = 1e13;      // of all light rays, o
 inline constexpr double max_scene_bytes = 8589934592.0;  // 8 GiB, of all objects together
 inline constexpr int max_image_side = 65536;
 
-// Coordinates are stored as float; their squares must not overflow.
-inline constexpr double max_coordinate = 1e18;
-
-// Lengths below it count as none: their squares must not vanish from floats' products either.
-inline constexpr double min_length = 1e-18;
+using base::max_coordinate;
+using base::min_length;
 
 // No image format in use packs more values into a byte of its file: a bit a value, 1032 times deflated.
 inline constexpr std::uint64_t max_values_per_byte = 16384;

@@ -1,0 +1,24 @@
+// The commands with their options, a group a file.
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace shadowbench::service {
+
+struct Command {
+    CLI::App* app;                                                 // the subcommand, with its options
+    std::function<int(std::ostream& out, std::ostream& err)> run;  // the exit code; throws base::Error
+};
+using Commands = std::vector<Command>;
+
+// Each adds its subcommands to the application, and what each runs once the arguments are parsed.
+void add_measuring_commands(CLI::App& app, Commands& commands);
+
+}  // namespace shadowbench::service

@@ -1,0 +1,197 @@
+#include <memory>
+#include <ostream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "service/cli/commands.h"
+#include "service/cli/options.h"
+
+namespace shadowbench::service {
+namespace {
+
+constexpr int promise_broken = 2;  // less accurate than it says
+
+// One value an option, as often as the option is given: a following positional argument stays one.
+void repeatable(CLI::Option* option) {
+    option->allow_extra_args(false);
+}
+
+void add_job_options(CLI::App& command, JobArguments& arguments) {
+    repeatable(command.add_option("--set", arguments.set,
+                                  "path=value: change one value of the scenario, as in rays.samples_per_pixel=64 or "
+                                  "/techniques/0/tolerance=0.01; a sweep over it is dropped"));
+    repeatable(command.add_option("--data", arguments.data,
+                                  "A folder to look for data in; before $SHADOWBENCH_DATA, the scenario's folder, its "
+                                  "data/, scenarios/data and ../shared/data"));
+    command.add_option("--threads", arguments.threads, "Threads of capture and checks; 0: all (times are of one)")
+        ->check(CLI::Range(0, 4096));
+    command.add_option("--memory-limit", arguments.memory_limit, "GiB; what surely needs more is refused")
+        ->check(CLI::Range(0.001, 1e6))
+        ->capture_default_str();
+}
+
+void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
+    command.add_option("SCENARIO", arguments.scenario, "A scenario file, or its name")->required();
+    add_job_options(command, arguments);
+}
+
+void add_folder_option(CLI::App& command, std::string& folder, const char* text) {
+    command.add_option("--out", folder, text)->check([](const std::string& name) {
+        return std::string(name.empty() ? "the folder has no name" : "");
+    });
+}
+
+void add_only_option(CLI::App& command, JobArguments& arguments) {
+    repeatable(command.add_option("--only", arguments.only, "Only techniques of this type"));
+}
+
+void add_run(CLI::App& app, Commands& commands) {
+    const auto arguments = std::make_shared<RunArguments>();
+    CLI::App* run = app.add_subcommand("run",
+                                       "Run scenarios: print a table, write result.json and result.csv; of several "
+                                       "also a verdict per technique and scenario");
+    run->add_option("SCENARIO", arguments->scenarios,
+                    "Scenario files, their names, or folders: each *.json directly in one. All are checked before the "
+                    "first is run")
+        ->required();
+    add_job_options(*run, *arguments);
+    add_only_option(*run, *arguments);
+    add_folder_option(*run, arguments->out,
+                      "Folder of the results [results/runs/<scenario name>]; of several scenarios or a folder, each "
+                      "gets DIR/<scenario name> [results/runs/<scenario name>]");
+    run->add_option("--verdicts", arguments->verdicts,
+                    "Markdown file of the verdicts [of several scenarios or a folder: verdicts.md in the folder of "
+                    "the results]")
+        ->check([](const std::string& name) { return std::string(name.empty() ? "the file has no name" : ""); });
+    commands.push_back({run, [arguments](std::ostream& out, std::ostream& err) {
+                            return run_command(*arguments, out, err) ? 0 : promise_broken;
+                        }});
+}
+
+void add_render(CLI::App& app, Commands& commands) {
+    const auto arguments = std::make_shared<RenderArguments>();
+    CLI::App* render = app.add_subcommand(
+        "render", "Render what the camera sees through every technique: pictures as EXR and PNG, and images.json");
+    add_scenario_options(*render, *arguments);
+    add_only_option(*render, *arguments);
+    add_folder_option(*render, arguments->out, "Folder of the pictures [results/images/<scenario name>]");
+    render->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels [the scenario's own]");
+    render->add_option("--view-rays", arguments->rays_per_side, "N x N view rays a pixel: smooth edges and hair")
+        ->check(CLI::Range(1, 8))
+        ->capture_default_str();
+    render
+        ->add_option("--media-lookups", arguments->media_lookups,
+                     "Lookups along a view ray through all media of the scene")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    commands.push_back({render, [arguments](std::ostream& out, std::ostream& err) {
+                            return render_command(*arguments, out, err) ? 0 : promise_broken;
+                        }});
+}
+
+void add_validate(CLI::App& app, Commands& commands) {
+    const auto arguments = std::make_shared<ScenarioArguments>();
+    CLI::App* validate = app.add_subcommand("validate", "Check a scenario and its files without running it");
+    add_scenario_options(*validate, *arguments);
+    add_only_option(*validate, *arguments);
+    commands.push_back({validate, [arguments](std::ostream& out, std::ostream&) {
+                            validate_command(*arguments, out);
+                            return 0;
+                        }});
+}
+
+void add_export(CLI::App& app, Commands& commands) {
+    const auto arguments = std::make_shared<ExportArguments>();
+    CLI::App* exported = app.add_subcommand("export", "Write one light's map, or its light rays, for other programs");
+    add_scenario_options(*exported, *arguments);
+    exported
+        ->add_option("--out", arguments->out,
+                     "FILE.exr: deep OpenEXR, any technique that stores functions; FILE.dsm: tiled file, deep alone")
+        ->required();
+    CLI::Option* technique =
+        exported->add_option("--technique", arguments->technique, "id:name=value,name=value")->capture_default_str();
+    exported->add_flag("--rays", arguments->rays, "The captured light rays instead of a technique's map")
+        ->excludes(technique);
+    exported->add_option("--light", arguments->light, "A light's name, or its number from 0 on [the first]");
+    exported->add_option("--tile", arguments->tile, "Pixels a side of a tile of FILE.dsm")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    commands.push_back({exported, [arguments](std::ostream& out, std::ostream& err) {
+                            export_command(*arguments, out, err);
+                            return 0;
+                        }});
+}
+
+void add_inspect(CLI::App& app, Commands& commands) {
+    const auto arguments = std::make_shared<std::string>();
+    CLI::App* inspect = app.add_subcommand("inspect", "Check a tiled deep shadow map file and tell what it holds");
+    inspect->add_option("FILE", *arguments, "A .dsm file")->required();
+    commands.push_back({inspect, [arguments](std::ostream& out, std::ostream&) {
+                            inspect_command(*arguments, out);
+                            return 0;
+                        }});
+}
+
+void add_list(CLI::App& app, Commands& commands) {
+    const auto arguments = std::make_shared<std::string>();
+    CLI::App* list = app.add_subcommand("list", "List the techniques with their parameters, or the scenarios");
+    list->add_option("WHAT", *arguments, "techniques or scenarios")
+        ->required()
+        ->check(CLI::IsMember({"techniques", "scenarios"}));
+    commands.push_back({list, [arguments](std::ostream& out, std::ostream&) {
+                            *arguments == "techniques" ? list_techniques(out) : list_scenarios(out);
+                            return 0;
+                        }});
+}
+
+void add_curve(CLI::App& app, Commands& commands) {
+    const auto arguments = std::make_shared<CurveArguments>();
+    CLI::App* curve = app.add_subcommand("curve", "Store given functions of depth: nodes, bytes, errors, times");
+    curve
+        ->add_option("FUNCTIONS", arguments->functions,
+                     "Text file of records: a line n, then n lines `z T`; z non-decreasing, T non-increasing in [0, 1]")
+        ->required();
+    repeatable(curve->add_option("--technique", arguments->techniques,
+                                 "id:name=value,name=value [deep:tolerance=0.02 and avsm:nodes=8]"));
+    curve->add_option("--dump", arguments->dump,
+                      "Write the stored functions here in the same format; with several techniques, to "
+                      "FILE.1-<id>, FILE.2-<id>, ...");
+    curve->add_flag("--json", arguments->json, "Print JSON instead of a table");
+    curve->add_option("--repetitions", arguments->repetitions, "Timed passes")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    commands.push_back({curve, [arguments](std::ostream& out, std::ostream&) {
+                            if (arguments->techniques.empty())
+                                arguments->techniques = {"deep:tolerance=0.02", "avsm:nodes=8"};
+                            curve_command(*arguments, out);
+                            return 0;
+                        }});
+}
+
+void add_reproduce(CLI::App& app, Commands& commands) {
+    const auto arguments = std::make_shared<ReproduceArguments>();
+    CLI::App* reproduce =
+        app.add_subcommand("reproduce", "Measure the claims of the papers again: a report with a verdict a claim");
+    reproduce->add_option("PAPER", arguments->paper, "reeves1987, lokovic2000, pagot2004, volume, salvi2010, or all")
+        ->capture_default_str();
+    reproduce->add_option("--out", arguments->out, "Folder of the report, its plots in plots/ [results]");
+    repeatable(reproduce->add_option("--data", arguments->data, "A folder to look for data in"));
+    reproduce->add_flag("--quick", arguments->quick, "Smaller sizes, under five minutes for all; marked as such");
+    reproduce->add_option("--threads", arguments->threads, "Threads of capture and checks; 0: all (times are of one)")
+        ->check(CLI::Range(0, 4096));
+    commands.push_back({reproduce, [arguments](std::ostream& out, std::ostream& err) {
+                            reproduce_command(*arguments, out, err);
+                            return 0;
+                        }});
+}
+
+}  // namespace
+
+void add_measuring_commands(CLI::App& app, Commands& commands) {
+    for (const auto add :
+         {add_run, add_render, add_validate, add_export, add_inspect, add_list, add_curve, add_reproduce})
+        add(app, commands);
+}
+
+}  // namespace shadowbench::service
