@@ -45,8 +45,11 @@ MapLayout make_layout(const scene::Scene& scene, const LightView& view, const sc
     layout.jittered = settings.pattern == scene::Pattern::jittered;
     layout.seed = settings.seed;
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    layout.z_min = outward(view.z_min, -infinity);
-    layout.z_max = outward(view.z_max, infinity);
+    // Places in light space are floats: what a sphere or a hair reaches from its rounded middle may be a little
+    // outside.
+    const double rounding = scene.deep_image ? 0.0 : 0x1p-23 * std::max(std::abs(view.z_min), std::abs(view.z_max));
+    layout.z_min = outward(std::max(view.z_min - rounding, std::min(view.z_min, view.z_near)), -infinity);
+    layout.z_max = outward(view.z_max + rounding, infinity);
     if (scene.deep_image) {
         layout.jittered = false;
         for (std::size_t s = 0; s < scene.deep_image->z_front.size() && !layout.media; ++s)

@@ -117,7 +117,10 @@ TEST(FunctionsFile, TellsAMissingFileFromOneThatCannotBeRead) {
 TEST(FunctionsFile, ReadsBackTheSameFloats) {
     base::Random random(1);
     std::vector<Curve> functions(10'000);
-    for (Curve& function : functions) function = cases::adversarial_function(0.01f, random);
+    for (Curve& function : functions) {
+        function = cases::adversarial_function(0.01f, random);
+        std::erase_if(function, [](const Vertex& v) { return std::abs(v.z) > 1e18f; });  // beyond what a file may hold
+    }
     const Folder folder;
     write_functions(folder.file(), functions);
     EXPECT_TRUE(read_functions(folder.file()) == functions);

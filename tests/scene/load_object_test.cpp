@@ -141,11 +141,16 @@ TEST(LoadObject, RefusesLayersThatAreNone) {
 }
 
 TEST(LoadObject, PutsATextureOnAQuad) {
-    // A binary grey image of one texel.
-    const auto folder = test::write_file("grey.pgm", std::string("P5 1 1 255\n\x33", 12)).parent_path();
+    // A grey TGA image of one texel.
+    std::string grey(19, '\0');
+    grey[2] = 3;
+    grey[12] = grey[14] = 1;
+    grey[16] = 8;
+    grey[18] = 0x33;
+    const auto folder = test::write_file("grey.tga", grey).parent_path();
     const auto mesh =
         std::get<Mesh>(load(R"({"type": "quad", "corner": [0, 0, 0], "edge_u": [2, 0, 0], "edge_v": [0, 0, 3],
-                                              "alpha_texture": "grey.pgm"})",
+                                              "alpha_texture": "grey.tga"})",
                             {folder})
                            .shape);
     ASSERT_TRUE(mesh.alpha);

@@ -69,8 +69,7 @@ TEST(ParseJson, ExcerptOfALongLineIsShort) {
 }
 
 TEST(ParseJson, RefusesNumbersThatNoDoubleHoldsAndWordsForThem) {
-    for (const char* number :
-         {"1e999", "-1e999", "NaN", "nan", "Infinity", "-inf", "0x10", "01", "1.", ".5", "+1"}) {
+    for (const char* number : {"1e999", "-1e999", "NaN", "nan", "Infinity", "-inf", "0x10", "01", "1.", ".5", "+1"}) {
         const base::Error error =
             test::error_of([&] { parse_json(std::string("{\n  \"a\": [") + number + "]\n}", "a.json"); });
         EXPECT_EQ(error.code(), base::ErrorCode::bad_input) << number;

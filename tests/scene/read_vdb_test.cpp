@@ -147,7 +147,7 @@ TEST(ReadVdb, SurvivesEveryBitFlipped) {
             flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
             const auto damaged = test::write_file("b.vdb", flipped);
             try {
-                const GridVolume volume = read_vdb(damaged, "density");
+                const GridVolume volume = read_vdb(damaged, "density", 1 << 20);  // a far leaf makes a large box
                 for (const float density : volume.density) ASSERT_TRUE(density >= 0.0f && density <= 1e18f) << bit;
             } catch (const base::Error& error) {
                 ASSERT_EQ(error.code(), base::ErrorCode::bad_input) << bit;

@@ -44,8 +44,9 @@ void keep_above_faint(Segments& ray) {
 }
 
 // Multiplying every depth by a power of two changes no digit of anything but depths, so long as neither they nor their
-// products with values are denormal. Not so for pcf and ray_traced, which draw their samples by the digits of a query's
-// depth; nor for a bias, which is a length too.
+// products with values are denormal: what opaque media leave below 1e-28 may differ in digits that it does not have.
+// Not so for pcf and ray_traced, which draw their samples by the digits of a query's depth; nor for a bias, which is a
+// length too.
 TEST_P(Invariance, TheUnitOfDepthChangesNothing) {
     if (is(row(), "pcf") || is(row(), "ray_traced")) return;
     std::vector<ParameterValues> settings = testing::variants(row());
@@ -68,7 +69,10 @@ TEST_P(Invariance, TheUnitOfDepthChangesNothing) {
         std::vector<Query> queries = any_queries(given);
         const std::vector<float> answers = one.lookup(queries);
         for (Query& q : queries) q.z *= scale;
-        RC_ASSERT(two.lookup(queries) == answers);
+        const std::vector<float> scaled_answers = two.lookup(queries);
+        RC_ASSERT(scaled_answers.size() == answers.size());
+        for (std::size_t i = 0; i < answers.size(); ++i)
+            RC_ASSERT(scaled_answers[i] == answers[i] || std::max(scaled_answers[i], answers[i]) < 1e-28f);
         RC_ASSERT(two.map->bytes() == one.map->bytes());
     });
 }

@@ -105,7 +105,7 @@ TEST_P(LookupProperties, AnswerAsTheStoredFunctionOfGivenFunctions) {
         for (int f = 0; f < made.layout.width; ++f) {
             check_cell(made, depths, f, 0, 0.0f);
             made.map->stored(f, 0, 0, depths, stored);
-            RC_ASSERT(curves::is_visibility(stored));
+            RC_ASSERT(curves::is_visibility(stored) || !promises(row(), values).monotone);
             const double bound = row().error_bound(values, made.layout);
             RC_ASSERT(curves::distance(stored, functions[static_cast<std::size_t>(f)], 0, 1).max <= bound + 1e-6);
         }
@@ -131,9 +131,10 @@ TEST_P(LookupProperties, AnswersStayInTheirRange) {
                                static_cast<float>(random.uniform(-0.1, 1) * side), z,
                                static_cast<float>(std::exp2(random.uniform(-10, 10)))});
         const Promises promised = promises(row(), values);
+        const double least = testing::least_answer(row(), values, made.layout);
         for (const float answer : made.lookup(queries)) {
             RC_ASSERT(std::isfinite(answer));
-            RC_ASSERT(answer >= 0.0f);
+            RC_ASSERT(answer >= least);
             RC_ASSERT(answer <= 1.0f || !promised.unit_range);
         }
         curves::Curve stored;

@@ -33,7 +33,7 @@ TEST(Parameters, AnUnknownNameIsAnErrorThatListsThoseThereAre) {
     const base::Error e = error_of("deep", {{"tolerence", 0.1}});
     EXPECT_EQ(e.code(), base::ErrorCode::bad_input);
     EXPECT_EQ(e.where(), "/techniques/2/tolerence");
-    EXPECT_THAT(e.message(), ::testing::HasSubstr("tolerance, filter"));
+    EXPECT_THAT(e.message(), ::testing::HasSubstr("tolerance, compression, filter"));
 }
 
 TEST(Parameters, ValuesOutOfRangeOrOfTheWrongKindSayWhatIsExpected) {
@@ -59,7 +59,7 @@ TEST(Parameters, OnlyWhatDiffersFromTheDefaultsIsShown) {
     const ParameterValues values = read_parameters(parameters, {{"tolerance", 0.02}}, "");
     EXPECT_EQ(to_string(values, parameters, false), "tolerance=0.02");
     EXPECT_EQ(to_string(values, parameters, true),
-              "tolerance=0.02 filter=box radius=0.5 mip=none kernel=box search=binary");
+              "tolerance=0.02 compression=bounded filter=box radius=0.5 mip=none kernel=box search=binary");
 }
 
 TEST(Parameters, EveryRowHasASchemaWithItsDefaults) {

@@ -1,6 +1,7 @@
 // Settings of a row to test it with.
 #pragma once
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -37,6 +38,13 @@ inline std::vector<ParameterValues> variants(const Technique& row) {
             }
         }
     return found;
+}
+
+// The least that a lookup, or a stored function, may answer: what leaves [0, 1] within a bounded error falls below 0 by
+// at most that, twice it over mip levels.
+inline double least_answer(const Technique& row, const ParameterValues& values, const rays::MapLayout& layout) {
+    const double bound = row.error_bound(values, layout);
+    return promises(row, values).unit_range || !std::isfinite(bound) ? 0.0 : -2.0 * bound;
 }
 
 inline bool is(const Technique& row, std::string_view id) {

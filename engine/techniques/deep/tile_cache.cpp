@@ -75,7 +75,7 @@ void lookup(TileCache& cache, int level, std::span<const Query> queries, std::sp
     for (std::size_t i = 0; i < queries.size(); ++i) {
         const Query& q = queries[i];
         const CellRange r = footprint(grid, {q.x * scale, q.y * scale, q.z, q.width * scale});
-        float sum[3] = {0.0f, 0.0f, 0.0f};
+        double sum[3] = {0.0, 0.0, 0.0};  // as the map in memory sums, to the bit
         for (int y = r.y0; y < r.y1; ++y)
             for (int x = r.x0; x < r.x1; ++x) {
                 const DeepFunction function = cache.function(x, y, level);
@@ -84,7 +84,7 @@ void lookup(TileCache& cache, int level, std::span<const Query> queries, std::sp
         const int pixels = (r.x1 - r.x0) * (r.y1 - r.y0);
         for (int c = 0; c < channels; ++c)
             visibility[static_cast<std::size_t>(c) * queries.size() + i] =
-                pixels > 0 ? std::min(sum[c] / static_cast<float>(pixels), 1.0f) : 1.0f;
+                pixels > 0 ? std::min(static_cast<float>(sum[c] / pixels), 1.0f) : 1.0f;
     }
 }
 
