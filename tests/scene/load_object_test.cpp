@@ -248,7 +248,7 @@ TEST_P(ProceduralVolume, RefusesSizesBoxesAndStepsThatCannotBe) {
     EXPECT_THAT(refusal(R"("size": [2000, 2000, 2000])").message(), HasSubstr("limit is 1000000000"));
     EXPECT_EQ(refusal(R"("size": [2000, 2000, 2000])").where(), "/scene/objects/0/size");
     EXPECT_EQ(refusal(R"("lower": [0, 0, 2])").where(), "/scene/objects/0/upper");
-    EXPECT_EQ(refusal(R"("step": 1e-6)").where(), "/scene/objects/0/step");
+    EXPECT_EQ(refusal(R"("step": 1e-7)").where(), "/scene/objects/0/step");
 }
 
 TEST_P(ProceduralVolume, TakesItsSizeBoxAndStep) {

@@ -82,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"/scene/objects/0/centre/0", "1e30", "/scene/objects/0/centre/0", "got number 1e+30"},
                     Wrong{"/receivers", R"({"type": "probes", "count": 0})", "/receivers/count", "[1, 67108864]"},
                     Wrong{"/receivers", R"({"type": "probes", "filter_width": 0})", "/receivers/filter_width",
-                          "(0, 1024]"},
+                          "[1e-06, 1024]"},
                     Wrong{"/scene/objects", "[]", "/scene/objects", "at least 1 items"},
                     Wrong{"/techniques", "[]", "/techniques", "1 to 256 items"}));
 
