@@ -43,9 +43,9 @@ bool has_all(const json& parameters, const std::vector<std::string>& wanted) {
 
 bool has_settings(const bench::VariantResult& variant, const std::vector<std::string>& wanted) {
     return std::all_of(wanted.begin(), wanted.end(), [&](const std::string& assignment) {
-        const auto [pointer, value] = split(assignment);
+        const auto named = split(assignment);
         return std::any_of(variant.settings.begin(), variant.settings.end(), [&](const bench::Setting& setting) {
-            return setting.pointer == pointer && json::parse(setting.value) == value;
+            return setting.pointer == named.first && json::parse(setting.value) == named.second;
         });
     });
 }

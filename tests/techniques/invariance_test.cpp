@@ -58,6 +58,10 @@ TEST_P(Invariance, TheUnitOfDepthChangesNothing) {
         const float scale = std::ldexp(1.0f, *rc::gen::inRange(-30, 31));
         const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
         RC_LOG() << testing::text_of(row(), values) << " scaled by " << scale << '\n';
+        // On its way to a denormal an exponential has no more digits than that has.
+        if (values.values.count("sampling") && values.word("sampling") == "exponential")
+            for (Segments& ray : given.rays)
+                std::erase_if(ray, [](const Segment& s) { return s.through == 0.0f && s.front < s.back; });
         HandRays scaled = given;
         for (Segments& ray : scaled.rays)
             for (Segment& s : ray) s = {s.front * scale, s.back * scale, s.through};
