@@ -61,15 +61,15 @@ double trend_p(std::span<const double> values) {
 }
 
 Line robust_line(std::span<const double> values) {
-    std::vector<double> slopes, places;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        places.push_back(static_cast<double>(i));
+    if (values.size() < 2) return values.empty() ? Line{0.0, 0.0} : Line{values[0], values[0]};
+    std::vector<double> slopes, starts;
+    for (std::size_t i = 0; i < values.size(); ++i)
         for (std::size_t j = i + 1; j < values.size(); ++j)
             slopes.push_back((values[j] - values[i]) / static_cast<double>(j - i));
-    }
-    if (values.empty()) return {0.0, 0.0};
-    const double slope = slopes.empty() ? 0.0 : median(slopes), middle = median(values), centre = median(places);
-    return {middle - slope * centre, middle + slope * (places.back() - centre)};
+    const double slope = median(slopes);
+    for (std::size_t i = 0; i < values.size(); ++i) starts.push_back(values[i] - slope * static_cast<double>(i));
+    const double first = median(starts);
+    return {first, first + slope * static_cast<double>(values.size() - 1)};
 }
 
 std::optional<Line> drift(std::span<const double> values, double least) {

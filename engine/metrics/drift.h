@@ -11,8 +11,8 @@ namespace shadowbench::metrics {
 // ties and continuity. 1 for fewer than two values.
 double trend_p(std::span<const double> values);
 
-// A straight line through (0, values[0]), (1, values[1]), ...: the median of all pairwise slopes (Theil 1950, Sen 1968)
-// through the medians. One value far off does not move it.
+// A straight line through (0, values[0]), (1, values[1]), ...: the median of all pairwise slopes (Theil 1950, Sen
+// 1968), and the median of where lines of that slope through each value start. One value far off does not move it.
 struct Line {
     double first, last;  // at the first and the last value
 };
