@@ -80,6 +80,12 @@ const Timed* find(const std::vector<Timed>& measures, const std::string& name) {
     return nullptr;
 }
 
+// How much longer work that does not change took on the current side.
+double machine_of(const Pair& pair) {
+    const std::vector<double>&before = pair.baseline->speed, &now = pair.current->speed;
+    return before.empty() || now.empty() ? 1.0 : metrics::median(before) / metrics::median(now);
+}
+
 class Judge {
 public:
     Judge(const Options& options, Comparison& comparison) : options_(options), comparison_(comparison) {}
@@ -144,7 +150,7 @@ void Judge::times(const Pair& pair, const Cell& baseline, const Cell& current) {
         if (const Timed* now = find(current.timed, before.name)) {
             line.reason.clear();
             line.verdict = Verdict::same;
-            judge_time(before, *now, comparison_.interleaved, options_, line);
+            judge_time(before, *now, comparison_.interleaved, machine_of(pair), options_, line);
         }
         add(std::move(line));
     }

@@ -13,7 +13,9 @@ double tolerance_of(const Exact& exact, const Options& options);
 void judge_exact(const Exact& baseline, const Exact& current, const Options& options, Line& line);
 
 // Fills verdict (but for chance among many: apply_holm), values, interval, p and reason.
-void judge_time(const Timed& baseline, const Timed& current, bool interleaved, const Options& options, Line& line);
+// `machine`: what was run beside, but does not change, took so many times as long on the current side.
+void judge_time(const Timed& baseline, const Timed& current, bool interleaved, double machine, const Options& options,
+                Line& line);
 
 // Takes back what is not beyond chance among all times judged.
 void apply_holm(Comparison& comparison);

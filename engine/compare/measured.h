@@ -75,6 +75,7 @@ struct Suite {
     std::string only;     // technique types that the run was limited to; empty: all
     std::string started;  // of the first
     std::size_t results = 0;
+    std::vector<double> speed;  // of the machine, one a result: Embree's rays a second, which no change here touches
     std::vector<Cell> cells;
 };
 
@@ -91,7 +92,10 @@ struct Measured {
 // the JSON pointer.
 bool add(Measured& measured, const nlohmann::json& document, const std::string& origin);
 
-// A file's JSON. Throws Error: place the file, with line and column; no_such_file, io, bad_input.
+// JSON of at most 64 levels. Throws Error{bad_input}, place: `origin` with line and column.
+nlohmann::json parse(const std::string& text, const std::string& origin);
+
+// A file's JSON. Throws what parse() throws, and Error{no_such_file, io}, place: the file.
 nlohmann::json read_json(const std::filesystem::path& file);
 
 // The files that stand for a path: itself, or every *.json below a folder, sorted by their places; names that begin

@@ -57,6 +57,7 @@ void merge(Suite& into, Suite&& from, const std::string& origin, std::vector<std
             fmt::format("{}: program {}, results of {} before it: {}", origin, from.program, into.name, into.program));
     std::vector<std::string> unsteady;
     ++into.results;
+    into.speed.insert(into.speed.end(), from.speed.begin(), from.speed.end());
     for (Cell& cell : from.cells) {
         const auto found = std::find_if(into.cells.begin(), into.cells.end(), [&](const Cell& other) {
             return other.group == cell.group && other.name == cell.name;
@@ -103,12 +104,11 @@ bool add(Measured& measured, const nlohmann::json& document, const std::string& 
     return true;
 }
 
-nlohmann::json read_json(const fs::path& file) {
-    const std::string text = base::read_text(file);
+nlohmann::json parse(const std::string& text, const std::string& origin) {
     // Deeper documents would overflow the stack where they are copied.
     const auto limited = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
         if (depth > most_deep)
-            throw Error(ErrorCode::bad_input, file.string(), fmt::format("nested deeper than {} levels", most_deep));
+            throw Error(ErrorCode::bad_input, origin, fmt::format("nested deeper than {} levels", most_deep));
         return true;
     };
     try {
@@ -119,12 +119,16 @@ nlohmann::json read_json(const fs::path& file) {
         const auto line = 1 + std::count(text.begin(), end, '\n');
         const std::size_t start = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
         const std::size_t column = offset - (start == std::string::npos ? 0 : start + 1) + 1;
-        throw Error(ErrorCode::bad_input, fmt::format("{}:{}:{}", file.string(), line, column),
+        throw Error(ErrorCode::bad_input, fmt::format("{}:{}:{}", origin, line, column),
                     offset >= text.size() ? "the file ends in the middle of its JSON; was it written to its end?"
                                           : "this is no JSON (NaN and infinity are none either)");
     } catch (const nlohmann::json::exception&) {
-        throw Error(ErrorCode::bad_input, file.string(), "holds a number that is too large");
+        throw Error(ErrorCode::bad_input, origin, "holds a number that is too large");
     }
+}
+
+nlohmann::json read_json(const fs::path& file) {
+    return parse(base::read_text(file), file.string());
 }
 
 std::vector<fs::path> result_files(const fs::path& path) {

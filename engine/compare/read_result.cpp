@@ -93,6 +93,12 @@ json technique_of(const json& scenario, const Field& cell) {
     return technique;
 }
 
+void add_speed(Suite& suite, const Field& check) {
+    if (check.is_null() || !suite.speed.empty()) return;  // the first light's
+    const double rate = at_least_zero(check.at("times").at("embree_rays_per_second"));
+    if (rate > 0.0) suite.speed.push_back(rate);
+}
+
 Cell read_cell(const Field& from, const json& scenario, const Field& settings, const std::string& source) {
     Cell cell;
     const std::string& technique = from.at("technique").text();
@@ -148,6 +154,7 @@ Suite read_result(const Field& result, const std::string& origin) {
         for (std::size_t l = 0; l < lights.array().size(); ++l) {
             const Field light = lights.item(l), cells = light.at("cells");
             const std::string group = (variant.empty() ? "" : variant + " / ") + light.at("light").text();
+            add_speed(suite, light.at("capture").at("embree_check"));
             if (suite.seed.empty()) suite.seed = fmt::format("{:.17g}", light.at("map").at("seed").number());
             for (std::size_t c = 0; c < cells.array().size(); ++c) {
                 Cell cell = read_cell(cells.item(c), scenario, settings, source);

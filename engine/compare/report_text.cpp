@@ -46,6 +46,22 @@ std::string text_of(const Block& block) {
     return text;
 }
 
+// A long sentence in lines of a terminal.
+std::string wrapped(const std::string& sentence) {
+    constexpr std::size_t width = 118;
+    std::string text;
+    for (std::size_t at = 0; at < sentence.size();) {
+        std::size_t end = sentence.size();
+        if (end - at > width) {
+            const std::size_t space = sentence.rfind(' ', at + width);
+            end = space == std::string::npos || space <= at ? end : space;
+        }
+        text += (at == 0 ? "" : "  ") + sentence.substr(at, end - at) + "\n";
+        at = end + 1;
+    }
+    return text;
+}
+
 // Inconclusive times that are not listed, counted by their reason.
 std::string folded(const Comparison& comparison) {
     std::map<std::string, int> counts;
@@ -60,12 +76,12 @@ std::string folded(const Comparison& comparison) {
 }  // namespace
 
 std::string to_text(const Comparison& comparison, bool all) {
-    std::string text = fmt::format("{} -> {}\n{}\n", comparison.baseline, comparison.current, method(comparison));
+    std::string text = fmt::format("{} -> {}\n", comparison.baseline, comparison.current) + wrapped(method(comparison));
     for (const std::string& note : comparison.notes) text += "note: " + note + "\n";
     for (const Block& block : blocks_of(comparison, all)) text += text_of(block);
     if (!all) text += folded(comparison);
     for (const FrontChange& change : comparison.fronts) text += front_text(change) + "\n";
-    if (const std::string fine = sensitivity(comparison); !fine.empty()) text += fine + "\n";
+    if (const std::string fine = sensitivity(comparison); !fine.empty()) text += wrapped(fine);
     return text + fmt::format("{}; {}\n", counts_text(comparison), outcome_text(comparison));
 }
 

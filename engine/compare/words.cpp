@@ -60,8 +60,10 @@ std::string method(const Comparison& comparison) {
                                      effect, 100.0 * block_noise, 100.0 * plain_block_noise);
     return fmt::format(
         "{} times judged: {}; the whole 95 % bootstrap interval has to lie beyond, and the test against that effect to "
-        "hold after Holm's correction over all times: any false alarm in at most 5 % of comparisons",
-        comparison.judged_times, of);
+        "hold after Holm's correction over all times: any false alarm in at most 5 % of comparisons{}",
+        comparison.judged_times, of,
+        comparison.interleaved ? ""
+                               : ", as far as the machine's state was the same for both blocks (ab, or --confirm)");
 }
 
 std::string values_text(const Line& line) {

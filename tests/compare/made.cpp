@@ -57,6 +57,7 @@ json made_result() {
                {"lights",
                 {{{"light", "key"},
                   {"map", {{"seed", 1}}},
+                  {"capture", {{"embree_check", {{"times", {{"embree_rays_per_second", 2e6}}}}}}},
                   {"cells",
                    {made_cell("deep", "tolerance=0.02", 0, 1000.0, 0.05, 6.0),
                     made_cell("uncompressed", "", 1, 4000.0, 0.04, 60.0)}}}}}}}}};
