@@ -136,8 +136,12 @@ std::string history_text(const nlohmann::ordered_json& history) {
                 drift.at("ratio").is_null() ? "" : fmt::format(" (x{:.3f})", drift.at("ratio").get<double>()),
                 drift.at("since").get<std::string>());
         }
-    return text + fmt::format("{} results, {} cells, {} measures; {} drift{}\n", history.at("runs").size(),
-                              history.at("cells").size(), measures, drifts, drifts == 1 ? "s" : "");
+    const auto counted = [](std::size_t count, const char* what) {
+        return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+    };
+    return text + fmt::format("{}, {}, {}; {}\n", counted(history.at("runs").size(), "result"),
+                              counted(history.at("cells").size(), "cell"), counted(measures, "measure"),
+                              counted(drifts, "drift"));
 }
 
 }  // namespace shadowbench::compare
