@@ -27,6 +27,9 @@ constexpr const char* examples = R"(Examples:
   shadowbench inspect hair.dsm
   shadowbench list techniques
   shadowbench reproduce lokovic2000 --quick
+  shadowbench compare results/baseline results/runs --markdown verdict.md
+  shadowbench ab old/shadowbench build/release/shadowbench hairball --only deep
+  shadowbench history results/nightly
   shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
 SCENARIO is a file, or the name of one in ./scenarios or in the folders of $SHADOWBENCH_SCENARIOS; for run also a folder.
 Exit codes: 0 ok; 2 a technique broke what it promises; 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
@@ -58,6 +61,7 @@ int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ost
     app.footer(examples);
     Commands commands;
     add_measuring_commands(app, commands);
+    add_gate_commands(app, commands);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

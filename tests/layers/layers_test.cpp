@@ -83,12 +83,14 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"curves", {"base", "rays", "curves"}},
         {"techniques", {"base", "rays", "curves", "techniques"}},
         {"metrics", {"base", "metrics"}},
+        {"compare", {"base", "metrics", "compare"}},
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
         {"render", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench", "render"}},
         {"claims", {"base", "scene", "rays", "curves", "techniques", "bench", "render", "claims"}},
         // The command line also reads and writes deep shadow map files.
         {"service",
-         {"base", "scene", "curves", "techniques", "techniques/deep", "bench", "render", "claims", "service"}},
+         {"base", "scene", "curves", "techniques", "techniques/deep", "compare", "bench", "render", "claims",
+          "service"}},
     };
     for (const Include& include : includes()) {
         if (include.system) continue;
