@@ -1,12 +1,11 @@
 #include "kernels/exact.h"
 
+#include <fstream>
 #include <regex>
 
 #include <nlohmann/json.hpp>
 
 #include "base/pending_file.h"
-
-#include <fstream>
 
 namespace shadowbench::kernels {
 namespace {
@@ -45,7 +44,10 @@ std::size_t write_exact(std::span<const Kernel> kernels, const std::string& filt
     base::PendingFile pending(file);
     {
         std::ofstream stream(pending.temporary());
-        stream << json{{"context", json::object()}, {"benchmarks", std::move(entries)}}.dump(2) << '\n';
+        stream << json{{"context", {{"program", "shadowbench kernels"}, {"cpu", "any"}, {"num_cpus", 0}}},
+                       {"benchmarks", std::move(entries)}}
+                      .dump(2)
+               << '\n';
         check(static_cast<bool>(stream.flush()), file.string() + ": cannot write");
     }
     pending.commit();

@@ -4,7 +4,6 @@
 // Exit codes: 0 ok; 2 a kernel answers wrongly; 64 wrong usage; 70 internal fault.
 #include <algorithm>
 #include <iostream>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,7 +17,7 @@
 #include "kernels/exact.h"
 #include "kernels/inject.h"
 #include "kernels/kernel.h"
-#include "kernels/measure.h"
+#include "kernels/runner.h"
 
 namespace shadowbench::kernels {
 namespace {
@@ -53,34 +52,6 @@ void check_hits(const Kernels& kernels, const std::vector<Injection>& injections
             throw std::invalid_argument("--inject=" + injection.text + ": no kernel has such a name");
 }
 
-// Google Benchmark calls a kernel again and again until it has enough of it; its subject is made once.
-class Runner {
-public:
-    explicit Runner(const std::vector<Injection>& injections) : injections_(injections) {}
-
-    void run(benchmark::State& state, const Kernel& kernel) {
-        try {
-            if (prepared_ != &kernel) {
-                prepared_ = nullptr;
-                subject_ = {};
-                subject_ = kernel.prepare();
-                prepared_ = &kernel;
-            }
-            measure(state, kernel.name, subject_, faults_of(kernel.name, injections_));
-        } catch (const std::exception& error) {
-            wrong_ = true;
-            state.SkipWithError(error.what());
-        }
-    }
-    bool wrong() const { return wrong_; }
-
-private:
-    const std::vector<Injection>& injections_;
-    const Kernel* prepared_ = nullptr;
-    Subject subject_;
-    bool wrong_ = false;
-};
-
 void describe(const std::vector<Injection>& injections) {
     const bench::BuildInfo build = bench::build_info();
     benchmark::AddCustomContext("program", "shadowbench kernels");
@@ -110,9 +81,7 @@ int run(int argc, char** argv) {
         const std::string filter = benchmark::GetBenchmarkFilter();
         return write_exact(kernels, filter == "all" ? "" : filter, arguments.injections, arguments.exact) == 0 ? 0 : 2;
     }
-    Runner runner(arguments.injections);
-    for (const Kernel& kernel : kernels)
-        benchmark::RegisterBenchmark(kernel.name.c_str(), [&](benchmark::State& state) { runner.run(state, kernel); });
+    const Runner runner(kernels, arguments.injections);
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
     return runner.wrong() ? 2 : 0;
