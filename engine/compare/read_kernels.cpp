@@ -43,21 +43,27 @@ void add_exact(Cell& cell, const std::string& name, Kind kind, double value) {
         found->value = std::max(found->value, value);
 }
 
+// Counts alone, as a baseline holds, have no times.
+void add_time(Cell& cell, const Field& run) {
+    if (!run.has("real_time")) return;
+    const std::string& unit = run.at("time_unit").text();
+    if (cell.timed.empty()) cell.timed.push_back({"time", unit, {{}}});
+    if (cell.timed[0].unit != unit)
+        refuse(run.where + "/time_unit", "repetitions of one kernel have different units");
+    cell.timed[0].processes[0].raw.push_back(time_of(run.at("real_time")));
+}
+
 void add_run(Cell& cell, const Field& run) {
     if (run.has("error_occurred") && run.value.at("error_occurred") == json(true)) {
         cell.failed = true;
         cell.failure = run.has("error_message") ? run.at("error_message").text() : "it failed";
         return;
     }
-    if (cell.timed.empty()) cell.timed.push_back({"time", run.at("time_unit").text(), {{}}});
-    if (cell.timed[0].unit != run.at("time_unit").text())
-        refuse(run.where + "/time_unit", "repetitions of one kernel have different units");
-    Process& process = cell.timed[0].processes[0];
-    process.raw.push_back(time_of(run.at("real_time")));
+    add_time(cell, run);
     for (const auto& [name, value] : run.object().items()) {
         if (!value.is_number() || !is_counter(name)) continue;
-        if (is_ratio(name))
-            process.ratio.push_back(time_of(run.at(name.c_str())));
+        if (is_ratio(name) && !cell.timed.empty())
+            cell.timed[0].processes[0].ratio.push_back(time_of(run.at(name.c_str())));
         else if (name == "instructions")
             add_exact(cell, name, Kind::instructions, time_of(run.at(name.c_str())));
         else if (has(name, "error"))

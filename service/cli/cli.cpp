@@ -62,6 +62,7 @@ int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ost
     Commands commands;
     add_measuring_commands(app, commands);
     add_gate_commands(app, commands);
+    add_kernel_commands(app, commands);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

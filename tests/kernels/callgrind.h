@@ -1,0 +1,14 @@
+// Whether callgrind watches this program, and what it counts. Without its header nothing ever runs under it.
+#pragma once
+
+#include <string>
+
+namespace shadowbench::kernels::callgrind {
+
+bool running();
+
+// Counts what this program does from start() to stop(), which dumps the count under this name and sets it to 0.
+void start();
+void stop(const std::string& name);
+
+}  // namespace shadowbench::kernels::callgrind

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <filesystem>
+
+namespace shadowbench::kernels {
+
+// A folder of this process for the files that kernels load. Removed, with what it holds, when the program ends.
+const std::filesystem::path& scratch_folder();
+
+}  // namespace shadowbench::kernels

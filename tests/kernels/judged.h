@@ -1,0 +1,55 @@
+// The map of a technique, built and held to what the technique promises, the way a run does it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/maps.h"
+#include "kernels/kernel.h"
+#include "rays/light_rays.h"
+#include "techniques/technique.h"
+
+namespace shadowbench::kernels {
+
+// A row with its defaults but for one parameter, on a map of the mixed scene.
+struct Setting {
+    const techniques::Technique* row;
+    std::string parameter;  // empty: none
+    std::optional<double> value;
+    int map, samples;  // pixels a side; rays a pixel
+};
+std::string name_of(const Setting& setting);  // "deep/tolerance:0.02/map:64/samples:16"
+
+class Judged {
+public:
+    // Throws std::runtime_error with the promise that is broken.
+    explicit Judged(const Setting& setting);
+    ~Judged();
+
+    const Exact& exact() const;
+    const bench::Maps& maps() const;
+    const std::vector<rays::LightRays>& tiles() const;  // that the map is built from
+
+    bench::Maps build() const;
+
+    // side * side places all over the map, row after row, each at a depth of its own.
+    std::vector<techniques::Query> queries(std::size_t side) const;
+
+    // Makes the pass twice: throws unless both answer the same, and what is promised.
+    void check_answers(const std::vector<techniques::Query>& queries, const std::function<void()>& pass,
+                       const std::vector<float>& answers) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+using SharedJudged = std::shared_ptr<const Judged>;
+
+// Kernels of one setting follow one another: the last one is kept.
+SharedJudged judge(const Setting& setting);
+
+}  // namespace shadowbench::kernels
