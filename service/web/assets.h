@@ -1,0 +1,21 @@
+// The page's files, embedded.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace shadowbench::service {
+
+struct Asset {
+    std::string_view path, type;
+    std::string_view content;
+    bool gzip;  // the content is compressed
+    std::string_view etag;
+};
+
+std::span<const Asset> assets();
+
+// "/" is the page. Null: there is none.
+const Asset* find_asset(std::string_view path);
+
+}  // namespace shadowbench::service
