@@ -30,6 +30,7 @@ constexpr bool limit_memory = false;
 constexpr bool limit_memory = true;
 #endif
 
+constexpr const char* dead = "it ended the process that looked at it; it may need more memory than this server allows";
 constexpr std::size_t longest_answer = std::size_t{64} << 20;
 
 [[noreturn]] void fail(const char* what) {
@@ -107,10 +108,12 @@ public:
     }
 
 private:
-    void wait(int descriptor, short what, Clock::time_point end) {
+    // Until the child answers, or takes more where there is more to send.
+    void wait(bool sending, Clock::time_point end) {
         const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-        pollfd one{descriptor, what, 0};
-        const int ready = left > 0 ? ::poll(&one, 1, static_cast<int>(std::min<long long>(left, 1'000'000))) : 0;
+        pollfd ends[2] = {{from_, POLLIN, 0}, {to_, POLLOUT, 0}};
+        const int ready =
+            left > 0 ? ::poll(ends, sending ? 2 : 1, static_cast<int>(std::min<long long>(left, 1'000'000))) : 0;
         if (ready < 0 && errno != EINTR) fail("poll");
         if (ready == 0) refuse("it takes longer than this server allows");
     }
@@ -121,32 +124,34 @@ private:
             if (n > 0) {
                 sent += static_cast<std::size_t>(n);
             } else if (errno == EAGAIN) {
-                wait(to_, POLLOUT, end);
+                wait(true, end);
+                take();  // a child that nobody listens to would not listen either
             } else if (errno != EINTR) {
-                refuse("it ended the process that looked at it; it may need more memory than this server allows");
+                refuse(dead);
             }
         }
     }
 
     std::string receive(Clock::time_point end) {
-        char piece[65536];
         for (;;) {
             if (const std::size_t at = buffer_.find('\n'); at != std::string::npos) {
                 std::string line = buffer_.substr(0, at);
                 buffer_.erase(0, at + 1);
                 return line;
             }
-            const ssize_t n = ::read(from_, piece, sizeof piece);
-            if (n > 0)
-                buffer_.append(piece, static_cast<std::size_t>(n));
-            else if (n == 0)
-                refuse("it ended the process that looked at it; it may need more memory than this server allows");
-            else if (errno == EAGAIN)
-                wait(from_, POLLIN, end);
-            else if (errno != EINTR)
-                fail("read");
-            if (buffer_.size() > longest_answer) refuse("its answer is too long");
+            if (!take()) wait(false, end);
         }
+    }
+
+    // What the child has said by now; false: nothing.
+    bool take() {
+        char piece[65536];
+        const ssize_t n = ::read(from_, piece, sizeof piece);
+        if (n == 0) refuse(dead);
+        if (n < 0 && errno != EAGAIN && errno != EINTR) fail("read");
+        if (n > 0) buffer_.append(piece, static_cast<std::size_t>(n));
+        if (buffer_.size() > longest_answer) refuse("its answer is too long");
+        return n > 0;
     }
 
     pid_t child_ = -1;

@@ -56,6 +56,10 @@ json take(const Reply& reply, int status, const std::string& server) {
     throw Error(code_of(reply.status), where, message);
 }
 
+std::string without_slash(const std::string& url) {
+    return url.substr(0, url.find_last_not_of('/') + 1);
+}
+
 std::string request_body(const SubmitArguments& arguments) {
     const auto file = find_scenario(arguments.scenario);
     nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
@@ -98,19 +102,19 @@ void refuse_failed(const json& job) {
 }  // namespace
 
 bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::ostream& err) {
-    const std::string body = request_body(arguments);
-    Client client(arguments.server, arguments.token_file.empty() ? "" : read_token(arguments.token_file));
-    json job = take(client.post_json("/v1/jobs", body, {}), 202, arguments.server);
+    const std::string body = request_body(arguments), server = without_slash(arguments.server);
+    Client client(server, arguments.token_file.empty() ? "" : read_token(arguments.token_file));
+    json job = take(client.post_json("/v1/jobs", body, {}), 202, server);
     const std::string self = job.at("links").at("self");
     if (!arguments.wait) {
         out << fmt::format("{} {}: {}{}\n", job.at("id").get<std::string>(), job.at("state").get<std::string>(),
-                           arguments.server, self);
+                           server, self);
         return true;
     }
-    job = wait_for(client, std::move(job), arguments.server, err);
+    job = wait_for(client, std::move(job), server, err);
     refuse_failed(job);
-    const bench::Result result = bench::from_json(take(client.get(self + "/result"), 200, arguments.server));
-    out << bench::to_table(result) << fmt::format("result: {}{}/result\n", arguments.server, self);
+    const bench::Result result = bench::from_json(take(client.get(self + "/result"), 200, server));
+    out << bench::to_table(result) << fmt::format("result: {}{}/result\n", server, self);
     return !bench::any_failed(result);
 }
 

@@ -77,7 +77,8 @@ Fault read_request_line(std::string_view line, Head& head) {
     if (!is_token(method)) return HeadFault{400, "The first line is no request."};
     head.request.method = method;
     head.http10 = version == "HTTP/1.0";
-    if (!version.starts_with("HTTP/")) return HeadFault{400, "The first line is no request."};
+    if (!version.starts_with("HTTP/") || version.find(' ') != std::string_view::npos)
+        return HeadFault{400, "The first line is no request."};
     if (version != "HTTP/1.1" && version != "HTTP/1.0") return HeadFault{505, "HTTP/1.1 and HTTP/1.0 are spoken here."};
     if (!target.starts_with('/') || std::any_of(target.begin(), target.end(), [](char c) {
             return static_cast<unsigned char>(c) <= 0x20 || c == 0x7f;

@@ -355,7 +355,7 @@ struct Client::State {
 Client::Client(const std::string& url, const std::string& token) : url_(url) {
     if (!url.starts_with("http://") && !url.starts_with("https://"))
         throw Error(ErrorCode::usage, "--server " + url, "a server is named as http://host:port");
-    state_.reset(new State{httplib::Client(url.substr(0, url.find_last_not_of('/') + 1))});
+    state_.reset(new State{httplib::Client(url)});
     if (!state_->client.is_valid()) throw Error(ErrorCode::usage, "--server " + url, "this is no server's URL");
     state_->client.set_connection_timeout(10);
     state_->client.set_read_timeout(120);

@@ -67,7 +67,7 @@ ApiRequest request(const std::string& method, const std::string& target, std::ve
     made.method = method;
     std::istringstream path(target.substr(1, target.find('?') - 1));
     for (std::string segment; std::getline(path, segment, '/');) made.path.push_back(segment);
-    if (made.path.empty()) made.path.push_back("");
+    if (target.substr(0, target.find('?')).ends_with('/')) made.path.push_back("");
     std::istringstream query(target.find('?') == std::string::npos ? "" : target.substr(target.find('?') + 1));
     for (std::string pair; std::getline(query, pair, '&');)
         made.query.push_back({pair.substr(0, pair.find('=')), pair.substr(pair.find('=') + 1)});

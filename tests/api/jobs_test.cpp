@@ -72,7 +72,9 @@ TEST_F(JobsApi, ReadsFilesOfTheDataFoldersAlone) {
         scenario["scene"]["objects"] = json::array({{{"type", "mesh"}, {"file", name}}});
         const nlohmann::json problem = refused(post("/v1/jobs", scenario.dump()), 422, "");
         EXPECT_EQ(problem["errors"][0]["pointer"], "/scene/objects/0/file") << name;
-        if (name[0] != '/') EXPECT_EQ(problem.dump().find(folder_.string()), std::string::npos) << problem;
+        if (name[0] != '/') {
+            EXPECT_EQ(problem.dump().find(folder_.string()), std::string::npos) << problem;
+        }
     }
 }
 

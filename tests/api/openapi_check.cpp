@@ -1,9 +1,12 @@
 #include "api/openapi_check.h"
 
+#include <cctype>
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "scene/scenario.h"
 #include "service/api/openapi_text.h"
 #include "service/api/routes.h"
