@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "jobs/job_host.h"
@@ -109,10 +110,13 @@ TEST_F(JobQueue, TriesAJobAgainWhoseProcessCrashed) {
         run("echo x >>" + counter + "; [ $(wc -l <" + counter + ") -ge 2 ] || kill -SEGV $$; " + success);
     EXPECT_EQ(twice.state, JobState::succeeded);
     EXPECT_EQ(twice.attempts, 2);
-    const JobInfo always = run("kill -SEGV $$");
-    EXPECT_EQ(always.state, JobState::failed);
-    EXPECT_EQ(always.attempts, 3);
-    EXPECT_NE(always.fault->message.find("signal 11"), std::string::npos) << always.fault->message;
+    for (const auto& [name, says] : {std::pair("SEGV", "signal 11"), std::pair("KILL", "signal 9")}) {
+        const JobInfo always = run(std::string("kill -") + name + " $$; sleep 1000");
+        EXPECT_EQ(always.state, JobState::failed);
+        EXPECT_EQ(always.attempts, 3);
+        EXPECT_EQ(always.fault->code, 70);
+        EXPECT_NE(always.fault->message.find(says), std::string::npos) << always.fault->message;
+    }
     EXPECT_EQ(run(success).state, JobState::succeeded) << "and the next is none the worse";
     EXPECT_TRUE(work_is_empty());
 }

@@ -23,18 +23,22 @@ namespace fs = std::filesystem;
 
 class JobRestart : public JobHost {
 protected:
-    // A server of its own process that submits these, notes them as they are accepted, and is killed once `note` says
-    // so.
+    [[noreturn]] void serve_one(const std::string& script) {
+        try {
+            Jobs& own = start();
+            if (own.list({}, 1, "").jobs.empty()) own.submit(request_of(script));
+            for (;;) ::pause();
+        } catch (...) {
+            ::_exit(1);
+        }
+    }
+    // Servers of this one job, each in a process that is killed once the job has made the file "note".
     void kill_while_running(const std::string& script, int times) {
         for (int i = 0; i < times; ++i) {
             const fs::path note = folder.path() / "note";
             fs::remove(note);
             const pid_t server = ::fork();
-            if (server == 0) {
-                Jobs& own = start();
-                if (own.list({}, 1, "").jobs.empty()) own.submit(request_of(script));
-                for (;;) ::pause();
-            }
+            if (server == 0) serve_one(script);
             const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
             while (!fs::exists(note) && std::chrono::steady_clock::now() < end)
                 std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -202,10 +206,11 @@ protected:
     }
     static std::string result(int number) { return "first " + std::to_string(number) + " second\n"; }
 
-    // Submits `from`, `from` + 1, ... and writes each number and id to `to` once it is accepted.
+    // Submits `from`, `from` + 1, ... and writes each number and id to `to` once it is accepted. A few always wait.
     [[noreturn]] void serve(int from, int to) {
         Jobs& own = start();
         for (int number = from;; ++number) {
+            while (own.count(JobState::queued) > 5) std::this_thread::sleep_for(std::chrono::milliseconds(2));
             JobRequest request = request_of(script(number));
             request.idempotency_key = "job " + std::to_string(number);
             const std::string line = std::to_string(number) + " " + own.submit(request).job.id + "\n";
@@ -255,7 +260,7 @@ TEST_F(JobKill, LosesAndDoublesNothing) {
     limits.attempts = 1000;
     limits.parallel = 2;
     std::mt19937 random(7);
-    for (int i = 0; i < kills; ++i) live(static_cast<int>(random() % 120), i % 5 != 4);
+    for (int i = 0; i < kills; ++i) live(static_cast<int>(random() % 250), i % 5 != 4);
     ASSERT_GT(accepted.size(), static_cast<std::size_t>(kills));
 
     start();
