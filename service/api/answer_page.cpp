@@ -1,5 +1,6 @@
 // The page and its assets, embedded in the program.
 #include "service/api/accept.h"
+#include "service/api/gunzip.h"
 #include "service/api/problem.h"
 #include "service/api/routes.h"
 #include "service/web/assets.h"
@@ -27,7 +28,10 @@ ApiResponse asset_answer(const ApiRequest& request, const std::string& path) {
         return response;
     }
     if (asset->gzip) {
-        if (!accepts_gzip(request)) return problem(406, "This is sent compressed with gzip alone.");
+        if (!accepts_gzip(request)) {
+            response.body = gunzip(asset->content);
+            return response;
+        }
         response.headers.push_back({"Content-Encoding", "gzip"});
     }
     response.body = asset->content;

@@ -41,8 +41,8 @@ std::string CurveCache::curves(const CurveQuestion& question, const std::functio
     std::string line = fmt::format("{} {}", question.x, question.y);
     if (!worker->helper) {
         std::vector<std::string> arguments = arguments_;
-        arguments.insert(arguments.end(),
-                         {"--variant=" + std::to_string(question.variant), "--light=" + question.light});
+        arguments.push_back("--variant=" + std::to_string(question.variant));
+        if (!question.light.empty()) arguments.push_back("--light=" + question.light);
         line = scenario() + "\n" + line;
         worker->helper = start_(arguments);
     }

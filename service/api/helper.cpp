@@ -60,6 +60,28 @@ struct Pipe {
     static int take(int& end) { return std::exchange(end, -1); }
 };
 
+// A child that has gone is an error of write(), and no signal, for this thread.
+class NoPipeSignal {
+public:
+    NoPipeSignal() {
+        sigemptyset(&pipe_);
+        sigaddset(&pipe_, SIGPIPE);
+        pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+    }
+    ~NoPipeSignal() {
+        const timespec at_once{0, 0};
+        if (!sigismember(&before_, SIGPIPE))
+            while (sigtimedwait(&pipe_, nullptr, &at_once) > 0) {
+            }
+        pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    }
+    NoPipeSignal(const NoPipeSignal&) = delete;
+    NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+
+private:
+    sigset_t pipe_{}, before_{};
+};
+
 // Between fork and exec: calls that are safe there alone.
 [[noreturn]] void become(const Pipe& in, const Pipe& out, std::size_t memory, char* const* argv) {
     ::dup2(in.read, 0);
@@ -103,6 +125,7 @@ public:
     std::string ask(const std::string& line, double seconds) override {
         const auto end =
             Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+        const NoPipeSignal no_signal;
         send(line + "\n", end);
         return receive(end);
     }

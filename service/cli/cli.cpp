@@ -44,9 +44,8 @@ int report(std::ostream& err, ErrorCode code, std::string message) {
 std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
     if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
         std::string names;
-        for (const CLI::App* command :
-             app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); }))
-            names += ", " + command->get_name();
+        const auto shown = [](const CLI::App* command) { return !command->get_group().empty(); };
+        for (const CLI::App* command : app.get_subcommands(shown)) names += ", " + command->get_name();
         return fmt::format("unknown command \"{}\"; there are: {} (see shadowbench --help)", argv[1], names.substr(2));
     }
     return std::string(error.what()) + " (see shadowbench --help)";
@@ -61,6 +60,7 @@ int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ost
     app.footer(examples);
     Commands commands;
     add_measuring_commands(app, commands);
+    add_job_commands(app, commands);
     add_server_commands(app, commands);
     try {
         app.parse(argc, argv);

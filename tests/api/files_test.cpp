@@ -1,8 +1,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include <zlib.h>
+
 #include "api/fixture.h"
+#include "base/error.h"
 #include "service/api/accept.h"
+#include "service/api/gunzip.h"
 
 namespace shadowbench::service {
 namespace {
@@ -134,6 +138,35 @@ TEST_F(FilesApi, ComparesOnlyWhatIsThere) {
               "/current");
     refused(post("/v1/compare", "[]"), 422, "object");
     refused(post("/v1/compare", "["), 400, "");
+}
+
+TEST(Gunzip, GivesBackWhatWasCompressed) {
+    std::string text, compressed(100'000, '\0');
+    for (int i = 0; i < 50'000; ++i) text += std::to_string(i * 7919 % 1000);
+    z_stream stream{};
+    ASSERT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
+    stream.next_in = reinterpret_cast<Bytef*>(text.data());
+    stream.avail_in = static_cast<uInt>(text.size());
+    stream.next_out = reinterpret_cast<Bytef*>(compressed.data());
+    stream.avail_out = static_cast<uInt>(compressed.size());
+    ASSERT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    compressed.resize(compressed.size() - stream.avail_out);
+    deflateEnd(&stream);
+    EXPECT_EQ(gunzip(compressed), text);
+    EXPECT_THROW(gunzip(compressed.substr(0, compressed.size() / 2)), base::Error);
+    EXPECT_THROW(gunzip("plain"), base::Error);
+}
+
+TEST(Accept, KnowsWhetherGzipIsTaken) {
+    const auto takes = [](const char* value) {
+        ApiRequest request;
+        request.headers = {{"accept-encoding", value}};
+        return accepts_gzip(request);
+    };
+    EXPECT_FALSE(accepts_gzip({}));
+    EXPECT_TRUE(takes("br, GZIP;q=0.5"));
+    EXPECT_FALSE(takes("gzip;q=0"));
+    EXPECT_FALSE(takes("identity"));
 }
 
 TEST(Accept, TakesTheMostSpecificRange) {

@@ -67,12 +67,16 @@ TEST(HelperProcess, OfThisProgramExaminesAScenario) {
 }
 
 TEST(HelperProcess, OfThisProgramGivesCurves) {
-    const auto helper = start_process(SHADOWBENCH_PROGRAM, {"curves", "--light=sun", "--variant=0"}, enough);
-    const nlohmann::json curves = take_answer(helper->ask(tiny_scenario().dump() + "\n4 4", 120));
-    EXPECT_EQ(curves["light"], "sun");
+    CurveCache cache(
+        [](const std::vector<std::string>& arguments) { return start_process(SHADOWBENCH_PROGRAM, arguments, enough); },
+        {"curves"}, 120);
+    const auto scenario = [] { return tiny_scenario().dump(); };
+    const nlohmann::json curves = take_answer(cache.curves({"j-1", "", 0, 4, 4}, scenario));
+    EXPECT_EQ(curves["light"], "sun") << "the first";
     EXPECT_EQ(curves["exact"]["v"].back(), 0.25) << "in and out of a sphere that lets half through";
-    EXPECT_EQ(take_answer(helper->ask("3 4", 120))["x"], 3);
-    EXPECT_EQ(code_of([&] { take_answer(helper->ask("8 8", 120)); }), ErrorCode::usage);
+    EXPECT_EQ(take_answer(cache.curves({"j-1", "", 0, 3, 4}, scenario))["x"], 3);
+    EXPECT_EQ(take_answer(cache.curves({"j-1", "sun", 0, 4, 4}, scenario)), curves);
+    EXPECT_EQ(code_of([&] { cache.curves({"j-1", "sun", 0, 8, 8}, scenario); }), ErrorCode::usage);
 }
 
 TEST(Lru, ForgetsWhatWasNotAskedForLongest) {

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -82,6 +83,7 @@ protected:
         fs::remove(path("port"));
         server_ = ::fork();
         if (server_ == 0) {
+            ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), 1);
             ::execv(argv[0], argv.data());
             ::_exit(127);
         }
