@@ -1,6 +1,5 @@
 // The page and its assets, embedded in the program.
 #include "service/api/accept.h"
-#include "service/api/gunzip.h"
 #include "service/api/problem.h"
 #include "service/api/routes.h"
 #include "service/web/assets.h"
@@ -29,7 +28,7 @@ ApiResponse asset_answer(const ApiRequest& request, const std::string& path) {
     }
     if (asset->gzip) {
         if (!accepts_gzip(request)) {
-            response.body = gunzip(asset->content);
+            response.body = text_of(*asset);
             return response;
         }
         response.headers.push_back({"Content-Encoding", "gzip"});

@@ -22,15 +22,15 @@ nlohmann::json take_answer(const std::string& line) {
     return answer;
 }
 
-Turns::Turn Turns::take(double seconds) {
+Slots::Slot Slots::take(double seconds) {
     std::unique_lock lock(mutex_);
     if (!freed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return free_ > 0; }))
         throw base::Error(base::ErrorCode::io, "helper process", "too many are at work");
     --free_;
-    return Turn(*this);
+    return Slot(*this);
 }
 
-void Turns::give_back() {
+void Slots::give_back() {
     const std::scoped_lock lock(mutex_);
     ++free_;
     freed_.notify_one();
@@ -40,7 +40,7 @@ Examiner::Examiner(StartHelper start, std::vector<std::string> arguments, double
     : start_(std::move(start)),
       arguments_(std::move(arguments)),
       seconds_(seconds),
-      turns_(at_a_time),
+      slots_(at_a_time),
       answers_(kept) {}
 
 nlohmann::json Examiner::examine(const std::string& scenario) {
@@ -48,7 +48,7 @@ nlohmann::json Examiner::examine(const std::string& scenario) {
         const std::scoped_lock lock(mutex_);
         if (const std::string* known = answers_.find(scenario)) return take_answer(*known);
     }
-    const Turns::Turn turn = turns_.take(seconds_);
+    const Slots::Slot slot = slots_.take(seconds_);
     const std::string line = start_(arguments_)->ask(scenario, seconds_);
     nlohmann::json answer = take_answer(line);
     const std::scoped_lock lock(mutex_);

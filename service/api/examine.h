@@ -18,21 +18,21 @@ namespace shadowbench::service {
 nlohmann::json take_answer(const std::string& line);
 
 // A few of the same at a time; others wait their turn, for a while.
-class Turns {
+class Slots {
 public:
-    explicit Turns(std::size_t most) : free_(most) {}
-    class Turn {
+    explicit Slots(std::size_t most) : free_(most) {}
+    class Slot {
     public:
-        explicit Turn(Turns& turns) : turns_(turns) {}
-        ~Turn() { turns_.give_back(); }
-        Turn(const Turn&) = delete;
-        Turn& operator=(const Turn&) = delete;
+        explicit Slot(Slots& slots) : slots_(slots) {}
+        ~Slot() { slots_.give_back(); }
+        Slot(const Slot&) = delete;
+        Slot& operator=(const Slot&) = delete;
 
     private:
-        Turns& turns_;
+        Slots& slots_;
     };
     // Throws Error{io} after `seconds` without a turn.
-    Turn take(double seconds);
+    Slot take(double seconds);
 
 private:
     void give_back();
@@ -53,7 +53,7 @@ private:
     StartHelper start_;
     std::vector<std::string> arguments_;
     double seconds_;
-    Turns turns_;
+    Slots slots_;
     std::mutex mutex_;
     Lru<std::string> answers_;
 };

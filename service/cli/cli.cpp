@@ -27,6 +27,9 @@ constexpr const char* examples = R"(Examples:
   shadowbench inspect hair.dsm
   shadowbench list techniques
   shadowbench reproduce lokovic2000 --quick
+  shadowbench compare results/baseline results/runs --markdown verdict.md
+  shadowbench ab old/shadowbench build/release/shadowbench hairball --only deep
+  shadowbench history results/nightly
   shadowbench serve --data ~/volumes --port 8080
   shadowbench submit quickstart --server http://127.0.0.1:8080 --wait
   shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
@@ -60,6 +63,7 @@ int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ost
     app.footer(examples);
     Commands commands;
     add_measuring_commands(app, commands);
+    add_gate_commands(app, commands);
     add_job_commands(app, commands);
     add_server_commands(app, commands);
     try {

@@ -13,9 +13,21 @@ namespace shadowbench::service {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// A result stands for the scenario that it holds.
+nlohmann::json read_document(const fs::path& file) {
+    nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
+    if (!document.is_object() || !document.contains("scenario_hash") || !document.contains("scenario")) return document;
+    nlohmann::json scenario = std::move(document["scenario"]);
+    return scenario;
+}
+
+}  // namespace
+
 Job read_job(const JobArguments& arguments, const fs::path& scenario) {
     Job job;
-    nlohmann::json document = scene::parse_json(base::read_text(scenario), scenario.string());
+    nlohmann::json document = read_document(scenario);
     for (const std::string& assignment : arguments.set) bench::set_value(document, assignment);
     job.document = std::make_shared<const nlohmann::json>(std::move(document));
     job.options.data = data_path(arguments.data, scenario);

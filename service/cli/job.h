@@ -17,7 +17,7 @@ struct Job {
     bench::RunOptions options;
 };
 
-// Throws base::Error.
+// `scenario` may be a result.json too: the scenario it holds is run again. Throws base::Error.
 Job read_job(const JobArguments& arguments, const std::filesystem::path& scenario);
 Job read_job(const ScenarioArguments& arguments);
 

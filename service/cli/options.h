@@ -22,5 +22,6 @@ using Commands = std::vector<Command>;
 void add_measuring_commands(CLI::App& app, Commands& commands);
 void add_job_commands(CLI::App& app, Commands& commands);
 void add_server_commands(CLI::App& app, Commands& commands);
+void add_gate_commands(CLI::App& app, Commands& commands);  // compare, ab, history
 
 }  // namespace shadowbench::service

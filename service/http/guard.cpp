@@ -21,40 +21,18 @@ std::string without_port(const std::string& host) {
     return host.substr(0, host.find(':'));
 }
 
-// Of RFC 4648; stops at what is none of its characters.
-std::string decode_base64(std::string_view text) {
-    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    unsigned bits = 0;
-    int count = 0;
-    for (const char c : text) {
-        const std::size_t value = alphabet.find(c);
-        if (value == std::string_view::npos) break;
-        bits = (bits << 6 | static_cast<unsigned>(value)) & 0xffffff;
-        count += 6;
-        if (count < 8) continue;
-        count -= 8;
-        out += static_cast<char>(bits >> count & 0xff);
-    }
-    return out;
-}
-
 std::string token_of(const ApiRequest& request) {
     const std::string* authorization = request.header("authorization");
     if (!authorization) return {};
     const std::string scheme = lower(std::string_view(*authorization).substr(0, authorization->find(' ')));
     const std::size_t at = authorization->find_first_not_of(' ', scheme.size());
-    if (at == std::string::npos) return {};
-    const std::string rest = authorization->substr(at);
-    if (scheme == "bearer") return rest;
-    if (scheme != "basic") return {};
-    const std::string pair = decode_base64(rest);
-    const std::size_t colon = pair.find(':');
-    return colon == std::string::npos ? "" : pair.substr(colon + 1);
+    return scheme == "bearer" && at != std::string::npos ? authorization->substr(at) : "";
 }
 
 bool needs_no_token(const ApiRequest& request) {
-    return request.path.size() == 1 && (request.path[0] == "healthz" || request.path[0] == "readyz");
+    const std::string& first = request.path[0];
+    const bool alone = request.path.size() == 1;
+    return first == "assets" || (alone && (first.empty() || first == "healthz" || first == "readyz"));
 }
 
 bool from_elsewhere(const ApiRequest& request) {
@@ -92,7 +70,6 @@ std::optional<ApiResponse> guard(const ApiRequest& request, const GuardOptions& 
     if (equal_in_constant_time(token_of(request), options.token)) return {};
     ApiResponse response = problem(401, "Authorization: Bearer and the token of this server, please.");
     response.headers.push_back({"WWW-Authenticate", "Bearer realm=\"shadowbench\""});
-    response.headers.push_back({"WWW-Authenticate", "Basic realm=\"shadowbench\""});
     return response;
 }
 

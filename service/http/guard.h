@@ -20,8 +20,8 @@ bool is_loopback(const std::string& host);
 //  - 421: on loopback, a Host that is not this machine. A page elsewhere whose name was made to mean 127.0.0.1 (DNS
 //    rebinding) cannot pretend another Host.
 //  - 403: a browser says that a page of another origin asks.
-//  - 401: no token, or another: "Authorization: Bearer TOKEN", or Basic with it as the password, which browsers ask
-//    for. Compared in constant time. /healthz and /readyz need none.
+//  - 401: no token, or another, in "Authorization: Bearer TOKEN". Compared in constant time. /healthz and /readyz need
+//    none, nor do the page and its assets, which ask for it.
 std::optional<ApiResponse> guard(const ApiRequest& request, const GuardOptions& options);
 
 // Takes as long for texts that differ early as for those that differ late.

@@ -20,4 +20,8 @@ const Asset* find_asset(std::string_view path) {
     return nullptr;
 }
 
+std::string text_of(const Asset& asset) {
+    return std::string(asset.content);
+}
+
 }  // namespace shadowbench::service

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace shadowbench::service {
@@ -17,5 +18,8 @@ std::span<const Asset> assets();
 
 // "/" is the page. Null: there is none.
 const Asset* find_asset(std::string_view path);
+
+// The content, decompressed where it is compressed.
+std::string text_of(const Asset& asset);
 
 }  // namespace shadowbench::service

@@ -1,12 +1,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include <zlib.h>
-
 #include "api/fixture.h"
-#include "base/error.h"
 #include "service/api/accept.h"
-#include "service/api/gunzip.h"
 
 namespace shadowbench::service {
 namespace {
@@ -140,21 +136,24 @@ TEST_F(FilesApi, ComparesOnlyWhatIsThere) {
     refused(post("/v1/compare", "["), 400, "");
 }
 
-TEST(Gunzip, GivesBackWhatWasCompressed) {
-    std::string text, compressed(100'000, '\0');
-    for (int i = 0; i < 50'000; ++i) text += std::to_string(i * 7919 % 1000);
-    z_stream stream{};
-    ASSERT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
-    stream.next_in = reinterpret_cast<Bytef*>(text.data());
-    stream.avail_in = static_cast<uInt>(text.size());
-    stream.next_out = reinterpret_cast<Bytef*>(compressed.data());
-    stream.avail_out = static_cast<uInt>(compressed.size());
-    ASSERT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    compressed.resize(compressed.size() - stream.avail_out);
-    deflateEnd(&stream);
-    EXPECT_EQ(gunzip(compressed), text);
-    EXPECT_THROW(gunzip(compressed.substr(0, compressed.size() / 2)), base::Error);
-    EXPECT_THROW(gunzip("plain"), base::Error);
+// Of the corpus of the fuzz targets: a small result as `run` writes it.
+TEST_F(FilesApi, CompareJudgesEveryMeasure) {
+    std::ifstream file(std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "tests/fuzz/corpus/result/tiny.json");
+    nlohmann::json result = nlohmann::json::parse(file);
+    const std::string other = submit();
+    fake::succeed(*jobs_, other, {{"result.json", result.dump()}});
+    const auto compared = [&](const nlohmann::json& current) {
+        return json(post("/v1/compare",
+                         nlohmann::json{{"baseline", {{"job", other}}}, {"current", {{"result", current}}}}.dump()),
+                    200);
+    };
+    const std::string same = compared(result).dump();
+    EXPECT_EQ(same.find("\"larger\""), std::string::npos) << same;
+    result["variants"][0]["lights"][0]["cells"][0]["bytes"] = 1'000'000;
+    EXPECT_NE(compared(result).dump().find("\"larger\""), std::string::npos);
+    result["variants"] = 3;
+    const nlohmann::json body = {{"baseline", {{"job", other}}}, {"current", {{"result", result}}}};
+    refused(post("/v1/compare", body.dump()), 422, "");
 }
 
 TEST(Accept, KnowsWhetherGzipIsTaken) {

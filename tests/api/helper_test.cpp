@@ -92,13 +92,13 @@ TEST(Lru, ForgetsWhatWasNotAskedForLongest) {
     EXPECT_EQ(lru.size(), 2u);
 }
 
-TEST(Turns, AreSoManyAtATime) {
-    Turns turns(2);
+TEST(Slots, AreSoManyAtATime) {
+    Slots slots(2);
     std::atomic<int> at_work = 0, most = 0, done = 0;
     std::vector<std::thread> threads;
     for (int i = 0; i < 8; ++i)
         threads.emplace_back([&] {
-            const Turns::Turn turn = turns.take(60);
+            const Slots::Slot slot = slots.take(60);
             const int now = ++at_work;
             for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
             }
@@ -109,8 +109,8 @@ TEST(Turns, AreSoManyAtATime) {
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(done, 8);
     EXPECT_LE(most, 2);
-    const Turns::Turn one = turns.take(60), two = turns.take(60);
-    EXPECT_EQ(code_of([&] { turns.take(0.01); }), ErrorCode::io);
+    const Slots::Slot one = slots.take(60), two = slots.take(60);
+    EXPECT_EQ(code_of([&] { slots.take(0.01); }), ErrorCode::io);
 }
 
 struct CurvesApi : ApiTest {

@@ -153,6 +153,7 @@ TEST_F(Server, AsksForItsToken) {
     EXPECT_EQ(ask(get("/v1/jobs", "Authorization: Bearer 0123456789abcdef\r\n")).status, 200);
     EXPECT_EQ(ask(post("/v1/jobs", scenario, "Authorization: Bearer wrong\r\n")).status, 401);
     EXPECT_EQ(ask(get("/healthz")).status, 200);
+    EXPECT_EQ(ask(get("/")).status, 200) << "the page asks for the token";
     Client client(server_->url(), http_options_.token);
     EXPECT_EQ(client.get("/v1/jobs").status, 200);
     EXPECT_EQ(Client(server_->url(), "").get("/v1/jobs").status, 401);

@@ -84,6 +84,7 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"curves", {"base", "rays", "curves"}},
         {"techniques", {"base", "rays", "curves", "techniques"}},
         {"metrics", {"base", "metrics"}},
+        {"compare", {"base", "metrics", "compare"}},
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
         {"render", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench", "render"}},
         {"claims", {"base", "scene", "rays", "curves", "techniques", "bench", "render", "claims"}},
@@ -95,8 +96,8 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"service/http", {"base", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files.
         {"service/cli",
-         {"base", "scene", "curves", "techniques", "techniques/deep", "bench", "render", "claims", "service/jobs",
-          "service/api", "service/http", "service/cli"}},
+         {"base", "scene", "curves", "techniques", "techniques/deep", "compare", "bench", "render", "claims",
+          "service/jobs", "service/api", "service/http", "service/cli"}},
         {"service", {"service/cli"}},
     };
     for (const Include& include : includes()) {

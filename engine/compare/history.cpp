@@ -1,0 +1,143 @@
+#include "compare/history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "compare/measured.h"
+#include "metrics/drift.h"
+#include "metrics/statistics.h"
+
+namespace shadowbench::compare {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+struct Run {
+    Suite suite;
+    std::string file;
+};
+
+struct Point {
+    const Run* run;
+    double value;
+    std::optional<metrics::Interval> interval;
+    std::string alike;  // points of which this differs do not compare
+};
+
+struct Series {
+    std::string unit;
+    bool time = false;
+    std::vector<Point> points;
+};
+
+using AllSeries = std::map<std::string, std::map<std::string, Series>>;  // by title and measure
+
+std::vector<Run> read_runs(const std::filesystem::path& path) {
+    std::vector<Run> runs;
+    for (const auto& file : result_files(path)) {
+        Measured measured;
+        add(measured, read_json(file), file.string());
+        for (Suite& suite : measured.suites) runs.push_back({std::move(suite), file.string()});
+    }
+    if (runs.empty())
+        throw base::Error(base::ErrorCode::bad_input, path.string(),
+                          "holds no result of shadowbench run and none of a kernel program");
+    std::stable_sort(runs.begin(), runs.end(),
+                     [](const Run& a, const Run& b) { return a.suite.started < b.suite.started; });
+    return runs;
+}
+
+void add_cell(AllSeries& all, const Run& run, const Cell& cell) {
+    const std::string title = run.suite.name + " / " + (cell.group.empty() ? "" : cell.group + " / ") + cell.name;
+    const std::string alike = run.suite.hash + '\n' + cell.version;
+    for (const Exact& exact : cell.exact)
+        all[title][exact.name].points.push_back({&run, exact.value, std::nullopt, alike});
+    for (const Timed& timed : cell.timed) {
+        const Process& process = timed.processes.at(0);
+        const bool floor = !process.ratio.empty();
+        const std::vector<double>& samples = floor ? process.ratio : process.raw;
+        Series& series = all[title][timed.name];
+        series.time = true;
+        series.unit = floor ? "x floor" : timed.unit;
+        series.points.push_back({&run, metrics::median(samples), metrics::median_interval(samples),
+                                 alike + '\n' + run.suite.machine + '\n' + series.unit});
+    }
+}
+
+json number(double value) {
+    return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json drift_of(const Series& series, const HistoryOptions& options) {
+    std::vector<const Point*> last;
+    for (auto point = series.points.rbegin(); point != series.points.rend() && last.size() < options.last; ++point)
+        if (std::isfinite(point->value) && point->alike == series.points.back().alike) last.push_back(&*point);
+    std::reverse(last.begin(), last.end());
+    std::vector<double> values;
+    for (const Point* point : last) values.push_back(point->value);
+    const auto line = metrics::drift(values, series.time ? options.effect : 0.0);
+    if (!line) return nullptr;
+    return {{"from", line->first},
+            {"to", line->last},
+            {"ratio", line->first == 0.0 ? json(nullptr) : number(line->last / line->first)},
+            {"since", last.front()->run->suite.started}};
+}
+
+json to_json(const std::string& name, const Series& series, const HistoryOptions& options) {
+    json points = json::array();
+    for (const Point& point : series.points)
+        points.push_back({{"run", point.run->suite.started},
+                          {"commit", point.run->suite.commit},
+                          {"value", number(point.value)},
+                          {"low", point.interval ? number(point.interval->low) : json(nullptr)},
+                          {"high", point.interval ? number(point.interval->high) : json(nullptr)}});
+    return {{"name", name}, {"unit", series.unit}, {"points", points}, {"drift", drift_of(series, options)}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json history_json(const std::filesystem::path& path, const HistoryOptions& options) {
+    const std::vector<Run> runs = read_runs(path);
+    AllSeries all;
+    json cells = json::array(), list = json::array();
+    for (const Run& run : runs) {
+        list.push_back({{"started", run.suite.started}, {"commit", run.suite.commit}, {"file", run.file}});
+        for (const Cell& cell : run.suite.cells) add_cell(all, run, cell);
+    }
+    for (const auto& [title, series] : all) {
+        json measures = json::array();
+        for (const auto& [name, one] : series) measures.push_back(to_json(name, one, options));
+        cells.push_back({{"title", title}, {"measures", std::move(measures)}});
+    }
+    return {{"cells", std::move(cells)}, {"runs", std::move(list)}};
+}
+
+std::string history_text(const nlohmann::ordered_json& history) {
+    std::string text;
+    std::size_t measures = 0, drifts = 0;
+    for (const json& cell : history.at("cells"))
+        for (const json& measure : cell.at("measures")) {
+            ++measures;
+            const json& drift = measure.at("drift");
+            if (drift.is_null()) continue;
+            ++drifts;
+            const std::string unit = measure.at("unit").get<std::string>();
+            text += fmt::format(
+                "{}: {} drifts: {:.6g} -> {:.6g}{}{} since {}\n", cell.at("title").get<std::string>(),
+                measure.at("name").get<std::string>(), drift.at("from").get<double>(), drift.at("to").get<double>(),
+                unit.empty() ? "" : " " + unit,
+                drift.at("ratio").is_null() ? "" : fmt::format(" (x{:.3f})", drift.at("ratio").get<double>()),
+                drift.at("since").get<std::string>());
+        }
+    return text + fmt::format("{} results, {} cells, {} measures; {} drift{}\n", history.at("runs").size(),
+                              history.at("cells").size(), measures, drifts, drifts == 1 ? "s" : "");
+}
+
+}  // namespace shadowbench::compare

@@ -1,0 +1,72 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "compare/report.h"
+#include "compare/words.h"
+
+namespace shadowbench::compare {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json number(double value) {
+    return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json to_json(const Line& line, const Options& options) {
+    json out{{"title", title_of(line)},
+             {"suite", line.suite},
+             {"group", line.group},
+             {"cell", line.cell},
+             {"measure", line.measure},
+             {"verdict", to_string(line.verdict)},
+             {"code", code_of(line, options)},
+             {"unit", line.unit},
+             {"baseline", number(line.baseline)},
+             {"current", number(line.current)},
+             {"reason", line.reason},
+             {"command", line.rerun.source.empty() ? json(nullptr) : json(command_of(line.rerun))},
+             {"time", nullptr}};
+    if (line.ratio > 0.0)
+        out["time"] = {
+            {"ratio", number(line.ratio)}, {"interval95", {number(line.interval.low), number(line.interval.high)}},
+            {"processes", line.processes}, {"p_slower", line.p_slower},
+            {"p_faster", line.p_faster},   {"looks_slower", line.suspicious}};
+    return out;
+}
+
+}  // namespace
+
+json to_json(const Comparison& comparison) {
+    json lines = json::array(), fronts = json::array(), counts = json::object();
+    for (const Line* line : by_severity(comparison)) {
+        lines.push_back(to_json(*line, comparison.options));
+        json& count = counts[to_string(line->verdict)];
+        count = count.is_null() ? 1 : count.get<int>() + 1;
+    }
+    for (const FrontChange& change : comparison.fronts)
+        fronts.push_back({{"suite", change.suite},
+                          {"group", change.group},
+                          {"cell", change.cell},
+                          {"front", change.front},
+                          {"joined", change.joined},
+                          {"by", change.by},
+                          {"text", front_text(change)}});
+    return {{"schema_version", 1},
+            {"baseline", comparison.baseline},
+            {"current", comparison.current},
+            {"exit_code", exit_code(comparison)},
+            {"outcome", outcome_text(comparison)},
+            {"interleaved", comparison.interleaved},
+            {"effect", comparison.options.effect},
+            {"judged_times", comparison.judged_times},
+            {"method", method(comparison)},
+            {"sensitivity", sensitivity(comparison)},
+            {"counts", std::move(counts)},
+            {"lines", std::move(lines)},
+            {"fronts", std::move(fronts)},
+            {"notes", comparison.notes}};
+}
+
+}  // namespace shadowbench::compare

@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include "compare/report.h"
+#include "compare/words.h"
+
+namespace shadowbench::compare {
+namespace {
+
+// A bar would end the cell, and names are no markup.
+std::string escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (std::string("\\`*_|<>[]").find(c) != std::string::npos) result += '\\';
+        result += c == '\n' ? ' ' : c;
+    }
+    return result;
+}
+
+// In a table a bar ends the cell even inside of code, so it stands as an entity there.
+std::string code(const std::string& text) {
+    std::string result;
+    for (const char c : text) switch (c) {
+            case '&':
+                result += "&amp;";
+                break;
+            case '<':
+                result += "&lt;";
+                break;
+            case '>':
+                result += "&gt;";
+                break;
+            case '|':
+                result += "&#124;";
+                break;
+            case '\n':
+                result += ' ';
+                break;
+            default:
+                result += c;
+        }
+    return "<code>" + result + "</code>";
+}
+
+}  // namespace
+
+std::string to_markdown(const Comparison& comparison) {
+    std::string text = fmt::format("## shadowbench: {}\n\n{} → {}: {}.\n\n", outcome_text(comparison),
+                                   escaped(comparison.baseline), escaped(comparison.current), counts_text(comparison));
+    std::string rows;
+    for (const Line* line : by_severity(comparison))
+        if (is_news(*line))
+            rows += fmt::format("| {} | {} | {} | {} | {} | {} |\n", to_string(line->verdict), escaped(title_of(*line)),
+                                escaped(line->measure), escaped(values_text(*line)), escaped(change_text(*line)),
+                                line->rerun.source.empty() ? "" : code(command_of(line->rerun)));
+    if (!rows.empty())
+        text += "| verdict | cell | measure | baseline → current | change | alone |\n|---|---|---|---|---|---|\n" +
+                rows + "\n";
+    for (const FrontChange& change : comparison.fronts) text += "- " + escaped(front_text(change)) + "\n";
+    for (const std::string& note : comparison.notes) text += "- " + escaped(note) + "\n";
+    if (!comparison.fronts.empty() || !comparison.notes.empty()) text += "\n";
+    text += method(comparison) + ".\n";
+    if (const std::string fine = sensitivity(comparison); !fine.empty()) text += "\n" + escaped(fine) + ".\n";
+    return text;
+}
+
+}  // namespace shadowbench::compare

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "compare/report.h"
+#include "compare/words.h"
+
+namespace shadowbench::compare {
+namespace {
+
+// The lines of one cell.
+struct Block {
+    std::string title, command;
+    std::vector<const Line*> lines;
+};
+
+std::vector<Block> blocks_of(const Comparison& comparison, bool all) {
+    std::vector<Block> blocks;
+    std::map<std::string, std::size_t> places;
+    for (const Line* line : by_severity(comparison)) {
+        if (!all && !is_news(*line)) continue;
+        const std::string title = title_of(*line);
+        const auto [place, is_new] = places.emplace(title, blocks.size());
+        if (is_new) blocks.push_back({title, line->rerun.source.empty() ? "" : command_of(line->rerun), {}});
+        blocks[place->second].lines.push_back(line);
+    }
+    return blocks;
+}
+
+std::string text_of(const Block& block) {
+    std::size_t measures = 0, values = 0;
+    for (const Line* line : block.lines) {
+        measures = std::max(measures, line->measure.size());
+        values = std::max(values, values_text(*line).size());
+    }
+    std::string text = block.title + "\n";
+    for (const Line* line : block.lines) {
+        const std::string row = fmt::format("  {:<14}  {:<{}}  {:<{}}  {}", to_string(line->verdict), line->measure,
+                                            measures, values_text(*line), values, change_text(*line));
+        text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
+    }
+    if (!block.command.empty()) text += "  alone: " + block.command + "\n";
+    return text;
+}
+
+// A long sentence in lines of a terminal.
+std::string wrapped(const std::string& sentence) {
+    constexpr std::size_t width = 118;
+    std::string text;
+    for (std::size_t at = 0; at < sentence.size();) {
+        std::size_t end = sentence.size();
+        if (end - at > width) {
+            const std::size_t space = sentence.rfind(' ', at + width);
+            end = space == std::string::npos || space <= at ? end : space;
+        }
+        text += (at == 0 ? "" : "  ") + sentence.substr(at, end - at) + "\n";
+        at = end + 1;
+    }
+    return text;
+}
+
+// Inconclusive times that are not listed, counted by their reason.
+std::string folded(const Comparison& comparison) {
+    std::map<std::string, int> counts;
+    for (const Line& line : comparison.lines)
+        if (line.verdict == Verdict::inconclusive && !is_news(line)) ++counts[line.reason];
+    std::string text;
+    for (const auto& [reason, count] : counts)
+        text += fmt::format("inconclusive: {} time{}: {} (--all lists them)\n", count, count == 1 ? "" : "s", reason);
+    return text;
+}
+
+}  // namespace
+
+std::string to_text(const Comparison& comparison, bool all) {
+    std::string text = fmt::format("{} -> {}\n", comparison.baseline, comparison.current) + wrapped(method(comparison));
+    for (const std::string& note : comparison.notes) text += "note: " + note + "\n";
+    for (const Block& block : blocks_of(comparison, all)) text += text_of(block);
+    if (!all) text += folded(comparison);
+    for (const FrontChange& change : comparison.fronts) text += front_text(change) + "\n";
+    if (const std::string fine = sensitivity(comparison); !fine.empty()) text += wrapped(fine);
+    return text + fmt::format("{}; {}\n", counts_text(comparison), outcome_text(comparison));
+}
+
+}  // namespace shadowbench::compare

@@ -1,0 +1,70 @@
+#include <filesystem>
+#include <ostream>
+
+#include "base/error.h"
+#include "compare/compare.h"
+#include "service/cli/child.h"
+#include "service/cli/gate_commands.h"
+#include "service/cli/interleave.h"
+#include "service/cli/verdict_report.h"
+
+namespace shadowbench::service {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+
+// "--set x --data y": what every run of the scenario is given.
+std::vector<std::string> given(const AbArguments& arguments) {
+    std::vector<std::string> words;
+    for (const std::string& assignment : arguments.set) words.insert(words.end(), {"--set", assignment});
+    for (const std::string& folder : arguments.data) words.insert(words.end(), {"--data", folder});
+    return words;
+}
+
+Turns turns_of(const AbArguments& arguments) {
+    Turns turns{arguments.binary_a, arguments.binary_b, {}, !arguments.kernels.empty(), arguments.pairs, ""};
+    if (turns.kernels == !arguments.scenario.empty())
+        throw Error(ErrorCode::usage, "ab",
+                    "give a SCENARIO, or --kernels with a filter where the programs are kernels");
+    if (turns.kernels) {
+        turns.arguments = {"--benchmark_filter=" + arguments.kernels};
+        return turns;
+    }
+    turns.arguments = {"run", arguments.scenario};
+    for (const std::string& word : given(arguments)) turns.arguments.push_back(word);
+    for (const std::string& only : arguments.only) turns.arguments.insert(turns.arguments.end(), {"--only", only});
+    return turns;
+}
+
+// The temporary results are gone when someone reads the command.
+void name_the_source(compare::Comparison& comparison, const AbArguments& arguments) {
+    for (compare::Line& line : comparison.lines) {
+        if (line.rerun.source.empty()) continue;
+        line.rerun.program = arguments.binary_b;
+        if (line.rerun.kernel) continue;
+        line.rerun.source = arguments.scenario;
+        line.rerun.given = given(arguments);
+    }
+}
+
+}  // namespace
+
+int ab_command(const AbArguments& arguments, std::ostream& out, std::ostream& err) {
+    const compare::Options options = verdict_options(arguments);
+    Turns turns = turns_of(arguments);
+    const TemporaryFolder temporary;
+    const std::filesystem::path folder =
+        arguments.out.empty() ? temporary.path() : std::filesystem::path(arguments.out);
+    run_turns(turns, folder, err);
+    compare::Comparison comparison = compare_turns(turns, folder, options);
+    name_the_source(comparison, arguments);
+    if (arguments.confirm && !compare::suspicious(comparison).empty()) {
+        turns.pairs *= 2;
+        confirm_with_turns(comparison, turns, options, err);
+        name_the_source(comparison, arguments);
+    }
+    return report_verdict(comparison, arguments, out);
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,88 @@
+#include "service/cli/child.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+extern char** environ;
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Error;
+using base::ErrorCode;
+
+class FileActions {
+public:
+    explicit FileActions(const fs::path& log) {
+        posix_spawn_file_actions_init(&actions_);
+        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+    }
+    ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
+    FileActions(const FileActions&) = delete;
+    FileActions& operator=(const FileActions&) = delete;
+    const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+private:
+    posix_spawn_file_actions_t actions_;
+};
+
+int wait_for(pid_t child) {
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0)
+        if (errno != EINTR) return -1;
+    return status;
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+    std::error_code failed;
+    std::string name = (fs::temp_directory_path(failed) / "shadowbench-XXXXXX").string();
+    if (failed || !mkdtemp(name.data()))
+        throw Error(ErrorCode::io, name, fmt::format("cannot make a temporary folder: {}", std::strerror(errno)));
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+void check_program(const std::string& program) {
+    std::error_code failed;
+    if (!fs::exists(program, failed)) throw Error(ErrorCode::no_such_file, program, "there is no such program");
+    if (fs::is_directory(program, failed) || access(program.c_str(), X_OK) != 0)
+        throw Error(ErrorCode::usage, program, "this is no program that can be run");
+}
+
+int run_child(const std::string& program, const std::vector<std::string>& arguments, const fs::path& log) {
+    std::vector<std::string> words{program};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const FileActions actions(log);
+    pid_t child = 0;
+    if (const int failed = posix_spawn(&child, program.c_str(), actions.get(), nullptr, argv.data(), environ))
+        throw Error(ErrorCode::io, program, fmt::format("cannot be started: {}", std::strerror(failed)));
+    const int status = wait_for(child);
+    if (status >= 0 && WIFSIGNALED(status))
+        throw Error(ErrorCode::internal, program,
+                    fmt::format("was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))));
+    return status >= 0 ? WEXITSTATUS(status) : static_cast<int>(ErrorCode::internal);
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,135 @@
+#include "service/cli/interleave.h"
+
+#include <map>
+#include <memory>
+#include <sstream>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/read_text.h"
+#include "bench/write_result.h"
+#include "service/cli/child.h"
+#include "service/cli/progress_bar.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Error;
+using base::ErrorCode;
+
+// What a child said last; it is the error where it failed.
+std::string last_line(const fs::path& log) {
+    std::istringstream text(base::read_text(log));
+    std::string last;
+    for (std::string line; std::getline(text, line);)
+        if (!line.empty()) last = line;
+    const std::string own = "shadowbench: ";
+    return last.rfind(own, 0) == 0 ? last.substr(own.size()) : last;
+}
+
+ErrorCode code_of_child(int code) {
+    for (const ErrorCode known : {ErrorCode::usage, ErrorCode::bad_input, ErrorCode::no_such_file, ErrorCode::io})
+        if (code == static_cast<int>(known)) return known;
+    return ErrorCode::internal;
+}
+
+void run_once(const Turns& turns, bool is_b, int pair, const fs::path& folder) {
+    const std::string& program = is_b ? turns.binary_b : turns.binary_a;
+    const fs::path place = folder / (is_b ? "b" : "a") / fmt::format("{:04}", pair + 1);
+    const fs::path log = folder / "log.txt";
+    std::vector<std::string> arguments = turns.arguments;
+    const fs::path result = turns.kernels ? fs::path(place.string() + ".json") : place / "result.json";
+    if (turns.kernels) {
+        arguments.push_back("--benchmark_out=" + result.string());
+        arguments.push_back("--benchmark_out_format=json");
+    } else {
+        arguments.insert(arguments.end(), {"--out", place.string()});
+    }
+    const int code = run_child(program, arguments, log);
+    constexpr int promise_broken = 2;  // a result all the same
+    const bool written = fs::exists(result);
+    if (code != 0 && !(code == promise_broken && written))
+        throw Error(code_of_child(code), fmt::format("{} ({}), exit code {}", program, is_b ? "B" : "A", code),
+                    last_line(log));
+    if (!written) throw Error(ErrorCode::internal, program, "ended well, but wrote no result");
+}
+
+// Older builds take no result.json in a scenario's place.
+std::string scenario_of(const std::string& source, const fs::path& folder) {
+    std::error_code failed;
+    if (!fs::is_regular_file(source, failed)) return source;
+    const nlohmann::json document = compare::read_json(source);
+    if (!document.is_object() || !document.contains("scenario_hash") || !document.contains("scenario")) return source;
+    const fs::path file = folder / "scenario.json";
+    bench::write_files({{file, document.at("scenario").dump()}});
+    return file.string();
+}
+
+}  // namespace
+
+void run_turns(const Turns& turns, const fs::path& folder, std::ostream& err) {
+    check_program(turns.binary_a);
+    check_program(turns.binary_b);
+    for (const char* side : {"a", "b"})
+        if (fs::exists(folder / side))
+            throw Error(ErrorCode::usage, (folder / side).string(), "is there already; results would be mixed");
+    std::error_code failed;
+    for (const char* side : {"a", "b"}) {
+        fs::create_directories(folder / side, failed);
+        if (failed) throw Error(ErrorCode::io, folder.string(), "cannot make the folder: " + failed.message());
+    }
+    std::unique_ptr<ProgressBar> bar;
+    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
+    const auto total = static_cast<std::size_t>(turns.pairs) * 2;
+    for (int pair = 0; pair < turns.pairs; ++pair)
+        for (const bool second : {false, true}) {
+            const bool is_b = second == (pair % 2 == 0);  // neither always goes first
+            if (bar)
+                bar->show({fmt::format("{} pair {}/{}", turns.what, pair + 1, turns.pairs), is_b ? "B" : "A",
+                           static_cast<std::size_t>(pair) * 2 + second, total});
+            run_once(turns, is_b, pair, folder);
+        }
+    fs::remove(folder / "log.txt", failed);
+    bench::write_files({{folder / compare::interleaved_mark, fmt::format("{{\"pairs\": {}}}\n", turns.pairs)}});
+}
+
+compare::Comparison compare_turns(const Turns& turns, const fs::path& folder, const compare::Options& options) {
+    compare::Comparison comparison =
+        compare::compare(compare::read(folder / "a"), compare::read(folder / "b"), options);
+    comparison.baseline = turns.binary_a;
+    comparison.current = turns.binary_b;
+    return comparison;
+}
+
+void confirm_with_turns(compare::Comparison& first, Turns turns, const compare::Options& options, std::ostream& err) {
+    // Cells that one process can run together.
+    std::map<std::tuple<std::string, std::string, std::string>, std::map<std::string, compare::Rerun>> groups;
+    for (const compare::Line& line : compare::suspicious(first)) {
+        if (line.rerun.kernel != turns.kernels) continue;
+        const std::string source = line.rerun.kernel ? "" : line.rerun.source;
+        const std::string only = line.rerun.technique.empty() ? line.rerun.only : "";
+        groups[{source, line.rerun.sweeps, only}][line.cell] = line.rerun;
+    }
+    compare::Comparison again;
+    again.interleaved = true;
+    compare::Measured a, b;
+    int count = 0;
+    for (const auto& [key, cells] : groups) {
+        const TemporaryFolder folder;
+        std::vector<compare::Rerun> reruns;
+        for (const auto& [name, rerun] : cells) reruns.push_back(rerun);
+        if (!turns.kernels) reruns[0].source = scenario_of(reruns[0].source, folder.path());
+        turns.arguments = compare::arguments_of(reruns);
+        turns.what = fmt::format("confirming {}/{}", ++count, groups.size());
+        run_turns(turns, folder.path(), err);
+        for (compare::Line& line : compare_turns(turns, folder.path(), options).lines)
+            again.lines.push_back(std::move(line));
+    }
+    compare::confirm(first, again);
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,80 @@
+#include "service/cli/verdict_report.h"
+
+#include <charconv>
+#include <ostream>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench/write_result.h"
+#include "compare/report.h"
+
+namespace shadowbench::service {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+
+void check_names(const compare::Comparison& comparison) {
+    std::set<std::string> known;
+    for (const compare::Line& line : comparison.lines)
+        if (!line.time && !line.measure.empty() && line.measure != "promises") known.insert(line.measure);
+    if (known.empty()) return;
+    std::string names;
+    for (const std::string& name : known) names += ", " + name;
+    for (const auto& [name, value] : comparison.options.tolerance)
+        if (known.count(name) == 0)
+            throw Error(ErrorCode::usage, "--tolerance " + name,
+                        "nothing that is compared has such a measure; there are: " + names.substr(2));
+}
+
+}  // namespace
+
+compare::Options verdict_options(const VerdictArguments& arguments) {
+    compare::Options options;
+    options.effect = arguments.effect / 100.0;
+    options.allow_missing = arguments.allow_missing;
+    for (const std::string& text : arguments.tolerance) {
+        const std::size_t equals = text.find('=');
+        double value = -1.0;
+        if (equals != std::string::npos && equals > 0) {
+            const char *const first = text.data() + equals + 1, *const end = text.data() + text.size();
+            const auto [stop, failed] = std::from_chars(first, end, value);
+            if (failed != std::errc() || stop != end) value = -1.0;
+        }
+        if (!(value >= 0.0 && value <= 1e9))
+            throw Error(ErrorCode::usage, "--tolerance " + text,
+                        "expected measure=relative tolerance, as in lookup_error.rms=0.01");
+        options.tolerance[text.substr(0, equals)] = value;
+    }
+    return options;
+}
+
+int report_verdict(const compare::Comparison& comparison, const VerdictArguments& arguments, std::ostream& out) {
+    check_names(comparison);
+    const std::string json = compare::to_json(comparison).dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const std::vector<std::pair<std::string, std::string>> forms = {
+        {arguments.markdown, compare::to_markdown(comparison)},
+        {arguments.junit, compare::to_junit(comparison)},
+        {arguments.json, json + "\n"}};
+    std::vector<bench::NewFile> files;
+    bool printed = false;
+    for (const auto& [file, content] : forms) {
+        if (file == "-") {
+            out << content;
+            printed = true;
+        } else if (!file.empty()) {
+            files.push_back({file, content});
+        }
+    }
+    if (!printed) out << compare::to_text(comparison, arguments.all);
+    bench::write_files(files);
+    if (!printed)
+        for (const bench::NewFile& file : files) out << fmt::format("written: {}\n", file.path.string());
+    return compare::exit_code(comparison);
+}
+
+}  // namespace shadowbench::service
