@@ -107,8 +107,8 @@ bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::os
     json job = take(client.post_json("/v1/jobs", body, {}), 202, server);
     const std::string self = job.at("links").at("self");
     if (!arguments.wait) {
-        out << fmt::format("{} {}: {}{}\n", job.at("id").get<std::string>(), job.at("state").get<std::string>(),
-                           server, self);
+        out << fmt::format("{} {}: {}{}\n", job.at("id").get<std::string>(), job.at("state").get<std::string>(), server,
+                           self);
         return true;
     }
     job = wait_for(client, std::move(job), server, err);
