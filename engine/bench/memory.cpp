@@ -50,12 +50,12 @@ double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& referen
     return kept + all_tiles_bytes(layout) + std::max(building, judging);
 }
 
-void check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
-                  const MemoryLimits& limits, const std::string& where) {
+double check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
+                    const MemoryLimits& limits, const std::string& where) {
     const rays::MapLayout layout = rays::make_layout(scenario.scene, view, scenario.rays);
     const rays::MapLayout reference = rays::make_layout(scenario.scene, view, reference_settings(scenario));
     const double need = least_bytes(layout, reference, contenders, limits);
-    if (need <= static_cast<double>(limits.all)) return;
+    if (need <= static_cast<double>(limits.all)) return need;
     throw base::Error(base::ErrorCode::bad_input, where,
                       fmt::format("{} x {} pixels of {} samples, and {} for the reference, need at least {:.3g} GiB; "
                                   "the memory limit is {:.3g} GiB",

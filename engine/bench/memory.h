@@ -22,8 +22,8 @@ struct MemoryLimits {
 double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& reference,
                    std::span<const Contender> contenders, const MemoryLimits& limits);
 
-// Throws Error{bad_input} at `where` when that is more than the limit.
-void check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
-                  const MemoryLimits& limits, const std::string& where);
+// The bytes that a scenario needs at least. Throws Error{bad_input} at `where` when that is more than the limit.
+double check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
+                    const MemoryLimits& limits, const std::string& where);
 
 }  // namespace shadowbench::bench

@@ -26,6 +26,15 @@ Variant only_variant(const nlohmann::json& document) {
                             variants[0].settings[0].pointer));
 }
 
+RaySource::Watch stage(const ProgressCallback& progress, const char* name, const rays::MapLayout& layout) {
+    if (!progress) return {};
+    return [&progress, name, total = static_cast<std::size_t>(layout.tiles())](std::size_t done) {
+        progress({"", name, done, total});
+    };
+}
+
+}  // namespace
+
 std::size_t find_light(const scene::Scenario& scenario, const std::string& name) {
     if (name.empty()) return 0;
     std::string names;
@@ -38,15 +47,6 @@ std::size_t find_light(const scene::Scenario& scenario, const std::string& name)
     if (fault == std::errc() && rest == name.data() + name.size() && index < scenario.lights.size()) return index;
     throw Error(ErrorCode::usage, "--light " + name, "there is no such light; there are: " + names);
 }
-
-RaySource::Watch stage(const ProgressCallback& progress, const char* name, const rays::MapLayout& layout) {
-    if (!progress) return {};
-    return [&progress, name, total = static_cast<std::size_t>(layout.tiles())](std::size_t done) {
-        progress({"", name, done, total});
-    };
-}
-
-}  // namespace
 
 OneLight::OneLight(const nlohmann::json& document, const RunOptions& options, const std::string& light)
     : options_(options), loader_(options.data) {

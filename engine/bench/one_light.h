@@ -1,6 +1,7 @@
 // One light of one scenario, for those who keep what a run throws away: its light rays, or the map of one technique.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <span>
@@ -17,6 +18,9 @@
 #include "rays/tracer.h"
 
 namespace shadowbench::bench {
+
+// The number of a light by its name, or by its number from 0 on; empty: the first. Throws Error{usage}.
+std::size_t find_light(const scene::Scenario& scenario, const std::string& name);
 
 class OneLight {
 public:

@@ -16,6 +16,11 @@ inline constexpr int result_schema_version = 1;
 // one scenario on one machine are equal. Numbers that do not exist (or are not finite) are null.
 nlohmann::ordered_json to_json(const Result& result);
 
+// The way back: what to_json() wrote, as a result that can be shown or judged again. The layout's tiles, which it does
+// not hold, stay as a MapLayout has them; promises come from the registry, of a technique that is not there the
+// defaults. Throws Error{bad_input}, place: JSON pointer of what is missing or of another type.
+Result from_json(const nlohmann::ordered_json& json);
+
 // Removes every "times" object, at any depth.
 void strip_times(nlohmann::ordered_json& result);
 

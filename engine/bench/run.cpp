@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "bench/clock.h"
 #include "bench/document.h"
+#include "bench/estimate.h"
 #include "bench/light_run.h"
 #include "bench/load.h"
 #include "bench/machine.h"
@@ -57,6 +58,15 @@ Shared prepare(const scene::Scenario& scenario) {
     shared.casters = std::make_unique<rays::Tracer>(scenario.scene, true);
     if (scenario.receivers.camera) shared.seen = camera_points(scenario.receivers, rays::Tracer(scenario.scene, false));
     return shared;
+}
+
+void add_cost(const scene::Scenario& scenario, const rays::LightView& view, std::size_t techniques, double bytes,
+              Validated& validated) {
+    const rays::MapLayout layout = rays::make_layout(scenario.scene, view, scenario.rays);
+    validated.largest_side = std::max({validated.largest_side, layout.width, layout.height});
+    validated.most_samples = std::max({validated.most_samples, layout.samples(), scenario.reference.samples_per_pixel});
+    validated.least_bytes = std::max(validated.least_bytes, bytes);
+    validated.seconds += estimate_seconds(scenario, layout, techniques);
 }
 
 }  // namespace
@@ -113,7 +123,8 @@ Validated validate(const nlohmann::json& document, const RunOptions& options) {
             const std::string& name = scenario.lights[l].name;
             const bool known = std::count(validated.blind.begin(), validated.blind.end(), name) > 0;
             if (!known && rays::misses_all(view, scenario.scene)) validated.blind.push_back(name);
-            check_memory(scenario, view, contenders, options.limits, "/rays");
+            add_cost(scenario, view, contenders.size(),
+                     check_memory(scenario, view, contenders, options.limits, "/rays"), validated);
             if (scenario.scene.deep_image)
                 check_served(contenders, {rays::make_layout(scenario.scene, view, scenario.rays), view, nullptr});
         }

@@ -1,4 +1,4 @@
-# Sources made at build time: the schema as a string, and what this build is.
+# Sources made at build time: the schema and the description of the API as strings, and what this build is.
 file(READ "${CMAKE_CURRENT_SOURCE_DIR}/engine/scene/scenario.schema.json" SCHEMA_TEXT)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS engine/scene/scenario.schema.json)
 configure_file(engine/scene/scenario_schema.cpp.in generated/scenario_schema.cpp @ONLY)
@@ -14,3 +14,8 @@ add_custom_target(shadowbench_build_info
   VERBATIM)
 add_dependencies(shadowbench_bench shadowbench_build_info)
 target_sources(shadowbench_bench PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp")
+
+file(READ "${CMAKE_CURRENT_SOURCE_DIR}/service/api/openapi.json" OPENAPI_TEXT)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS service/api/openapi.json)
+configure_file(service/api/openapi_text.cpp.in generated/openapi_text.cpp @ONLY)
+target_sources(shadowbench_api PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/generated/openapi_text.cpp")

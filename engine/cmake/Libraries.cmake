@@ -4,6 +4,7 @@ find_package(TBB REQUIRED)
 find_package(Imath REQUIRED CONFIG)
 find_package(fmt REQUIRED CONFIG)
 find_package(ZLIB REQUIRED)
+find_package(SQLite3 REQUIRED)
 find_package(nlohmann_json REQUIRED CONFIG)
 find_package(CLI11 REQUIRED CONFIG)
 find_package(tinyobjloader REQUIRED CONFIG)
@@ -23,9 +24,14 @@ find_package(embree 3 REQUIRED CONFIG)
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
 find_package(OpenVDB REQUIRED)
 
+# No CMake files of their own. Without the flags of its pkg-config the classes of httplib differ from its library's.
+pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib)
+pkg_check_modules(prometheus REQUIRED IMPORTED_TARGET prometheus-cpp-core)
+
 # Other people's headers do not have to pass our warnings.
 foreach(target IN ITEMS TBB::tbb Imath::Imath fmt::fmt nlohmann_json::nlohmann_json CLI11::CLI11
-                        tinyobjloader::tinyobjloader valijson OpenImageIO::OpenImageIO embree OpenVDB::openvdb)
+                        tinyobjloader::tinyobjloader valijson OpenImageIO::OpenImageIO embree OpenVDB::openvdb
+                        SQLite::SQLite3 PkgConfig::httplib PkgConfig::prometheus)
   get_target_property(includes ${target} INTERFACE_INCLUDE_DIRECTORIES)
   if(includes)
     set_property(TARGET ${target} APPEND PROPERTY INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${includes})

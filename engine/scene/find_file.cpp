@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -6,22 +9,64 @@
 namespace shadowbench::scene {
 
 namespace fs = std::filesystem;
+using base::Error;
+using base::ErrorCode;
+
+namespace {
+
+void refuse_way_out(const std::string& name, const std::string& where) {
+    const fs::path path(name);
+    const bool goes_up = std::find(path.begin(), path.end(), "..") != path.end();
+    if (path.is_absolute() || goes_up || name.find('\0') != std::string::npos)
+        throw Error(ErrorCode::bad_input, where,
+                    fmt::format("\"{}\" must be a name inside the data folders: not absolute, and without ..", name));
+}
+
+// Where the file really is, links followed.
+bool lies_in(const fs::path& file, const fs::path& folder) {
+    std::error_code file_fault, folder_fault;
+    const fs::path real = fs::canonical(file, file_fault), top = fs::canonical(folder, folder_fault);
+    return !file_fault && !folder_fault &&
+           std::mismatch(top.begin(), top.end(), real.begin(), real.end()).first == top.end();
+}
+
+fs::path find_confined(const SearchPath& path, const std::string& name, const std::string& where) {
+    refuse_way_out(name, where);
+    std::error_code ignored;
+    for (const fs::path& folder : path.folders) {
+        const fs::path file = folder / name;
+        if (!fs::is_regular_file(file, ignored)) continue;
+        if (lies_in(file, folder)) return file;
+        throw Error(ErrorCode::bad_input, where, fmt::format("\"{}\" leads out of the data folders", name));
+    }
+    throw Error(ErrorCode::no_such_file, where, fmt::format("there is no file \"{}\" in the data folders", name));
+}
+
+}  // namespace
+
+SearchPath SearchPath::confined_to(std::vector<fs::path> folders) {
+    SearchPath path;
+    path.folders = std::move(folders);
+    path.confined = true;
+    return path;
+}
 
 fs::path find_file(const SearchPath& path, const std::string& name, const std::string& where) {
+    if (path.confined) return find_confined(path, name, where);
     std::error_code ignored;
     const fs::path relative(name);
     if (relative.is_absolute()) {
         if (fs::is_regular_file(relative, ignored)) return relative;
-        throw base::Error(base::ErrorCode::no_such_file, where, fmt::format("there is no file \"{}\"", name));
+        throw Error(ErrorCode::no_such_file, where, fmt::format("there is no file \"{}\"", name));
     }
     std::string looked_in;
-    for (const fs::path& folder : path) {
+    for (const fs::path& folder : path.folders) {
         if (fs::is_regular_file(folder / relative, ignored)) return folder / relative;
         looked_in += (looked_in.empty() ? "" : ", ") + folder.string();
     }
-    throw base::Error(base::ErrorCode::no_such_file, where,
-                      fmt::format("there is no file \"{}\"; looked in: {}", name,
-                                  looked_in.empty() ? "no folder (the search path is empty)" : looked_in));
+    throw Error(ErrorCode::no_such_file, where,
+                fmt::format("there is no file \"{}\"; looked in: {}", name,
+                            looked_in.empty() ? "no folder (the search path is empty)" : looked_in));
 }
 
 }  // namespace shadowbench::scene

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,19 @@
 namespace shadowbench::scene {
 
 // The folders that relative file names of a scenario are looked for in, in order.
-using SearchPath = std::vector<std::filesystem::path>;
+struct SearchPath {
+    std::vector<std::filesystem::path> folders;
+    // For scenarios from strangers: they name files of these folders alone. Absolute names, names with "..", and links
+    // that lead out of their folder are refused, and no message tells where the folders are.
+    bool confined = false;
 
-// Finds `name` in the path. Throws Error{no_such_file} that lists the folders looked in.
+    SearchPath() = default;
+    SearchPath(std::initializer_list<std::filesystem::path> list) : folders(list) {}
+    static SearchPath confined_to(std::vector<std::filesystem::path> folders);
+};
+
+// Finds `name` in the path. Throws Error{no_such_file} that lists the folders looked in; of a confined path
+// Error{bad_input} for a name that is refused.
 std::filesystem::path find_file(const SearchPath& path, const std::string& name, const std::string& where);
 
 // Reads JSON text. Throws Error{bad_input} whose place is origin:line:column.

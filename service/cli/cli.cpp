@@ -30,6 +30,8 @@ constexpr const char* examples = R"(Examples:
   shadowbench compare results/baseline results/runs --markdown verdict.md
   shadowbench ab old/shadowbench build/release/shadowbench hairball --only deep
   shadowbench history results/nightly
+  shadowbench serve --data ~/volumes --port 8080
+  shadowbench submit quickstart --server http://127.0.0.1:8080 --wait
   shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
 SCENARIO is a file, or the name of one in ./scenarios or in the folders of $SHADOWBENCH_SCENARIOS; for run also a folder.
 Exit codes: 0 ok; 2 a technique broke what it promises; 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
@@ -45,8 +47,8 @@ int report(std::ostream& err, ErrorCode code, std::string message) {
 std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
     if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
         std::string names;
-        for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-            names += ", " + command->get_name();
+        const auto shown = [](const CLI::App* command) { return !command->get_group().empty(); };
+        for (const CLI::App* command : app.get_subcommands(shown)) names += ", " + command->get_name();
         return fmt::format("unknown command \"{}\"; there are: {} (see shadowbench --help)", argv[1], names.substr(2));
     }
     return std::string(error.what()) + " (see shadowbench --help)";
@@ -63,6 +65,8 @@ int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ost
     add_measuring_commands(app, commands);
     add_gate_commands(app, commands);
     add_kernel_commands(app, commands);
+    add_job_commands(app, commands);
+    add_server_commands(app, commands);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -20,6 +20,8 @@ using Commands = std::vector<Command>;
 
 // Each adds its subcommands to the application, and what each runs once the arguments are parsed.
 void add_measuring_commands(CLI::App& app, Commands& commands);
+void add_job_commands(CLI::App& app, Commands& commands);
+void add_server_commands(CLI::App& app, Commands& commands);
 void add_gate_commands(CLI::App& app, Commands& commands);  // compare, ab, history
 void add_kernel_commands(CLI::App& app, Commands& commands);
 

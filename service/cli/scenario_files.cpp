@@ -91,11 +91,11 @@ scene::SearchPath data_path(const std::vector<std::string>& given, const fs::pat
     for (const std::string& folder : given) {
         if (!fs::is_directory(folder, ignored))
             throw Error(ErrorCode::no_such_file, "--data " + folder, "there is no such folder");
-        path.emplace_back(folder);
+        path.folders.emplace_back(folder);
     }
-    for (const fs::path& folder : folders_of("SHADOWBENCH_DATA")) path.push_back(folder);
+    for (const fs::path& folder : folders_of("SHADOWBENCH_DATA")) path.folders.push_back(folder);
     const fs::path own = scenario.has_parent_path() ? scenario.parent_path() : fs::path(".");
-    path.insert(path.end(), {own, own / "data", "scenarios/data", "../shared/data"});
+    path.folders.insert(path.folders.end(), {own, own / "data", "scenarios/data", "../shared/data"});
     return path;
 }
 

@@ -31,8 +31,8 @@ LightResult measure(const std::string& name, const std::vector<std::string>& ass
         set_value(document, assignment);
     for (const std::string& assignment : assignments) set_value(document, assignment);
     RunOptions options;
-    if (const char* data = std::getenv("SHADOWBENCH_DATA")) options.data.emplace_back(data);
-    options.data.push_back(top / ".." / "shared" / "data");
+    if (const char* data = std::getenv("SHADOWBENCH_DATA")) options.data.folders.emplace_back(data);
+    options.data.folders.push_back(top / ".." / "shared" / "data");
     return run(document, options, {}).variants.at(0).lights.at(0);
 }
 

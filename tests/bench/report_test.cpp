@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/errors.h"
 #include "bench/table.h"
 
 namespace shadowbench::bench {
@@ -83,6 +84,28 @@ TEST(ResultJson, holds_the_clock_under_times_only) {
     strip_times(b);
     EXPECT_EQ(a, b);
     EXPECT_EQ(a.dump().find("\"times\""), std::string::npos);
+}
+
+TEST(ResultJson, comes_back_as_the_same_result) {
+    const nlohmann::ordered_json written = to_json(small_result());
+    const Result read = from_json(nlohmann::ordered_json::parse(written.dump()));
+    EXPECT_EQ(to_json(read), written);
+    EXPECT_EQ(to_table(read), to_table(small_result()));
+    EXPECT_EQ(to_csv(read), to_csv(small_result()));
+}
+
+TEST(ResultJson, that_is_none_is_refused_at_its_place) {
+    const auto refused = [](const char* pointer, const nlohmann::ordered_json& value, const std::string& where) {
+        nlohmann::ordered_json json = to_json(small_result());
+        json[nlohmann::ordered_json::json_pointer(pointer)] = value;
+        error_of([&] { from_json(json); }, base::ErrorCode::bad_input, where);
+    };
+    const std::string light = "/variants/0/lights/0";
+    refused("/variants/0/lights/0/cells/1/bytes", "many", light + "/cells/1/bytes");
+    refused("/variants/0/lights/0/map", 3, light + "/map/width");
+    refused("/variants", "none", "/variants");
+    refused("/schema_version", 2, "/schema_version");
+    error_of([] { from_json(nlohmann::ordered_json::array()); }, base::ErrorCode::bad_input, "/schema_version");
 }
 
 TEST(ResultCsv, has_a_row_a_cell_and_quotes_what_needs_it) {

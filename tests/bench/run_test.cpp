@@ -222,5 +222,32 @@ TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
     EXPECT_EQ(second.lights[0].target, target) << "which depends on the scene's bounds";
 }
 
+TEST(Run, writes_results_that_read_back_as_they_were) {
+    json document = quickstart();
+    document["sweeps"] = {{"/rays/samples_per_pixel", {4, 9}}};
+    const Result result = run(document, {}, {});
+    const Result read = from_json(nlohmann::ordered_json::parse(to_json(result).dump()));
+    EXPECT_EQ(to_json(read), to_json(result));
+    EXPECT_EQ(to_table(read), to_table(result));
+}
+
+TEST(Validate, tells_what_a_run_will_cost) {
+    json document = two_layers();
+    const Validated small = validate(document, {});
+    EXPECT_EQ(small.largest_side, 16);
+    EXPECT_EQ(small.most_samples, 64) << "the truth's";
+    EXPECT_GT(small.least_bytes, 0.0);
+    EXPECT_GT(small.seconds, 0.0);
+    document["rays"] = {{"resolution", {512, 256}}, {"samples_per_pixel", 100}};
+    const Validated large = validate(document, {});
+    EXPECT_EQ(large.largest_side, 512);
+    EXPECT_EQ(large.most_samples, 100);
+    EXPECT_GT(large.least_bytes, 10 * small.least_bytes);
+    EXPECT_GT(large.seconds, 10 * small.seconds);
+    document["sweeps"] = {{"/rays/seed", {1, 2, 3}}};
+    EXPECT_NEAR(validate(document, {}).seconds, 3 * large.seconds, 1e-9 * large.seconds);
+    EXPECT_EQ(validate(document, {}).least_bytes, large.least_bytes) << "one variant at a time";
+}
+
 }  // namespace
 }  // namespace shadowbench::bench

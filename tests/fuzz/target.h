@@ -22,6 +22,8 @@ void hair(std::string_view bytes);
 void obj(std::string_view bytes);
 void ply(std::string_view bytes);
 void raw_volume(std::string_view bytes);
+void request_head(std::string_view bytes);
+void result(std::string_view bytes);
 void scenario(std::string_view bytes);
 void technique(std::string_view bytes);
 void tressfx(std::string_view bytes);

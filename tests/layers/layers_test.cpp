@@ -55,14 +55,15 @@ bool starts_with(const std::string& text, const std::string& start) {
     return text.rfind(start, 0) == 0;
 }
 
-// "engine/techniques/deep/deep.cpp" -> "techniques/deep"; "engine/rays/capture.cpp" -> "rays"; "service/..." ->
-// "service". Files directly in engine/techniques are the contract ("techniques"), but for the registry.
+// "engine/techniques/deep/deep.cpp" -> "techniques/deep"; "engine/rays/capture.cpp" -> "rays"; "service/cli/cli.cpp" ->
+// "service/cli", as includes name it. Files directly in engine/techniques are the contract ("techniques"), but for the
+// registry.
 std::string layer_of_file(const std::string& file) {
     if (file == "engine/techniques/registry.cpp") return "registry";
     fs::path path = file;
     std::vector<std::string> parts;
     for (const auto& part : path.parent_path()) parts.push_back(part.string());
-    if (parts[0] == "service") return "service";
+    if (parts[0] == "service") return parts.size() > 1 ? "service/" + parts[1] : "service";
     return parts[1] == "techniques" && parts.size() > 2 ? "techniques/" + parts[2] : parts[1];
 }
 
@@ -87,16 +88,22 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
         {"render", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench", "render"}},
         {"claims", {"base", "scene", "rays", "curves", "techniques", "bench", "render", "claims"}},
+        {"service/store", {"base", "service/store"}},
+        {"service/jobs", {"base", "bench", "service/store", "service/jobs"}},
+        {"service/web", {"service/web"}},
+        {"service/api",
+         {"base", "scene", "techniques", "bench", "compare", "service/jobs", "service/web", "service/api"}},
+        {"service/http", {"base", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files.
-        {"service",
+        {"service/cli",
          {"base", "scene", "curves", "techniques", "techniques/deep", "compare", "bench", "render", "claims",
-          "service"}},
+          "service/jobs", "service/api", "service/http", "service/cli"}},
+        {"service", {"service/cli"}},
     };
     for (const Include& include : includes()) {
         if (include.system) continue;
         const std::string from = layer_of_file(include.file);
-        std::string to = layer_of_include(include.path);
-        if (starts_with(to, "service")) to = "service";
+        const std::string to = layer_of_include(include.path);
         if (from == "registry") {
             EXPECT_TRUE(to == "base" || starts_with(to, "techniques")) << include.file << " includes " << include.path;
         } else if (starts_with(from, "techniques/")) {
@@ -117,13 +124,28 @@ TEST(Layers, OnlyTheHttpFrontKnowsSockets) {
         }
 }
 
+TEST(Layers, TheApiHasNoSockets) {
+    for (const Include& include : includes()) {
+        if (!include.system || !starts_with(include.file, "service/api")) continue;
+        for (const char* header : {"sys/socket.h", "netinet/", "arpa/", "netdb.h"})
+            EXPECT_FALSE(starts_with(include.path, header)) << include.file << " includes " << include.path;
+    }
+}
+
+TEST(Layers, OnlyTheStoreKnowsTheDatabase) {
+    for (const Include& include : includes())
+        if (include.path.find("sqlite") != std::string::npos || include.path == "service/store/database.h") {
+            EXPECT_TRUE(starts_with(include.file, "service/store")) << include.file;
+        }
+}
+
 TEST(Layers, HeavyLibrariesStayOutOfHeaders) {
     for (const Include& include : includes()) {
         if (!include.file.ends_with(".h") || !include.system) continue;
         if (include.file == "engine/scene/read_image.h")
             continue;  // what the two readers of images share, and nobody else
-        for (const char* heavy :
-             {"nlohmann/json.hpp", "valijson", "CLI/", "openvdb", "OpenImageIO", "embree", "fmt/", "tbb/"})
+        for (const char* heavy : {"nlohmann/json.hpp", "valijson", "CLI/", "openvdb", "OpenImageIO", "embree", "fmt/",
+                                  "tbb/", "sqlite3", "httplib", "prometheus/"})
             EXPECT_EQ(include.path.find(heavy), std::string::npos) << include.file << " includes " << include.path;
     }
 }

@@ -1,0 +1,51 @@
+// Two results, of jobs or given, held against each other.
+#include <optional>
+#include <variant>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/scenario.h"
+#include "service/api/compare.h"
+#include "service/api/file_answer.h"
+#include "service/api/problem.h"
+#include "service/api/routes.h"
+
+namespace shadowbench::service {
+namespace {
+
+using nlohmann::json;
+
+// {"job": ID} or {"result": {...}}.
+std::variant<json, ApiResponse> read_side(const Context& context, const json& body, const std::string& name) {
+    const std::string pointer = "/" + name;
+    const auto wrong = [&](const std::string& detail) { return problem(422, detail, {{pointer, detail}}); };
+    const auto side = body.find(name);
+    if (side == body.end() || !side->is_object() || side->size() != 1)
+        return wrong("must be {\"job\": ID} or {\"result\": {}}");
+    if (const auto result = side->find("result"); result != side->end()) return *result;
+    const auto id = side->find("job");
+    if (id == side->end() || !id->is_string()) return wrong("must be {\"job\": ID} or {\"result\": {}}");
+    const auto file = context.jobs.artifact(id->get<std::string>(), "result.json");
+    if (!file) return wrong("there is no such job, or it has no result");
+    const ApiResponse answer = file_answer({}, *file);
+    if (!answer.file) return wrong("there is no such job, or it has no result");
+    return json::parse(read_all(*answer.file));
+}
+
+}  // namespace
+
+ApiResponse compare(Context& context, const Call& call) {
+    try {
+        scene::parse_json(call.request.body, "body");
+    } catch (const base::Error& error) {
+        return problem(400, error.what());
+    }
+    const json body = json::parse(call.request.body);
+    if (!body.is_object()) return problem(422, "The body must be an object.", {{"", "must be an object"}});
+    auto baseline = read_side(context, body, "baseline"), current = read_side(context, body, "current");
+    for (auto* side : {&baseline, &current})
+        if (auto* no = std::get_if<ApiResponse>(side)) return std::move(*no);
+    return json_answer(200, compare_results(std::get<json>(baseline), std::get<json>(current)));
+}
+
+}  // namespace shadowbench::service

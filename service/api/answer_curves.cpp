@@ -1,0 +1,47 @@
+// The visibility functions of one pixel.
+#include <charconv>
+#include <optional>
+
+#include "service/api/problem.h"
+#include "service/api/routes.h"
+
+namespace shadowbench::service {
+namespace {
+
+template <class Number>
+std::optional<Number> number(const std::string* text) {
+    Number value{};
+    if (!text) return {};
+    const auto [rest, fault] = std::from_chars(text->data(), text->data() + text->size(), value);
+    if (fault != std::errc() || rest != text->data() + text->size()) return {};
+    return value;
+}
+
+}  // namespace
+
+ApiResponse job_curves(Context& context, const Call& call) {
+    CurveQuestion question;
+    question.job = call.parameter("id");
+    if (!context.jobs.find(question.job)) return problem(404, "There is no such job.");
+    const auto x = number<int>(call.request.parameter("x")), y = number<int>(call.request.parameter("y"));
+    if (!x || !y) return problem(400, "x and y: a pixel of the light's map, as in ?light=key&x=12&y=34.");
+    question.x = *x;
+    question.y = *y;
+    if (const std::string* light = call.request.parameter("light")) question.light = *light;
+    if (const std::string* variant = call.request.parameter("variant")) {
+        const auto index = number<std::size_t>(variant);
+        if (!index) return problem(400, "variant: a combination of the sweeps' values, counted from 0.");
+        question.variant = *index;
+    }
+    ApiResponse response;
+    response.type = "application/json";
+    response.headers = {{"Cache-Control", "private, max-age=60"}};
+    response.body = context.curves.curves(question, [&] {
+        std::optional<std::string> scenario = context.jobs.scenario(question.job);
+        if (!scenario) throw base::Error(base::ErrorCode::usage, "", "the job is gone");
+        return *scenario;
+    });
+    return response;
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,161 @@
+// Jobs: taken, listed, shown, cancelled, removed.
+#include <algorithm>
+#include <charconv>
+
+#include <nlohmann/json.hpp>
+
+#include "service/api/file_answer.h"
+#include "service/api/job_json.h"
+#include "service/api/problem.h"
+#include "service/api/routes.h"
+#include "service/api/submit.h"
+#include "service/web/report.h"
+
+namespace shadowbench::service {
+namespace {
+
+constexpr std::size_t longest_key = 255, longest_page = 200, page = 50;
+
+ApiResponse no_such_job() {
+    return problem(404, "There is no such job.");
+}
+
+ApiResponse try_later(int status, const std::string& detail, const char* seconds) {
+    ApiResponse response = problem(status, detail);
+    response.headers.push_back({"Retry-After", seconds});
+    return response;
+}
+
+bool is_key(const std::string& key) {
+    return !key.empty() && key.size() <= longest_key &&
+           std::all_of(key.begin(), key.end(), [](char c) { return c >= 0x20 && c <= 0x7e; });
+}
+
+ApiResponse submitted(const Context& context, const Submitted& outcome) {
+    switch (outcome.outcome) {
+        case Submitted::Outcome::conflict:
+            return problem(409, "This Idempotency-Key came with another request before.");
+        case Submitted::Outcome::queue_full:
+            return try_later(429, "As many jobs wait as this server takes.", "30");
+        case Submitted::Outcome::created:
+        case Submitted::Outcome::existing:
+            break;
+    }
+    ApiResponse response = json_answer(202, job_json(context.jobs, outcome.job));
+    response.headers.push_back({"Location", "/v1/jobs/" + outcome.job.id});
+    return response;
+}
+
+// A file of a job that has it; else why there is none.
+ApiResponse job_file(const Context& context, const Call& call, const std::string& name) {
+    const std::string& id = call.parameter("id");
+    const std::optional<JobInfo> job = context.jobs.find(id);
+    if (!job) return no_such_job();
+    if (const auto file = context.jobs.artifact(id, name)) return file_answer(call.request, *file);
+    if (job->state == JobState::succeeded) return problem(404, "There is no such file.");
+    return problem(409, std::string("The job is ") + to_string(job->state) + "; only one that succeeded has results.");
+}
+
+}  // namespace
+
+ApiResponse post_job(Context& context, const Call& call) {
+    if (context.jobs.stopping()) return try_later(503, "The server is stopping.", "10");
+    const std::string* key = call.request.header("idempotency-key");
+    if (key && !is_key(*key)) return problem(400, "An Idempotency-Key has 1 to 255 printable ASCII characters.");
+    auto posted = read_posted(call.request.body);
+    if (auto* no = std::get_if<ApiResponse>(&posted)) return std::move(*no);
+    auto& scenario = std::get<PostedScenario>(posted);
+    auto examined = examine_posted(context, scenario);
+    if (auto* no = std::get_if<ApiResponse>(&examined)) return std::move(*no);
+    const auto& facts = std::get<nlohmann::json>(examined);
+    JobRequest request;
+    request.scenario = std::move(scenario.text);
+    request.name = facts.at("name").get<std::string>();
+    request.hash = facts.at("hash").get<std::string>();
+    request.seed = facts.at("seed").get<std::uint64_t>();
+    request.pictures = scenario.pictures;
+    request.reuse = scenario.reuse;
+    if (key) request.idempotency_key = *key;
+    return submitted(context, context.jobs.submit(request));
+}
+
+ApiResponse list_jobs(Context& context, const Call& call) {
+    std::optional<JobState> state;
+    if (const std::string* text = call.request.parameter("state")) {
+        state = parse_job_state(*text);
+        if (!state) return problem(400, "state: queued, running, succeeded, failed or cancelled.");
+    }
+    std::size_t limit = page;
+    if (const std::string* text = call.request.parameter("limit")) {
+        const auto [rest, fault] = std::from_chars(text->data(), text->data() + text->size(), limit);
+        if (fault != std::errc() || rest != text->data() + text->size() || limit < 1 || limit > longest_page)
+            return problem(400, "limit: 1 to 200.");
+    }
+    const std::string* cursor = call.request.parameter("cursor");
+    const JobPage found = context.jobs.list(state, limit, cursor ? *cursor : "");
+    nlohmann::ordered_json jobs = nlohmann::ordered_json::array();
+    for (const JobInfo& job : found.jobs) jobs.push_back(job_json(context.jobs, job));
+    nlohmann::ordered_json answer = {{"jobs", std::move(jobs)}, {"next", nullptr}};
+    if (!found.next.empty()) answer["next"] = found.next;
+    return json_answer(200, answer);
+}
+
+ApiResponse get_job(Context& context, const Call& call) {
+    const std::optional<JobInfo> job = context.jobs.find(call.parameter("id"));
+    return job ? json_answer(200, job_json(context.jobs, *job)) : no_such_job();
+}
+
+ApiResponse cancel_job(Context& context, const Call& call) {
+    const std::string& id = call.parameter("id");
+    const Jobs::Change change = context.jobs.cancel(id);
+    const std::optional<JobInfo> job = context.jobs.find(id);
+    if (change == Jobs::Change::not_found || !job) return no_such_job();
+    if (change == Jobs::Change::refused) return problem(409, "The job has ended.");
+    return json_answer(202, job_json(context.jobs, *job));
+}
+
+ApiResponse delete_job(Context& context, const Call& call) {
+    const Jobs::Change change = context.jobs.remove(call.parameter("id"));
+    if (change == Jobs::Change::not_found) return no_such_job();
+    if (change == Jobs::Change::refused) return problem(409, "The job runs; cancel it first.");
+    ApiResponse response;
+    response.status = 204;
+    return response;
+}
+
+ApiResponse job_scenario(Context& context, const Call& call) {
+    const std::optional<std::string> text = context.jobs.scenario(call.parameter("id"));
+    return text ? text_answer(call.request, "application/json", *text) : no_such_job();
+}
+
+ApiResponse job_result(Context& context, const Call& call) {
+    return job_file(context, call, "result.json");
+}
+
+ApiResponse job_csv(Context& context, const Call& call) {
+    return job_file(context, call, "result.csv");
+}
+
+ApiResponse job_artifact(Context& context, const Call& call) {
+    return job_file(context, call, call.parameter("name"));
+}
+
+ApiResponse job_report(Context& context, const Call& call) {
+    ApiResponse file = job_result(context, call);
+    if (file.status != 200) return file;
+    const auto result = context.jobs.artifact(call.parameter("id"), "result.json");
+    if (!result) return no_such_job();
+    const nlohmann::json document = nlohmann::json::parse(read_all(*file.file));
+    ApiResponse response;
+    response.type = "text/html; charset=utf-8";
+    // A document of its own: its inline scripts run, and reach nothing of this server.
+    response.headers = {{"Cache-Control", "private, no-cache"},
+                        {"Content-Security-Policy",
+                         "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; "
+                         "style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'; "
+                         "frame-ancestors 'self'"}};
+    response.body = report_html(document, result->parent_path() / "images");
+    return response;
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,62 @@
+#include "service/api/curve_cache.h"
+
+#include <chrono>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace shadowbench::service {
+namespace {
+
+constexpr std::size_t lights = 2, kept = 1024;
+
+}  // namespace
+
+CurveCache::CurveCache(StartHelper start, std::vector<std::string> arguments, double seconds)
+    : start_(std::move(start)), arguments_(std::move(arguments)), seconds_(seconds), answers_(kept), workers_(lights) {}
+
+std::shared_ptr<CurveCache::Worker> CurveCache::worker_for(const CurveQuestion& question, std::string& key) {
+    key = fmt::format("{} {} {}", question.job, question.variant, question.light);
+    const std::scoped_lock lock(mutex_);
+    if (const auto* known = workers_.find(key)) return *known;
+    auto fresh = std::make_shared<Worker>();
+    workers_.put(key, fresh);
+    return fresh;
+}
+
+std::string CurveCache::curves(const CurveQuestion& question, const std::function<std::string()>& scenario) {
+    const std::string place =
+        fmt::format("{} {} {} {} {}", question.job, question.variant, question.x, question.y, question.light);
+    {
+        const std::scoped_lock lock(mutex_);
+        if (const std::string* known = answers_.find(place)) return *known;
+    }
+    std::string key;
+    const std::shared_ptr<Worker> worker = worker_for(question, key);
+    const std::unique_lock one_at_a_time(worker->mutex, std::chrono::duration<double>(seconds_));
+    if (!one_at_a_time) throw base::Error(base::ErrorCode::io, "helper process", "too many are at work");
+    std::string line = fmt::format("{} {}", question.x, question.y);
+    if (!worker->helper) {
+        std::vector<std::string> arguments = arguments_;
+        arguments.push_back("--variant=" + std::to_string(question.variant));
+        if (!question.light.empty()) arguments.push_back("--light=" + question.light);
+        line = scenario() + "\n" + line;
+        worker->helper = start_(arguments);
+    }
+    std::string answer;
+    try {
+        answer = worker->helper->ask(line, seconds_);
+    } catch (const base::Error&) {
+        worker->helper.reset();  // it is gone, or in the middle of something
+        throw;
+    }
+    take_answer(answer);
+    const std::scoped_lock lock(mutex_);
+    answers_.put(place, answer);
+    return answer;
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,48 @@
+// The curves of pixels, as a page asks for them while the mouse moves: helpers stay with the last few lights, and the
+// last answers are kept.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "service/api/examine.h"
+#include "service/api/helper.h"
+#include "service/api/lru.h"
+
+namespace shadowbench::service {
+
+struct CurveQuestion {
+    std::string job, light;
+    std::size_t variant = 0;
+    int x = 0, y = 0;
+};
+
+// Thread-safe.
+class CurveCache {
+public:
+    // `arguments` come before those of the light.
+    CurveCache(StartHelper start, std::vector<std::string> arguments, double seconds);
+
+    // JSON of bench::PixelCurves. `scenario`, the job's on one line, is asked for only when it is needed. Throws Error.
+    std::string curves(const CurveQuestion& question, const std::function<std::string()>& scenario);
+
+private:
+    struct Worker {
+        std::timed_mutex mutex;
+        std::unique_ptr<Helper> helper;
+    };
+    std::shared_ptr<Worker> worker_for(const CurveQuestion& question, std::string& key);
+
+    StartHelper start_;
+    std::vector<std::string> arguments_;
+    double seconds_;
+    std::mutex mutex_;
+    Lru<std::string> answers_;
+    Lru<std::shared_ptr<Worker>> workers_;
+};
+
+}  // namespace shadowbench::service

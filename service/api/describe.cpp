@@ -1,0 +1,141 @@
+#include "service/api/describe.h"
+
+#include <map>
+#include <utility>
+#include <variant>
+
+#include <nlohmann/json.hpp>
+
+#include "base/read_text.h"
+#include "bench/document.h"
+#include "scene/scenario.h"
+#include "service/api/file_answer.h"
+#include "service/api/openapi_text.h"
+#include "service/api/problem.h"
+#include "service/api/routes.h"
+#include "service/api/submit.h"
+#include "techniques/technique.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+using techniques::Parameter;
+using techniques::ParameterKind;
+
+const char* type_of(ParameterKind kind) {
+    switch (kind) {
+        case ParameterKind::number:
+            return "number";
+        case ParameterKind::integer:
+            return "integer";
+        case ParameterKind::choice:
+            return "choice";
+        case ParameterKind::number_or_word:
+            break;
+    }
+    return "number_or_word";
+}
+
+json describe(const Parameter& parameter) {
+    const bool numbers = parameter.kind != ParameterKind::choice;
+    const bool word = parameter.standard_word[0] != '\0';
+    return {{"name", parameter.name},
+            {"type", type_of(parameter.kind)},
+            {"default", word ? json(parameter.standard_word) : json(parameter.standard)},
+            {"minimum", numbers ? json(parameter.min) : json(nullptr)},
+            {"maximum", numbers ? json(parameter.max) : json(nullptr)},
+            {"values", parameter.words},
+            {"meaning", parameter.doc}};
+}
+
+json describe(const techniques::Technique& row) {
+    json parameters = json::array();
+    for (const Parameter& parameter : row.parameters) parameters.push_back(describe(parameter));
+    return {{"id", row.id},
+            {"title", row.title},
+            {"paper", row.paper},
+            {"version", row.version},
+            {"promises",
+             {{"monotone", row.promises.monotone},
+              {"unit_range", row.promises.unit_range},
+              {"opaque_only", row.promises.opaque_only},
+              {"localised", row.promises.localised}}},
+            {"parameters", std::move(parameters)}};
+}
+
+void read_scenario(const fs::path& file, std::map<std::string, json>& found) {
+    try {
+        const json document = json::parse(scene::parse_json(base::read_text(file), file.string()).dump());
+        found[document.at("name").get<std::string>()] = {{"name", document.at("name")},
+                                                         {"purpose", document.value("purpose", "")},
+                                                         {"document", json::parse(base::read_text(file))}};
+    } catch (const std::exception&) {  // one broken file does not hide the others
+    }
+}
+
+}  // namespace
+
+std::string read_scenarios(const std::vector<fs::path>& folders) {
+    std::map<std::string, json> found;
+    std::error_code ignored;
+    for (const fs::path& folder : folders)
+        for (fs::recursive_directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
+            if (entry->is_directory(ignored) && entry->path().filename() == "data") entry.disable_recursion_pending();
+            if (entry->is_regular_file(ignored) && entry->path().extension() == ".json")
+                read_scenario(entry->path(), found);
+        }
+    json list = json::array();
+    for (auto& [name, scenario] : found) list.push_back(std::move(scenario));
+    return json{{"scenarios", std::move(list)}}.dump() + "\n";
+}
+
+ApiResponse list_techniques(Context&, const Call& call) {
+    json list = json::array();
+    for (const techniques::Technique& row : techniques::all()) list.push_back(describe(row));
+    return text_answer(call.request, "application/json", json{{"techniques", std::move(list)}}.dump() + "\n");
+}
+
+ApiResponse list_scenarios(Context& context, const Call& call) {
+    return text_answer(call.request, "application/json", context.scenarios);
+}
+
+ApiResponse get_schema(Context&, const Call& call) {
+    return text_answer(call.request, "application/json", bench::full_schema().dump() + "\n");
+}
+
+ApiResponse get_openapi(Context&, const Call& call) {
+    return text_answer(call.request, "application/json", openapi_text());
+}
+
+ApiResponse validate_scenario(Context& context, const Call& call) {
+    auto posted = read_posted(call.request.body);
+    if (auto* no = std::get_if<ApiResponse>(&posted)) return std::move(*no);
+    auto examined = examine_posted(context, std::get<PostedScenario>(posted));
+    if (auto* no = std::get_if<ApiResponse>(&examined)) return std::move(*no);
+    nlohmann::json answer = std::get<nlohmann::json>(examined);
+    answer["valid"] = true;
+    return json_answer(200, answer);
+}
+
+ApiResponse get_health(Context&, const Call&) {
+    return json_answer(200, json{{"status", "ok"}});
+}
+
+ApiResponse get_ready(Context& context, const Call&) {
+    if (!context.jobs.stopping()) return json_answer(200, json{{"status", "ready"}});
+    ApiResponse response = problem(503, "The server is stopping.");
+    response.headers.push_back({"Retry-After", "10"});
+    return response;
+}
+
+ApiResponse get_metrics(Context& context, const Call&) {
+    ApiResponse response;
+    response.type = "text/plain; version=0.0.4; charset=utf-8";
+    response.headers = {{"Cache-Control", "no-store"}};
+    response.body = context.metrics.text(context.jobs, *context.streams);
+    return response;
+}
+
+}  // namespace shadowbench::service

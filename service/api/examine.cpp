@@ -1,0 +1,59 @@
+#include "service/api/examine.h"
+
+#include <chrono>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace shadowbench::service {
+namespace {
+
+constexpr std::size_t at_a_time = 2, kept = 256;
+
+}  // namespace
+
+nlohmann::json take_answer(const std::string& line) {
+    nlohmann::json answer = nlohmann::json::parse(line, nullptr, false);
+    if (!answer.is_object()) throw base::Error(base::ErrorCode::internal, "helper process", "its answer is no JSON");
+    if (const auto error = answer.find("error"); error != answer.end())
+        throw base::Error(static_cast<base::ErrorCode>(error->value("code", 70)), error->value("where", ""),
+                          error->value("message", ""));
+    return answer;
+}
+
+Slots::Slot Slots::take(double seconds) {
+    std::unique_lock lock(mutex_);
+    if (!freed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return free_ > 0; }))
+        throw base::Error(base::ErrorCode::io, "helper process", "too many are at work");
+    --free_;
+    return Slot(*this);
+}
+
+void Slots::give_back() {
+    const std::scoped_lock lock(mutex_);
+    ++free_;
+    freed_.notify_one();
+}
+
+Examiner::Examiner(StartHelper start, std::vector<std::string> arguments, double seconds)
+    : start_(std::move(start)),
+      arguments_(std::move(arguments)),
+      seconds_(seconds),
+      slots_(at_a_time),
+      answers_(kept) {}
+
+nlohmann::json Examiner::examine(const std::string& scenario) {
+    {
+        const std::scoped_lock lock(mutex_);
+        if (const std::string* known = answers_.find(scenario)) return take_answer(*known);
+    }
+    const Slots::Slot slot = slots_.take(seconds_);
+    const std::string line = start_(arguments_)->ask(scenario, seconds_);
+    nlohmann::json answer = take_answer(line);
+    const std::scoped_lock lock(mutex_);
+    answers_.put(scenario, line);
+    return answer;
+}
+
+}  // namespace shadowbench::service

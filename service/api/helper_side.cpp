@@ -1,0 +1,111 @@
+#include "service/api/helper_side.h"
+
+#include <istream>
+#include <limits>
+#include <memory>
+#include <new>
+#include <ostream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench/document.h"
+#include "bench/pixel_curves.h"
+#include "bench/run.h"
+#include "scene/scenario.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Error;
+using base::ErrorCode;
+using nlohmann::json;
+
+// Strangers do not learn where the data folders are.
+std::string without_folders(std::string text, const std::vector<fs::path>& data) {
+    for (const fs::path& folder : data) {
+        const std::string name = folder.string() + (folder.has_filename() ? "/" : "");
+        for (std::size_t at; name.size() > 1 && (at = text.find(name)) != std::string::npos;)
+            text.erase(at, name.size());
+    }
+    return text;
+}
+
+std::string fault(const Error& error, const std::vector<fs::path>& data) {
+    const json value = {{"error",
+                         {{"code", static_cast<int>(error.code())},
+                          {"where", without_folders(error.where(), data)},
+                          {"message", without_folders(error.message(), data)}}}};
+    return value.dump();
+}
+
+template <class Answer>
+std::string answer_line(const std::vector<fs::path>& data, const Answer& answer) {
+    try {
+        return answer();
+    } catch (const Error& error) {
+        return fault(error, data);
+    } catch (const std::bad_alloc&) {
+        return fault({ErrorCode::bad_input, "", "it needs more memory than this server allows"}, data);
+    } catch (const std::exception&) {
+        return fault({ErrorCode::internal, "", ""}, data);
+    }
+}
+
+bench::RunOptions options_for(const std::vector<fs::path>& data) {
+    bench::RunOptions options;
+    options.data = scene::SearchPath::confined_to(data);
+    options.limits.all = std::numeric_limits<std::size_t>::max();  // the server judges the estimate
+    return options;
+}
+
+std::uint64_t seed_of(const json& document) {
+    return document.value(json::json_pointer("/rays/seed"), std::uint64_t{1});
+}
+
+std::string examine(const std::string& line, const std::vector<fs::path>& data) {
+    const json document = scene::parse_json(line, "scenario");
+    const bench::Validated v = bench::validate(document, options_for(data));
+    json notes = json::array();
+    for (const std::string& light : v.blind)
+        notes.push_back(fmt::format("light {} sees nothing that casts a shadow", light));
+    const json value = {{"name", v.name},
+                        {"seed", seed_of(document)},
+                        {"hash", bench::hash_text(document.dump())},
+                        {"variants", v.variants},
+                        {"lights", v.lights},
+                        {"techniques", v.techniques},
+                        {"notes", notes},
+                        {"estimate",
+                         {{"seconds", v.seconds},
+                          {"bytes", v.least_bytes},
+                          {"resolution", v.largest_side},
+                          {"samples_per_pixel", v.most_samples}}}};
+    return value.dump();
+}
+
+}  // namespace
+
+void examine_lines(const std::vector<fs::path>& data, std::istream& in, std::ostream& out) {
+    for (std::string line; std::getline(in, line);)
+        out << answer_line(data, [&] { return examine(line, data); }) << std::endl;
+}
+
+void curve_lines(const std::vector<fs::path>& data, const std::string& light, std::size_t variant, std::istream& in,
+                 std::ostream& out) {
+    std::string scenario;
+    std::getline(in, scenario);
+    std::unique_ptr<bench::PixelProbe> probe;
+    int x = 0, y = 0;
+    while (in >> x >> y)
+        out << answer_line(data, [&] {
+            if (!probe)
+                probe = std::make_unique<bench::PixelProbe>(scene::parse_json(scenario, "scenario"), options_for(data),
+                                                            light, variant);
+            return bench::to_json(probe->at(x, y)).dump();
+        }) << std::endl;
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,70 @@
+#include "service/api/job_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace shadowbench::service {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json text_or_null(const std::string& text) {
+    return text.empty() ? json(nullptr) : json(text);
+}
+
+template <class Value>
+json or_null(const std::optional<Value>& value) {
+    return value ? json(*value) : json(nullptr);
+}
+
+json progress_json(const std::optional<JobProgress>& progress) {
+    if (!progress) return nullptr;
+    return {{"stage", progress->stage},
+            {"place", progress->place},
+            {"done", progress->done},
+            {"total", progress->total},
+            {"fraction", progress->fraction}};
+}
+
+json fault_json(const std::optional<JobFault>& fault) {
+    if (!fault) return nullptr;
+    return {{"code", fault->code}, {"where", fault->where}, {"message", fault->message}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const JobInfo& job, const std::vector<std::string>& artifacts) {
+    const std::string self = "/v1/jobs/" + job.id;
+    return {{"id", job.id},
+            {"state", to_string(job.state)},
+            {"name", job.name},
+            {"scenario_hash", job.scenario_hash},
+            {"seed", job.seed},
+            {"created", job.created},
+            {"started", text_or_null(job.started)},
+            {"ended", text_or_null(job.ended)},
+            {"attempts", job.attempts},
+            {"position", or_null(job.position)},
+            {"progress", progress_json(job.progress)},
+            {"pictures", job.pictures},
+            {"cached", job.cached},
+            {"promises_kept", or_null(job.promises_kept)},
+            {"error", fault_json(job.fault)},
+            {"artifacts", artifacts},
+            {"links",
+             {{"self", self},
+              {"events", self + "/events"},
+              {"scenario", self + "/scenario"},
+              {"result", self + "/result"},
+              {"csv", self + "/result.csv"},
+              {"report", self + "/report"}}}};
+}
+
+nlohmann::ordered_json job_json(const Jobs& jobs, const JobInfo& job) {
+    return to_json(job, job.state == JobState::queued ? std::vector<std::string>() : jobs.artifacts(job.id));
+}
+
+bool has_ended(const JobInfo& job) {
+    return job.state != JobState::queued && job.state != JobState::running;
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,59 @@
+// What the API is asked and what it answers: HTTP's meaning without its sockets.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace shadowbench::service {
+
+struct Field {
+    std::string name, value;
+};
+
+struct ApiRequest {
+    std::string method;             // as sent
+    std::vector<std::string> path;  // segments, each decoded: "/v1/jobs" is {"v1", "jobs"}; "/" is {""}
+    std::vector<Field> query;       // decoded
+    std::vector<Field> headers;     // names in lower case
+    bool has_body = false;          // known before the body is read
+    std::string body;
+
+    // The first of this name; null: none.
+    const std::string* header(const std::string& lower_name) const;
+    const std::string* parameter(const std::string& name) const;
+};
+
+// A part of a regular file, open, so that it stays whole whatever happens to its name.
+struct OpenFile {
+    explicit OpenFile(int open) : descriptor(open) {}
+    ~OpenFile();
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+    const int descriptor;
+};
+struct FilePart {
+    std::shared_ptr<const OpenFile> file;
+    std::uint64_t offset = 0, length = 0;
+};
+
+// Server-sent events: called again and again, each call blocks for a second at most. Gives text to send, which may be
+// empty; nothing: the stream has ended.
+using EventSource = std::function<std::optional<std::string>()>;
+
+struct ApiResponse {
+    int status = 200;
+    std::string type;  // media type; empty: no content
+    std::vector<Field> headers;
+    std::string body;
+    std::optional<FilePart> file;  // instead of the body
+    EventSource events;            // instead of the body
+
+    const std::string* header(const std::string& name) const;  // as it was set
+};
+
+}  // namespace shadowbench::service

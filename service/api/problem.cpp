@@ -1,0 +1,118 @@
+#include "service/api/problem.h"
+
+#include <nlohmann/json.hpp>
+
+namespace shadowbench::service {
+namespace {
+
+using nlohmann::json;
+
+// Bytes that are no UTF-8, as in file names, do not stop an answer.
+template <class Json>
+std::string text_of(const Json& value) {
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+template <class Json>
+ApiResponse answer(int status, const Json& value, const char* type) {
+    ApiResponse response;
+    response.status = status;
+    response.type = type;
+    response.headers.push_back({"Cache-Control", "no-store"});
+    response.body = text_of(value);
+    return response;
+}
+
+}  // namespace
+
+const char* title_of(int status) {
+    switch (status) {
+        case 400:
+            return "Bad Request";
+        case 401:
+            return "Unauthorized";
+        case 403:
+            return "Forbidden";
+        case 404:
+            return "Not Found";
+        case 405:
+            return "Method Not Allowed";
+        case 406:
+            return "Not Acceptable";
+        case 408:
+            return "Request Timeout";
+        case 409:
+            return "Conflict";
+        case 413:
+            return "Content Too Large";
+        case 415:
+            return "Unsupported Media Type";
+        case 416:
+            return "Range Not Satisfiable";
+        case 421:
+            return "Misdirected Request";
+        case 422:
+            return "Unprocessable Content";
+        case 429:
+            return "Too Many Requests";
+        case 431:
+            return "Request Header Fields Too Large";
+        case 500:
+            return "Internal Server Error";
+        case 501:
+            return "Not Implemented";
+        case 503:
+            return "Service Unavailable";
+        case 505:
+            return "HTTP Version Not Supported";
+        default:
+            return "Error";
+    }
+}
+
+ApiResponse problem(int status, const std::string& detail, const std::vector<ProblemPart>& errors) {
+    return problem(status, detail, errors, json::object());
+}
+
+ApiResponse problem(int status, const std::string& detail, const std::vector<ProblemPart>& errors,
+                    const json& members) {
+    json value = {{"type", "about:blank"}, {"title", title_of(status)}, {"status", status}, {"detail", detail}};
+    if (!errors.empty()) {
+        value["errors"] = json::array();
+        for (const ProblemPart& part : errors)
+            value["errors"].push_back({{"pointer", part.pointer}, {"detail", part.detail}});
+    }
+    value.update(members);
+    return answer(status, value, "application/problem+json");
+}
+
+ApiResponse problem_of(const base::Error& error) {
+    switch (error.code()) {
+        case base::ErrorCode::bad_input:
+        case base::ErrorCode::no_such_file:
+            // "/" stands for the document, whose pointer is empty.
+            if (error.where() == "/") return problem(422, error.message(), {{"", error.message()}});
+            if (error.where().starts_with('/')) return problem(422, error.what(), {{error.where(), error.message()}});
+            return problem(422, error.what());
+        case base::ErrorCode::usage:
+            return problem(400, error.what());
+        case base::ErrorCode::io: {
+            ApiResponse response = problem(503, "Reading or writing failed on this side.");
+            response.headers.push_back({"Retry-After", "10"});
+            return response;
+        }
+        case base::ErrorCode::internal:
+            break;
+    }
+    return problem(500, "A fault of this program.");
+}
+
+ApiResponse json_answer(int status, const nlohmann::json& value) {
+    return answer(status, value, "application/json");
+}
+
+ApiResponse json_answer(int status, const nlohmann::ordered_json& value) {
+    return answer(status, value, "application/json");
+}
+
+}  // namespace shadowbench::service

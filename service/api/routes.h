@@ -1,0 +1,59 @@
+// The one list of what the API answers to. openapi.json documents the same list; a test holds them together.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+
+#include "service/api/context.h"
+#include "service/api/message.h"
+
+namespace shadowbench::service {
+
+using PathParameters = std::map<std::string, std::string>;
+
+struct Call {
+    const ApiRequest& request;
+    const PathParameters& path;
+    const std::string& parameter(const char* name) const { return path.find(name)->second; }
+};
+
+struct Route {
+    const char* method;
+    const char* pattern;  // "{name}" is one segment, "{name...}" all that follow
+    const char* type;     // what it answers with when all goes well; "": of many types
+    bool takes_body;      // of JSON
+    ApiResponse (*answer)(Context& context, const Call& call);
+};
+
+std::span<const Route> routes();
+
+// The route of a request, HEAD as GET. Null: there is none, or, when `allowed` is not empty, none of this method.
+const Route* find_route(const ApiRequest& request, PathParameters& parameters, std::string& allowed);
+
+// The answers, by subject.
+ApiResponse post_job(Context& context, const Call& call);
+ApiResponse list_jobs(Context& context, const Call& call);
+ApiResponse get_job(Context& context, const Call& call);
+ApiResponse cancel_job(Context& context, const Call& call);
+ApiResponse delete_job(Context& context, const Call& call);
+ApiResponse job_events(Context& context, const Call& call);
+ApiResponse job_result(Context& context, const Call& call);
+ApiResponse job_csv(Context& context, const Call& call);
+ApiResponse job_artifact(Context& context, const Call& call);
+ApiResponse job_report(Context& context, const Call& call);
+ApiResponse job_scenario(Context& context, const Call& call);
+ApiResponse job_curves(Context& context, const Call& call);
+ApiResponse compare(Context& context, const Call& call);
+ApiResponse validate_scenario(Context& context, const Call& call);
+ApiResponse list_techniques(Context& context, const Call& call);
+ApiResponse list_scenarios(Context& context, const Call& call);
+ApiResponse get_schema(Context& context, const Call& call);
+ApiResponse get_openapi(Context& context, const Call& call);
+ApiResponse get_page(Context& context, const Call& call);
+ApiResponse get_asset(Context& context, const Call& call);
+ApiResponse get_health(Context& context, const Call& call);
+ApiResponse get_ready(Context& context, const Call& call);
+ApiResponse get_metrics(Context& context, const Call& call);
+
+}  // namespace shadowbench::service

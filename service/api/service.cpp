@@ -1,0 +1,115 @@
+#include "service/api/service.h"
+
+#include <chrono>
+
+#include <nlohmann/json.hpp>
+
+#include "service/api/accept.h"
+#include "service/api/context.h"
+#include "service/api/describe.h"
+#include "service/api/problem.h"
+#include "service/api/routes.h"
+
+namespace shadowbench::service {
+namespace {
+
+std::vector<std::string> helper_arguments(const char* command, const ServiceOptions& options) {
+    std::vector<std::string> arguments{command};
+    for (const std::filesystem::path& folder : options.data) arguments.push_back("--data=" + folder.string());
+    return arguments;
+}
+
+bool is_json(const std::string& type) {
+    const std::string name = media_type(type);
+    return name == "application/json" || (name.starts_with("application/") && name.ends_with("+json"));
+}
+
+ApiResponse not_allowed(const std::string& allowed) {
+    ApiResponse response = problem(405, "This place takes " + allowed + ".");
+    response.headers.push_back({"Allow", allowed});
+    return response;
+}
+
+std::optional<ApiResponse> refuse_body(const ApiRequest& request, const Route& route) {
+    if (!request.has_body) return {};
+    if (!route.takes_body) return problem(400, "This request takes no body.");
+    if (request.header("content-encoding"))
+        return problem(415, "Request bodies are taken as they are, without Content-Encoding.");
+    const std::string* type = request.header("content-type");
+    if (!type || !is_json(*type)) {
+        ApiResponse response = problem(415, "The body must be JSON, with Content-Type: application/json.");
+        response.headers.push_back({"Accept-Post", "application/json"});
+        return response;
+    }
+    return {};
+}
+
+std::optional<ApiResponse> refuse_request(const ApiRequest& request, const Route* route, const std::string& allowed) {
+    if (!route && !allowed.empty()) return not_allowed(allowed);
+    if (!route) return problem(404, "There is nothing here; /openapi.json tells what there is.");
+    if (route->type[0] != '\0' && !accepts(request, route->type))
+        return problem(406, std::string("What is here is of the type ") + route->type + ".");
+    return refuse_body(request, *route);
+}
+
+ApiResponse answer(Context& context, const ApiRequest& request, const Route& route, const PathParameters& parameters) {
+    try {
+        return route.answer(context, {request, parameters});
+    } catch (const base::Error& error) {
+        return problem_of(error);
+    } catch (const std::exception&) {  // its text is for nobody outside
+        return problem(500, "A fault of this program.");
+    }
+}
+
+}  // namespace
+
+struct Service::State : Context {
+    using Context::Context;
+};
+
+Context::Context(Jobs& the_jobs, const ServiceOptions& the_options)
+    : jobs(the_jobs),
+      options(the_options),
+      examiner(options.start_helper, helper_arguments("examine", options), options.helper_seconds),
+      curves(options.start_helper, helper_arguments("curves", options), options.helper_seconds),
+      scenarios(read_scenarios(options.scenarios)) {}
+
+Service::Service(Jobs& jobs, ServiceOptions options) : state_(std::make_unique<State>(jobs, std::move(options))) {}
+
+Service::~Service() = default;
+
+std::optional<ApiResponse> Service::refuse(const ApiRequest& request) const {
+    PathParameters parameters;
+    std::string allowed;
+    const Route* route = find_route(request, parameters, allowed);
+    return refuse_request(request, route, allowed);
+}
+
+ApiResponse Service::handle(const ApiRequest& request) {
+    const auto start = std::chrono::steady_clock::now();
+    PathParameters parameters;
+    std::string allowed;
+    const Route* route = find_route(request, parameters, allowed);
+    std::optional<ApiResponse> response = refuse_request(request, route, allowed);
+    if (!response && request.body.size() > limits().body)
+        response = problem(413, "The body is larger than " + std::to_string(limits().body) + " bytes.");
+    if (!response) response = answer(*state_, request, *route, parameters);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    state_->metrics.count(route ? request.method : "other", route ? route->pattern : "none", response->status,
+                          seconds.count());
+    return std::move(*response);
+}
+
+void Service::count_refusal(const ApiRequest& request, int status) {
+    PathParameters parameters;
+    std::string allowed;
+    const Route* route = find_route(request, parameters, allowed);
+    state_->metrics.count(route ? request.method : "other", route ? route->pattern : "none", status, 0.0);
+}
+
+const CostLimits& Service::limits() const {
+    return state_->options.limits;
+}
+
+}  // namespace shadowbench::service

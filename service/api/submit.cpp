@@ -1,0 +1,83 @@
+#include "service/api/submit.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "scene/scenario.h"
+#include "service/api/problem.h"
+
+namespace shadowbench::service {
+namespace {
+
+using nlohmann::json;
+
+std::variant<PostedScenario, ApiResponse> read_options(const json& options, PostedScenario posted) {
+    const auto wrong = [](const std::string& pointer, const std::string& detail) {
+        return problem(422, detail, {{pointer, detail}});
+    };
+    if (!options.is_object()) return wrong("/options", "must be an object");
+    for (const auto& [key, value] : options.items()) {
+        if (key == "cache" && (value == "reuse" || value == "fresh"))
+            posted.reuse = value == "reuse";
+        else if (key == "pictures" && value.is_boolean())
+            posted.pictures = value.get<bool>();
+        else
+            return wrong("/options/" + key,
+                         "there are \"cache\": \"reuse\" or \"fresh\", and \"pictures\": true or false");
+    }
+    return posted;
+}
+
+// What the estimate exceeds; nothing: no limit.
+std::vector<ProblemPart> over_limits(const json& estimate, const CostLimits& limits) {
+    std::vector<ProblemPart> over;
+    const double bytes = estimate.at("bytes").get<double>(), seconds = estimate.at("seconds").get<double>();
+    if (const int side = estimate.at("resolution").get<int>(); side > limits.resolution)
+        over.push_back({"/rays/resolution",
+                        fmt::format("a map of {} pixels a side; this server takes {}", side, limits.resolution)});
+    if (const int samples = estimate.at("samples_per_pixel").get<int>(); samples > limits.samples_per_pixel)
+        over.push_back({"/rays/samples_per_pixel", fmt::format("{} rays a pixel, the truth's among them; this server "
+                                                               "takes {}",
+                                                               samples, limits.samples_per_pixel)});
+    constexpr double gib = 1 << 30;
+    if (bytes > limits.bytes)
+        over.push_back({"/rays", fmt::format("it needs at least {:.3g} GiB of memory; this server gives {:.3g}",
+                                             bytes / gib, limits.bytes / gib)});
+    if (seconds > limits.seconds)
+        over.push_back(
+            {"", fmt::format("it would run for about {:.3g} s; this server gives {:.3g}", seconds, limits.seconds)});
+    return over;
+}
+
+}  // namespace
+
+std::variant<PostedScenario, ApiResponse> read_posted(const std::string& body) {
+    json document;
+    try {
+        document = scene::parse_json(body, "body");
+    } catch (const base::Error& error) {
+        return problem(400, error.what());
+    }
+    PostedScenario posted;
+    if (!document.is_object() || !document.contains("scenario")) {
+        posted.text = document.dump();
+        return posted;
+    }
+    for (const auto& [key, value] : document.items())
+        if (key != "scenario" && key != "options")
+            return problem(422, "Beside \"scenario\" there is \"options\" alone.", {{"/" + key, "unknown"}});
+    posted.text = document["scenario"].dump();
+    if (!document.contains("options")) return posted;
+    return read_options(document["options"], std::move(posted));
+}
+
+std::variant<json, ApiResponse> examine_posted(Context& context, const PostedScenario& posted) {
+    json examined = context.examiner.examine(posted.text);
+    const json& estimate = examined.at("estimate");
+    const std::vector<ProblemPart> over = over_limits(estimate, context.options.limits);
+    if (over.empty()) return examined;
+    return problem(422, "The scenario costs more than this server gives: " + over[0].detail + ".", over,
+                   {{"estimate", estimate}});
+}
+
+}  // namespace shadowbench::service

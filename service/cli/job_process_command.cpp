@@ -1,0 +1,124 @@
+#include "service/cli/job_process_command.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <new>
+#include <ostream>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/read_text.h"
+#include "bench/document.h"
+#include "bench/run.h"
+#include "bench/write_result.h"
+#include "render/render.h"
+#include "render/write_pictures.h"
+#include "scene/scenario.h"
+#include "service/jobs/fraction.h"
+#include "service/jobs/progress_line.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Error;
+using base::ErrorCode;
+
+constexpr std::chrono::milliseconds between_lines{100};
+
+// Lines of progress: of each stage the first, and of the others no more than ten a second.
+class Reporter {
+public:
+    explicit Reporter(std::ostream& out) : out_(out) {}
+
+    void tell(const bench::Progress& progress, double fraction) {
+        const auto now = std::chrono::steady_clock::now();
+        if (progress.stage == stage_ && progress.place == place_ && now - told_ < between_lines) return;
+        told_ = now;
+        stage_ = progress.stage;
+        place_ = progress.place;
+        out_ << progress_line(progress, fraction) << '\n' << std::flush;
+    }
+
+private:
+    std::ostream& out_;
+    std::chrono::steady_clock::time_point told_{};
+    std::string stage_, place_;
+};
+
+// The lights of a variant; a deep image is one.
+std::size_t lights_of(const bench::Variant& variant) {
+    const auto lights = variant.document->find("lights");
+    return lights == variant.document->end() ? 1 : std::max<std::size_t>(lights->size(), 1);
+}
+
+// Whether there is a world that a camera could see.
+bool has_objects(const bench::Variant& variant) {
+    return variant.document->at("scene").contains("objects");
+}
+
+JobFraction make_fraction(const std::vector<bench::Variant>& variants, bool pictures) {
+    std::size_t lights = 0;
+    for (const bench::Variant& variant : variants) lights += lights_of(variant);
+    return {lights, pictures ? lights_of(variants.front()) : 0};
+}
+
+void draw(const nlohmann::json& document, const bench::RunOptions& run, const fs::path& folder,
+          const bench::ProgressCallback& progress) {
+    try {
+        render::RenderOptions options;
+        options.run = run;
+        render::write_pictures(folder, render::render(document, options, progress));
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::bad_input) throw;
+        bench::write_files({{folder / "error.json", error_line(error) + "\n"}});
+    }
+}
+
+bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
+    const fs::path folder = arguments.folder;
+    const nlohmann::json document = scene::parse_json(base::read_text(folder / "scenario.json"), "scenario.json");
+    bench::RunOptions options;
+    options.data = scene::SearchPath::confined_to({arguments.data.begin(), arguments.data.end()});
+    options.limits.all = static_cast<std::size_t>(arguments.memory_limit * 1024.0 * 1024.0 * 1024.0);
+    options.limits.kept_rays = std::min(options.limits.kept_rays, options.limits.all / 2);
+
+    const std::vector<bench::Variant> variants = bench::expand(document);
+    const bool pictures = arguments.pictures && has_objects(variants.front());
+    JobFraction fraction = make_fraction(variants, pictures);
+    Reporter reporter(out);
+    bool kept = true;
+    {
+        const bench::Result result = bench::run(document, options, [&](const bench::Progress& progress) {
+            reporter.tell(progress, fraction.measuring(progress));
+        });
+        bench::write_result(folder, result);
+        kept = !bench::any_failed(result);
+    }
+    if (pictures)
+        draw(document, options, folder / "images",
+             [&](const bench::Progress& progress) { reporter.tell(progress, fraction.picturing(progress)); });
+    return kept;
+}
+
+}  // namespace
+
+bool job_process_command(const JobProcessArguments& arguments, std::ostream& out) {
+    const auto tell = [&](const Error& error) { out << error_line(error) << '\n' << std::flush; };
+    try {
+        return run_job(arguments, out);
+    } catch (const Error& error) {
+        tell(error);
+        throw;
+    } catch (const std::bad_alloc&) {
+        tell({ErrorCode::internal, "", "out of memory; a smaller map or fewer samples may help"});
+        throw;
+    } catch (const std::exception& error) {
+        tell({ErrorCode::internal, "", std::string("internal fault: ") + error.what()});
+        throw;
+    }
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,156 @@
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <ostream>
+#include <thread>
+
+#include <sys/stat.h>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/read_text.h"
+#include "bench/write_result.h"
+#include "service/api/helper_side.h"
+#include "service/api/service.h"
+#include "service/cli/scenario_files.h"
+#include "service/cli/server_commands.h"
+#include "service/http/server.h"
+#include "service/jobs/jobs.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Error;
+using base::ErrorCode;
+
+constexpr double gib = 1024.0 * 1024.0 * 1024.0;
+constexpr double helper_memory = 4.0;  // GiB
+
+std::vector<fs::path> folders_of(const std::vector<std::string>& names) {
+    std::vector<fs::path> folders;
+    std::error_code ignored;
+    for (const std::string& name : names) {
+        if (!fs::is_directory(name, ignored))
+            throw Error(ErrorCode::no_such_file, "--data " + name, "there is no such folder");
+        folders.push_back(fs::absolute(name));
+    }
+    return folders;
+}
+
+std::string this_program() {
+    std::error_code fault;
+    const fs::path program = fs::read_symlink("/proc/self/exe", fault);
+    if (fault) throw Error(ErrorCode::io, "/proc/self/exe", "cannot tell where this program is");
+    return program.string();
+}
+
+// Signals that end the server. They are taken from all threads before there are any, and waited for by one.
+class StopSignals {
+public:
+    StopSignals() {
+        sigemptyset(&set_);
+        for (const int signal : {SIGTERM, SIGINT}) sigaddset(&set_, signal);
+        pthread_sigmask(SIG_BLOCK, &set_, &before_);
+    }
+    ~StopSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    StopSignals(const StopSignals&) = delete;
+    StopSignals& operator=(const StopSignals&) = delete;
+
+    // Whether one came before `done` was set.
+    bool wait(const std::atomic<bool>& done) const {
+        const timespec slice{0, 100'000'000};
+        while (!done)
+            if (sigtimedwait(&set_, nullptr, &slice) > 0) return true;
+        return false;
+    }
+
+private:
+    sigset_t set_{}, before_{};
+};
+
+JobLimits job_limits(const ServeArguments& arguments) {
+    JobLimits limits;
+    limits.queue = arguments.queue;
+    limits.seconds = arguments.job_seconds;
+    limits.memory = static_cast<std::size_t>(arguments.job_memory * gib);
+    limits.parallel = arguments.parallel;
+    limits.grace = arguments.grace;
+    return limits;
+}
+
+ServiceOptions service_options(const ServeArguments& arguments, const std::string& program) {
+    ServiceOptions options;
+    options.data = folders_of(arguments.data);
+    options.scenarios = scenario_folders();
+    options.limits.body = static_cast<std::size_t>(arguments.body * 1024.0 * 1024.0);
+    options.limits.resolution = arguments.resolution;
+    options.limits.samples_per_pixel = arguments.samples;
+    options.limits.bytes = arguments.job_memory * gib;
+    options.limits.seconds = arguments.estimate_seconds;
+    options.event_streams = arguments.event_clients;
+    options.start_helper = [program](const std::vector<std::string>& words) {
+        return start_process(program, words, static_cast<std::size_t>(helper_memory * gib));
+    };
+    return options;
+}
+
+HttpOptions http_options(const ServeArguments& arguments) {
+    HttpOptions options;
+    options.host = arguments.host;
+    options.port = arguments.port;
+    options.workers = arguments.workers;
+    if (!arguments.token_file.empty()) options.token = read_token(arguments.token_file);
+    return options;
+}
+
+}  // namespace
+
+std::string read_token(const std::string& file) {
+    const std::string text = base::read_text(file);
+    struct stat status {};
+    if (::stat(file.c_str(), &status) == 0 && (status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+        throw Error(ErrorCode::bad_input, file, "others can read the token; chmod 600 it");
+    std::string token = text.substr(0, text.find_first_of("\r\n"));
+    if (token.size() < 16 || token.find_first_of(" \t") != std::string::npos)
+        throw Error(ErrorCode::bad_input, file, "a token is one word of at least 16 characters");
+    return token;
+}
+
+void serve_command(const ServeArguments& arguments, std::ostream& out) {
+    const StopSignals signals;
+    std::signal(SIGPIPE, SIG_IGN);  // a client or a child that went
+    const std::string program = this_program();
+    const HttpOptions http = http_options(arguments);
+    const ServiceOptions options = service_options(arguments, program);
+    std::vector<std::string> data;
+    for (const fs::path& folder : options.data) data.push_back(folder.string());
+    Jobs jobs(arguments.state, program, data, job_limits(arguments));
+    Service service(jobs, options);
+    HttpServer server(service, options.event_streams, http);
+    if (!arguments.port_file.empty()) bench::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});
+    out << fmt::format("shadowbench serves {} (state: {})\n", server.url(), arguments.state) << std::flush;
+    std::atomic<bool> done = false;
+    std::thread stopper([&] {
+        if (!signals.wait(done)) return;
+        jobs.stop();  // clients are answered meanwhile
+        server.stop();
+    });
+    server.run();
+    done = true;
+    stopper.join();
+    jobs.stop();
+    out << "stopped\n";
+}
+
+void examine_command(const HelperArguments& arguments, std::ostream& out) {
+    examine_lines(folders_of(arguments.data), std::cin, out);
+}
+
+void curves_command(const HelperArguments& arguments, std::ostream& out) {
+    curve_lines(folders_of(arguments.data), arguments.light, arguments.variant, std::cin, out);
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,121 @@
+#include <chrono>
+#include <memory>
+#include <ostream>
+#include <thread>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/read_text.h"
+#include "bench/document.h"
+#include "bench/report.h"
+#include "scene/scenario.h"
+#include "service/cli/progress_bar.h"
+#include "service/cli/scenario_files.h"
+#include "service/cli/server_commands.h"
+#include "service/http/client.h"
+
+namespace shadowbench::service {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+using json = nlohmann::ordered_json;
+
+constexpr std::chrono::milliseconds between_looks{500};
+
+ErrorCode code_of(int status) {
+    switch (status) {
+        case 400:
+        case 413:
+        case 415:
+        case 422:
+            return ErrorCode::bad_input;
+        case 401:
+        case 403:
+        case 421:
+            return ErrorCode::usage;
+        case 404:
+            return ErrorCode::no_such_file;
+        default:
+            return ErrorCode::io;
+    }
+}
+
+// The JSON of an answer of this status; what the server's problem says is thrown.
+json take(const Reply& reply, int status, const std::string& server) {
+    json value = json::parse(reply.body, nullptr, false);
+    if (reply.status == status && !value.is_discarded()) return value;
+    std::string where = server, message = fmt::format("the server answers with status {}", reply.status);
+    if (value.is_object() && value.contains("detail")) message = value.value("detail", message);
+    if (value.is_object() && value.contains("errors") && !value["errors"].empty()) {
+        where = value["errors"][0].value("pointer", where);
+        message = value["errors"][0].value("detail", message);
+    }
+    throw Error(code_of(reply.status), where, message);
+}
+
+std::string without_slash(const std::string& url) {
+    return url.substr(0, url.find_last_not_of('/') + 1);
+}
+
+std::string request_body(const SubmitArguments& arguments) {
+    const auto file = find_scenario(arguments.scenario);
+    nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
+    for (const std::string& assignment : arguments.set) bench::set_value(document, assignment);
+    const nlohmann::json body = {
+        {"scenario", std::move(document)},
+        {"options", {{"cache", arguments.fresh ? "fresh" : "reuse"}, {"pictures", !arguments.no_pictures}}}};
+    return body.dump();
+}
+
+void show(const json& job, ProgressBar& bar) {
+    const json& progress = job.at("progress");
+    if (!progress.is_object()) return;
+    const std::string stage = progress.at("stage");
+    bar.show({progress.at("place"), stage.c_str(), progress.at("done"), progress.at("total")});
+}
+
+json wait_for(Client& client, json job, const std::string& server, std::ostream& err) {
+    const std::string self = job.at("links").at("self");
+    std::unique_ptr<ProgressBar> bar;
+    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
+    while (job.at("state") == "queued" || job.at("state") == "running") {
+        if (bar) show(job, *bar);
+        std::this_thread::sleep_for(between_looks);
+        job = take(client.get(self), 200, server);
+    }
+    return job;
+}
+
+// What `run` would have thrown.
+void refuse_failed(const json& job) {
+    if (job.at("state") == "succeeded") return;
+    if (job.at("state") == "cancelled") throw Error(ErrorCode::io, job.at("id").get<std::string>(), "was cancelled");
+    const json& error = job.at("error");
+    if (!error.is_object()) throw Error(ErrorCode::internal, job.at("id").get<std::string>(), "failed");
+    throw Error(static_cast<ErrorCode>(error.at("code").get<int>()), error.at("where").get<std::string>(),
+                error.at("message").get<std::string>());
+}
+
+}  // namespace
+
+bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::ostream& err) {
+    const std::string body = request_body(arguments), server = without_slash(arguments.server);
+    Client client(server, arguments.token_file.empty() ? "" : read_token(arguments.token_file));
+    json job = take(client.post_json("/v1/jobs", body, {}), 202, server);
+    const std::string self = job.at("links").at("self");
+    if (!arguments.wait) {
+        out << fmt::format("{} {}: {}{}\n", job.at("id").get<std::string>(), job.at("state").get<std::string>(), server,
+                           self);
+        return true;
+    }
+    job = wait_for(client, std::move(job), server, err);
+    refuse_failed(job);
+    const bench::Result result = bench::from_json(take(client.get(self + "/result"), 200, server));
+    out << bench::to_table(result) << fmt::format("result: {}{}/result\n", server, self);
+    return !bench::any_failed(result);
+}
+
+}  // namespace shadowbench::service

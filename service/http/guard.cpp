@@ -1,0 +1,76 @@
+#include "service/http/guard.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+#include "service/api/problem.h"
+
+namespace shadowbench::service {
+namespace {
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return out;
+}
+
+// "[::1]:8080" -> "::1", "localhost:8080" -> "localhost".
+std::string without_port(const std::string& host) {
+    if (host.starts_with('[')) return host.substr(1, host.find(']') - 1);
+    return host.substr(0, host.find(':'));
+}
+
+std::string token_of(const ApiRequest& request) {
+    const std::string* authorization = request.header("authorization");
+    if (!authorization) return {};
+    const std::string scheme = lower(std::string_view(*authorization).substr(0, authorization->find(' ')));
+    const std::size_t at = authorization->find_first_not_of(' ', scheme.size());
+    return scheme == "bearer" && at != std::string::npos ? authorization->substr(at) : "";
+}
+
+bool needs_no_token(const ApiRequest& request) {
+    const std::string& first = request.path[0];
+    const bool alone = request.path.size() == 1;
+    return first == "assets" || (alone && (first.empty() || first == "healthz" || first == "readyz"));
+}
+
+bool from_elsewhere(const ApiRequest& request) {
+    const std::string *origin = request.header("origin"), *host = request.header("host");
+    if (const std::string* site = request.header("sec-fetch-site"); site && !origin)
+        return (*site == "cross-site" || *site == "same-site") && request.method != "GET" && request.method != "HEAD";
+    if (!origin) return false;
+    const std::size_t scheme = origin->find("://");
+    return !host || scheme == std::string::npos || lower(origin->substr(scheme + 3)) != lower(*host);
+}
+
+}  // namespace
+
+bool is_loopback(const std::string& host) {
+    const std::string name = lower(host);
+    return name == "localhost" || name == "127.0.0.1" || name == "::1";
+}
+
+bool equal_in_constant_time(const std::string& given, const std::string& secret) {
+    volatile unsigned char differs = given.size() == secret.size() ? 0 : 1;
+    for (std::size_t i = 0; i < secret.size(); ++i) {
+        const char c = given.empty() ? '\0' : given[i % given.size()];
+        differs = static_cast<unsigned char>(differs |
+                                             (static_cast<unsigned char>(c) ^ static_cast<unsigned char>(secret[i])));
+    }
+    return differs == 0;
+}
+
+std::optional<ApiResponse> guard(const ApiRequest& request, const GuardOptions& options) {
+    const std::string* host = request.header("host");
+    if (options.loopback && host && !is_loopback(without_port(*host)))
+        return problem(421, "This server answers as localhost, 127.0.0.1 or [::1].");
+    if (from_elsewhere(request)) return problem(403, "Pages of other origins may not ask.");
+    if (options.token.empty() || needs_no_token(request)) return {};
+    if (equal_in_constant_time(token_of(request), options.token)) return {};
+    ApiResponse response = problem(401, "Authorization: Bearer and the token of this server, please.");
+    response.headers.push_back({"WWW-Authenticate", "Bearer realm=\"shadowbench\""});
+    return response;
+}
+
+}  // namespace shadowbench::service

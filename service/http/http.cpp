@@ -1,0 +1,388 @@
+// The one file that knows cpp-httplib (0.11.4). It frames bodies and answers; what it would read of a request's head it
+// gets in a form without traps: see head.h, and canonical_head() below.
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include "base/error.h"
+#include "service/api/problem.h"
+#include "service/http/client.h"
+#include "service/http/guard.h"
+#include "service/http/head.h"
+#include "service/http/server.h"
+
+namespace shadowbench::service {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+
+constexpr std::size_t framing = 64 * 1024;  // bytes of chunk sizes that a body may come with, beside its own
+constexpr std::size_t piece_size = 64 * 1024;
+
+// One request on its way through httplib.
+struct Exchange {
+    explicit Exchange(Channel& of) : channel(of) {}
+    Channel& channel;
+    Head head;
+    std::optional<ApiResponse> refusal;  // given instead of asking the service
+    bool keep = false;                   // the connection, afterwards
+};
+// The request that httplib works on in this thread: its handlers are given nothing of ours.
+thread_local Exchange* current = nullptr;
+
+// What httplib sees. It decodes header values, reads a POST without a length to the end of the connection, matches
+// paths with recursive regular expressions and takes its own REMOTE_ADDR for the client's: it gets none of that.
+std::string canonical_head(const Exchange& exchange) {
+    const Head& head = exchange.head;
+    if (exchange.refusal) return head.request.method == "HEAD" ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n";
+    std::string text = fmt::format("{} / HTTP/1.1\r\n", head.request.method);
+    if (head.chunked)
+        text += "Transfer-Encoding: chunked\r\n";
+    else if (head.request.method == "POST")
+        text += fmt::format("Content-Length: {}\r\n", head.content_length.value_or(0));
+    if (head.request.has_body && head.expects_continue) text += "Expect: 100-continue\r\n";
+    return text + "\r\n";
+}
+
+// The canonical head, then the body as it comes.
+class Wire final : public httplib::Stream {
+public:
+    Wire(Channel& channel, std::string head) : channel_(channel), head_(std::move(head)) {}
+
+    bool is_readable() const override { return true; }
+    bool is_writable() const override { return true; }
+    ssize_t read(char* to, size_t size) override {
+        if (given_ == head_.size()) return channel_.read(to, size);
+        size = std::min(size, head_.size() - given_);
+        std::copy_n(head_.data() + given_, size, to);
+        given_ += size;
+        return static_cast<ssize_t>(size);
+    }
+    ssize_t write(const char* bytes, size_t size) override {
+        return channel_.write(bytes, size) ? static_cast<ssize_t>(size) : -1;
+    }
+    void get_remote_ip_and_port(std::string&, int&) const override {}
+    void get_local_ip_and_port(std::string&, int&) const override {}
+    socket_t socket() const override { return 0; }
+
+private:
+    Channel& channel_;
+    std::string head_;
+    std::size_t given_ = 0;
+};
+
+// Threads, and how many connections wait for one.
+class Pool final : public httplib::TaskQueue {
+public:
+    Pool(std::size_t threads, std::size_t most, std::atomic<std::size_t>& waiting)
+        : pool_(threads), most_(most), waiting_(waiting) {}
+
+    static thread_local bool refused;  // this connection is one too many
+
+    void enqueue(std::function<void()> task) override {
+        if (waiting_ >= most_) {
+            refused = true;
+            task();  // on the thread that accepts: it only says no
+            refused = false;
+            return;
+        }
+        ++waiting_;
+        pool_.enqueue([this, task = std::move(task)] {
+            --waiting_;
+            task();
+        });
+    }
+    void shutdown() override { pool_.shutdown(); }
+
+private:
+    httplib::ThreadPool pool_;
+    std::size_t most_;
+    std::atomic<std::size_t>& waiting_;
+};
+thread_local bool Pool::refused = false;
+
+void put_file(const FilePart& part, const std::string& type, httplib::Response& to) {
+    const auto provider = [part](size_t offset, size_t length, httplib::DataSink& sink) {
+        char piece[piece_size];
+        const ssize_t n = ::pread(part.file->descriptor, piece, std::min(length, sizeof piece),
+                                  static_cast<off_t>(part.offset + offset));
+        return n > 0 && sink.write(piece, static_cast<std::size_t>(n));
+    };
+    if (part.length > 0)
+        to.set_content_provider(part.length, type, provider);
+    else
+        to.set_header("Content-Type", type);
+}
+
+void put_events(const EventSource& events, const std::string& type, Exchange& exchange, httplib::Response& to) {
+    const auto provider = [events, &channel = exchange.channel](size_t, httplib::DataSink& sink) {
+        if (channel.gone()) return false;
+        const std::optional<std::string> text = events();
+        if (!text) {
+            sink.done();
+            return true;
+        }
+        return text->empty() || sink.write(text->data(), text->size());
+    };
+    exchange.keep = false;
+    if (exchange.head.http10)
+        to.set_content_provider(type, provider);
+    else
+        to.set_chunked_content_provider(type, provider);
+}
+
+void put(const ApiResponse& from, Exchange& exchange, httplib::Response& to) {
+    to.status = from.status;
+    for (const Field& field : from.headers) to.set_header(field.name, field.value);
+    to.set_header("X-Content-Type-Options", "nosniff");
+    to.set_header("Referrer-Policy", "no-referrer");
+    to.set_header("Cross-Origin-Resource-Policy", "same-origin");
+    to.set_header("X-Frame-Options", "SAMEORIGIN");
+    if (!from.header("Content-Security-Policy"))
+        to.set_header("Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'; sandbox");
+    if (from.events)
+        put_events(from.events, from.type, exchange, to);
+    else if (from.file)
+        put_file(*from.file, from.type, to);
+    else if (!from.type.empty())
+        to.set_content(from.body, from.type);
+}
+
+// What httplib adds of its own is left out where it says too much.
+void tidy(httplib::Response& response) {
+    response.headers.erase("Keep-Alive");
+    if (response.status == 204 || response.status == 304) response.headers.erase("Content-Length");
+}
+
+class Front final : public httplib::Server {
+public:
+    Front(Service& service, std::size_t streams, const HttpOptions& options)
+        : service_(service), options_(options), guard_{is_loopback(options.host), options.token} {
+        new_task_queue = [this, threads = options.workers + streams, most = options.waiting] {
+            return new Pool(threads, most, waiting_);
+        };
+        Get("/", [this](const httplib::Request&, httplib::Response& response) { respond(response); });
+        Delete("/", [this](const httplib::Request&, httplib::Response& response) { respond(response); });
+        Post("/", [this](const httplib::Request&, httplib::Response& response, const httplib::ContentReader& body) {
+            read_and_respond(body, response);
+        });
+        set_post_routing_handler([](const httplib::Request&, httplib::Response& response) { tidy(response); });
+        set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
+            put(problem(500, "A fault of this program."), *current, response);
+        });
+        // Not SO_REUSEPORT, with which another process could listen beside this one.
+        set_socket_options([](socket_t socket) {
+            const int yes = 1;
+            ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+        });
+        set_tcp_nodelay(true);
+        set_payload_max_length(service.limits().body);
+    }
+
+    int bind() {
+        const int port = options_.port == 0                           ? bind_to_any_port(options_.host)
+                         : bind_to_port(options_.host, options_.port) ? options_.port
+                                                                      : -1;
+        // httplib asks for a queue of 5 connections, which a burst of clients overflows.
+        if (port > 0) ::listen(svr_sock_, 1024);
+        return port;
+    }
+
+    // Server::stop() does nothing before the loop has begun; a socket that is shut down ends it whenever it begins.
+    void shut_down() {
+        stopping_ = true;
+        ::shutdown(svr_sock_, SHUT_RDWR);
+    }
+
+    bool stopping() const { return stopping_; }
+
+private:
+    bool process_and_close_socket(socket_t socket) override {
+        Channel channel(socket, options_.channel, stopping_, [this] { return waiting_ > 0; });
+        const int yes = 1;
+        ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+        if (Pool::refused) {
+            Exchange exchange(channel);
+            exchange.refusal = problem(503, "Too many clients; try again.");
+            exchange.refusal->headers.push_back({"Retry-After", "5"});
+            pass_on(exchange);
+            return true;
+        }
+        while (!stopping_ && converse(channel)) {
+        }
+        return true;
+    }
+
+    // One request; whether another may follow on the connection.
+    bool converse(Channel& channel) {
+        Exchange exchange(channel);
+        std::string text;
+        switch (channel.read_head(text)) {
+            case Channel::Outcome::closed:
+                return false;
+            case Channel::Outcome::too_slow:
+                exchange.refusal = problem(408, "The request took too long.");
+                break;
+            case Channel::Outcome::too_large:
+                exchange.refusal = problem(431, "The head of the request is too long.");
+                break;
+            case Channel::Outcome::complete:
+                look_at(text, exchange);
+                break;
+        }
+        const bool refused = exchange.refusal.has_value();
+        if (refused) service_.count_refusal(exchange.head.request, exchange.refusal->status);
+        pass_on(exchange);
+        if (!exchange.keep) channel.linger();
+        return exchange.keep;
+    }
+
+    // Everything that can be said before the body is read.
+    void look_at(const std::string& text, Exchange& exchange) {
+        Head& head = exchange.head;
+        if (const auto fault = parse_head(text, head)) {
+            exchange.refusal = problem(fault->status, fault->detail);
+            return;
+        }
+        exchange.refusal = guard(head.request, guard_);
+        if (!exchange.refusal) exchange.refusal = service_.refuse(head.request);
+        if (!exchange.refusal && head.content_length.value_or(0) > service_.limits().body)
+            exchange.refusal = too_large();
+        // A body that was not read is not to be taken for the next request.
+        exchange.keep = head.keep_alive && waiting_ == 0 && !(exchange.refusal && head.request.has_body);
+        exchange.channel.begin_body(service_.limits().body + framing);
+    }
+
+    ApiResponse too_large() const {
+        return problem(413, fmt::format("The body is larger than {} bytes.", service_.limits().body));
+    }
+
+    void pass_on(Exchange& exchange) {
+        Wire wire(exchange.channel, canonical_head(exchange));
+        current = &exchange;
+        bool closed = false;
+        const bool whole = process_request(wire, !exchange.keep, closed, nullptr);
+        current = nullptr;
+        exchange.keep = exchange.keep && whole && !closed;
+    }
+
+    void respond(httplib::Response& response) {
+        Exchange& exchange = *current;
+        put(exchange.refusal ? *exchange.refusal : service_.handle(exchange.head.request), exchange, response);
+        if (!exchange.keep) response.set_header("Connection", "close");
+    }
+
+    // httplib holds chunked bodies to no limit, so their bytes are counted here.
+    void read_and_respond(const httplib::ContentReader& body, httplib::Response& response) {
+        Exchange& exchange = *current;
+        std::string& bytes = exchange.head.request.body;
+        bool over = false;
+        const bool whole = !exchange.head.request.has_body || body([&](const char* piece, size_t size) {
+            over = bytes.size() + size > service_.limits().body;
+            if (!over) bytes.append(piece, size);
+            return !over;
+        });
+        if (!whole) {
+            exchange.keep = false;
+            exchange.refusal = over ? too_large() : problem(400, "The body is broken, or came too slowly.");
+            service_.count_refusal(exchange.head.request, exchange.refusal->status);
+        }
+        respond(response);
+    }
+
+    Service& service_;
+    const HttpOptions options_;
+    const GuardOptions guard_;
+    std::atomic<bool> stopping_ = false;
+    std::atomic<std::size_t> waiting_ = 0;
+};
+
+}  // namespace
+
+struct HttpServer::State {
+    Front front;
+    std::string host;
+    int port = 0;
+    std::mutex mutex;
+    bool over = false;  // the listening socket is closed
+};
+
+HttpServer::HttpServer(Service& service, std::size_t streams, HttpOptions options) {
+    if (options.token.empty() && !is_loopback(options.host))
+        throw Error(ErrorCode::usage, "--host " + options.host,
+                    "an address beyond this machine needs --token-file FILE, so that not everybody may ask");
+    state_.reset(new State{Front(service, streams, options), options.host, 0, {}, false});
+    state_->port = state_->front.bind();
+    if (state_->port <= 0)
+        throw Error(ErrorCode::io, fmt::format("{}:{}", options.host, options.port), "cannot listen there; in use?");
+}
+
+HttpServer::~HttpServer() = default;
+
+int HttpServer::port() const {
+    return state_->port;
+}
+
+std::string HttpServer::url() const {
+    const bool ipv6 = state_->host.find(':') != std::string::npos;
+    return fmt::format("http://{}:{}", ipv6 ? "[" + state_->host + "]" : state_->host, state_->port);
+}
+
+void HttpServer::run() {
+    state_->front.listen_after_bind();
+    const std::scoped_lock lock(state_->mutex);
+    state_->over = true;
+}
+
+void HttpServer::stop() {
+    const std::scoped_lock lock(state_->mutex);
+    if (!state_->over && !state_->front.stopping()) state_->front.shut_down();
+}
+
+struct Client::State {
+    httplib::Client client;
+};
+
+Client::Client(const std::string& url, const std::string& token) : url_(url) {
+    if (!url.starts_with("http://") && !url.starts_with("https://"))
+        throw Error(ErrorCode::usage, "--server " + url, "a server is named as http://host:port");
+    state_.reset(new State{httplib::Client(url)});
+    if (!state_->client.is_valid()) throw Error(ErrorCode::usage, "--server " + url, "this is no server's URL");
+    state_->client.set_connection_timeout(10);
+    state_->client.set_read_timeout(120);
+    state_->client.set_tcp_nodelay(true);
+    if (!token.empty()) state_->client.set_bearer_token_auth(token);
+}
+
+Client::~Client() = default;
+
+namespace {
+
+Reply reply_of(const httplib::Result& result, const std::string& url) {
+    if (!result) throw Error(ErrorCode::io, url, "no answer: " + httplib::to_string(result.error()));
+    return {result->status, result->get_header_value("Content-Type"), result->body,
+            result->get_header_value("Location")};
+}
+
+}  // namespace
+
+Reply Client::get(const std::string& path) {
+    return reply_of(state_->client.Get(path), url_);
+}
+
+Reply Client::post_json(const std::string& path, const std::string& body, const std::vector<Field>& headers) {
+    httplib::Headers fields;
+    for (const Field& field : headers) fields.emplace(field.name, field.value);
+    return reply_of(state_->client.Post(path, fields, body, "application/json"), url_);
+}
+
+}  // namespace shadowbench::service

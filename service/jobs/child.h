@@ -1,0 +1,43 @@
+// A process of its own for a piece of work: started, watched and ended.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shadowbench::service {
+
+struct ChildLimits {
+    double seconds = 3600.0;
+    std::size_t memory = std::size_t{16} << 30;  // bytes that are resident: see run_child
+    std::size_t output = std::size_t{64} << 20;  // bytes on standard output and standard error together
+};
+
+enum class ChildEnd { exited, signalled, out_of_time, out_of_memory, too_much_output, told };
+
+struct ChildReport {
+    ChildEnd end = ChildEnd::exited;
+    int code = 0;        // exit code, or the signal's number
+    std::string errors;  // the last of what it wrote to standard error
+};
+
+inline constexpr int not_started = 127;            // exit code of a child whose program could not be run
+inline constexpr std::size_t longest_line = 8192;  // of standard output; longer ones are left out
+
+// Runs arguments[0] in a process group of its own, with nothing on its standard input, and returns once it and its
+// group have ended. It dies with the calling thread, and so with this process. `on_line` gets each whole line of its
+// standard output, without its end. `should_end` is asked every 50 ms: the group is killed once it answers true, as it
+// is beyond a limit.
+//
+// The memory limit watches the resident bytes of the process, by the same clock: RLIMIT_AS and RLIMIT_DATA count what
+// is reserved and never touched, terabytes under a sanitizer. Should the machine run out in between, the kernel is told
+// to take the child before this process.
+//
+// Throws Error{io} when no process can be made.
+ChildReport run_child(const std::vector<std::string>& arguments, const ChildLimits& limits,
+                      const std::function<void(std::string_view line)>& on_line,
+                      const std::function<bool()>& should_end);
+
+}  // namespace shadowbench::service

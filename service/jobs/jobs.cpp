@@ -1,0 +1,297 @@
+#include "service/jobs/jobs.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <random>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "bench/build_info.h"
+#include "bench/document.h"
+#include "service/jobs/board.h"
+#include "service/jobs/folders.h"
+#include "service/jobs/worker.h"
+#include "service/store/folder_lock.h"
+#include "service/store/job_store.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using base::Error;
+using base::ErrorCode;
+
+constexpr const char* database_name = "jobs.db";
+constexpr std::size_t longest_page = 1000;
+
+constexpr std::pair<JobState, const char*> state_names[] = {{JobState::queued, job_states::queued},
+                                                            {JobState::running, job_states::running},
+                                                            {JobState::succeeded, job_states::succeeded},
+                                                            {JobState::failed, job_states::failed},
+                                                            {JobState::cancelled, job_states::cancelled}};
+
+fs::path make_state_folder(const fs::path& state) {
+    std::error_code failed;
+    fs::create_directories(state, failed);
+    if (failed) throw Error(ErrorCode::io, state.string(), "the state folder cannot be made: " + failed.message());
+    return state;
+}
+
+std::string check_program(const std::string& program) {
+    if (::access(program.c_str(), X_OK) != 0)
+        throw Error(ErrorCode::io, program, "the program that jobs are run by cannot be executed");
+    return program;
+}
+
+std::string new_id() {
+    std::random_device random;
+    return fmt::format("j-{:08x}{:08x}", random(), random());
+}
+
+std::string program_version() {
+    const bench::BuildInfo build = bench::build_info();
+    return fmt::format("{} {}", build.version, build.commit);
+}
+
+// What must be the same when an idempotency key comes again.
+std::string request_hash(const JobRequest& request) {
+    return bench::hash_text(fmt::format("{} {} {}", request.pictures, request.reuse, request.scenario));
+}
+
+std::int64_t read_cursor(const std::string& cursor) {
+    if (cursor.empty()) return 0;
+    std::int64_t before = 0;
+    const char* const end = cursor.data() + cursor.size();
+    const auto [rest, failed] = std::from_chars(cursor.data(), end, before);
+    if (failed != std::errc() || rest != end || before <= 0)
+        throw Error(ErrorCode::usage, "cursor", "this is no cursor that a list of jobs has given");
+    return before;
+}
+
+JobInfo info_of(const StoredJob& job, JobBoard::Shown shown) {
+    JobInfo info;
+    info.id = job.id;
+    info.state = parse_job_state(job.state).value_or(JobState::failed);
+    info.name = job.name;
+    info.scenario_hash = job.key.hash;
+    info.seed = job.key.seed;
+    info.created = job.created;
+    info.started = job.started;
+    info.ended = job.ended;
+    info.attempts = job.attempts;
+    info.pictures = job.key.pictures;
+    info.cached = job.cached;
+    if (info.state == JobState::succeeded) info.promises_kept = job.kept;
+    if (job.fault) info.fault = {job.fault->code, job.fault->where, job.fault->message};
+    info.position = job.ahead;
+    info.revision = job.revision;
+    if (info.state == JobState::queued) {
+        info.revision = std::max(info.revision, shown.queue_revision);
+    } else if (info.state == JobState::running && shown.revision > job.revision) {
+        info.progress = std::move(shown.progress);
+        info.revision = shown.revision;
+    }
+    return info;
+}
+
+Submitted::Outcome outcome_of(JobStore::Added::Outcome outcome) {
+    using From = JobStore::Added::Outcome;
+    using To = Submitted::Outcome;
+    return outcome == From::added      ? To::created
+           : outcome == From::existing ? To::existing
+           : outcome == From::conflict ? To::conflict
+                                       : To::queue_full;
+}
+
+}  // namespace
+
+const char* to_string(JobState state) {
+    for (const auto& [known, name] : state_names)
+        if (known == state) return name;
+    return "";
+}
+
+std::optional<JobState> parse_job_state(const std::string& text) {
+    for (const auto& [state, name] : state_names)
+        if (text == name) return state;
+    return std::nullopt;
+}
+
+struct Jobs::State {
+    State(const fs::path& folder, std::string program, std::vector<std::string> data, JobLimits limits)
+        : lock(make_state_folder(folder)),
+          store(folder / database_name),
+          board(store.next_revision()),
+          place{store,
+                board,
+                make_job_folders(folder),
+                check_program(program),
+                data,
+                limits,
+                hidden_folders(folder.string(), data)} {}
+
+    // The result of an earlier job, as that of a new one: whether its promises were kept. Nothing: there is none.
+    std::optional<bool> reuse_result(const ResultKey& key, const std::string& id);
+
+    FolderLock lock;  // the first to come and the last to go
+    JobStore store;
+    JobBoard board;
+    Workplace place;
+    std::vector<std::thread> workers;
+    std::mutex joining;
+};
+
+std::optional<bool> Jobs::State::reuse_result(const ResultKey& key, const std::string& id) {
+    const std::optional<StoredJob> earlier = store.find_result(key);
+    if (!earlier) return std::nullopt;
+    const fs::path work = place.folders.work / (id + "-0");
+    try {
+        make_work_folder(work);
+        link_files(place.folders.jobs / earlier->id, work);
+        // Its row goes before its files do: where it still is, they all were there.
+        if (find_file_in(work, "result.json") && store.find(earlier->id)) {
+            publish(place.folders, work, id);
+            return earlier->kept;
+        }
+    } catch (const Error&) {
+        // Then the job is run.
+    }
+    remove_folder(work);
+    return std::nullopt;
+}
+
+Jobs::Jobs(fs::path state, std::string program, std::vector<std::string> data, JobLimits limits)
+    : state_(std::make_unique<State>(state, std::move(program), std::move(data), limits)) {
+    State& all = *state_;
+    recover_running(all.place);
+    sweep(all.place.folders, [&](const std::string& id) {
+        const std::optional<StoredJob> job = all.store.find(id);
+        return job && job->state == job_states::succeeded;
+    });
+    for (int i = 0; i < std::max(limits.parallel, 1); ++i)
+        all.workers.emplace_back([&place = std::as_const(all.place)] { run_jobs(place); });
+}
+
+Jobs::~Jobs() {
+    stop();
+}
+
+Submitted Jobs::submit(const JobRequest& request) {
+    State& all = *state_;
+    NewJob job;
+    job.request = request_hash(request);
+    if (!request.idempotency_key.empty())
+        if (const auto known = all.store.find_key(request.idempotency_key, job.request))
+            return {outcome_of(known->outcome), info_of(known->job, all.board.shown(known->job.id))};
+    job.id = new_id();
+    job.name = request.name;
+    job.key = {request.hash, request.seed, program_version(), request.pictures};
+    job.scenario = request.scenario;
+    job.created = now_utc();
+    job.idempotency_key = request.idempotency_key;
+    if (request.reuse) job.kept = all.reuse_result(job.key, job.id);
+
+    JobStore::Added added{};
+    const auto forget_files = [&] {
+        if (job.kept) remove_folder(all.place.folders.jobs / job.id);
+    };
+    try {
+        added = all.store.add(job, all.place.limits.queue);
+    } catch (...) {
+        forget_files();
+        throw;
+    }
+    if (added.outcome != JobStore::Added::Outcome::added) forget_files();
+    if (added.outcome == JobStore::Added::Outcome::added && !job.kept) all.board.add_work();
+    if (added.outcome == JobStore::Added::Outcome::full) return {Submitted::Outcome::queue_full, {}};
+    return {outcome_of(added.outcome), info_of(added.job, all.board.shown(added.job.id))};
+}
+
+std::optional<JobInfo> Jobs::find(const std::string& id) const {
+    // The board first: where a run ends in between, the store's row is the newer, and rules.
+    JobBoard::Shown shown = state_->board.shown(id);
+    const std::optional<StoredJob> job = state_->store.find(id);
+    return job ? std::optional(info_of(*job, std::move(shown))) : std::nullopt;
+}
+
+JobPage Jobs::list(std::optional<JobState> state, std::size_t limit, const std::string& cursor) const {
+    const std::int64_t before = read_cursor(cursor);
+    limit = std::clamp<std::size_t>(limit, 1, longest_page);
+    // One more than asked for tells whether there is a next page.
+    std::vector<StoredJob> jobs = state_->store.list(state ? to_string(*state) : "", limit + 1, before);
+    JobPage page;
+    if (jobs.size() > limit) {
+        jobs.resize(limit);
+        page.next = std::to_string(jobs.back().sequence);
+    }
+    for (const StoredJob& job : jobs) page.jobs.push_back(info_of(job, state_->board.shown(job.id)));
+    return page;
+}
+
+std::size_t Jobs::count(JobState state) const {
+    return state_->store.count(to_string(state));
+}
+
+Jobs::Change Jobs::cancel(const std::string& id) {
+    State& all = *state_;
+    const auto revision = all.store.end_waiting(id, {job_states::cancelled, now_utc(), {}, {}});
+    if (!revision) return all.store.find(id) ? Change::refused : Change::not_found;
+    all.board.cancel(id);
+    all.board.announce(*revision, true);
+    return Change::done;
+}
+
+Jobs::Change Jobs::remove(const std::string& id) {
+    State& all = *state_;
+    if (!all.store.remove(id)) return all.store.find(id) ? Change::refused : Change::not_found;
+    remove_folder(all.place.folders.jobs / id);
+    all.board.announce(all.store.next_revision(), true);
+    return Change::done;
+}
+
+std::optional<std::string> Jobs::scenario(const std::string& id) const {
+    return state_->store.scenario(id);
+}
+
+std::optional<fs::path> Jobs::artifact(const std::string& id, const std::string& name) const {
+    const std::optional<StoredJob> job = state_->store.find(id);
+    if (!job || job->state != job_states::succeeded) return std::nullopt;
+    return find_file_in(state_->place.folders.jobs / job->id, name);
+}
+
+std::vector<std::string> Jobs::artifacts(const std::string& id) const {
+    const std::optional<StoredJob> job = state_->store.find(id);
+    if (!job || job->state != job_states::succeeded) return {};
+    return list_files(state_->place.folders.jobs / job->id);
+}
+
+std::optional<JobInfo> Jobs::wait(const std::string& id, std::uint64_t revision, double seconds) const {
+    const auto until = JobBoard::Clock::now() + std::chrono::duration_cast<JobBoard::Clock::duration>(
+                                                    std::chrono::duration<double>(std::clamp(seconds, 0.0, 1e6)));
+    for (;;) {
+        const std::uint64_t seen = state_->board.changes();
+        std::optional<JobInfo> info = find(id);
+        if (!info || info->revision > revision || !state_->board.wait_for_change(seen, until)) return info;
+    }
+}
+
+void Jobs::stop() {
+    State& all = *state_;
+    all.board.stop(JobBoard::Clock::now() + std::chrono::duration_cast<JobBoard::Clock::duration>(
+                                                std::chrono::duration<double>(all.place.limits.grace)));
+    const std::scoped_lock lock(all.joining);
+    for (std::thread& worker : all.workers)
+        if (worker.joinable()) worker.join();
+}
+
+bool Jobs::stopping() const {
+    return state_->board.stopping();
+}
+
+}  // namespace shadowbench::service

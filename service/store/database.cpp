@@ -1,0 +1,163 @@
+#include "service/store/database.h"
+
+#include <sqlite3.h>
+
+#include "base/error.h"
+
+namespace shadowbench::service::sqlite {
+namespace {
+
+constexpr int busy_milliseconds = 5000;  // for who else looks into the file, as sqlite3's shell
+
+std::int64_t pragma(Database& database, const std::string& name) {
+    Rows rows(database, "PRAGMA " + name);
+    return rows.next() ? rows.integer(0) : 0;
+}
+
+bool has_tables(Database& database) {
+    Rows rows(database, "SELECT 1 FROM sqlite_schema LIMIT 1");
+    return rows.next();
+}
+
+void check_whole(Database& database) {
+    Rows rows(database, "PRAGMA quick_check(1)");
+    if (!rows.next() || rows.text(0) != "ok")
+        database.fail("the database is damaged; put back a copy, or move the state folder away to start anew");
+}
+
+void write_ahead(Database& database) {
+    Rows rows(database, "PRAGMA journal_mode = WAL");
+    if (!rows.next() || rows.text(0) != "wal")
+        database.fail("this file system cannot hold a database in write-ahead mode; use a local folder");
+}
+
+}  // namespace
+
+Database::Database(const std::filesystem::path& file, Access access, std::int32_t application) : place_(file.string()) {
+    const int flags = access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+    try {
+        check(sqlite3_open_v2(place_.c_str(), &handle_, flags | SQLITE_OPEN_NOMUTEX, nullptr));
+        check(sqlite3_busy_timeout(handle_, busy_milliseconds));
+        if (access == Access::read) return;
+        const std::int64_t found = pragma(*this, "application_id");
+        if (found != application) {
+            if (found != 0 || has_tables(*this)) fail("this is another program's database; use another folder");
+            execute("PRAGMA application_id = " + std::to_string(application));
+        }
+        check_whole(*this);
+        write_ahead(*this);
+        execute("PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
+    } catch (...) {
+        for (const auto& [sql, statement] : statements_) sqlite3_finalize(statement);
+        sqlite3_close(handle_);
+        throw;
+    }
+}
+
+Database::~Database() {
+    for (const auto& [sql, statement] : statements_) sqlite3_finalize(statement);
+    sqlite3_close(handle_);
+}
+
+void Database::execute(const std::string& sql) {
+    check(sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, nullptr));
+}
+
+std::int64_t Database::changes() const {
+    return sqlite3_changes64(handle_);
+}
+
+void Database::fail(const std::string& message) const {
+    throw base::Error(base::ErrorCode::io, place_, message);
+}
+
+void Database::check(int code) const {
+    switch (code) {
+        case SQLITE_OK:
+        case SQLITE_ROW:
+        case SQLITE_DONE:
+            return;
+        case SQLITE_NOTADB:
+            fail("this is no database; use another folder, or move the file away to start anew");
+        case SQLITE_CORRUPT:
+            fail("the database is damaged; put back a copy, or move the state folder away to start anew");
+        default:
+            fail(std::string("the database cannot be used: ") +
+                 (handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code)));
+    }
+}
+
+sqlite3_stmt* Database::prepared(std::string_view sql) {
+    const auto known = statements_.find(sql);
+    if (known != statements_.end()) return known->second;
+    sqlite3_stmt* statement = nullptr;
+    check(sqlite3_prepare_v3(handle_, sql.data(), static_cast<int>(sql.size()), SQLITE_PREPARE_PERSISTENT, &statement,
+                             nullptr));
+    return statements_.emplace(sql, statement).first->second;
+}
+
+Rows::Rows(Database& database, std::string_view sql, std::initializer_list<Value> values)
+    : database_(database), statement_(database.prepared(sql)) {
+    int place = 0;
+    for (const Value& value : values) {
+        ++place;
+        if (const auto* number = std::get_if<std::int64_t>(&value)) {
+            database.check(sqlite3_bind_int64(statement_, place, *number));
+        } else if (const auto* text = std::get_if<std::string_view>(&value)) {
+            database.check(sqlite3_bind_text64(statement_, place, text->data() ? text->data() : "", text->size(),
+                                               SQLITE_TRANSIENT, SQLITE_UTF8));
+        } else {
+            database.check(sqlite3_bind_null(statement_, place));
+        }
+    }
+}
+
+Rows::~Rows() {
+    sqlite3_reset(statement_);
+    sqlite3_clear_bindings(statement_);
+}
+
+bool Rows::next() {
+    const int code = sqlite3_step(statement_);
+    database_.check(code);
+    return code == SQLITE_ROW;
+}
+
+bool Rows::null(int column) const {
+    return sqlite3_column_type(statement_, column) == SQLITE_NULL;
+}
+
+std::int64_t Rows::integer(int column) const {
+    return sqlite3_column_int64(statement_, column);
+}
+
+std::string Rows::text(int column) const {
+    const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+    return text ? std::string(text, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))) : std::string();
+}
+
+std::int64_t run(Database& database, std::string_view sql, std::initializer_list<Value> values) {
+    Rows rows(database, sql, values);
+    rows.next();
+    return database.changes();
+}
+
+Transaction::Transaction(Database& database) : database_(database) {
+    run(database_, "BEGIN IMMEDIATE");
+}
+
+Transaction::~Transaction() {
+    if (!open_) return;
+    try {
+        run(database_, "ROLLBACK");
+    } catch (const base::Error&) {
+        // SQLite has rolled back already after some faults, as a full disk.
+    }
+}
+
+void Transaction::commit() {
+    run(database_, "COMMIT");
+    open_ = false;
+}
+
+}  // namespace shadowbench::service::sqlite

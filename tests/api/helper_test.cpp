@@ -1,0 +1,175 @@
+#include <atomic>
+#include <thread>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "api/fixture.h"
+#include "base/error.h"
+#include "service/api/curve_cache.h"
+#include "service/api/examine.h"
+#include "service/api/helper.h"
+
+namespace shadowbench::service {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+
+constexpr std::size_t enough = std::size_t{8} << 30;
+
+template <class Action>
+ErrorCode code_of(const Action& action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        return error.code();
+    }
+    ADD_FAILURE() << "no error";
+    return ErrorCode::internal;
+}
+
+TEST(HelperProcess, AnswersLineForLine) {
+    const auto cat = start_process("/bin/cat", {}, enough);
+    EXPECT_EQ(cat->ask("one", 60), "one");
+    EXPECT_EQ(cat->ask("two", 60), "two");
+    const std::string large(3'000'000, 'x');
+    EXPECT_EQ(cat->ask(large, 60), large) << "more than a pipe holds";
+}
+
+TEST(HelperProcess, ThatTakesTooLongIsGivenUp) {
+    const auto sleeper = start_process("/bin/sleep", {"1000"}, enough);
+    EXPECT_EQ(code_of([&] { sleeper->ask("x", 0.05); }), ErrorCode::bad_input);
+}
+
+TEST(HelperProcess, ThatEndsIsSaidToHave) {
+    const auto dead = start_process("/bin/false", {}, enough);
+    EXPECT_EQ(code_of([&] { dead->ask("x", 60); }), ErrorCode::bad_input);
+    const auto missing = start_process("/no/such/program", {}, enough);
+    EXPECT_EQ(code_of([&] { missing->ask("x", 60); }), ErrorCode::bad_input);
+}
+
+TEST(HelperProcess, InheritsNothingButItsPipes) {
+    const int open = ::fcntl(2, F_DUPFD, 77);
+    const std::string name = "/proc/self/fd/" + std::to_string(open);
+    const auto shell =
+        start_process("/bin/sh", {"-c", "read x; test -e " + name + " && echo there || echo none"}, enough);
+    EXPECT_EQ(shell->ask("", 60), "none");
+    ::close(open);
+}
+
+TEST(HelperProcess, OfThisProgramExaminesAScenario) {
+    const auto helper = start_process(SHADOWBENCH_PROGRAM, {"examine"}, enough);
+    const nlohmann::json facts = take_answer(helper->ask(tiny_scenario().dump(), 120));
+    EXPECT_EQ(facts["name"], "tiny");
+    EXPECT_EQ(code_of([&] { take_answer(helper->ask("{", 120)); }), ErrorCode::bad_input) << "and goes on";
+    EXPECT_EQ(take_answer(helper->ask(tiny_scenario().dump(), 120)), facts);
+}
+
+TEST(HelperProcess, OfThisProgramGivesCurves) {
+    CurveCache cache(
+        [](const std::vector<std::string>& arguments) { return start_process(SHADOWBENCH_PROGRAM, arguments, enough); },
+        {"curves"}, 120);
+    const auto scenario = [] { return tiny_scenario().dump(); };
+    const nlohmann::json curves = take_answer(cache.curves({"j-1", "", 0, 4, 4}, scenario));
+    EXPECT_EQ(curves["light"], "sun") << "the first";
+    EXPECT_EQ(curves["exact"]["v"].back(), 0.25) << "in and out of a sphere that lets half through";
+    EXPECT_EQ(take_answer(cache.curves({"j-1", "", 0, 3, 4}, scenario))["x"], 3);
+    EXPECT_EQ(take_answer(cache.curves({"j-1", "sun", 0, 4, 4}, scenario)), curves);
+    EXPECT_EQ(code_of([&] { cache.curves({"j-1", "sun", 0, 8, 8}, scenario); }), ErrorCode::usage);
+}
+
+TEST(Lru, ForgetsWhatWasNotAskedForLongest) {
+    Lru<int> lru(2);
+    lru.put("a", 1);
+    lru.put("b", 2);
+    EXPECT_EQ(*lru.find("a"), 1);
+    lru.put("c", 3);
+    EXPECT_EQ(lru.find("b"), nullptr);
+    EXPECT_EQ(*lru.find("a"), 1);
+    lru.put("a", 4);
+    EXPECT_EQ(*lru.find("a"), 4);
+    EXPECT_EQ(lru.size(), 2u);
+}
+
+TEST(Slots, AreSoManyAtATime) {
+    Slots slots(2);
+    std::atomic<int> at_work = 0, most = 0, done = 0;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 8; ++i)
+        threads.emplace_back([&] {
+            const Slots::Slot slot = slots.take(60);
+            const int now = ++at_work;
+            for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+            }
+            std::this_thread::yield();
+            --at_work;
+            ++done;
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(done, 8);
+    EXPECT_LE(most, 2);
+    const Slots::Slot one = slots.take(60), two = slots.take(60);
+    EXPECT_EQ(code_of([&] { slots.take(0.01); }), ErrorCode::io);
+}
+
+struct CurvesApi : ApiTest {
+    std::string at(const std::string& id, const std::string& query) const {
+        return "/v1/jobs/" + id + "/curves?" + query;
+    }
+};
+
+TEST_F(CurvesApi, GivesTheFunctionsOfAPixel) {
+    const std::string id = submit();
+    const nlohmann::json curves = json(request("GET", at(id, "light=sun&x=4&y=4")), 200);
+    EXPECT_EQ(curves["light"], "sun");
+    EXPECT_EQ(curves["rays"], 4);
+    ASSERT_EQ(curves["curves"].size(), 2u);
+    EXPECT_EQ(curves["curves"][1]["technique"], "uncompressed");
+    EXPECT_LE(curves["curves"][1]["error_max"], 1e-6);
+    EXPECT_EQ(json(request("GET", at(id, "x=4&y=4")), 200), curves) << "the first light";
+}
+
+TEST_F(CurvesApi, KeepsAnswersAndHelpers) {
+    const std::string id = submit();
+    const int before = helpers_;
+    for (int i = 0; i < 3; ++i)
+        for (const char* x : {"1", "2", "3"}) json(request("GET", at(id, std::string("light=sun&y=2&x=") + x)), 200);
+    EXPECT_EQ(helpers_, before + 1);
+    json(request("GET", at(id, "light=0&x=1&y=2")), 200);
+    EXPECT_EQ(helpers_, before + 2);
+}
+
+TEST_F(CurvesApi, SaysWhatIsWrongWithAQuestion) {
+    const std::string id = submit();
+    refused(request("GET", at("j-9", "x=1&y=1")), 404, "no such job");
+    for (const char* query : {"", "x=1", "y=1", "x=one&y=1", "x=1&y=1.5", "x=1&y=1&variant=a"})
+        refused(request("GET", at(id, query)), 400, "");
+    refused(request("GET", at(id, "x=8&y=0")), 400, "(7, 7)");
+    refused(request("GET", at(id, "light=moon&x=0&y=0")), 400, "no such light");
+    refused(request("GET", at(id, "x=0&y=0&variant=3")), 400, "1 variant");
+    json(request("GET", at(id, "x=0&y=0")), 200);
+}
+
+// A helper that dies is started anew for the next question.
+TEST_F(CurvesApi, OutlivesAHelperThatDies) {
+    int started = 0;
+    struct Dying : Helper {
+        std::string ask(const std::string&, double) override { throw Error(ErrorCode::bad_input, "", "it ended"); }
+    };
+    CurveCache cache(
+        [&](const std::vector<std::string>&) {
+            ++started;
+            return std::make_unique<Dying>();
+        },
+        {"curves"}, 1.0);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(code_of([&] {
+                      cache.curves({"j-1", "sun", 0, 1, 1}, [] { return std::string("{}"); });
+                  }),
+                  ErrorCode::bad_input);
+    EXPECT_EQ(started, 3);
+}
+
+}  // namespace
+}  // namespace shadowbench::service

@@ -1,0 +1,222 @@
+#include <fstream>
+
+#include "api/fixture.h"
+#include "bench/document.h"
+
+namespace shadowbench::service {
+namespace {
+
+using nlohmann::json;
+
+struct JobsApi : ApiTest {};
+
+TEST_F(JobsApi, TakesAScenarioAndTellsWhereItsJobIs) {
+    const ApiResponse response = answer(post("/v1/jobs", tiny_scenario().dump()));
+    EXPECT_EQ(response.status, 202);
+    const nlohmann::json job = json::parse(response.body);
+    EXPECT_EQ(*response.header("Location"), "/v1/jobs/" + job["id"].get<std::string>());
+    EXPECT_EQ(job["state"], "queued");
+    EXPECT_EQ(job["name"], "tiny");
+    EXPECT_EQ(job["seed"], 5);
+    EXPECT_EQ(job["scenario_hash"], bench::hash_text(tiny_scenario().dump()));
+    EXPECT_EQ(job["position"], 0);
+    EXPECT_TRUE(job["progress"].is_null());
+    const JobRequest request = fake::last_request(*jobs_);
+    EXPECT_EQ(json::parse(request.scenario), tiny_scenario());
+    EXPECT_TRUE(request.reuse);
+    EXPECT_TRUE(request.pictures);
+}
+
+TEST_F(JobsApi, TakesAScenarioWithOptions) {
+    const nlohmann::json body = {{"scenario", tiny_scenario()}, {"options", {{"cache", "fresh"}, {"pictures", false}}}};
+    json(post("/v1/jobs", body.dump()), 202);
+    EXPECT_FALSE(fake::last_request(*jobs_).reuse);
+    EXPECT_FALSE(fake::last_request(*jobs_).pictures);
+    EXPECT_EQ(json::parse(fake::last_request(*jobs_).scenario), tiny_scenario());
+    for (const nlohmann::json& wrong : {nlohmann::json{{"cache", "old"}}, nlohmann::json{{"pictures", 1}},
+                                        nlohmann::json{{"colour", true}}, nlohmann::json(3)}) {
+        const nlohmann::json told = {{"scenario", tiny_scenario()}, {"options", wrong}};
+        const nlohmann::json problem = refused(post("/v1/jobs", told.dump()), 422, "");
+        EXPECT_TRUE(problem["errors"][0]["pointer"].get<std::string>().starts_with("/options"));
+    }
+    refused(post("/v1/jobs", R"({"scenario": {}, "more": 1})"), 422, "options");
+}
+
+TEST_F(JobsApi, PointsAtWhatIsWrongInAScenario) {
+    nlohmann::json scenario = tiny_scenario();
+    scenario["rays"]["resolution"] = "large";
+    EXPECT_EQ(refused(post("/v1/jobs", scenario.dump()), 422, "")["errors"][0]["pointer"], "/rays/resolution");
+    scenario = tiny_scenario();
+    scenario["techniques"][1]["tolerance"] = 0.1;
+    EXPECT_EQ(refused(post("/v1/jobs", scenario.dump()), 422, "")["errors"][0]["pointer"], "/techniques/1/tolerance");
+    EXPECT_EQ(refused(post("/v1/jobs", "[]"), 422, "")["errors"][0]["pointer"], "");
+    const nlohmann::json wrapped = {{"scenario", scenario}};
+    EXPECT_EQ(refused(post("/v1/jobs", wrapped.dump()), 422, "")["errors"][0]["pointer"], "/techniques/1/tolerance");
+    EXPECT_EQ(jobs_->count(JobState::queued), 0u);
+}
+
+TEST_F(JobsApi, RefusesWhatIsNoJson) {
+    refused(post("/v1/jobs", "{"), 400, "body:1:2");
+    refused(post("/v1/jobs", R"({"a": 1, "a": 2})"), 400, "twice");
+    refused(post("/v1/jobs", std::string(1000, '[')), 400, "nested");
+    refused(post("/v1/jobs", "\"\xff\""), 400, "body");
+}
+
+TEST_F(JobsApi, ReadsFilesOfTheDataFoldersAlone) {
+    std::ofstream(folder_ / "secret.obj") << "v 0 0 0\n";
+    std::filesystem::create_symlink(folder_ / "secret.obj", folder_ / "data/link.obj");
+    nlohmann::json scenario = tiny_scenario();
+    for (const std::string& name :
+         {(folder_ / "secret.obj").string(), std::string("../secret.obj"), std::string("link.obj"),
+          std::string("x/../../secret.obj"), std::string("missing.obj"), std::string("/etc/passwd")}) {
+        scenario["scene"]["objects"] = json::array({{{"type", "mesh"}, {"file", name}}});
+        const nlohmann::json problem = refused(post("/v1/jobs", scenario.dump()), 422, "");
+        EXPECT_EQ(problem["errors"][0]["pointer"], "/scene/objects/0/file") << name;
+        if (name[0] != '/') {
+            EXPECT_EQ(problem.dump().find(folder_.string()), std::string::npos) << problem;
+        }
+    }
+}
+
+TEST_F(JobsApi, DoesNotTellWhereBrokenFilesAre) {
+    std::ofstream(folder_ / "data/broken.ply") << "ply\nformat ascii 1.0\nelement vertex 3\n";
+    nlohmann::json scenario = tiny_scenario();
+    scenario["scene"]["objects"] = json::array({{{"type", "mesh"}, {"file", "broken.ply"}}});
+    const nlohmann::json problem = refused(post("/v1/jobs", scenario.dump()), 422, "broken.ply");
+    EXPECT_EQ(problem.dump().find(folder_.string()), std::string::npos) << problem;
+}
+
+TEST_F(JobsApi, RefusesWhatCostsTooMuchAndTellsTheEstimate) {
+    ServiceOptions options = standard_options();
+    options.limits.resolution = 7;
+    start(options);
+    nlohmann::json problem = refused(post("/v1/jobs", tiny_scenario().dump()), 422, "8 pixels a side");
+    EXPECT_EQ(problem["errors"][0]["pointer"], "/rays/resolution");
+    EXPECT_EQ(problem["estimate"]["resolution"], 8);
+    options = standard_options();
+    options.limits.samples_per_pixel = 15;
+    start(options);
+    refused(post("/v1/jobs", tiny_scenario().dump()), 422, "16 rays a pixel");
+    options = standard_options();
+    options.limits.bytes = 1000;
+    start(options);
+    problem = refused(post("/v1/jobs", tiny_scenario().dump()), 422, "memory");
+    EXPECT_GT(problem["estimate"]["bytes"], 1000);
+    options = standard_options();
+    options.limits.seconds = 1e-9;
+    start(options);
+    problem = refused(post("/v1/validate", tiny_scenario().dump()), 422, "run for about");
+    EXPECT_GT(problem["estimate"]["seconds"], 1e-9);
+    EXPECT_EQ(jobs_->count(JobState::queued), 0u);
+}
+
+TEST_F(JobsApi, HonoursAnIdempotencyKey) {
+    const std::vector<Field> key = {{"idempotency-key", "once"}};
+    const nlohmann::json first = json(post("/v1/jobs", tiny_scenario().dump(), key), 202);
+    EXPECT_EQ(json(post("/v1/jobs", tiny_scenario().dump(), key), 202)["id"], first["id"]);
+    nlohmann::json other = tiny_scenario();
+    other["rays"]["seed"] = 6;
+    refused(post("/v1/jobs", other.dump(), key), 409, "Idempotency-Key");
+    refused(post("/v1/jobs", other.dump(), {{"idempotency-key", std::string(256, 'x')}}), 400, "255");
+    refused(post("/v1/jobs", other.dump(), {{"idempotency-key", ""}}), 400, "255");
+    EXPECT_EQ(jobs_->count(JobState::queued), 1u);
+}
+
+TEST_F(JobsApi, SaysWhenTheQueueIsFull) {
+    JobLimits limits;
+    limits.queue = 1;
+    start(standard_options(), limits);
+    submit();
+    const ApiResponse response = answer(post("/v1/jobs", tiny_scenario().dump()));
+    EXPECT_EQ(response.status, 429);
+    EXPECT_TRUE(response.header("Retry-After"));
+}
+
+TEST_F(JobsApi, TakesNothingWhileItStops) {
+    jobs_->stop();
+    const ApiResponse response = answer(post("/v1/jobs", tiny_scenario().dump()));
+    EXPECT_EQ(response.status, 503);
+    EXPECT_TRUE(response.header("Retry-After"));
+    EXPECT_EQ(answer(request("GET", "/readyz")).status, 503);
+    EXPECT_EQ(answer(request("GET", "/healthz")).status, 200);
+}
+
+TEST_F(JobsApi, ExaminesTheSameScenarioOnce) {
+    for (int i = 0; i < 5; ++i) submit();
+    EXPECT_EQ(helpers_, 1);
+}
+
+TEST_F(JobsApi, ListsJobsByPagesAndStates) {
+    std::vector<std::string> ids;
+    for (int i = 0; i < 5; ++i) ids.push_back(submit());
+    fake::run(*jobs_, ids[0]);
+    nlohmann::json page = json(request("GET", "/v1/jobs?limit=2"), 200);
+    ASSERT_EQ(page["jobs"].size(), 2u);
+    EXPECT_EQ(page["jobs"][0]["id"], ids[4]) << "newest first";
+    page = json(request("GET", "/v1/jobs?limit=2&cursor=" + page["next"].get<std::string>()), 200);
+    EXPECT_EQ(page["jobs"][0]["id"], ids[2]);
+    page = json(request("GET", "/v1/jobs?limit=2&cursor=" + page["next"].get<std::string>()), 200);
+    EXPECT_EQ(page["jobs"].size(), 1u);
+    EXPECT_TRUE(page["next"].is_null());
+    EXPECT_EQ(json(request("GET", "/v1/jobs?state=running"), 200)["jobs"].size(), 1u);
+    EXPECT_EQ(json(request("GET", "/v1/jobs?state=failed"), 200)["jobs"].size(), 0u);
+    refused(request("GET", "/v1/jobs?state=lost"), 400, "state");
+    for (const char* limit : {"0", "201", "-1", "two", "1x", ""})
+        refused(request("GET", std::string("/v1/jobs?limit=") + limit), 400, "limit");
+    refused(request("GET", "/v1/jobs?cursor=nowhere"), 400, "cursor");
+}
+
+TEST_F(JobsApi, ShowsAJobInEveryState) {
+    const std::string id = submit();
+    const ApiRequest get = request("GET", "/v1/jobs/" + id);
+    EXPECT_EQ(json(get, 200)["state"], "queued");
+    fake::run(*jobs_, id);
+    fake::progress(*jobs_, id, {"build", "1/2 sun", 3, 16, 0.42});
+    nlohmann::json job = json(get, 200);
+    EXPECT_EQ(job["state"], "running");
+    EXPECT_EQ(
+        job["progress"],
+        (nlohmann::json{{"stage", "build"}, {"place", "1/2 sun"}, {"done", 3}, {"total", 16}, {"fraction", 0.42}}));
+    fake::succeed(*jobs_, id, {{"result.json", "{}"}, {"images/a.png", "x"}});
+    job = json(get, 200);
+    EXPECT_EQ(job["state"], "succeeded");
+    EXPECT_EQ(job["promises_kept"], true);
+    EXPECT_EQ(job["artifacts"], (nlohmann::json{"images/a.png", "result.json"}));
+    EXPECT_EQ(job["links"]["result"], "/v1/jobs/" + id + "/result");
+    fake::update(*jobs_, id, [](JobInfo& info) {
+        info.state = JobState::failed;
+        info.fault = JobFault{65, "/lights/0", "no"};
+    });
+    EXPECT_EQ(json(get, 200)["error"], (nlohmann::json{{"code", 65}, {"where", "/lights/0"}, {"message", "no"}}));
+    refused(request("GET", "/v1/jobs/j-0000000000000099"), 404, "no such job");
+}
+
+TEST_F(JobsApi, CancelsAndRemoves) {
+    const std::string id = submit();
+    fake::run(*jobs_, id);
+    refused(request("DELETE", "/v1/jobs/" + id), 409, "runs");
+    EXPECT_EQ(json(post("/v1/jobs/" + id + "/cancel", ""), 202)["state"], "cancelled");
+    refused(post("/v1/jobs/" + id + "/cancel", ""), 409, "ended");
+    EXPECT_EQ(answer(request("DELETE", "/v1/jobs/" + id)).status, 204);
+    refused(request("DELETE", "/v1/jobs/" + id), 404, "no such job");
+    refused(post("/v1/jobs/" + id + "/cancel", ""), 404, "no such job");
+}
+
+TEST_F(JobsApi, ValidatesWithoutQueueing) {
+    nlohmann::json facts = json(post("/v1/validate", tiny_scenario().dump()), 200);
+    EXPECT_EQ(facts["valid"], true);
+    EXPECT_EQ(facts["name"], "tiny");
+    EXPECT_EQ(facts["techniques"], 2);
+    EXPECT_EQ(facts["notes"].size(), 0u);
+    EXPECT_EQ(jobs_->count(JobState::queued), 0u);
+    nlohmann::json scenario = tiny_scenario();
+    scenario["lights"][0] = {
+        {"type", "spot"}, {"name", "away"}, {"position", {0, 5, 0}}, {"target", {0, 9, 0}}, {"angle", 20}};
+    facts = json(post("/v1/validate", scenario.dump()), 200);
+    ASSERT_EQ(facts["notes"].size(), 1u) << facts;
+    EXPECT_NE(facts["notes"][0].get<std::string>().find("away"), std::string::npos);
+    refused(post("/v1/validate", "{}"), 422, "");
+}
+
+}  // namespace
+}  // namespace shadowbench::service

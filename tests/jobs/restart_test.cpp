@@ -1,0 +1,294 @@
+// What is left of the jobs when their server ends, gently or not.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "base/error.h"
+#include "jobs/job_host.h"
+#include "service/jobs/folders.h"
+#include "service/store/job_store.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+
+class JobRestart : public JobHost {
+protected:
+    [[noreturn]] void serve_one(const std::string& script) {
+        try {
+            Jobs& own = start();
+            if (own.list({}, 1, "").jobs.empty()) own.submit(request_of(script));
+            for (;;) ::pause();
+        } catch (...) {
+            ::_exit(1);
+        }
+    }
+    // Servers of this one job, each in a process that is killed once the job has made the file "note".
+    void kill_while_running(const std::string& script, int times) {
+        for (int i = 0; i < times; ++i) {
+            const fs::path note = folder.path() / "note";
+            fs::remove(note);
+            const pid_t server = ::fork();
+            if (server == 0) serve_one(script);
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+            while (!fs::exists(note) && std::chrono::steady_clock::now() < end)
+                std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            ::kill(server, SIGKILL);
+            ::waitpid(server, nullptr, 0);
+            EXPECT_TRUE(fs::exists(note));
+        }
+    }
+    std::string note_and(const std::string& script) const {
+        return "touch " + (folder.path() / "note").string() + "; " + script;
+    }
+};
+
+TEST_F(JobRestart, RefusesASecondServer) {
+    start();
+    try {
+        const Jobs second(state(), program.string(), {}, {});
+        ADD_FAILURE() << "two servers hold one state";
+    } catch (const base::Error& error) {
+        EXPECT_EQ(error.code(), base::ErrorCode::io);
+        EXPECT_NE(error.message().find("another server"), std::string::npos);
+    }
+    EXPECT_EQ(run(success).state, JobState::succeeded) << "the first is none the worse";
+}
+
+TEST_F(JobRestart, RefusesAProgramThatIsNotThere) {
+    EXPECT_THROW(Jobs(state(), "/nowhere/at/all", {}, {}), base::Error);
+}
+
+TEST_F(JobRestart, KeepsWhatHasEnded) {
+    start();
+    const JobInfo good = run(success + "exit 2"), bad = run("exit 7");
+    const std::string cancelled = submit(endless);
+    jobs->cancel(cancelled);
+    start();
+    const auto again = jobs->find(good.id);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->state, JobState::succeeded);
+    EXPECT_EQ(again->promises_kept, false);
+    EXPECT_EQ(again->revision, good.revision);
+    EXPECT_EQ(again->ended, good.ended);
+    EXPECT_EQ(text_of(good.id, "result.json"), "{}\n");
+    EXPECT_EQ(jobs->find(bad.id)->fault->message, bad.fault->message);
+    EXPECT_EQ(jobs->find(cancelled)->state, JobState::cancelled);
+}
+
+TEST_F(JobRestart, WaitsForARunningJobAsLongAsItMay) {
+    limits.grace = 60.0;
+    start();
+    const std::string gate = (folder.path() / "gate").string();
+    const std::string id =
+        submit("echo '{\"stage\":\"build\"}'; while [ ! -e " + gate + " ]; do sleep 0.02; done; " + success);
+    const std::string next = submit(success);
+    wait_for_run(id);
+    std::thread opener([&] {
+        while (!jobs->stopping()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        std::ofstream(gate) << "x";
+    });
+    jobs->stop();
+    opener.join();
+    EXPECT_EQ(jobs->find(id)->state, JobState::succeeded);
+    EXPECT_EQ(jobs->find(next)->state, JobState::queued) << "no more is started";
+}
+
+TEST_F(JobRestart, QueuesAgainWhatIsNotDoneInTime) {
+    limits.grace = 0.2;
+    start();
+    const std::string id = submit(endless);
+    const JobInfo before = wait_for_run(id);
+    std::optional<JobInfo> woken;
+    std::thread waits([&] { woken = jobs->wait(id, before.revision + 1000000, 600.0); });
+    jobs->stop();
+    waits.join();
+    ASSERT_TRUE(woken);
+    const auto job = jobs->find(id);
+    EXPECT_EQ(job->state, JobState::queued);
+    EXPECT_EQ(job->attempts, 0) << "the server asked for it";
+    EXPECT_EQ(job->started, "");
+    EXPECT_GT(job->revision, before.revision);
+    EXPECT_TRUE(work_is_empty());
+    jobs->stop();
+    start();
+    EXPECT_GT(jobs->find(id)->revision, job->revision) << "who resumes its events sees the restart";
+    EXPECT_EQ(wait_for_run(id).attempts, 1);
+}
+
+TEST_F(JobRestart, RunsAgainWhatRanWhenTheServerWasKilled) {
+    kill_while_running(note_and("[ -e " + (folder.path() / "gate").string() + " ] || sleep 1000; " + success), 2);
+    std::ofstream(folder.path() / "gate") << "x";
+    start();
+    const std::string id = jobs->list({}, 1, "").jobs.at(0).id;
+    const JobInfo job = wait_for_end(id);
+    EXPECT_EQ(job.state, JobState::succeeded);
+    EXPECT_EQ(job.attempts, 3);
+}
+
+TEST_F(JobRestart, GivesUpAJobThatTookItsServerDownTooOften) {
+    kill_while_running(note_and("sleep 1000"), 3);
+    start();
+    const JobInfo job = jobs->list({}, 1, "").jobs.at(0);
+    EXPECT_EQ(job.state, JobState::failed);
+    EXPECT_EQ(job.attempts, 3);
+    EXPECT_NE(job.fault->message.find("server"), std::string::npos);
+    EXPECT_EQ(run(success).state, JobState::succeeded);
+}
+
+// The moments between the steps that make a job a success, as a kill would leave them.
+TEST_F(JobRestart, FinishesASuccessWhereItWasCut) {
+    fs::create_directories(state());
+    const JobFolders folders = make_job_folders(state());
+    {
+        JobStore store(state() / "jobs.db");
+        for (const char* id : {"j-placed", "j-noted", "j-early"}) {
+            NewJob job;
+            job.id = id;
+            job.scenario = success + "echo again >from";
+            store.add(job, 10);
+            store.claim("now");
+            fs::create_directories(folders.work / (std::string(id) + "-1"));
+            std::ofstream(folders.work / (std::string(id) + "-1") / "result.json") << "first";
+        }
+        for (const char* id : {"j-placed", "j-noted"}) store.note_kept(id, false);
+        publish(folders, folders.work / "j-placed-1", "j-placed");
+        fs::create_directories(folders.jobs / "j-nobodys");
+    }
+    start();
+    const auto placed = jobs->find("j-placed");
+    EXPECT_EQ(placed->state, JobState::succeeded);
+    EXPECT_EQ(placed->promises_kept, false);
+    EXPECT_EQ(placed->attempts, 1);
+    EXPECT_EQ(text_of("j-placed", "result.json"), "first");
+    for (const char* id : {"j-noted", "j-early"}) {
+        const JobInfo job = wait_for_end(id);
+        EXPECT_EQ(job.state, JobState::succeeded);
+        EXPECT_EQ(job.promises_kept, true);
+        EXPECT_EQ(job.attempts, 2);
+        EXPECT_EQ(text_of(id, "from"), "again\n");
+    }
+    EXPECT_FALSE(fs::exists(folders.jobs / "j-nobodys"));
+    EXPECT_TRUE(work_is_empty());
+}
+
+TEST_F(JobRestart, SaysThatItsDatabaseIsDamaged) {
+    fs::create_directories(state());
+    std::ofstream(state() / "jobs.db") << std::string(9000, 'x');
+    try {
+        start();
+        ADD_FAILURE();
+    } catch (const base::Error& error) {
+        EXPECT_EQ(error.code(), base::ErrorCode::io);
+        EXPECT_EQ(error.where(), (state() / "jobs.db").string());
+    }
+}
+
+// A server under load, killed at any moment: what it had accepted is neither lost nor doubled.
+class JobKill : public JobHost {
+protected:
+    static constexpr int kills = 50;
+
+    // Each job writes result.json in two parts, so that half of one would show, and tells which job it is.
+    static std::string script(int number) {
+        return "printf 'first %s ' " + std::to_string(number) +
+               " >part; sleep 0.01; mkdir images; echo p >images/p.png; "
+               "echo second >>part; mv part result.json";
+    }
+    static std::string result(int number) { return "first " + std::to_string(number) + " second\n"; }
+
+    // Submits `from`, `from` + 1, ... and writes each number and id to `to` once it is accepted. A few always wait.
+    [[noreturn]] void serve(int from, int to) {
+        Jobs& own = start();
+        for (int number = from;; ++number) {
+            while (own.count(JobState::queued) > 5) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            JobRequest request = request_of(script(number));
+            request.idempotency_key = "job " + std::to_string(number);
+            const std::string line = std::to_string(number) + " " + own.submit(request).job.id + "\n";
+            if (::write(to, line.data(), line.size()) != static_cast<ssize_t>(line.size())) ::_exit(1);
+        }
+    }
+
+    // What a server accepted in its life of so many milliseconds after its first word, or from its start.
+    void live(int milliseconds, bool from_first_word) {
+        int ends[2];
+        ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
+        const pid_t server = ::fork();
+        if (server == 0) {
+            ::close(ends[0]);
+            try {
+                serve(next, ends[1]);
+            } catch (...) {
+                ::_exit(1);
+            }
+        }
+        ::close(ends[1]);
+        std::string said;
+        char buffer[4096];
+        if (from_first_word) {
+            const ssize_t count = ::read(ends[0], buffer, sizeof buffer);
+            if (count > 0) said.append(buffer, static_cast<std::size_t>(count));
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+        ::kill(server, SIGKILL);
+        for (ssize_t count; (count = ::read(ends[0], buffer, sizeof buffer)) > 0;)
+            said.append(buffer, static_cast<std::size_t>(count));
+        ::close(ends[0]);
+        ::waitpid(server, nullptr, 0);
+        std::istringstream lines(said);
+        std::string id;
+        for (int number = 0; lines >> number >> id;) {
+            EXPECT_EQ(accepted.emplace(number, id).first->second, id) << "doubled";
+            next = number + 1;
+        }
+    }
+
+    std::map<int, std::string> accepted;  // number -> id
+    int next = 0;                         // the first that is not known to be accepted
+};
+
+TEST_F(JobKill, LosesAndDoublesNothing) {
+    limits.attempts = 1000;
+    limits.parallel = 2;
+    std::mt19937 random(7);
+    for (int i = 0; i < kills; ++i) live(static_cast<int>(random() % 250), i % 5 != 4);
+    ASSERT_GT(accepted.size(), static_cast<std::size_t>(kills));
+
+    start();
+    // A job that was stored while nobody was told belongs to its key all the same.
+    JobRequest request = request_of(script(next));
+    request.idempotency_key = "job " + std::to_string(next);
+    accepted[next] = jobs->submit(request).job.id;
+    int most_attempts = 0, ran_again = 0;
+    for (const auto& [number, id] : accepted) {
+        const JobInfo job = wait_for_end(id);
+        EXPECT_EQ(job.state, JobState::succeeded) << number;
+        EXPECT_EQ(jobs->scenario(id), script(number));
+        EXPECT_EQ(text_of(id, "result.json"), result(number));
+        EXPECT_EQ(jobs->artifacts(id), (std::vector<std::string>{"images/p.png", "result.json"}));
+        most_attempts = std::max(most_attempts, job.attempts);
+        ran_again += job.attempts > 1;
+    }
+    EXPECT_EQ(jobs->list({}, 1000, "").jobs.size(), std::min<std::size_t>(accepted.size(), 1000));
+    EXPECT_EQ(jobs->count(JobState::succeeded), accepted.size()) << "some were doubled, or never accepted";
+    std::size_t folders = 0;
+    for ([[maybe_unused]] const auto& entry : fs::directory_iterator(state() / "jobs")) ++folders;
+    EXPECT_EQ(folders, accepted.size());
+    jobs->stop();
+    EXPECT_TRUE(work_is_empty());
+    RecordProperty("accepted", static_cast<int>(accepted.size()));
+    RecordProperty("ran_again", ran_again);
+    RecordProperty("most_attempts", most_attempts);
+}
+
+}  // namespace
+}  // namespace shadowbench::service

@@ -1,0 +1,113 @@
+#include "service/cli/job_process_command.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "base/read_text.h"
+#include "service/cli/cli.h"
+#include "temporary_folder.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class JobCommand : public ::testing::Test {
+protected:
+    json scenario = json::parse(R"({
+        "name": "tiny",
+        "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
+        "lights": [{"type": "directional", "name": "sun", "direction": [0, -1, 0]},
+                   {"type": "directional", "name": "sky", "direction": [0, -1, 0.1]}],
+        "rays": {"resolution": 8, "samples_per_pixel": 4},
+        "receivers": {"type": "probes", "count": 200},
+        "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
+        "timing": {"repetitions": 1, "lookups": 64},
+        "techniques": [{"type": "uncompressed"}]})");
+
+    // Runs it, and reads what it says.
+    int run(std::vector<std::string> more = {}) {
+        std::ofstream(folder.path() / "scenario.json") << scenario;
+        std::vector<std::string> arguments{"shadowbench", "job", folder.path().string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        std::vector<const char*> pointers;
+        for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
+        std::ostringstream out, err;
+        const int code = cli_main(static_cast<int>(pointers.size()), pointers.data(), out, err);
+        std::istringstream text(out.str());
+        lines.clear();
+        for (std::string line; std::getline(text, line);) lines.push_back(json::parse(line));
+        return code;
+    }
+    bool exists(const char* name) const { return fs::exists(folder.path() / name); }
+
+    const TemporaryFolder folder;
+    std::vector<json> lines;
+};
+
+TEST_F(JobCommand, TellsHowFarItIs) {
+    EXPECT_EQ(run(), 0);
+    ASSERT_GT(lines.size(), 10u);
+    double last = 0.0;
+    for (const json& line : lines) {
+        for (const char* key : {"stage", "place", "done", "total", "fraction"}) EXPECT_TRUE(line.contains(key)) << line;
+        EXPECT_GE(line["fraction"], last);
+        last = line["fraction"];
+    }
+    EXPECT_EQ(lines[0]["stage"], "capture");
+    EXPECT_EQ(lines[0]["place"], "sun");
+    EXPECT_GT(last, 0.9);
+    EXPECT_LE(last, 1.0);
+    EXPECT_EQ(json::parse(base::read_text(folder.path() / "result.json"))["name"], "tiny");
+    EXPECT_TRUE(exists("result.csv"));
+    EXPECT_TRUE(exists("images/images.json"));
+    EXPECT_TRUE(exists("images/uncompressed.shaded.png"));
+}
+
+TEST_F(JobCommand, DrawsNothingWhereItIsToldNotTo) {
+    EXPECT_EQ(run({"--no-pictures"}), 0);
+    EXPECT_TRUE(exists("result.json"));
+    EXPECT_FALSE(exists("images"));
+    EXPECT_GT(lines.back()["fraction"], 0.9);
+}
+
+// The probes fit into the memory limit, and what all pixels see does not.
+TEST_F(JobCommand, KeepsTheResultOfWhatCannotBeDrawn) {
+    EXPECT_EQ(run({"--memory-limit", "0.001"}), 0);
+    EXPECT_TRUE(exists("result.json"));
+    EXPECT_FALSE(exists("images/images.json"));
+    const json why = json::parse(base::read_text(folder.path() / "images" / "error.json"));
+    EXPECT_EQ(why["error"]["where"], "/receivers/resolution");
+}
+
+TEST_F(JobCommand, SaysWhatIsWrongInALine) {
+    scenario["lights"][1]["direction"] = "down";
+    EXPECT_EQ(run(), 65);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0]["error"]["code"], 65);
+    EXPECT_EQ(lines[0]["error"]["where"], "/lights/1/direction");
+    EXPECT_FALSE(exists("result.json"));
+}
+
+TEST_F(JobCommand, LooksForDataInTheFoldersThatItIsGivenAlone) {
+    scenario["scene"]["objects"][0] = {{"type", "mesh"}, {"file", "one.obj"}};
+    std::ofstream(folder.path() / "one.obj") << "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
+    EXPECT_EQ(run(), 66) << "the job's own folder is none of them";
+    EXPECT_EQ(lines.back()["error"]["where"], "/scene/objects/0/file");
+    EXPECT_EQ(run({"--no-pictures", "--data", folder.path().string()}), 0);
+}
+
+TEST_F(JobCommand, RefusesWhatNeedsMoreMemoryThanItMayTake) {
+    scenario["rays"]["resolution"] = 4096;
+    scenario["rays"]["samples_per_pixel"] = 256;
+    EXPECT_EQ(run({"--memory-limit", "0.01"}), 65);
+    EXPECT_EQ(lines.back()["error"]["where"], "/rays");
+}
+
+}  // namespace
+}  // namespace shadowbench::service

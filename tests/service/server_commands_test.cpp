@@ -1,0 +1,200 @@
+// `serve` and `submit`, as a user runs them.
+#include "service/cli/server_commands.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "service/cli/cli.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const tiny = R"({
+    "name": "tiny",
+    "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
+    "lights": [{"type": "directional", "direction": [0, -1, 0]}],
+    "rays": {"resolution": 8, "samples_per_pixel": 4},
+    "receivers": {"type": "probes", "count": 200},
+    "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
+    "timing": {"repetitions": 1, "lookups": 64},
+    "techniques": [{"type": "deep"}, {"type": "uncompressed"}]
+})";
+
+struct Outcome {
+    int code;
+    std::string out, err;
+};
+
+Outcome cli(std::vector<std::string> arguments) {
+    std::vector<const char*> argv{"shadowbench"};
+    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+    std::ostringstream out, err;
+    const int code = cli_main(static_cast<int>(argv.size()), argv.data(), out, err);
+    return {code, out.str(), err.str()};
+}
+
+std::string read(const fs::path& file) {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+class ServerCommands : public testing::Test {
+protected:
+    void SetUp() override {
+        fs::create_directories(folder_);
+        write("tiny.json", tiny);
+    }
+    void TearDown() override {
+        stop();
+        fs::remove_all(folder_);
+    }
+
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name) << text;
+        return path(name);
+    }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    // The program itself, as a process, until it has written its port.
+    void serve(std::vector<std::string> more = {}) {
+        std::vector<std::string> words{SHADOWBENCH_PROGRAM, "serve",   "--port",      "0",       "--port-file",
+                                       path("port"),        "--state", path("state"), "--grace", "0"};
+        words.insert(words.end(), more.begin(), more.end());
+        std::vector<char*> argv;
+        for (std::string& word : words) argv.push_back(word.data());
+        argv.push_back(nullptr);
+        fs::remove(path("port"));
+        server_ = ::fork();
+        if (server_ == 0) {
+            ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), 1);
+            ::execv(argv[0], argv.data());
+            ::_exit(127);
+        }
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+        while (!fs::exists(path("port")) && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        std::string port = read(path("port"));
+        ASSERT_FALSE(port.empty());
+        port.pop_back();
+        url_ = "http://127.0.0.1:" + port;
+    }
+
+    // The exit status after SIGTERM.
+    int stop() {
+        if (server_ <= 0) return -1;
+        int status = 0;
+        ::kill(server_, SIGTERM);
+        ::waitpid(server_, &status, 0);
+        server_ = 0;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    const fs::path folder_ =
+        fs::path(testing::TempDir()) / (std::string("shadowbench_serve_") + std::to_string(::getpid()) + "_" +
+                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+    pid_t server_ = 0;
+    std::string url_;
+};
+
+// The table of `run`, but for what the clock says: its lines of words.
+std::string words_of(const std::string& table) {
+    std::string words;
+    std::istringstream lines(table);
+    for (std::string line; std::getline(lines, line);)
+        if (line.find("capture:") == std::string::npos && line.find("result:") == std::string::npos &&
+            line.find("written:") == std::string::npos && line.find("    deep") != 0 && line.find("    uncomp") != 0)
+            words += line.substr(0, line.find("  build ms")) + "\n";
+    return words;
+}
+
+TEST_F(ServerCommands, SubmitPrintsTheTableThatRunPrints) {
+    serve();
+    const Outcome submitted = cli({"submit", path("tiny.json"), "--server", url_, "--wait", "--no-pictures"});
+    EXPECT_EQ(submitted.code, 0) << submitted.err;
+    const Outcome run = cli({"run", path("tiny.json"), "--out", path("run")});
+    EXPECT_EQ(words_of(submitted.out), words_of(run.out));
+    EXPECT_NE(submitted.out.find("    uncompressed "), std::string::npos) << submitted.out;
+    EXPECT_NE(submitted.out.find("result: " + url_ + "/v1/jobs/j-"), std::string::npos) << submitted.out;
+    EXPECT_EQ(stop(), 0);
+}
+
+TEST_F(ServerCommands, SubmitTellsTheJobAndDoesNotWait) {
+    serve();
+    const Outcome submitted = cli({"submit", path("tiny.json"), "--server", url_ + "/", "--set", "rays.seed=9"});
+    EXPECT_EQ(submitted.code, 0) << submitted.err;
+    EXPECT_TRUE(submitted.out.starts_with("j-")) << submitted.out;
+}
+
+TEST_F(ServerCommands, SubmitFailsAsRunDoes) {
+    serve();
+    const Outcome wrong = cli({"submit", path("tiny.json"), "--server", url_, "--set", "rays.resolution=large"});
+    EXPECT_EQ(wrong.code, 65);
+    EXPECT_NE(wrong.err.find("/rays/resolution"), std::string::npos) << wrong.err;
+    EXPECT_EQ(cli({"submit", path("none.json"), "--server", url_}).code, 66);
+    EXPECT_EQ(cli({"submit", path("tiny.json"), "--server", "localhost"}).code, 64);
+    EXPECT_EQ(stop(), 0);
+    EXPECT_EQ(cli({"submit", path("tiny.json"), "--server", url_}).code, 74) << "nobody is there";
+}
+
+TEST_F(ServerCommands, ATokenIsAskedForAndGiven) {
+    const std::string token = write("token", "0123456789abcdef\n");
+    fs::permissions(token, fs::perms::owner_read | fs::perms::owner_write);
+    serve({"--token-file", token, "--host", "0.0.0.0"});
+    EXPECT_EQ(cli({"submit", path("tiny.json"), "--server", url_}).code, 64);
+    EXPECT_EQ(cli({"submit", path("tiny.json"), "--server", url_, "--token-file", token}).code, 0);
+}
+
+TEST_F(ServerCommands, TokensAreOneLongWordForOneReader) {
+    const auto code_of = [&](const std::string& text, fs::perms perms) {
+        const std::string file = write("token", text);
+        fs::permissions(file, perms);
+        try {
+            read_token(file);
+        } catch (const base::Error& error) {
+            return static_cast<int>(error.code());
+        }
+        return 0;
+    };
+    const fs::perms mine = fs::perms::owner_read | fs::perms::owner_write;
+    EXPECT_EQ(code_of("0123456789abcdef\nmore\n", mine), 0);
+    EXPECT_EQ(code_of("0123456789abcde\n", mine), 65);
+    EXPECT_EQ(code_of("0123456789 abcdef\n", mine), 65);
+    EXPECT_EQ(code_of("", mine), 65);
+    EXPECT_EQ(code_of("0123456789abcdef\n", mine | fs::perms::group_read), 65);
+    EXPECT_EQ(code_of("0123456789abcdef\n", mine | fs::perms::others_read), 65);
+    EXPECT_THROW(read_token(path("missing")), base::Error);
+}
+
+TEST_F(ServerCommands, ServeRefusesWhatItCannotDo) {
+    EXPECT_EQ(cli({"serve", "--host", "0.0.0.0", "--port", "0", "--state", path("state")}).code, 64);
+    EXPECT_EQ(cli({"serve", "--data", path("none"), "--port", "0", "--state", path("state")}).code, 66);
+    EXPECT_EQ(cli({"serve", "--port", "70000"}).code, 64);
+    EXPECT_EQ(cli({"serve", "--token-file", path("none"), "--state", path("state")}).code, 66);
+}
+
+TEST_F(ServerCommands, HelpersAreNotForPeople) {
+    const std::string help = cli({"--help"}).out;
+    EXPECT_NE(help.find("serve"), std::string::npos);
+    EXPECT_EQ(help.find("examine"), std::string::npos);
+    EXPECT_EQ(cli({"frobnicate"}).err.find("examine"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace shadowbench::service
