@@ -68,7 +68,7 @@ TEST_F(JobProgram, LooksForDataOnlyWhereItIsToldAndDoesNotTellWhere) {
     ASSERT_TRUE(job.fault);
     EXPECT_EQ(job.fault->code, 66);
     EXPECT_THAT(job.fault->message, HasSubstr("gone.obj"));
-    EXPECT_THAT(job.fault->message, HasSubstr("looked in: the data folder"));
+    EXPECT_THAT(job.fault->message, HasSubstr("data folder"));
     EXPECT_THAT(job.fault->message, Not(HasSubstr(folder.path().string())));
 }
 
