@@ -20,5 +20,6 @@ using Commands = std::vector<Command>;
 
 // Each adds its subcommands to the application, and what each runs once the arguments are parsed.
 void add_measuring_commands(CLI::App& app, Commands& commands);
+void add_web_commands(CLI::App& app, Commands& commands);
 
 }  // namespace shadowbench::service

@@ -1,0 +1,70 @@
+// Numbers and times as text.
+
+const none = '–';
+
+// Significant digits, thin separators, no exponent where it can be read without.
+export function significant(value, digits = 3) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return none;
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size < 1e-4 || size >= 1e7) return value.toExponential(digits - 1).replace('e+', 'e');
+  if (size >= 10 ** digits) return Math.round(value).toLocaleString('en-GB');
+  return String(Number(value.toPrecision(digits)));
+}
+
+export function count(value) {
+  return Number.isFinite(value) ? value.toLocaleString('en-GB') : none;
+}
+
+export function bytes(value, digits = 3) {
+  if (!Number.isFinite(value)) return none;
+  const units = ['B', 'KiB', 'MiB', 'GiB', 'TiB'];
+  let unit = 0;
+  for (; value >= 1024 && unit + 1 < units.length; ++unit) value /= 1024;
+  return `${significant(value, digits)} ${units[unit]}`;
+}
+
+export function nanoseconds(value) {
+  if (!Number.isFinite(value)) return none;
+  if (value >= 1e6) return `${significant(value / 1e6)} ms`;
+  return value >= 1e3 ? `${significant(value / 1e3)} µs` : `${significant(value)} ns`;
+}
+
+export function seconds(value) {
+  if (!Number.isFinite(value)) return none;
+  if (value < 60) return `${significant(value, value < 1 ? 2 : 3)} s`;
+  const whole = Math.round(value);
+  return whole < 3600 ? `${Math.floor(whole / 60)} min ${whole % 60} s`
+    : `${Math.floor(whole / 3600)} h ${Math.floor((whole % 3600) / 60)} min`;
+}
+
+export function percent(fraction) {
+  return `${Math.round(100 * fraction)} %`;
+}
+
+// An ISO time in the reader's zone.
+export function moment(iso) {
+  const date = new Date(iso);
+  return Number.isNaN(date.getTime()) ? none
+    : date.toLocaleString('en-GB', {dateStyle: 'medium', timeStyle: 'medium'});
+}
+
+const lineLength = 100;
+
+// JSON as people write it: what fits a line stands on one.
+export function written(value, indent = '') {
+  const line = JSON.stringify(value, null, 1)?.replace(/\n */g, ' ').replace(/([[{]) /g, '$1').replace(/ ([\]}])/g, '$1');
+  const nested = (v) => v !== null && typeof v === 'object' && Object.keys(v).length > 0;
+  const end = indent ? '' : '\n';
+  if (!nested(value) || (line.length + indent.length <= lineLength && !Object.values(value).some((v) => nested(v) && Object.values(v).some(nested))))
+    return line + end;
+  const inner = `${indent}  `;
+  const parts = Array.isArray(value) ? value.map((v) => inner + written(v, inner))
+    : Object.entries(value).map(([k, v]) => `${inner}${JSON.stringify(k)}: ${written(v, inner)}`);
+  const [open, close] = Array.isArray(value) ? '[]' : '{}';
+  return `${open}\n${parts.join(',\n')}\n${indent}${close}${end}`;
+}
+
+export function plural(n, one, many = `${one}s`) {
+  return `${count(n)} ${n === 1 ? one : many}`;
+}
