@@ -52,11 +52,10 @@ export async function get(path, signal) {
   return (await answer(path, {signal})).json();
 }
 
-export async function post(path, body, headers = {}, signal) {
-  const response = await answer(path, {
-    method: 'POST', headers: {'Content-Type': 'application/json', ...headers}, body: JSON.stringify(body), signal,
-  });
-  return response.json();
+// `json` is text (parsed and written again, long numbers would lose digits), or null: no body.
+export async function post(path, json, headers = {}, signal) {
+  const type = json !== null && {'Content-Type': 'application/json'};
+  return (await answer(path, {method: 'POST', headers: {...type, ...headers}, body: json, signal})).json();
 }
 
 export async function remove(path) {

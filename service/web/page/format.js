@@ -51,18 +51,23 @@ export function moment(iso) {
 
 const lineLength = 100;
 
-// JSON as people write it: what fits a line stands on one.
-export function written(value, indent = '') {
-  const line = JSON.stringify(value, null, 1)?.replace(/\n */g, ' ').replace(/([[{]) /g, '$1').replace(/ ([\]}])/g, '$1');
-  const nested = (v) => v !== null && typeof v === 'object' && Object.keys(v).length > 0;
-  const end = indent ? '' : '\n';
-  if (!nested(value) || (line.length + indent.length <= lineLength && !Object.values(value).some((v) => nested(v) && Object.values(v).some(nested))))
-    return line + end;
-  const inner = `${indent}  `;
-  const parts = Array.isArray(value) ? value.map((v) => inner + written(v, inner))
-    : Object.entries(value).map(([k, v]) => `${inner}${JSON.stringify(k)}: ${written(v, inner)}`);
-  const [open, close] = Array.isArray(value) ? '[]' : '{}';
-  return `${open}\n${parts.join(',\n')}\n${indent}${close}${end}`;
+const nested = (value) => value !== null && typeof value === 'object' && Object.keys(value).length > 0;
+
+// JSON as people write it: what fits a line and holds at most one more level of brackets stands on one.
+export function written(value) {
+  return `${lines(value, '')}\n`;
+}
+
+function lines(value, indent) {
+  if (!nested(value)) return JSON.stringify(value);
+  const inner = `${indent}  `, list = Array.isArray(value);
+  const parts = (write) => (list ? value.map(write) : Object.entries(value).map(([k, v]) => `${JSON.stringify(k)}: ${write(v)}`));
+  const [open, close] = list ? '[]' : '{}';
+  if (!Object.values(value).some((v) => nested(v) && Object.values(v).some(nested))) {
+    const line = open + parts((v) => lines(v, '')).join(', ') + close;
+    if (line.length + indent.length <= lineLength && !line.includes('\n')) return line;
+  }
+  return `${open}\n${parts((v) => lines(v, inner)).map((part) => inner + part).join(',\n')}\n${indent}${close}`;
 }
 
 export function plural(n, one, many = `${one}s`) {

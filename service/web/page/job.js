@@ -59,7 +59,7 @@ export function jobView({id, signal, edit}) {
   const place = h('div', {class: 'stack'}), problem = h('p', {class: 'problem', role: 'alert'});
   const element = h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('div', {class: 'title'}, title, state), links), facts, problem, place);
   const failed = (error) => { if (!signal.aborted) setText(problem, error.status === 404 ? 'There is no such job.' : error.message); };
-  const progress = progressPanel(() => post(`${path}/cancel`, {}).catch(failed));
+  const progress = progressPanel(() => post(`${path}/cancel`, null).catch(failed));
   let shown = '';
 
   const again = h('button', {type: 'button', class: 'link', onclick: () => get(`${path}/scenario`, signal).then(edit, failed)}, 'Edit and run again');

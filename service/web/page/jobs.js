@@ -67,7 +67,7 @@ export function jobsView({signal}) {
   const act = async (job) => {
     try {
       if (ended(job)) await remove(`/v1/jobs/${job.id}`);
-      else await post(`/v1/jobs/${job.id}/cancel`, {});
+      else await post(`/v1/jobs/${job.id}/cancel`, null);
       setText(problem, '');
     } catch (error) {
       setText(problem, error.message);

@@ -88,7 +88,7 @@ export function submitView({draft, signal, go}) {
     const fault = syntaxFault(text);
     if (fault) return showFaults([fault]);
     try {
-      const answer = await post('/v1/validate', JSON.parse(text), {}, signal);
+      const answer = await post('/v1/validate', text, {}, signal);
       if (turn !== checks) return;
       edit.mark([]);
       verdict.replaceChildren(h('p', {class: 'good'}, h('span', {'aria-hidden': 'true'}, '✓ '), summaryOf(answer)),
@@ -112,8 +112,9 @@ export function submitView({draft, signal, go}) {
     const text = edit.text(), fault = syntaxFault(text);
     if (fault) { showFaults([fault]); edit.go(fault.offset); return; }
     button.disabled = true;
+    const options = JSON.stringify({cache, pictures: pictures.checked});
     try {
-      const job = await post('/v1/jobs', {scenario: JSON.parse(text), options: {cache, pictures: pictures.checked}}, {'Idempotency-Key': key}, signal);
+      const job = await post('/v1/jobs', `{"scenario": ${text}, "options": ${options}}`, {'Idempotency-Key': key}, signal);
       sessionStorage.removeItem(draftKey);
       go(`#/jobs/${job.id}`);
     } catch (error) {

@@ -48,7 +48,8 @@ export async function picture(page, name) {
   await page.screenshot({path: join(process.env.SHADOWBENCH_SCREENSHOTS, `${name}.png`), fullPage: true});
 }
 
-// Every control has a name, every picture a text, ids are there once, and the page does not scroll sideways.
+// Every control has a name, every picture a text, ids are there once, plots stand where they belong, and the page does not
+// scroll sideways.
 export async function assertAccessible(page) {
   const faults = await page.evaluate(() => {
     const found = [];
@@ -58,6 +59,10 @@ export async function assertAccessible(page) {
     for (const e of document.querySelectorAll('button, a[href], input, select, textarea, progress, [role="slider"]'))
       if (e.checkVisibility() && !named(e)) found.push(`no name: ${e.outerHTML.slice(0, 90)}`);
     for (const e of document.querySelectorAll('img')) if (!e.hasAttribute('alt')) found.push(`no alt: ${e.outerHTML.slice(0, 90)}`);
+    for (const e of document.querySelectorAll('.plot svg')) {
+      const a = e.getBoundingClientRect(), b = e.closest('.plot').getBoundingClientRect();
+      if (a.top < b.top - 1 || a.bottom > b.bottom + 1 || a.left < b.left - 1 || a.right > b.right + 1) found.push('a plot outside its place');
+    }
     for (const what of ['main', 'h1']) if (document.querySelectorAll(what).length !== 1) found.push(`not one ${what}`);
     if (document.documentElement.scrollWidth > innerWidth + 1) found.push(`wider than the window: ${document.documentElement.scrollWidth} > ${innerWidth}`);
     return found;

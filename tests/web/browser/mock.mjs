@@ -29,7 +29,7 @@ function curvesOf(light, x, y) {
 
 export class Mock {
   constructor(pages, fixture, scenarios) {
-    Object.assign(this, {pages, fixture, scenarios, jobs: [], token: null, refuse: null, paused: false, keys: []});
+    Object.assign(this, {pages, fixture, scenarios, jobs: [], token: null, refuse: null, keys: [], bodies: []});
     this.waiting = new Set();
     this.server = createServer((request, response) => this.answer(request, response).catch((error) => {
       response.writeHead(500).end(String(error));
@@ -101,16 +101,14 @@ export class Mock {
     for await (const part of request) text += part;
     const handler = {scenarios: this.getScenarios, validate: this.validate, jobs: path[2] ? this.oneJob : this.allJobs}[path[1]];
     if (!handler) return this.problem(response, 404, 'There is nothing here.');
-    return handler.call(this, {request, response, url, path, body: text ? JSON.parse(text) : null});
+    return handler.call(this, {request, response, url, path, text, body: text ? JSON.parse(text) : null});
   }
 
   getScenarios({response}) { this.json(response, 200, {scenarios: this.scenarios}); }
 
   faults(scenario) {
     const errors = [];
-    scenario.lights?.forEach((light, i) => {
-      if (light.angle !== undefined && typeof light.angle !== 'number') errors.push({pointer: `/lights/${i}/angle`, detail: 'not a number'});
-    });
+    if (typeof scenario.rays?.samples_per_pixel !== 'number') errors.push({pointer: '/rays/samples_per_pixel', detail: 'not a number'});
     if (!scenario.techniques?.length) errors.push({pointer: '/techniques', detail: 'at least one technique is needed'});
     return errors;
   }
@@ -122,13 +120,14 @@ export class Mock {
       notes: [], estimate: {seconds: 4.2, bytes: 3 << 20}});
   }
 
-  allJobs({request, response, url, body}) {
+  allJobs({request, response, url, text, body}) {
     if (request.method === 'GET') {
       const state = url.searchParams.get('state'), limit = Number(url.searchParams.get('limit') ?? 50), from = Number(url.searchParams.get('cursor') ?? 0);
       const fitting = this.jobs.filter((job) => !state || job.state === state);
       return this.json(response, 200, {jobs: fitting.slice(from, from + limit), next: from + limit < fitting.length ? String(from + limit) : null});
     }
     this.keys.push(request.headers['idempotency-key']);
+    this.bodies.push(text);
     if (this.refuse) return this.problem(response, this.refuse.status, this.refuse.detail, {}, this.refuse.headers);
     const errors = this.faults(body.scenario);
     if (errors.length) return this.problem(response, 422, 'The scenario is not valid.', {errors});
@@ -136,7 +135,7 @@ export class Mock {
     return this.json(response, 202, job, {Location: `/v1/jobs/${job.id}`});
   }
 
-  oneJob({request, response, url, path}) {
+  oneJob({request, response, url, path, text}) {
     const job = this.jobs.find((j) => j.id === path[2]);
     if (!job) return this.problem(response, 404, 'There is no such job.');
     const part = path[3];
@@ -146,6 +145,7 @@ export class Mock {
     }
     if (!part) return this.json(response, 200, job);
     if (part === 'cancel') {
+      if (text) return this.problem(response, 400, 'This request takes no body.');
       Object.assign(job, {state: 'cancelled', progress: null, position: null, ended: job.created});
       for (const wake of this.waiting) wake();
       return this.json(response, 202, job);

@@ -27,25 +27,29 @@ function logTicks(low, high, kind) {
       if (ticks.length <= 8) return ticks;
     }
   const candidates = [[1, 2, 3, 5, 7], [1, 2, 5], [1, 3], [1]].map((m) => steps(low, high, 10, m));
-  return candidates.find((t) => t.length <= 9) ?? candidates.at(-1).filter((_, i) => i % 2 === 0);
+  const most = candidates.at(-1), each = Math.ceil(most.length / 9);
+  return candidates.find((t) => t.length <= 9) ?? most.filter((_, i) => i % each === 0);
 }
+
+const least = 1e-250;  // far enough from where numbers end
 
 // A log axis that holds all values. Zero has no place on it: it gets one at the lower end (`zero`), marked as 0.
 export function logAxis(name, values, kind) {
   const positive = values.filter((v) => v > 0);
   let low = positive.length ? Math.min(...positive) : 0.1;
   let high = positive.length ? Math.max(...positive) : 1;
-  const margin = Math.max(1.15, (high / low) ** 0.07);
-  low /= margin;
-  high *= margin;
+  const span = Math.log10(high) - Math.log10(low);
+  const margin = Math.max(1.15, 10 ** (0.07 * span));
+  low = Math.max(least, low / margin);
+  high = Math.min(1 / least, high * margin);
   const ticks = logTicks(low, high, kind);
   const labels = ticks.map((t) => write(kind, t));
   let zero = null;
   if (values.some((v) => v === 0)) {
-    zero = low / Math.max(1.4, (high / low) ** 0.1);
+    zero = Math.max(least, low / Math.max(1.4, 10 ** (0.1 * span)));
     ticks.unshift(zero);
     labels.unshift('0');
-    low = zero / margin;
+    low = Math.max(least, zero / margin);
   }
   return {zero, signals: {[`${name}_low`]: low, [`${name}_high`]: high, [`${name}_ticks`]: ticks, [`${name}_labels`]: labels}};
 }
