@@ -162,13 +162,16 @@ export default async function run(options) {
   const expected = [/Failed to load resource/];  // the answers that are no success
   for (const [name, state] of Object.entries(states)) {
     const {mock, url, stop} = await startMock({...options, fixture});
-    const scheme = Object.keys(states).indexOf(name) % 2 ? 'dark' : 'light';
-    const {page, close} = await openPage(options.browser, {scheme, allowed: url, expected});
+    const {page, close} = await openPage(options.browser, {allowed: url, expected});
     try {
       await state({page, url, mock});
-      await assertAccessible(page);
-      await assertContrast(page);
-      await picture(page, `state-${name.replaceAll(' ', '-')}`);
+      for (const [colorScheme, width] of [['light', 1280], ['dark', 400]]) {
+        await page.emulateMedia({colorScheme});
+        await page.setViewportSize({width, height: 900});
+        await assertAccessible(page);
+        await assertContrast(page);
+        await picture(page, `state-${name.replaceAll(' ', '-')}-${colorScheme}-${width}`);
+      }
       await close();
     } catch (error) {
       error.message = `${name}: ${error.message}`;
