@@ -30,6 +30,10 @@ add_custom_command(OUTPUT "${web_built}/assets.s"
   COMMENT "Bundling the page" VERBATIM)
 
 # Lower case .s: nothing to preprocess. The files that it includes change only together with their etags in it.
+set(web_options "-Wa,-I${web_built}")
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  list(APPEND web_options -Wno-unused-command-line-argument)  # of the options for C++, which it gets too
+endif()
 set_source_files_properties("${web_built}/assets.s" PROPERTIES
-  GENERATED TRUE LANGUAGE ASM COMPILE_OPTIONS "-Wa,-I${web_built}")
+  GENERATED TRUE LANGUAGE ASM COMPILE_OPTIONS "${web_options}")
 target_sources(shadowbench_web PRIVATE "${web_built}/assets.s")

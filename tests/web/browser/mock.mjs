@@ -13,9 +13,14 @@ function stepCurve(at, value) {
   return {z: [at, at], v: [1, value]};
 }
 
-// The paper's cases: a step, and a medium, which is a slope.
+// The paper's cases: a step, and a medium, which is a slope. The second light's map is coloured.
 function curvesOf(light, x, y) {
   const exact = {z: [2, 2, 2.6, 3.4, 3.4], v: [1, 0.8, 0.45, 0.35, 0.1 + 0.005 * x]};
+  if (light === '1') {
+    const z = [2, 2], v = [1, 0.9], colours = {channels: [v, [1, 0.5], [1, 0.1]], channels_z: [z, [2.5, 2.5], z]};
+    return {light, x, y, z_min: 1, z_max: 4, rays: 16, exact: {z, v, ...colours},
+      curves: [{title: 'deep tolerance=0.01', technique: 'deep', z, v, ...colours, nodes: 6, error_max: 0}]};
+  }
   return {
     light, x, y, z_min: 1, z_max: 4, rays: 16, exact,
     curves: [

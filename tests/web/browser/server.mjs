@@ -26,7 +26,7 @@ async function startReal({program, scenarios}) {
   const state = temporaryFolder('state'), portFile = join(state, 'port');
   mkdirSync(join(state, 'jobs'));
   const child = spawn(program, ['serve', '--port', '0', '--port-file', portFile, '--state', join(state, 'jobs'), '--data', scenarios],
-    {stdio: ['ignore', 'ignore', 'pipe']});
+    {stdio: ['ignore', 'ignore', 'pipe'], env: {...process.env, SHADOWBENCH_SCENARIOS: scenarios}});
   let said = '';
   child.stderr.on('data', (text) => { said += text; });
   const ended = new Promise((resolve) => { child.on('exit', resolve); });

@@ -57,8 +57,15 @@ function pixelGrid(width, height, ask, choose) {
   };
 }
 
-function through(answer) {
-  return answer.exact.v.length ? answer.exact.v.at(-1) : 1;
+// One channel of a function; of a coloured map they may have depths of their own.
+function channelOf(curve, channel) {
+  return {z: curve.channels_z?.[channel] ?? curve.z, v: curve.channels?.[channel] ?? curve.v};
+}
+
+// The light that all of the pixel lets through, as a mean of its channels.
+function through({exact}) {
+  const all = exact.channels ?? [exact.v];
+  return all.reduce((sum, v) => sum + (v.length ? v.at(-1) : 1), 0) / all.length;
 }
 
 // The newest question wins: one is under way at a time.
@@ -108,17 +115,18 @@ export function curvesView({source, group, series, signal}) {
   const problem = h('p', {class: 'note problem', role: 'alert'});
   const asked = questions(source, group, signal);
   const hidden = new Set();
-  let shown = null, timer = 0, surveying = false;
+  let shown = null, timer = 0, surveying = false, channel = 0;
 
   function draw() {
     const {z_min: low, z_max: high} = shown;
     const exact = {colour: drawing.colour('exact'), dash: [1, 0], width: 7};
-    const vertices = verticesOf('exact', shown.exact, low, high, exact);
+    const vertices = verticesOf('exact', channelOf(shown.exact, channel), low, high, exact);
     shown.curves.forEach((c, number) => {
       if (c.absent || hidden.has(c.title)) return;
       const {colour} = lookOf(series.get(c.technique) ?? 0);
-      vertices.push(...verticesOf(c.title, c, low, high, {colour, dash: dashOf(number), width: 1.8}));
+      vertices.push(...verticesOf(c.title, channelOf(c, channel), low, high, {colour, dash: dashOf(number), width: 1.8}));
     });
+    channels.hidden = !shown.exact.channels;
     const values = vertices.map((p) => p.v);
     const bottom = Math.min(0, ...values), top = Math.max(1, ...values);
     drawing.update({
@@ -135,7 +143,6 @@ export function curvesView({source, group, series, signal}) {
   }
 
   function show(x, y, speak) {
-    if (surveying === 'hold') return;
     asked.latest({
       x, y,
       done(answer) {
@@ -152,6 +159,8 @@ export function curvesView({source, group, series, signal}) {
     });
   }
 
+  const channels = choice('Channel', ['red', 'green', 'blue'].map((text, value) => ({value, text})), 0, (v) => { channel = Number(v); draw(); });
+  channels.hidden = true;
   const hover = (x, y) => { clearTimeout(timer); timer = setTimeout(() => show(x, y, false), hoverPause); };
   const grid = pixelGrid(width, height, hover, (x, y) => show(x, y, true));
   const field = (label, most) => h('input', {type: 'number', min: '0', max: String(most - 1), step: '1', value: String(Math.floor(most / 2)), 'aria-label': label});
@@ -189,7 +198,7 @@ export function curvesView({source, group, series, signal}) {
 
   return h('section', {class: 'panel', id: 'curves', 'aria-labelledby': 'curves-title'},
     h('div', {class: 'panel-head'}, h('h2', {id: 'curves-title'}, 'Visibility functions'),
-      h('div', {class: 'choices'}, worst.length > 0 && choice('Worst pixel of', [{value: '', text: '…'}, ...worst.map((w, i) => ({value: i, text: w.text}))], '',
+      h('div', {class: 'choices'}, channels, worst.length > 0 && choice('Worst pixel of', [{value: '', text: '…'}, ...worst.map((w, i) => ({value: i, text: w.text}))], '',
         (i) => { if (i !== '') show(...worst[i].at, true); }))),
     h('div', {class: 'pixels'},
       h('figure', {}, h('figcaption', {class: 'axis-title'}, `map of light ${group.light.light}, ${width} × ${height}`), grid.element,
