@@ -7,7 +7,7 @@ export function significant(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return none;
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size < 1e-4 || size >= 1e7) return value.toExponential(digits - 1).replace('e+', 'e');
+  if (size < 1e-4 || size >= 1e7) return Number(value.toPrecision(digits)).toExponential().replace('e+', 'e');
   if (size >= 10 ** digits) return Math.round(value).toLocaleString('en-GB');
   return String(Number(value.toPrecision(digits)));
 }

@@ -25,6 +25,8 @@ async function report(options) {
   const result = JSON.parse(readFileSync(join(folder, 'result.json'), 'utf8'));
   result.name = '</script><script>hacked = 1</script><img src=x onerror="hacked = 1">';
   result.variants[0].lights[0].cells[1].label = '<img src=x onerror="hacked = 1">';
+  // A technique that broke its promise has no times; what does not exist is null.
+  Object.assign(result.variants[0].lights[0].cells[2], {status: 'failed', verdict: 'failed', reason: 'rises by 0.5', times: undefined, curve_error: null, lookup_error: {rms: null}});
   writeFileSync(join(folder, 'result.json'), JSON.stringify(result));
   execFileSync(options.program, ['report', folder], {stdio: 'ignore'});
   await each(options.browser, join(folder, 'report.html'), async (page, name) => {
@@ -34,6 +36,10 @@ async function report(options) {
     assert.equal(await page.locator('h1').innerText(), result.name);
     assert.equal(await page.evaluate(() => globalThis.hacked), undefined);
     assert.equal(await page.locator('#curves').count(), 0, 'nobody can be asked for functions');
+    assert.match(await page.locator('.trade').first().innerText(), /Not drawn: 3 failed\./);
+    await page.locator('.cell-name').nth(2).click();
+    await page.waitForFunction(() => document.querySelector('#cell .why').textContent === 'rises by 0.5');
+    assert.match(await page.locator('.cells tr.chosen').innerText(), /✕ failed/);
     await page.locator('.cell-name', {hasText: 'fourier'}).click();
     await page.waitForFunction(() => document.querySelector('#cell-title').textContent.includes('fourier'));
     await picture(page, `report-${name}`);

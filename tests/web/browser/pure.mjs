@@ -78,7 +78,7 @@ test('numbers read as people write them', () => {
   assert.equal(significant(0.0361234), '0.0361');
   assert.equal(significant(12345.6), '12,346');
   assert.equal(significant(999.9), '1000');
-  assert.equal(significant(1.5e-7), '1.50e-7');
+  assert.equal(significant(1.5e-7), '1.5e-7');
   assert.equal(significant(null), '–');
   assert.equal(bytes(0), '0 B');
   assert.equal(bytes(609852), '596 KiB');

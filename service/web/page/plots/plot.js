@@ -72,7 +72,7 @@ export function plot(name, {onPick, theme = () => ({}), label, signal}) {
 
   const watcher = new ResizeObserver(() => {
     // What the axis labels take stays beside the plot.
-    const room = Math.floor(element.clientWidth) - 64;
+    const room = Math.floor(element.clientWidth) - 76;
     if (room < 80 || room === width) return;
     width = room;
     if (view) view.width(width).runAsync();
