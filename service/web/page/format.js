@@ -26,6 +26,7 @@ export function bytes(value, digits = 3) {
 
 export function nanoseconds(value) {
   if (!Number.isFinite(value)) return none;
+  if (value >= 1e9) return `${significant(value / 1e9)} s`;
   if (value >= 1e6) return `${significant(value / 1e6)} ms`;
   return value >= 1e3 ? `${significant(value / 1e3)} µs` : `${significant(value)} ns`;
 }

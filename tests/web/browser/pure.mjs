@@ -83,6 +83,7 @@ test('numbers read as people write them', () => {
   assert.equal(bytes(0), '0 B');
   assert.equal(bytes(609852), '596 KiB');
   assert.equal(nanoseconds(32385), '32.4 µs');
+  assert.equal(nanoseconds(2.5e9), '2.5 s');
   assert.equal(seconds(90), '1 min 30 s');
   assert.equal(seconds(59.99), '60 s');
 });

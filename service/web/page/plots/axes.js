@@ -1,9 +1,9 @@
 // Domains and ticks.
-import {bytes, significant} from '../format.js';
+import {bytes, nanoseconds, significant} from '../format.js';
 
 const writers = {
-  ns: (v) => (v >= 1e6 ? `${significant(v / 1e6)} ms` : v >= 1e3 ? `${significant(v / 1e3)} µs` : `${significant(v)} ns`),
-  ms: (v) => (v >= 1e3 ? `${significant(v / 1e3)} s` : v >= 1 ? `${significant(v)} ms` : `${significant(v * 1e3)} µs`),
+  ns: nanoseconds,
+  ms: (v) => nanoseconds(1e6 * v),
   ratio: (v) => `${significant(v)} ×`,
   bytes: (v) => bytes(v, 4),
   error: (v) => significant(v),

@@ -1,13 +1,12 @@
 // A compiled plot on the page. The parts of Vega that these plots need, without its compiler of expressions, which
 // would evaluate strings: the page's Content-Security-Policy forbids that.
-import {transforms} from 'vega-dataflow';
+import {changeset, transforms} from 'vega-dataflow';
 import * as encoders from 'vega-encode';
 import {expressionInterpreter} from 'vega-interpreter';
 import {parse} from 'vega-parser';
 import * as dataTransforms from 'vega-transforms';
 import {View} from 'vega-view';
 import * as viewTransforms from 'vega-view-transforms';
-import {changeset} from 'vega-dataflow';
 import compiled from 'compiled-plots';
 import {h} from '../dom.js';
 import {onThemeChange} from './palette.js';
@@ -90,5 +89,3 @@ export function plot(name, {onPick, theme = () => ({}), label, signal}) {
     },
   };
 }
-
-export {colour};
