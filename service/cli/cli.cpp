@@ -22,6 +22,7 @@ constexpr const char* examples = R"(Examples:
   shadowbench run scenarios/hard --verdicts results/stability.md
   shadowbench run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64
   shadowbench render quickstart --size 512x384 --out pictures
+  shadowbench report results/runs/quickstart --images results/images/quickstart
   shadowbench validate smoke_vdb --data ~/volumes
   shadowbench export quickstart --technique deep:tolerance=0.02 --out hair.dsm
   shadowbench inspect hair.dsm
@@ -67,6 +68,7 @@ int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ost
     add_kernel_commands(app, commands);
     add_job_commands(app, commands);
     add_server_commands(app, commands);
+    add_web_commands(app, commands);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

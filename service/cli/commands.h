@@ -56,6 +56,12 @@ struct ReproduceArguments {
     int threads = 0;  // 0: all processors
 };
 
+struct ReportArguments {
+    std::string folder;  // of result.json
+    std::string images;  // folder of images.json; empty: images/ in that folder
+    std::string out;     // file; empty: report.html in that folder
+};
+
 // Whether every technique kept its promises in every scenario.
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
 // Whether every technique answered with visibilities.
@@ -68,5 +74,6 @@ void list_techniques(std::ostream& out);
 void list_scenarios(std::ostream& out);
 void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, std::ostream& err);
 void curve_command(const CurveArguments& arguments, std::ostream& out);
+void report_command(const ReportArguments& arguments, std::ostream& out);
 
 }  // namespace shadowbench::service

@@ -24,5 +24,6 @@ void add_job_commands(CLI::App& app, Commands& commands);
 void add_server_commands(CLI::App& app, Commands& commands);
 void add_gate_commands(CLI::App& app, Commands& commands);  // compare, ab, history
 void add_kernel_commands(CLI::App& app, Commands& commands);
+void add_web_commands(CLI::App& app, Commands& commands);
 
 }  // namespace shadowbench::service

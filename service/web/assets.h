@@ -1,4 +1,4 @@
-// The page's files, embedded.
+// The page's files, made from page/ at build time (build.mjs) and held by the program.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 namespace shadowbench::service {
 
 struct Asset {
-    std::string_view path, type;
+    std::string_view path, type;  // "/assets/app.js", "text/javascript; charset=utf-8"
     std::string_view content;
-    bool gzip;  // the content is compressed
-    std::string_view etag;
+    bool gzip;              // the content is compressed with gzip
+    std::string_view etag;  // a strong one, of the content, in its quotes
 };
 
 std::span<const Asset> assets();

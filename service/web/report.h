@@ -1,3 +1,4 @@
+// A result as an offline page.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +8,9 @@
 
 namespace shadowbench::service {
 
-// A page of one result that needs no server: styles, scripts and pictures are in it. `images` is a folder that `render`
-// wrote; it may be missing.
+// A self-contained page of a result (result.json of `run`), with the pictures that images.json in `images` names, if
+// that is there (what `render` writes). A picture that is missing is left out. Throws Error{bad_input}: images.json is
+// no such file; io.
 std::string report_html(const nlohmann::json& result, const std::filesystem::path& images);
 
 }  // namespace shadowbench::service

@@ -1,0 +1,14 @@
+# cmake -DNPM= -DSOURCE= -DFOLDER= -P: what SOURCE/package-lock.json names, into FOLDER/node_modules. One at a time,
+# since builds of several presets may ask for it together.
+file(MAKE_DIRECTORY "${FOLDER}")
+file(LOCK "${FOLDER}/lock" GUARD PROCESS)
+if(EXISTS "${FOLDER}/installed")
+  return()
+endif()
+file(COPY "${SOURCE}/package.json" "${SOURCE}/package-lock.json" "${SOURCE}/.npmrc" DESTINATION "${FOLDER}")
+execute_process(COMMAND "${NPM}" ci WORKING_DIRECTORY "${FOLDER}" OUTPUT_VARIABLE text ERROR_VARIABLE text
+                RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "npm ci in ${FOLDER} failed; it needs the npm registry once:\n${text}")
+endif()
+file(TOUCH "${FOLDER}/installed")

@@ -1,0 +1,25 @@
+#include <memory>
+#include <ostream>
+
+#include <CLI/CLI.hpp>
+
+#include "service/cli/commands.h"
+#include "service/cli/options.h"
+
+namespace shadowbench::service {
+
+void add_web_commands(CLI::App& app, Commands& commands) {
+    const auto arguments = std::make_shared<ReportArguments>();
+    CLI::App* report =
+        app.add_subcommand("report", "A result as one HTML file with plots and pictures, to read offline");
+    report->add_option("RESULT_DIR", arguments->folder, "The folder in which run wrote result.json")->required();
+    report->add_option("--images", arguments->images,
+                       "The folder in which render wrote images.json [RESULT_DIR/images]");
+    report->add_option("--out", arguments->out, "The file to write [RESULT_DIR/report.html]");
+    commands.push_back({report, [arguments](std::ostream& out, std::ostream&) {
+                            report_command(*arguments, out);
+                            return 0;
+                        }});
+}
+
+}  // namespace shadowbench::service

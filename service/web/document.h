@@ -1,0 +1,14 @@
+// A page that is one file: its scripts, styles and data stand in it, and it loads nothing. Internal to service/web.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace shadowbench::service {
+
+// `script` is the path of an asset; it finds `data` as JSON in the element with the id "data".
+std::string document(std::string_view title, std::string_view script, const nlohmann::json& data);
+
+}  // namespace shadowbench::service

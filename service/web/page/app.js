@@ -1,0 +1,56 @@
+// Which page the address names: #/ to submit, #/jobs, #/jobs/<id>.
+import {onTokenNeeded} from './api.js';
+import {h} from './dom.js';
+import {written} from './format.js';
+import {jobView} from './job.js';
+import {jobsView} from './jobs.js';
+import {submitView} from './submit.js';
+
+const main = document.getElementById('main');
+let shown = null, draft = null;
+
+function go(address) {
+  if (location.hash === address) route();
+  else location.hash = address;
+}
+
+function edit(scenario) {
+  draft = written(scenario);
+  go('#/');
+}
+
+function route(event) {
+  shown?.abort();
+  shown = new AbortController();
+  const {signal} = shown;
+  const [, page = '', id] = location.hash.split('/');
+  document.title = 'shadowbench';
+  const view = page === 'jobs' && id ? jobView({id: decodeURIComponent(id), signal, edit})
+    : page === 'jobs' ? jobsView({signal}) : submitView({draft, signal, go});
+  draft = null;
+  main.replaceChildren(view);
+  for (const link of document.querySelectorAll('nav a'))
+    link.toggleAttribute('aria-current', link.getAttribute('href') === (page === 'jobs' ? '#/jobs' : '#/'));
+  if (event) {  // not when the page is first opened
+    scrollTo(0, 0);
+    view.querySelector('h1')?.focus();
+  }
+}
+
+// A form for the token of a server that asks for one.
+onTokenNeeded(() => new Promise((resolve) => {
+  const field = h('input', {type: 'password', autocomplete: 'off', required: true, id: 'token'});
+  const dialog = h('dialog', {'aria-labelledby': 'token-title'}, h('form', {method: 'dialog', onsubmit: (event) => {
+    event.preventDefault();
+    dialog.remove();
+    resolve(field.value.trim());
+  }}, h('h2', {id: 'token-title'}, 'This server asks for a token'),
+  h('p', {class: 'note'}, 'It is kept in this tab alone.'), h('label', {for: 'token'}, 'Token'), field,
+  h('button', {type: 'submit', class: 'primary'}, 'Use it')));
+  dialog.addEventListener('cancel', (event) => event.preventDefault());
+  document.body.append(dialog);
+  dialog.showModal();
+}));
+
+addEventListener('hashchange', route);
+route();

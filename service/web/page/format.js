@@ -1,0 +1,76 @@
+// Numbers and times as text.
+
+const none = '–';
+
+// Significant digits, thin separators, no exponent where it can be read without.
+export function significant(value, digits = 3) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return none;
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size < 1e-4 || size >= 1e7) return Number(value.toPrecision(digits)).toExponential().replace('e+', 'e');
+  if (size >= 10 ** digits) return Math.round(value).toLocaleString('en-GB');
+  return String(Number(value.toPrecision(digits)));
+}
+
+export function count(value) {
+  return Number.isFinite(value) ? value.toLocaleString('en-GB') : none;
+}
+
+export function bytes(value, digits = 3) {
+  if (!Number.isFinite(value)) return none;
+  const units = ['B', 'KiB', 'MiB', 'GiB', 'TiB'];
+  let unit = 0;
+  for (; value >= 1024 && unit + 1 < units.length; ++unit) value /= 1024;
+  return `${significant(value, digits)} ${units[unit]}`;
+}
+
+export function nanoseconds(value) {
+  if (!Number.isFinite(value)) return none;
+  if (value >= 1e9) return `${significant(value / 1e9)} s`;
+  if (value >= 1e6) return `${significant(value / 1e6)} ms`;
+  return value >= 1e3 ? `${significant(value / 1e3)} µs` : `${significant(value)} ns`;
+}
+
+export function seconds(value) {
+  if (!Number.isFinite(value)) return none;
+  if (value < 60) return `${significant(value, value < 1 ? 2 : 3)} s`;
+  const whole = Math.round(value);
+  return whole < 3600 ? `${Math.floor(whole / 60)} min ${whole % 60} s`
+    : `${Math.floor(whole / 3600)} h ${Math.floor((whole % 3600) / 60)} min`;
+}
+
+export function percent(fraction) {
+  return `${Math.round(100 * fraction)} %`;
+}
+
+// An ISO time in the reader's zone.
+export function moment(iso) {
+  const date = new Date(iso);
+  return Number.isNaN(date.getTime()) ? none
+    : date.toLocaleString('en-GB', {dateStyle: 'medium', timeStyle: 'medium'});
+}
+
+const lineLength = 100;
+
+const nested = (value) => value !== null && typeof value === 'object' && Object.keys(value).length > 0;
+
+// JSON as people write it: what fits a line and holds at most one more level of brackets stands on one.
+export function written(value) {
+  return `${lines(value, '')}\n`;
+}
+
+function lines(value, indent) {
+  if (!nested(value)) return JSON.stringify(value);
+  const inner = `${indent}  `, list = Array.isArray(value);
+  const parts = (write) => (list ? value.map(write) : Object.entries(value).map(([k, v]) => `${JSON.stringify(k)}: ${write(v)}`));
+  const [open, close] = list ? '[]' : '{}';
+  if (!Object.values(value).some((v) => nested(v) && Object.values(v).some(nested))) {
+    const line = open + parts((v) => lines(v, '')).join(', ') + close;
+    if (line.length + indent.length <= lineLength && !line.includes('\n')) return line;
+  }
+  return `${open}\n${parts((v) => lines(v, inner)).map((part) => inner + part).join(',\n')}\n${indent}${close}`;
+}
+
+export function plural(n, one, many = `${one}s`) {
+  return `${count(n)} ${n === 1 ? one : many}`;
+}

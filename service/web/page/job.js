@@ -1,0 +1,93 @@
+// One job: its progress, then its result.
+import {get, hasToken, objectUrl, post} from './api.js';
+import {announce, h, setText} from './dom.js';
+import {moment} from './format.js';
+import {progressBar, progressText, stateMark} from './jobs.js';
+import {resultView, summaryOf} from './result/view.js';
+import {ended, watchJob} from './watch.js';
+
+function sourceOf(job) {
+  const path = `/v1/jobs/${encodeURIComponent(job.id)}`;
+  const urls = new Map();
+  return {
+    async picture(file, signal) {
+      const address = `${path}/artifacts/images/${encodeURIComponent(file)}`;
+      if (!hasToken()) return address;
+      if (!urls.has(file)) urls.set(file, await objectUrl(address, signal));
+      return urls.get(file);
+    },
+    curves: (group, x, y, signal) =>
+      get(`${path}/curves?${new URLSearchParams({light: String(group.lightIndex), x, y, variant: String(group.variant)})}`, signal),
+  };
+}
+
+// A file of the job; with a token it cannot be a plain link.
+function fileLink(text, address, name) {
+  return h('a', {href: address, download: name, onclick: async (event) => {
+    if (!hasToken() || event.currentTarget.href.startsWith('blob:')) return;
+    event.preventDefault();
+    const link = event.currentTarget;
+    link.href = await objectUrl(address);
+    link.click();
+  }}, text);
+}
+
+function progressPanel(stop) {
+  const bar = h('div', {class: 'bar wide'}), text = h('p', {class: 'stage-text', role: 'status'});
+  const button = h('button', {type: 'button', class: 'quiet', onclick: stop}, 'Cancel');
+  const element = h('section', {class: 'panel progress', 'aria-label': 'Progress'}, bar, h('div', {class: 'panel-head'}, text, button));
+  return {
+    element,
+    update(job) {
+      if (!bar.firstChild) bar.append(progressBar(job));
+      if (job.state === 'running') bar.firstChild.value = job.progress?.fraction ?? 0;
+      setText(text, job.state === 'queued' ? `Queued: ${progressText(job)}` : progressText(job));
+    },
+  };
+}
+
+function faultPanel(job) {
+  const {where, message} = job.error ?? {};
+  return h('section', {class: 'panel fault', role: 'alert'}, h('h2', {}, job.state === 'failed' ? 'It failed' : 'It was cancelled'),
+    job.error && h('p', {}, where && h('code', {}, where), ` ${message}`),
+    job.attempts > 1 && h('p', {class: 'note'}, `After ${job.attempts} attempts.`));
+}
+
+export function jobView({id, signal, edit}) {
+  const path = `/v1/jobs/${encodeURIComponent(id)}`;
+  const title = h('h1', {tabindex: '-1'}, '…'), state = h('span'), facts = h('p', {class: 'note'}), links = h('p', {class: 'links'});
+  const place = h('div', {class: 'stack'}), problem = h('p', {class: 'problem', role: 'alert'});
+  const element = h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('div', {class: 'title'}, title, state), links), facts, problem, place);
+  const failed = (error) => { if (!signal.aborted) setText(problem, error.status === 404 ? 'There is no such job.' : error.message); };
+  const progress = progressPanel(() => post(`${path}/cancel`, null).catch(failed));
+  let shown = '';
+
+  const again = h('button', {type: 'button', class: 'link', onclick: () => get(`${path}/scenario`, signal).then(edit, failed)}, 'Edit and run again');
+
+  async function showResult(job) {
+    const source = sourceOf(job);
+    const has = (name) => job.artifacts?.includes(name);
+    const [result, images] = await Promise.all([get(`${path}/result`, signal),
+      has('images/images.json') ? get(`${path}/artifacts/images/images.json`, signal) : null]);
+    links.replaceChildren(fileLink('JSON', `${path}/result`, `${job.name}.json`), fileLink('CSV', `${path}/result.csv`, `${job.name}.csv`),
+      fileLink('Offline report', `${path}/report`, `${job.name}.html`), again);
+    place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
+      h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)), resultView({source, result, images, signal}));
+    announce(`${job.name}: the result is shown`);
+  }
+  function update(job) {
+    setText(title, job.name || 'unnamed');
+    document.title = `${job.name} · shadowbench`;
+    setText(facts, [job.id, `sent ${moment(job.created)}`, `seed ${job.seed}`, job.cached && 'answered from an earlier result'].filter(Boolean).join(' · '));
+    if (shown !== job.state) {
+      state.replaceChildren(stateMark(job));
+      if (!ended(job)) { if (!progress.element.isConnected) place.replaceChildren(progress.element); links.replaceChildren(again); }
+      else if (job.state === 'succeeded') showResult(job).catch(failed);
+      else { place.replaceChildren(faultPanel(job)); links.replaceChildren(again); }
+      shown = job.state;
+    }
+    if (!ended(job)) progress.update(job);
+  }
+  watchJob(id, update, signal).catch(failed);
+  return element;
+}

@@ -1,0 +1,91 @@
+// A compiled plot on the page. The parts of Vega that these plots need, without its compiler of expressions, which
+// would evaluate strings: the page's Content-Security-Policy forbids that.
+import {changeset, transforms} from 'vega-dataflow';
+import * as encoders from 'vega-encode';
+import {expressionInterpreter} from 'vega-interpreter';
+import {parse} from 'vega-parser';
+import * as dataTransforms from 'vega-transforms';
+import {View} from 'vega-view';
+import * as viewTransforms from 'vega-view-transforms';
+import compiled from 'compiled-plots';
+import {h} from '../dom.js';
+import {onThemeChange} from './palette.js';
+
+Object.assign(transforms, dataTransforms, viewTransforms, encoders);
+
+function colour(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+function config() {
+  const font = getComputedStyle(document.body).fontFamily;
+  const label = colour('muted'), line = colour('line'), grid = colour('grid');
+  return {
+    background: null, font, style: {cell: {stroke: 'transparent'}},
+    axis: {
+      domainColor: line, tickColor: line, gridColor: grid, labelColor: label, labelFontSize: 11, tickSize: 4,
+      labelFont: font, grid: true, domain: true, gridWidth: 1, labelPadding: 5,
+    },
+  };
+}
+
+function tooltipOver(box) {
+  return (_, event, item, value) => {
+    const text = value === null || value === undefined ? '' : String(value);
+    box.hidden = text === '';
+    if (text === '') return;
+    box.textContent = text;
+    const place = box.parentElement.getBoundingClientRect();
+    const x = event.clientX - place.left, y = event.clientY - place.top;
+    box.style.left = `${Math.max(0, Math.min(x + 14, place.width - box.offsetWidth - 4))}px`;
+    box.style.top = `${Math.max(0, y - box.offsetHeight - 12)}px`;
+  };
+}
+
+// name: a key of specs.js. update({signals, data, description}) draws it anew; theme() is asked for signals that are
+// colours whenever the theme changes. onPick(datum) is told of clicks on marks named "points".
+export function plot(name, {onPick, theme = () => ({}), label, signal}) {
+  const canvas = h('div', {class: 'plot-canvas'});
+  const box = h('div', {class: 'tooltip', hidden: true});
+  const element = h('div', {class: 'plot', role: 'img', 'aria-label': label}, canvas, box);
+  let view = null, state = {signals: {}, data: {}}, width = 0;
+
+  function apply() {
+    for (const [key, value] of Object.entries({...state.signals, ...theme()})) view.signal(key, value);
+    for (const [key, rows] of Object.entries(state.data))
+      view.change(key, changeset().remove(() => true).insert(rows.map((row) => ({...row}))));
+    if (state.description) element.setAttribute('aria-label', state.description);
+    view.runAsync();
+  }
+
+  function build() {
+    view?.finalize();
+    view = new View(parse(compiled[name], config(), {ast: true}), {
+      expr: expressionInterpreter, renderer: 'svg', container: canvas, hover: false, tooltip: tooltipOver(box),
+      logLevel: 1,
+    });
+    if (width) view.width(width);
+    if (onPick) view.addEventListener('click', (_, item) => { if (item?.datum?.key !== undefined) onPick(item.datum.key); });
+    apply();
+  }
+
+  const watcher = new ResizeObserver(() => {
+    // What the axis labels take stays beside the plot.
+    const room = Math.floor(element.clientWidth) - 76;
+    if (room < 80 || room === width) return;
+    width = room;
+    if (view) view.width(width).runAsync();
+    else build();
+  });
+  watcher.observe(element);
+  onThemeChange(() => { if (view) build(); }, signal);
+  signal?.addEventListener('abort', () => { watcher.disconnect(); view?.finalize(); }, {once: true});
+
+  return {
+    element, colour,
+    update(next) {
+      state = {signals: {...state.signals, ...next.signals}, data: {...state.data, ...next.data}, description: next.description};
+      if (view) apply();
+    },
+  };
+}

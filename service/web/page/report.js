@@ -1,0 +1,16 @@
+// A result as a file of its own: the data stands in the page, and nobody can be asked for more.
+import {h} from './dom.js';
+import {resultView, summaryOf} from './result/view.js';
+
+const {result, images, pictures} = JSON.parse(document.getElementById('data').textContent);
+const source = {
+  picture: async (file) => {
+    if (!(file in pictures)) throw new Error('not in this report');
+    return pictures[file];
+  },
+};
+document.getElementById('main').append(h('div', {class: 'stack'},
+  h('div', {class: 'page-head'}, h('h1', {}, result.name ?? 'unnamed')),
+  h('p', {class: 'purpose'}, result.purpose ?? ''),
+  h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)),
+  resultView({source, result, images, signal: new AbortController().signal})));

@@ -1,0 +1,209 @@
+// One pixel of the light's map: its exact visibility function and what every technique stores for it.
+import {choice, h, announce} from '../dom.js';
+import {plural, significant} from '../format.js';
+import {linearAxis} from '../plots/axes.js';
+import {dashOf, lineSample, lookOf, onThemeChange} from '../plots/palette.js';
+import {plot} from '../plots/plot.js';
+import {titleOf} from './model.js';
+
+const hoverPause = 60;  // milliseconds
+const surveySide = 24;  // pixels across that a survey asks for
+
+// The vertices of one function over the whole depth range: its first value before, its last value after.
+function verticesOf(curve, {z, v}, low, high, look) {
+  const first = v.length ? v[0] : 1, last = v.length ? v.at(-1) : 1;
+  return [[low, first], ...z.map((depth, i) => [depth, v[i]]), [high, last]]
+    .map(([depth, value], order) => ({curve, order, z: depth, v: value, ...look}));
+}
+
+// A grid of the map's pixels: what was asked for is painted by how much light comes through.
+function pixelGrid(width, height, ask, choose) {
+  const canvas = h('canvas', {width, height, tabindex: '0', role: 'img',
+    'aria-label': `The light's map, ${width} by ${height} pixels: arrow keys choose a pixel; x and y can also be entered below`});
+  const marker = h('div', {class: 'marker', hidden: true});
+  const element = h('div', {class: 'grid'}, canvas, marker);
+  element.style.aspectRatio = `${width} / ${height}`;
+  const paint = canvas.getContext('2d');
+  let at = [Math.floor(width / 2), Math.floor(height / 2)];
+  const pixel = (event) => {
+    const box = canvas.getBoundingClientRect();
+    const clamp = (v, n) => Math.max(0, Math.min(n - 1, Math.floor(v * n)));
+    return [clamp((event.clientX - box.left) / box.width, width), clamp((event.clientY - box.top) / box.height, height)];
+  };
+  const mark = (x, y) => {
+    at = [x, y];
+    marker.hidden = false;
+    marker.style.left = `${100 * x / width}%`;
+    marker.style.top = `${100 * y / height}%`;
+    marker.style.width = `${100 / width}%`;
+    marker.style.height = `${100 / height}%`;
+  };
+  canvas.addEventListener('pointermove', (event) => ask(...pixel(event)));
+  canvas.addEventListener('click', (event) => choose(...pixel(event)));
+  canvas.addEventListener('keydown', (event) => {
+    const step = event.shiftKey ? 8 : 1;
+    const move = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step]}[event.key];
+    if (!move) return;
+    event.preventDefault();
+    choose(Math.max(0, Math.min(width - 1, at[0] + move[0])), Math.max(0, Math.min(height - 1, at[1] + move[1])));
+  });
+  return {
+    element, mark,
+    fill(x, y, w, h_, through) {
+      const level = Math.round(30 + 215 * Math.max(0, Math.min(1, through)));
+      paint.fillStyle = `rgb(${level} ${level} ${Math.min(255, level + 8)})`;
+      paint.fillRect(x, y, w, h_);
+    },
+  };
+}
+
+// One channel of a function; of a coloured map they may have depths of their own.
+function channelOf(curve, channel) {
+  return {z: curve.channels_z?.[channel] ?? curve.z, v: curve.channels?.[channel] ?? curve.v};
+}
+
+// The light that all of the pixel lets through, as a mean of its channels.
+function through({exact}) {
+  const all = exact.channels ?? [exact.v];
+  return all.reduce((sum, v) => sum + (v.length ? v.at(-1) : 1), 0) / all.length;
+}
+
+// The newest question wins: one is under way at a time.
+function questions(source, group, signal) {
+  const known = new Map();
+  let next = null, busy = false;
+  const key = (x, y) => `${x},${y}`;
+  async function fetchOne(x, y) {
+    if (!known.has(key(x, y))) known.set(key(x, y), await source.curves(group, x, y, signal));
+    return known.get(key(x, y));
+  }
+  async function run() {
+    busy = true;
+    while (next && !signal.aborted) {
+      const {x, y, done, failed} = next;
+      next = null;
+      try {
+        const answer = await fetchOne(x, y);
+        if (!next) done(answer);
+      } catch (error) {
+        if (!signal.aborted && !next) failed(error);
+      }
+    }
+    busy = false;
+  }
+  return {fetchOne, latest(question) { next = question; if (!busy) run(); }};
+}
+
+function legendTable(answer, series, hidden, toggle) {
+  const row = (mark, title, nodes, error, check) => h('tr', {}, h('th', {scope: 'row'}, check, mark, ` ${title}`),
+    h('td', {class: 'number'}, nodes), h('td', {class: 'number'}, error));
+  return h('table', {class: 'curve-legend'},
+    h('thead', {}, h('tr', {}, h('th', {scope: 'col'}, 'Function'), h('th', {scope: 'col', class: 'number'}, 'nodes'), h('th', {scope: 'col', class: 'number'}, 'largest error'))),
+    h('tbody', {},
+      row(h('span', {class: 'exact-mark', 'aria-hidden': 'true'}), `exact, of ${plural(answer.rays, 'ray')}`, String(answer.exact.z.length), '0', null),
+      answer.curves.map((c, number) => c.absent
+        ? h('tr', {class: 'absent'}, h('th', {scope: 'row'}, ` ${c.title}`), h('td', {colspan: '2'}, c.absent))
+        : row(lineSample(series.get(c.technique) ?? 0, number), c.title, String(c.nodes), significant(c.error_max, 2),
+          h('input', {type: 'checkbox', checked: !hidden.has(c.title), 'aria-label': `Show ${c.title}`, onchange: () => toggle(c.title)})))));
+}
+
+// For a source that can be asked for curves (a running server).
+export function curvesView({source, group, series, signal}) {
+  const {width, height} = group.light.map;
+  const drawing = plot('curves', {label: 'Visibility functions', signal});
+  const legend = h('div', {class: 'scroll'}), heading = h('p', {class: 'axis-title', 'aria-live': 'polite'}, '↑ visibility');
+  const problem = h('p', {class: 'note problem', role: 'alert'});
+  const asked = questions(source, group, signal);
+  const hidden = new Set();
+  let shown = null, timer = 0, surveying = false, channel = 0;
+
+  function draw() {
+    const {z_min: low, z_max: high} = shown;
+    const exact = {colour: drawing.colour('exact'), dash: [1, 0], width: 7};
+    const vertices = verticesOf('exact', channelOf(shown.exact, channel), low, high, exact);
+    shown.curves.forEach((c, number) => {
+      if (c.absent || hidden.has(c.title)) return;
+      const {colour} = lookOf(series.get(c.technique) ?? 0);
+      vertices.push(...verticesOf(c.title, channelOf(c, channel), low, high, {colour, dash: dashOf(number), width: 1.8}));
+    });
+    channels.hidden = !shown.exact.channels;
+    const values = vertices.map((p) => p.v);
+    const bottom = Math.min(0, ...values), top = Math.max(1, ...values);
+    drawing.update({
+      signals: {...linearAxis('x', low, high, 7), ...linearAxis('y', bottom - 0.02, top + 0.02, 5)},
+      data: {vertices},
+      description: `Visibility against depth at pixel ${shown.x}, ${shown.y}: ` +
+        shown.curves.map((c) => `${c.title} ${c.absent ?? `${c.nodes} nodes, largest error ${significant(c.error_max, 2)}`}`).join('; '),
+    });
+    heading.textContent = `↑ visibility at pixel ${shown.x}, ${shown.y}`;
+    legend.replaceChildren(legendTable(shown, series, hidden, (title) => {
+      hidden.has(title) ? hidden.delete(title) : hidden.add(title);
+      draw();
+    }));
+  }
+
+  function show(x, y, speak) {
+    asked.latest({
+      x, y,
+      done(answer) {
+        shown = answer;
+        problem.textContent = '';
+        xInput.value = x;
+        yInput.value = y;
+        grid.mark(x, y);
+        grid.fill(x, y, 1, 1, through(answer));
+        draw();
+        if (speak) announce(drawing.element.getAttribute('aria-label'));
+      },
+      failed(error) { problem.textContent = error.message; },
+    });
+  }
+
+  const channels = choice('Channel', ['red', 'green', 'blue'].map((text, value) => ({value, text})), 0, (v) => { channel = Number(v); draw(); });
+  channels.hidden = true;
+  const hover = (x, y) => { clearTimeout(timer); timer = setTimeout(() => show(x, y, false), hoverPause); };
+  const grid = pixelGrid(width, height, hover, (x, y) => show(x, y, true));
+  const field = (label, most) => h('input', {type: 'number', min: '0', max: String(most - 1), step: '1', value: String(Math.floor(most / 2)), 'aria-label': label});
+  const xInput = field('x', width), yInput = field('y', height);
+  const entered = (event) => {
+    event.preventDefault();
+    if (xInput.reportValidity() && yInput.reportValidity()) show(Number(xInput.value), Number(yInput.value), true);
+  };
+  const worst = group.cells.map((cell, i) => ({cell, text: `${i + 1}  ${titleOf(cell)}`, at: cell.curve_error?.worst_cell}))
+    .filter((w) => w.at && w.at[0] < width && w.at[1] < height && w.cell.curve_error.max > 0);
+
+  async function survey() {
+    if (surveying) { surveying = false; return; }
+    surveying = true;
+    surveyButton.textContent = 'Stop';
+    const side = Math.max(1, Math.ceil(Math.max(width, height) / surveySide));
+    try {
+      for (let y = 0; y < height && surveying && !signal.aborted; y += side)
+        for (let x = 0; x < width && surveying && !signal.aborted; x += side) {
+          const w = Math.min(side, width - x), h_ = Math.min(side, height - y);
+          grid.fill(x, y, w, h_, through(await asked.fetchOne(x + (w >> 1), y + (h_ >> 1))));
+        }
+    } catch (error) {
+      if (!signal.aborted) problem.textContent = error.message;
+    }
+    surveying = false;
+    surveyButton.textContent = 'Survey';
+  }
+  const surveyButton = h('button', {type: 'button', class: 'quiet', title: 'Asks for pixels all over the map', onclick: survey}, 'Survey');
+
+  onThemeChange(() => { if (shown) draw(); }, signal);
+  signal.addEventListener('abort', () => clearTimeout(timer), {once: true});
+  const start = worst[0]?.at ?? [Math.floor(width / 2), Math.floor(height / 2)];
+  show(...start, false);
+
+  return h('section', {class: 'panel', id: 'curves', 'aria-labelledby': 'curves-title'},
+    h('div', {class: 'panel-head'}, h('h2', {id: 'curves-title'}, 'Visibility functions'),
+      h('div', {class: 'choices'}, channels, worst.length > 0 && choice('Worst pixel of', [{value: '', text: '…'}, ...worst.map((w, i) => ({value: i, text: w.text}))], '',
+        (i) => { if (i !== '') show(...worst[i].at, true); }))),
+    h('div', {class: 'pixels'},
+      h('figure', {}, h('figcaption', {class: 'axis-title'}, `map of light ${group.light.light}, ${width} × ${height}`), grid.element,
+        h('form', {class: 'pixel-entry', onsubmit: entered},
+          h('label', {}, 'x ', xInput), h('label', {}, 'y ', yInput), h('button', {type: 'submit', class: 'quiet'}, 'Show'), surveyButton),
+        h('p', {class: 'note'}, 'Point at a pixel, or enter one. Pixels seen are painted by the light that comes through.'), problem),
+      h('figure', {}, heading, drawing.element, h('p', {class: 'axis-title'}, 'depth from the light →'), legend)));
+}

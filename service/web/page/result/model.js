@@ -1,0 +1,101 @@
+// A result (result.json of `run`) as what the page shows: groups of cells, measures, the front, the command of a cell.
+
+export function titleOf(cell) {
+  return cell.label ? `${cell.technique} ${cell.label}` : cell.technique;
+}
+
+const sample = (s) => s && {value: s.median, low: s.interval95?.[0], high: s.interval95?.[1]};
+const plain = (value) => (Number.isFinite(value) ? {value} : null);
+
+// Each of(cell) gives {value, low, high} or nothing. kind: how numbers are written.
+export const speeds = [
+  {id: 'random', text: 'one lookup, random order', kind: 'ns', of: (c) => sample(c.times?.lookup_random_order?.ns)},
+  {id: 'image', text: 'one lookup, image order', kind: 'ns', of: (c) => sample(c.times?.lookup_image_order?.ns)},
+  {id: 'random_floor', text: 'random order, × floor', kind: 'ratio',
+    of: (c) => sample(c.times?.lookup_random_order?.ratio_to_floor)},
+  {id: 'image_floor', text: 'image order, × floor', kind: 'ratio',
+    of: (c) => sample(c.times?.lookup_image_order?.ratio_to_floor)},
+  {id: 'build', text: 'build', kind: 'ms', of: (c) => sample(c.times?.build_ms)},
+];
+
+export const size = {id: 'bytes', text: 'bytes of the map', kind: 'bytes', of: (c) => plain(c.bytes)};
+
+const norms = [['rms', 'RMS'], ['max', 'largest'], ['p99', '99th percentile'], ['mean', 'mean']];
+export const errors = [['lookup', 'lookup error'], ['curve', 'curve error']].flatMap(([kind, name]) =>
+  norms.map(([id, text]) => ({
+    id: `${kind}.${id}`, text: `${name}, ${text}`, kind: 'error', of: (c) => plain(c[`${kind}_error`]?.[id]),
+  })));
+
+// One for each variant and light.
+export function groupsOf(result) {
+  return (result.variants ?? []).flatMap((variant, v) => (variant.lights ?? []).map((light, l) => {
+    const settings = Object.entries(variant.settings ?? {});
+    return {
+      variant: v, lightIndex: l, settings, light,
+      variantTitle: settings.map(([pointer, value]) => `${pointer.slice(1).replaceAll('/', '.')} = ${JSON.stringify(value)}`)
+        .join(', ') || 'as written',
+      cells: light.cells ?? [],
+    };
+  }));
+}
+
+// The points that no other beats in both: from left to right, ever lower. Equal ones are all on it.
+export function frontOf(points) {
+  const sorted = [...points].sort((a, b) => a.x - b.x || a.y - b.y);
+  const front = [];
+  for (const point of sorted) {
+    const last = front.at(-1);
+    if (!last || point.y < last.y || (point.y === last.y && point.x === last.x)) front.push(point);
+  }
+  return front;
+}
+
+// A number for each technique of the result in order of appearance: its colour and shape wherever it is shown.
+export function seriesOf(result) {
+  const series = new Map();
+  for (const group of groupsOf(result))
+    for (const cell of group.cells)
+      if (!series.has(cell.technique)) series.set(cell.technique, series.size);
+  return series;
+}
+
+function valueAt(document, pointer) {
+  return pointer.split('/').slice(1).reduce((value, key) => value?.[key.replaceAll('~1', '/').replaceAll('~0', '~')], document);
+}
+
+// The technique as the scenario would say it: what was written, and what sweeps set.
+function techniqueOf(result, cell) {
+  const written = valueAt(result.scenario, cell.where ?? '') ?? {type: cell.technique};
+  const swept = Object.keys(result.scenario?.sweeps ?? {}).filter((p) => p.startsWith(`${cell.where}/`))
+    .map((p) => p.slice(cell.where.length + 1)).filter((key) => key in (cell.parameters ?? {}));
+  return {...written, ...Object.fromEntries(swept.map((key) => [key, cell.parameters[key]]))};
+}
+
+export function quoted(text) {
+  return /^[\w\-./=:,+@%]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
+}
+
+// The command that runs this cell alone, from the scenario saved as a file.
+export function rerunOf(result, group, cell) {
+  const sets = [];
+  if (Object.keys(result.scenario?.sweeps ?? {}).length) sets.push('sweeps={}');
+  sets.push(`techniques=${JSON.stringify([techniqueOf(result, cell)])}`);
+  for (const [pointer, value] of group.settings) sets.push(`${pointer}=${JSON.stringify(value)}`);
+  return ['shadowbench', 'run', `${result.name}.json`, ...sets.flatMap((s) => ['--set', s])].map(quoted).join(' ');
+}
+
+// The pictures of a cell in images.json; nothing when there are none.
+export function picturesOf(images, cell) {
+  return images?.techniques?.find((t) => t.technique === cell.technique && (t.label ?? '') === (cell.label ?? '')) ?? null;
+}
+
+export function fileOf(pictures, kind) {
+  return pictures?.files?.find((name) => name.endsWith(`.${kind}.png`)) ?? null;
+}
+
+// Pictures are of one variant alone.
+export function imagesAreOf(images, group) {
+  const settings = images?.settings ?? {};
+  return Boolean(images) && group.settings.length === Object.keys(settings).length &&
+    group.settings.every(([pointer, value]) => JSON.stringify(settings[pointer]) === JSON.stringify(value));
+}

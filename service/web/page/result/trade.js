@@ -1,0 +1,98 @@
+// The two plots of a group: speed against error and bytes against error.
+import {choice, h, setText} from '../dom.js';
+import {significant} from '../format.js';
+import {plot} from '../plots/plot.js';
+import {logAxis, write} from '../plots/axes.js';
+import {lookOf} from '../plots/palette.js';
+import {errors, frontOf, size, speeds, titleOf} from './model.js';
+
+function interval(measure, m) {
+  return m.low !== undefined && m.low !== null && m.high !== m.low
+    ? ` (95 %: ${write(measure.kind, m.low)} to ${write(measure.kind, m.high)})` : '';
+}
+
+// What can be drawn of the cells, and why the others cannot.
+function pointsOf(cells, series, cost, error, chosen) {
+  const points = [], missing = [];
+  cells.forEach((cell, index) => {
+    const x = cost.of(cell), y = error.of(cell);
+    if (cell.status !== 'ok') missing.push(`${index + 1} failed`);
+    else if (!y) missing.push(`${index + 1} has no ${error.text.split(',')[0]}`);
+    else if (!x) missing.push(`${index + 1} has no such time`);
+    else {
+      const look = lookOf(series.get(cell.technique));
+      points.push({
+        n: String(index + 1), key: index, x: x.value, low: x.low ?? x.value, high: x.high ?? x.value, y: y.value,
+        colour: look.colour, shape: look.shape, chosen: index === chosen,
+        tip: `${index + 1}  ${titleOf(cell)}\n${cost.text}: ${write(cost.kind, x.value)}${interval(cost, x)}\n` +
+          `${error.text}: ${significant(y.value)}`,
+      });
+    }
+  });
+  return {points, missing};
+}
+
+// Errors that mean little are told by lines, where they apply to the measure.
+function levelsOf(light, error, low, high) {
+  const reference = light.reference ?? {};
+  const all = error.id === 'lookup.rms'
+    ? [[reference.spread_over_seeds?.rms, 'spread of the rays over seeds'], [reference.standard_error?.rms, 'standard error of the truth']]
+    : error.id === 'curve.max' ? [[reference.noise_tolerance, '0.5/√N']] : [];
+  return all.filter(([y]) => y > low && y < high).map(([y, text]) => ({y, text: `${text} ${significant(y, 2)}`}));
+}
+
+function tradePlot(title, pick, signal) {
+  const drawing = plot('trade', {
+    onPick: pick, label: title, signal,
+    theme: () => ({ink: drawing.colour('ink'), muted: drawing.colour('muted'), paper: drawing.colour('panel')}),
+  });
+  const caption = h('p', {class: 'axis-title'}), note = h('p', {class: 'note'});
+  const yTitle = h('p', {class: 'axis-title'});
+  const element = h('figure', {class: 'trade'},
+    h('figcaption', {}, h('h3', {}, title), yTitle), drawing.element, caption, note);
+
+  function update({cells, light, series, cost, error, chosen}) {
+    const {points, missing} = pointsOf(cells, series, cost, error, chosen);
+    const x = logAxis('x', points.flatMap((p) => [p.x, p.low, p.high]), cost.kind);
+    const y = logAxis('y', points.map((p) => p.y), 'error');
+    const front = frontOf(points).map((p, order) => ({order, x: p.x || x.zero, y: p.y || y.zero}));
+    if (front.length) front.push({order: front.length, x: x.signals.x_high, y: front.at(-1).y});
+    const placed = points.map((p) => ({
+      ...p, x: p.x || x.zero, low: p.low || x.zero || p.low, high: p.high || x.zero, y: p.y || y.zero,
+    }));
+    setText(yTitle, `↑ ${error.text}`);
+    setText(caption, `${cost.text} →`);
+    const names = frontOf(points).map((p) => `${p.n} ${titleOf(cells[p.key])}`).join(', ');
+    setText(note, [
+      points.length ? `On the front: ${names}.` : 'Nothing can be drawn for these measures.',
+      x.zero || y.zero ? 'Zeros stand at the edge marked 0.' : '', missing.length ? `Not drawn: ${missing.join(', ')}.` : '',
+    ].filter(Boolean).join(' '));
+    drawing.update({
+      signals: {...x.signals, ...y.signals},
+      data: {points: placed, front, levels: levelsOf(light, error, y.signals.y_low, y.signals.y_high)},
+      description: `${title}: ${cost.text} against ${error.text}, log axes, ${points.length} points. The table below has the numbers.`,
+    });
+  }
+  return {element, update};
+}
+
+// context: {series, pick(index), signal}. update({cells, light, chosen}).
+export function tradeView(context) {
+  let cost = speeds[0], error = errors[0], last = null;
+  const speed = tradePlot('Speed against error', context.pick, context.signal);
+  const bytes = tradePlot('Bytes against error', context.pick, context.signal);
+  const draw = () => {
+    speed.update({...last, series: context.series(), cost, error});
+    bytes.update({...last, series: context.series(), cost: size, error});
+  };
+  const find = (list, id) => list.find((m) => m.id === id);
+  const element = h('section', {class: 'panel', 'aria-labelledby': 'trade-title'},
+    h('div', {class: 'panel-head'}, h('h2', {id: 'trade-title'}, 'What accuracy costs'),
+      h('div', {class: 'choices'},
+        choice('Error', errors.map((m) => ({value: m.id, text: m.text})), error.id, (id) => { error = find(errors, id); draw(); }),
+        choice('Speed', speeds.map((m) => ({value: m.id, text: m.text})), cost.id, (id) => { cost = find(speeds, id); draw(); }))),
+    h('div', {class: 'pair'}, speed.element, bytes.element),
+    h('p', {class: 'note'}, 'Down and left is better. Bars: 95 % intervals of the median. The line joins what nothing else beats in both. ' +
+      'Click a point, or its name in the table, for its pictures.'));
+  return {element, update(next) { last = next; draw(); }};
+}

@@ -1,0 +1,159 @@
+// The page on which a scenario is written and sent.
+import {get, post} from './api.js';
+import {choice, h, setText} from './dom.js';
+import {bytes, plural, seconds, written} from './format.js';
+import {JsonFault, lineOf, offsetOf, places} from './pointer.js';
+
+const checkPause = 400;  // milliseconds after the last key
+const draftKey = 'shadowbench-draft';
+
+// A text area whose lines have numbers and can be marked.
+function editor(changed) {
+  const area = h('textarea', {id: 'scenario', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', wrap: 'off', 'aria-describedby': 'verdict'});
+  const numbers = h('div', {class: 'numbers', 'aria-hidden': 'true'});
+  const marks = h('div', {class: 'line-marks', 'aria-hidden': 'true'});
+  let marked = new Set();
+  function draw() {
+    const lines = area.value.split('\n').length;
+    const rows = Array.from({length: lines}, (_, i) => [i, marked.has(i)]);
+    numbers.replaceChildren(...rows.map(([i, bad]) => h('div', {class: bad ? 'bad' : null}, String(i + 1))));
+    marks.replaceChildren(...rows.map(([, bad]) => h('div', {class: bad ? 'bad' : null}, '\u200b')));
+    scrolled();
+  }
+  function scrolled() {
+    numbers.style.transform = marks.style.transform = `translateY(${-area.scrollTop}px)`;
+  }
+  area.addEventListener('input', () => { marked = new Set(); draw(); changed(); });
+  area.addEventListener('scroll', scrolled);
+  return {
+    element: h('div', {class: 'editor'}, h('div', {class: 'numbers-box'}, numbers), h('div', {class: 'area-box'}, marks, area)),
+    text: () => area.value,
+    set(text) { area.value = text; marked = new Set(); area.scrollTop = 0; draw(); changed(); },
+    mark(lines) { marked = new Set(lines); area.setAttribute('aria-invalid', String(marked.size > 0)); draw(); },
+    go(offset) {
+      const line = lineOf(area.value, offset);
+      area.focus();
+      area.setSelectionRange(offset, offset);
+      area.scrollTop = Math.max(0, (line - 5) * parseFloat(getComputedStyle(area).lineHeight));
+    },
+  };
+}
+
+// The faults of a problem as {offset, line, pointer, detail}.
+function faultsOf(problem, text) {
+  let map = new Map();
+  try { map = places(text); } catch { /* a server that is stricter than the scanner */ }
+  const errors = problem.errors.length ? problem.errors : [{pointer: '', detail: problem.message}];
+  return errors.map(({pointer = '', detail}) => {
+    const offset = offsetOf(map, pointer);
+    return {offset, line: lineOf(text, offset), pointer, detail};
+  });
+}
+
+function summaryOf(answer) {
+  const parts = [plural(answer.variants, 'variant'), plural(answer.lights, 'light'), plural(answer.techniques, 'technique')];
+  const {seconds: time, bytes: memory} = answer.estimate ?? {};
+  if (Number.isFinite(time)) parts.push(`about ${seconds(time)}`);
+  if (Number.isFinite(memory)) parts.push(`at least ${bytes(memory)}`);
+  return `Valid: ${parts.join(', ')}.`;
+}
+
+function newKey() {
+  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (b) => b.toString(16).padStart(2, '0')).join('');
+}
+
+export function submitView({draft, signal, go}) {
+  const verdict = h('div', {id: 'verdict', class: 'verdict-box', role: 'status'});
+  const problem = h('p', {class: 'problem', role: 'alert'});
+  let timer = 0, checks = 0, cache = 'reuse', key = newKey();
+
+  function showFaults(faults) {
+    edit.mark(faults.map((f) => f.line));
+    verdict.replaceChildren(h('p', {class: 'bad-title'}, `${plural(faults.length, 'fault')}:`), h('ul', {class: 'faults'}, faults.map((f) =>
+      h('li', {}, h('button', {type: 'button', class: 'link', onclick: () => edit.go(f.offset)}, `line ${f.line + 1}`),
+        f.pointer && h('code', {}, f.pointer), h('span', {}, ` ${f.detail}`)))));
+  }
+  function syntaxFault(text) {
+    try {
+      places(text);
+      return null;
+    } catch (error) {
+      if (!(error instanceof JsonFault)) throw error;
+      return {offset: error.offset, line: lineOf(text, error.offset), pointer: '', detail: `${error.message}.`};
+    }
+  }
+  async function check() {
+    const text = edit.text(), turn = ++checks;
+    sessionStorage.setItem(draftKey, text);
+    const fault = syntaxFault(text);
+    if (fault) return showFaults([fault]);
+    try {
+      const answer = await post('/v1/validate', text, {}, signal);
+      if (turn !== checks) return;
+      edit.mark([]);
+      verdict.replaceChildren(h('p', {class: 'good'}, h('span', {'aria-hidden': 'true'}, '✓ '), summaryOf(answer)),
+        ...(answer.notes ?? []).map((note) => h('p', {class: 'note'}, note)));
+    } catch (error) {
+      if (signal.aborted || turn !== checks) return;
+      if (error.status === 422 || error.status === 400) showFaults(faultsOf(error, text));
+      else verdict.replaceChildren(h('p', {class: 'problem'}, error.message));
+    }
+  }
+  const edit = editor(() => {
+    setText(problem, '');
+    key = newKey();  // another text is another request
+    clearTimeout(timer);
+    timer = setTimeout(check, checkPause);
+  });
+  signal.addEventListener('abort', () => clearTimeout(timer), {once: true});
+
+  async function submit(event) {
+    event.preventDefault();
+    const text = edit.text(), fault = syntaxFault(text);
+    if (fault) { showFaults([fault]); edit.go(fault.offset); return; }
+    button.disabled = true;
+    const options = JSON.stringify({cache, pictures: pictures.checked});
+    try {
+      const job = await post('/v1/jobs', `{"scenario": ${text}, "options": ${options}}`, {'Idempotency-Key': key}, signal);
+      sessionStorage.removeItem(draftKey);
+      go(`#/jobs/${job.id}`);
+    } catch (error) {
+      if (signal.aborted) return;
+      if (error.status === 422 || error.status === 400) showFaults(faultsOf(error, text));
+      const wait = error.retryAfter ? ` Try again in ${seconds(error.retryAfter)}.` : '';
+      setText(problem, `Not accepted: ${error.message}${wait}`);
+    } finally {
+      button.disabled = false;
+    }
+  }
+  const pictures = h('input', {type: 'checkbox', checked: true, id: 'pictures', onchange: () => { key = newKey(); }});
+  const button = h('button', {type: 'submit', class: 'primary'}, 'Run it');
+  const examples = h('span', {class: 'choices'});
+  const purpose = h('p', {class: 'note', id: 'purpose'});
+
+  async function load() {
+    if (draft) edit.set(draft);
+    const {scenarios} = await get('/v1/scenarios', signal);
+    const pick = (name) => {
+      const example = scenarios.find((s) => s.name === name);
+      if (!example) return;
+      setText(purpose, example.purpose ?? '');
+      edit.set(written(example.document));
+    };
+    const first = scenarios.find((s) => s.name === 'quickstart') ?? scenarios[0];
+    const kept = draft ?? sessionStorage.getItem(draftKey);
+    examples.replaceChildren(choice('Example', [...(kept ? [{value: '', text: 'your own'}] : []), ...scenarios.map((s) => ({value: s.name, text: s.name}))],
+      kept ? '' : first?.name, pick));
+    if (kept) { if (!draft) edit.set(kept); } else if (first) pick(first.name);
+  }
+  load().catch((error) => { if (!signal.aborted) setText(problem, error.message); });
+
+  return h('form', {class: 'submit', onsubmit: submit},
+    h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Run a scenario'), examples),
+    purpose,
+    h('label', {class: 'hidden', for: 'scenario'}, 'Scenario, as JSON'), edit.element, verdict,
+    h('div', {class: 'actions'}, button,
+      h('label', {class: 'check'}, pictures, ' with pictures'),
+      choice('Known results', [{value: 'reuse', text: 'answer with them'}, {value: 'fresh', text: 'measure again'}], cache, (v) => { cache = v; key = newKey(); })),
+    problem);
+}

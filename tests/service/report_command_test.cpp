@@ -1,0 +1,82 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "service/cli/cli.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class ReportCommand : public ::testing::Test {
+protected:
+    void SetUp() override { fs::create_directories(folder_); }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    void write(const std::string& name, const std::string& text) const {
+        fs::create_directories((folder_ / name).parent_path());
+        std::ofstream(folder_ / name) << text;
+    }
+    int report(std::vector<std::string> arguments) {
+        std::vector<const char*> argv{"shadowbench", "report"};
+        for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+        out_.str({}), err_.str({});
+        return cli_main(static_cast<int>(argv.size()), argv.data(), out_, err_);
+    }
+
+    fs::path folder_ = fs::temp_directory_path() / ("shadowbench_report_command_" + std::to_string(::getpid()));
+    std::ostringstream out_, err_;
+};
+
+TEST_F(ReportCommand, WritesBesideTheResultOrWhereItIsTold) {
+    write("result.json", R"({"schema_version": 1, "name": "tiny", "variants": []})");
+    EXPECT_EQ(report({folder_.string()}), 0) << err_.str();
+    EXPECT_TRUE(fs::exists(folder_ / "report.html"));
+    EXPECT_THAT(out_.str(), HasSubstr("without pictures"));
+    EXPECT_EQ(report({folder_.string(), "--out", (folder_ / "new" / "page.html").string()}), 0) << err_.str();
+    EXPECT_TRUE(fs::exists(folder_ / "new" / "page.html"));
+}
+
+TEST_F(ReportCommand, TakesPicturesFromItsFolderOrAnother) {
+    write("result.json", R"({"schema_version": 1, "name": "tiny", "variants": []})");
+    const std::string images = R"({"reference": {"files": ["a.png"]}, "techniques": []})";
+    write("other/images.json", images);
+    write("other/a.png", "abc");
+    EXPECT_EQ(report({folder_.string(), "--images", (folder_ / "other").string()}), 0) << err_.str();
+    EXPECT_EQ(out_.str().find("without pictures"), std::string::npos);
+    write("images/images.json", images);
+    EXPECT_EQ(report({folder_.string()}), 0) << err_.str();
+    EXPECT_EQ(out_.str().find("without pictures"), std::string::npos);
+}
+
+TEST_F(ReportCommand, WhatIsNoResultIsNamed) {
+    EXPECT_EQ(report({(folder_ / "nowhere").string()}), 66);
+    EXPECT_EQ(report({folder_.string()}), 66);
+    EXPECT_THAT(err_.str(), HasSubstr("result.json"));
+    for (const char* text : {"", "{", "[]", "{}", R"({"schema_version": 1})"}) {
+        write("result.json", text);
+        EXPECT_EQ(report({folder_.string()}), 65) << text;
+        EXPECT_THAT(err_.str(), HasSubstr("not a result of run")) << text;
+    }
+    write("result.json", R"({"schema_version": 7, "variants": []})");
+    EXPECT_EQ(report({folder_.string()}), 65);
+    EXPECT_THAT(err_.str(), HasSubstr("schema_version: 7, and this program shows 1"));
+    EXPECT_FALSE(fs::exists(folder_ / "report.html"));
+}
+
+TEST_F(ReportCommand, ImagesThatAreToldMustBeThere) {
+    write("result.json", R"({"schema_version": 1, "variants": []})");
+    EXPECT_EQ(report({folder_.string(), "--images", folder_.string()}), 66);
+    EXPECT_THAT(err_.str(), HasSubstr("images.json"));
+}
+
+}  // namespace
+}  // namespace shadowbench::service

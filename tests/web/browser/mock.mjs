@@ -1,0 +1,183 @@
+// A server with the API's answers and no engine behind it, for states that a real one seldom has: no answer, a full
+// queue, a token, no jobs at all, a failed job. Finished jobs have the result of a real run, from `fixture`.
+import {createReadStream, existsSync, readdirSync, readFileSync} from 'node:fs';
+import {createServer} from 'node:http';
+import {join, normalize} from 'node:path';
+
+const policy = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; " +
+  "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+const types = {html: 'text/html; charset=utf-8', js: 'text/javascript', css: 'text/css', svg: 'image/svg+xml', png: 'image/png', json: 'application/json'};
+const stages = ['capture', 'build', 'lookup', 'reference', 'pictures'];
+
+function stepCurve(at, value) {
+  return {z: [at, at], v: [1, value]};
+}
+
+// The paper's cases: a step, and a medium, which is a slope. The second light's map is coloured.
+function curvesOf(light, x, y) {
+  const exact = {z: [2, 2, 2.6, 3.4, 3.4], v: [1, 0.8, 0.45, 0.35, 0.1 + 0.005 * x]};
+  if (light === '1') {
+    const z = [2, 2], v = [1, 0.9], colours = {channels: [v, [1, 0.5], [1, 0.1]], channels_z: [z, [2.5, 2.5], z]};
+    return {light, x, y, z_min: 1, z_max: 4, rays: 16, exact: {z, v, ...colours},
+      curves: [{title: 'deep tolerance=0.01', technique: 'deep', z, v, ...colours, nodes: 6, error_max: 0}]};
+  }
+  return {
+    light, x, y, z_min: 1, z_max: 4, rays: 16, exact,
+    curves: [
+      {title: 'shadow_map', technique: 'shadow_map', ...stepCurve(2, 0), nodes: 1, error_max: 0.8},
+      {title: 'deep tolerance=0.01', technique: 'deep', z: [2, 2, 2.7, 3.4, 3.4], v: [1, 0.79, 0.44, 0.34, 0.1 + 0.005 * x], nodes: 5, error_max: 0.01},
+      {title: 'avsm nodes=4', technique: 'avsm', z: [2, 2, 3.4, 3.4], v: [1, 0.7, 0.7, 0.12], nodes: 4, error_max: 0.31},
+      {title: 'ray_traced', technique: 'ray_traced', absent: 'stores no function'},
+    ],
+  };
+}
+
+export class Mock {
+  constructor(pages, fixture, scenarios) {
+    Object.assign(this, {pages, fixture, scenarios, jobs: [], token: null, refuse: null, keys: [], bodies: []});
+    this.waiting = new Set();
+    this.server = createServer((request, response) => this.answer(request, response).catch((error) => {
+      response.writeHead(500).end(String(error));
+    }));
+  }
+
+  async start() {
+    await new Promise((resolve) => { this.server.listen(0, '127.0.0.1', resolve); });
+    return `http://127.0.0.1:${this.server.address().port}/`;
+  }
+
+  stop() {
+    this.server.closeAllConnections();
+    this.server.close();
+  }
+
+  job(state, more = {}) {
+    const id = `j-${String(this.jobs.length + 1).padStart(16, '0')}`;
+    const now = '2026-11-25T02:03:04.123Z';
+    const job = {
+      id, state, name: 'small', scenario_hash: '9e9d87140e16f0a5', seed: 1, created: now, started: state === 'queued' ? null : now,
+      ended: ['queued', 'running'].includes(state) ? null : '2026-11-25T02:03:09.500Z', attempts: 1, position: state === 'queued' ? 0 : null,
+      progress: state === 'running' ? {stage: 'build', place: '1/2 key', done: 3, total: 16, fraction: 0.42} : null,
+      cached: false, promises_kept: state === 'succeeded' ? true : null, error: null, artifacts: [], ...more,
+    };
+    if (job.state === 'succeeded') this.finish(job);
+    this.jobs.unshift(job);
+    return job;
+  }
+
+  finish(job) {
+    const images = join(this.fixture, 'images');
+    Object.assign(job, {state: 'succeeded', progress: null, promises_kept: true, ended: '2026-11-25T02:03:09.500Z',
+      artifacts: ['result.json', 'result.csv', ...(existsSync(images) ? readdirSync(images).map((name) => `images/${name}`) : [])]});
+  }
+
+  // One step of what runs: the test says when.
+  step(job) {
+    if (job.state === 'queued') Object.assign(job, {state: 'running', position: null, started: job.created, progress: {stage: 'capture', place: '1/2 key', done: 0, total: 5, fraction: 0}});
+    else if (job.progress.done + 1 < stages.length) {
+      const done = job.progress.done + 1;
+      job.progress = {stage: stages[done], place: '1/2 key', done, total: stages.length, fraction: done / stages.length};
+    } else this.finish(job);
+    for (const wake of this.waiting) wake();
+  }
+
+  json(response, status, body, headers = {}) {
+    response.writeHead(status, {'Content-Type': status < 400 ? 'application/json' : 'application/problem+json', ...headers});
+    response.end(body === undefined ? undefined : JSON.stringify(body));
+  }
+
+  problem(response, status, detail, more = {}, headers = {}) {
+    this.json(response, status, {type: 'about:blank', title: 'No', status, detail, ...more}, headers);
+  }
+
+  file(response, path) {
+    if (!existsSync(path)) return this.problem(response, 404, 'There is nothing here.');
+    response.writeHead(200, {'Content-Type': types[path.split('.').pop()] ?? 'application/octet-stream', 'Content-Security-Policy': policy});
+    createReadStream(path).pipe(response);
+  }
+
+  async answer(request, response) {
+    const url = new URL(request.url, 'http://x');
+    const [, ...path] = url.pathname.split('/').map(decodeURIComponent);
+    if (path[0] === '') return this.file(response, join(this.pages, 'index.html'));
+    if (path[0] === 'assets') return this.file(response, join(this.pages, normalize(path[1])));
+    if (this.token && request.headers.authorization !== `Bearer ${this.token}`) return this.problem(response, 401, 'A token is needed.');
+    let text = '';
+    for await (const part of request) text += part;
+    const handler = {scenarios: this.getScenarios, validate: this.validate, jobs: path[2] ? this.oneJob : this.allJobs}[path[1]];
+    if (!handler) return this.problem(response, 404, 'There is nothing here.');
+    return handler.call(this, {request, response, url, path, text, body: text ? JSON.parse(text) : null});
+  }
+
+  getScenarios({response}) { this.json(response, 200, {scenarios: this.scenarios}); }
+
+  faults(scenario) {
+    const errors = [];
+    if (typeof scenario.rays?.samples_per_pixel !== 'number') errors.push({pointer: '/rays/samples_per_pixel', detail: 'not a number'});
+    if (!scenario.techniques?.length) errors.push({pointer: '/techniques', detail: 'at least one technique is needed'});
+    return errors;
+  }
+
+  validate({response, body}) {
+    const errors = this.faults(body);
+    if (errors.length) return this.problem(response, 422, 'The scenario is not valid.', {errors});
+    return this.json(response, 200, {valid: true, name: body.name, variants: 2, lights: body.lights.length, techniques: body.techniques.length,
+      notes: [], estimate: {seconds: 4.2, bytes: 3 << 20}});
+  }
+
+  allJobs({request, response, url, text, body}) {
+    if (request.method === 'GET') {
+      const state = url.searchParams.get('state'), limit = Number(url.searchParams.get('limit') ?? 50), from = Number(url.searchParams.get('cursor') ?? 0);
+      const fitting = this.jobs.filter((job) => !state || job.state === state);
+      return this.json(response, 200, {jobs: fitting.slice(from, from + limit), next: from + limit < fitting.length ? String(from + limit) : null});
+    }
+    this.keys.push(request.headers['idempotency-key']);
+    this.bodies.push(text);
+    if (this.refuse) return this.problem(response, this.refuse.status, this.refuse.detail, {}, this.refuse.headers);
+    const errors = this.faults(body.scenario);
+    if (errors.length) return this.problem(response, 422, 'The scenario is not valid.', {errors});
+    const job = this.job('queued', {name: body.scenario.name, scenario: body.scenario, options: body.options});
+    return this.json(response, 202, job, {Location: `/v1/jobs/${job.id}`});
+  }
+
+  oneJob({request, response, url, path, text}) {
+    const job = this.jobs.find((j) => j.id === path[2]);
+    if (!job) return this.problem(response, 404, 'There is no such job.');
+    const part = path[3];
+    if (request.method === 'DELETE') {
+      this.jobs = this.jobs.filter((j) => j !== job);
+      return response.writeHead(204).end();
+    }
+    if (!part) return this.json(response, 200, job);
+    if (part === 'cancel') {
+      if (text) return this.problem(response, 400, 'This request takes no body.');
+      Object.assign(job, {state: 'cancelled', progress: null, position: null, ended: job.created});
+      for (const wake of this.waiting) wake();
+      return this.json(response, 202, job);
+    }
+    if (part === 'events') return this.events(request, response, job);
+    if (part === 'scenario') return this.json(response, 200, job.scenario ?? this.scenarios[0].document);
+    if (part === 'result') return this.file(response, join(this.fixture, 'result.json'));
+    if (part === 'curves') return this.json(response, 200, curvesOf(url.searchParams.get('light'), Number(url.searchParams.get('x')), Number(url.searchParams.get('y'))));
+    return part === 'artifacts' ? this.file(response, join(this.fixture, normalize(path.slice(4).join('/')))) : this.problem(response, 404, 'There is nothing here.');
+  }
+
+  events(request, response, job) {
+    response.writeHead(200, {'Content-Type': 'text/event-stream', 'Cache-Control': 'no-cache'});
+    response.write(': heartbeat\n\n');
+    let id = 0;
+    const send = () => {
+      const end = !['queued', 'running'].includes(job.state);
+      response.write(`id: ${++id}\nevent: ${end ? 'end' : 'progress'}\ndata: ${JSON.stringify(job)}\n\n`);
+      if (end) response.end();
+    };
+    this.waiting.add(send);
+    request.on('close', () => this.waiting.delete(send));
+    send();
+  }
+}
+
+export function scenarioFrom(file) {
+  const document = JSON.parse(readFileSync(file, 'utf8'));
+  return {name: document.name, purpose: document.purpose, document};
+}

@@ -1,0 +1,90 @@
+// The report and the history as files: all is there, and nothing is loaded.
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {readFileSync, writeFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {pathToFileURL} from 'node:url';
+import {assertAccessible, assertContrast, openPage, picture} from './harness.mjs';
+import {makeFixture} from './server.mjs';
+
+async function each(browser, file, look) {
+  for (const scheme of ['light', 'dark'])
+    for (const width of [1280, 400]) {
+      const address = pathToFileURL(file).href;
+      const {page, close} = await openPage(browser, {scheme, width, allowed: address});
+      await page.goto(address);
+      await look(page, `${scheme}-${width}`);
+      await assertAccessible(page);
+      await assertContrast(page);
+      await close();
+    }
+}
+
+async function report(options) {
+  const folder = makeFixture(options);
+  const result = JSON.parse(readFileSync(join(folder, 'result.json'), 'utf8'));
+  result.name = '</script><script>hacked = 1</script><img src=x onerror="hacked = 1">';
+  result.variants[0].lights[0].cells[1].label = '<img src=x onerror="hacked = 1">';
+  // A technique that broke its promise has no times; what does not exist is null.
+  Object.assign(result.variants[0].lights[0].cells[2], {status: 'failed', verdict: 'failed', reason: 'rises by 0.5', times: undefined, curve_error: null, lookup_error: {rms: null}});
+  writeFileSync(join(folder, 'result.json'), JSON.stringify(result));
+  execFileSync(options.program, ['report', folder], {stdio: 'ignore'});
+  await each(options.browser, join(folder, 'report.html'), async (page, name) => {
+    await page.waitForSelector('.trade .mark-symbol path');
+    await page.waitForFunction(() => [...document.querySelectorAll('img')].length >= 7 &&
+      [...document.querySelectorAll('img')].every((image) => image.naturalWidth > 0));
+    assert.equal(await page.locator('h1').innerText(), result.name);
+    assert.equal(await page.evaluate(() => globalThis.hacked), undefined);
+    assert.equal(await page.locator('#curves').count(), 0, 'nobody can be asked for functions');
+    assert.match(await page.locator('.trade').first().innerText(), /Not drawn: 3 failed\./);
+    await page.locator('.cell-name').nth(2).click();
+    await page.waitForFunction(() => document.querySelector('#cell .why').textContent === 'rises by 0.5');
+    assert.match(await page.locator('.cells tr.chosen').innerText(), /✕ failed/);
+    await page.locator('.cell-name', {hasText: 'fourier'}).click();
+    await page.waitForFunction(() => document.querySelector('#cell-title').textContent.includes('fourier'));
+    await picture(page, `report-${name}`);
+  });
+}
+
+function historyOf() {
+  const runs = Array.from({length: 12}, (_, i) => ({started: `2026-11-${String(i + 10)}T08:00:00Z`, commit: `abcdef${i}`, file: `r${i}/result.json`}));
+  const measure = (name, unit, of, drift) => ({name, unit, drift, points: runs.map((run, i) => ({run: run.started, commit: run.commit, ...of(i)}))});
+  const drift = {from: 10, to: 10.8, ratio: 1.08, since: runs[7].started};
+  return {
+    runs,
+    cells: ['deep tolerance=0.02', 'avsm'].map((title, k) => ({title: `quickstart / key / ${title}`, measures: [
+      measure('lookup random', 'ns', (i) => ({value: 10 + (i > 6 && k === 0 ? 0.8 : 0) + Math.sin(i) * 0.1, low: 9.8, high: 11.1}), k === 0 ? drift : null),
+      measure('bytes', 'B', () => ({value: 4096, low: null, high: null}), null),
+      measure('lookup_error.rms', '', (i) => ({value: i === 3 ? null : 0.03, low: null, high: null}), null),
+    ]})),
+  };
+}
+
+// As document.cpp puts one together.
+function historyPage(pages) {
+  const read = (name) => readFileSync(join(pages, name), 'utf8');
+  return '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="color-scheme" content="light dark">' +
+    `<meta name="viewport" content="width=device-width"><style>${read('style.css')}</style></head><body><main id="main"></main>` +
+    `<script type="application/json" id="data">${JSON.stringify(historyOf())}</script><script>${read('history.js')}</script></body></html>`;
+}
+
+async function history(options, folder) {
+  const file = join(folder, 'history.html');
+  writeFileSync(file, historyPage(options.pages));
+  await each(options.browser, file, async (page, name) => {
+    await page.waitForSelector('.trend .mark-symbol path');
+    assert.match(await page.locator('.purpose').innerText(), /2 cells over 12 runs.* 1 measure drifts\./);
+    assert.equal(await page.locator('.trend').count(), 6);
+    assert.match(await page.locator('.drift').innerText(), /drifts: 10 → 10\.8 \(1\.08 ×\) since 17 Nov 2026/);
+    await picture(page, `history-${name}`);
+    await page.check('.check input');
+    assert.equal(await page.locator('.trend').count(), 1);
+    await page.selectOption('.choices select', 'bytes');
+    assert.match(await page.locator('.empty').innerText(), /Nothing fits/);
+  });
+}
+
+export default async function run(options) {
+  await report(options);
+  await history(options, makeFixture(options));
+}

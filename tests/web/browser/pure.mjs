@@ -1,0 +1,107 @@
+// What the page reckons without a browser: places in JSON, fronts, axes, numbers, commands.
+import assert from 'node:assert/strict';
+import {test} from 'node:test';
+import {bytes, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
+import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
+import {frontOf, quoted, rerunOf} from '../../../service/web/page/result/model.js';
+import {linearAxis, logAxis} from '../../../service/web/page/plots/axes.js';
+
+test('a pointer leads to where its value stands', () => {
+  const text = '{"a": [1, {"b/c": true, "d~": "x"}],\n "e": {}}';
+  const map = places(text);
+  const at = (pointer) => text.slice(offsetOf(map, pointer), offsetOf(map, pointer) + 5);
+  assert.equal(at('/a/0'), '1, {"');
+  assert.equal(at('/a/1/b~1c'), '"b/c"');
+  assert.equal(at('/a/1/d~0'), '"d~":');
+  assert.equal(at('/e'), '"e": ');
+  assert.equal(at('/e/missing/deeper'), '"e": ');
+  assert.equal(offsetOf(map, '/nothing'), 0);
+  assert.equal(offsetOf(map, 'no pointer'), 0);
+  assert.equal(lineOf(text, offsetOf(map, '/e')), 1);
+});
+
+test('the scanner takes what JSON.parse takes, and nothing else', () => {
+  const good = ['1', '-0.5e-3', '"\\u00e9\\n"', '[]', '{}', ' [ 1 , 2 ] ', '{"a":{"b":[null,true,false]}}', '"\u2028"'];
+  const bad = ['', ' ', '01', '1.', '+1', '.5', 'NaN', '"', '"\n"', '"\\x"', '[1,]', '[,1]', '{"a"}', '{"a":}', '{"a":1,}', '{a:1}', '[1', '1 2', "'a'", 'tru', '{"a":1}}'];
+  for (const text of good) { JSON.parse(text); places(text); }
+  for (const text of bad) {
+    assert.throws(() => JSON.parse(text), text);
+    assert.throws(() => places(text), JsonFault, text);
+  }
+  assert.throws(() => places('['.repeat(5000)), JsonFault);
+});
+
+test('random changes of a scenario are judged as JSON.parse does', () => {
+  const text = '{"name": "x", "list": [1, 2.5e3, "a\\"b", {"t": true, "n": null}], "o": {}}';
+  let seed = 1;
+  const random = (n) => { seed = (seed * 48271) % 2147483647; return seed % n; };
+  for (let i = 0; i < 3000; ++i) {
+    const at = random(text.length), changed = text.slice(0, at) + '{}[],:"\\01 e.-nt'[random(16)] + text.slice(at + random(2));
+    let valid = true;
+    try { JSON.parse(changed); } catch { valid = false; }
+    let seen = true;
+    try { places(changed); } catch (error) { assert.ok(error instanceof JsonFault); seen = false; }
+    assert.equal(seen, valid, changed);
+  }
+});
+
+test('the front holds what nothing beats in both', () => {
+  const p = (x, y) => ({x, y});
+  assert.deepEqual(frontOf([p(3, 1), p(1, 3), p(2, 2), p(2, 3), p(4, 1), p(1, 4)]), [p(1, 3), p(2, 2), p(3, 1)]);
+  assert.deepEqual(frontOf([p(1, 1), p(1, 1)]).length, 2);
+  assert.deepEqual(frontOf([]), []);
+});
+
+test('a log axis holds all values, and zero has a place below them', () => {
+  for (const values of [[1, 1000], [3e-4, 0.5], [5], [], [0, 0], [0, 1e6], [1e-200, 1e200]]) {
+    const {zero, signals} = logAxis('x', values, 'error');
+    for (const v of values) if (v > 0) assert.ok(v >= signals.x_low && v <= signals.x_high, `${values}`);
+    assert.equal(zero !== null, values.includes(0));
+    if (zero) {
+      assert.ok(zero > 0 && zero >= signals.x_low && values.every((v) => v === 0 || v > zero));
+      assert.equal(signals.x_labels[0], '0');
+    }
+    assert.ok(signals.x_low > 0 && Number.isFinite(signals.x_high));
+    assert.equal(signals.x_ticks.length, signals.x_labels.length);
+    assert.ok(signals.x_ticks.length <= 20, `${signals.x_ticks.length} ticks`);
+  }
+  assert.deepEqual(logAxis('x', [1024, 1 << 20], 'bytes').signals.x_labels, ['1 KiB', '4 KiB', '16 KiB', '64 KiB', '256 KiB', '1 MiB']);
+});
+
+test('a linear axis has round ticks inside', () => {
+  const axis = linearAxis('x', 5.63, 10.45);
+  assert.deepEqual(axis.x_ticks, [6, 7, 8, 9, 10]);
+  assert.ok(linearAxis('x', 2, 2).x_high > 2);
+});
+
+test('numbers read as people write them', () => {
+  assert.equal(significant(0.0361234), '0.0361');
+  assert.equal(significant(12345.6), '12,346');
+  assert.equal(significant(999.9), '1000');
+  assert.equal(significant(1.5e-7), '1.5e-7');
+  assert.equal(significant(null), '–');
+  assert.equal(bytes(0), '0 B');
+  assert.equal(bytes(609852), '596 KiB');
+  assert.equal(nanoseconds(32385), '32.4 µs');
+  assert.equal(nanoseconds(2.5e9), '2.5 s');
+  assert.equal(seconds(90), '1 min 30 s');
+  assert.equal(seconds(59.99), '60 s');
+});
+
+test('a scenario is written with what fits a line on one', () => {
+  const document = {name: 'x', corner: [1, 2, 3], deep: [{type: 'deep', t: 0.1}, {long: 'y'.repeat(100)}], none: {}, list: []};
+  const text = written(document);
+  assert.deepEqual(JSON.parse(text), document);
+  assert.match(text, /\n  "corner": \[1, 2, 3\],\n/);
+  assert.match(text, /\n    \{"type": "deep", "t": 0.1\},\n/);
+  assert.deepEqual(JSON.parse(written({a: 'two  [ spaces ]\n'})), {a: 'two  [ spaces ]\n'});
+});
+
+test('the command of a cell says what was swept, in quotes that a shell takes', () => {
+  const result = {name: "it's", scenario: {techniques: [{type: 'deep'}, {type: 'avsm', compression: 'area'}],
+    sweeps: {'/techniques/1/nodes': [4, 8], '/rays/samples_per_pixel': [4]}}};
+  const cell = {technique: 'avsm', where: '/techniques/1', parameters: {nodes: 8, compression: 'area', other: 1}};
+  assert.equal(rerunOf(result, {settings: [['/rays/samples_per_pixel', 4]]}, cell),
+    "shadowbench run 'it'\\''s.json' --set 'sweeps={}' --set 'techniques=[{\"type\":\"avsm\",\"compression\":\"area\",\"nodes\":8}]' --set /rays/samples_per_pixel=4");
+  assert.equal(quoted('a b'), "'a b'");
+});

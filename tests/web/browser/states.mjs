@@ -1,0 +1,183 @@
+// What the page says when things are not as they should be; the server is a mock.
+import assert from 'node:assert/strict';
+import {assertAccessible, assertContrast, openPage, picture} from './harness.mjs';
+import {makeFixture, startMock} from './server.mjs';
+
+const text = (page, selector) => page.locator(selector).innerText();
+const states = {};
+
+states['no jobs'] = async ({page, url}) => {
+  await page.goto(`${url}#/jobs`);
+  await page.waitForSelector('.empty:not([hidden])');
+  assert.match(await text(page, '.empty'), /Nothing has been run yet/);
+  assert.equal(await page.locator('table').isVisible(), false);
+};
+
+states['every state of a job'] = async ({page, url, mock}) => {
+  mock.job('succeeded');
+  mock.job('succeeded', {name: 'cached', cached: true});
+  mock.jobs[0].promises_kept = false;
+  mock.job('failed', {error: {code: 65, where: '/lights/0', message: 'sees nothing'}});
+  mock.job('cancelled');
+  const running = mock.job('running');
+  mock.job('queued', {position: 0});
+  mock.job('queued', {position: 3});
+  await page.goto(`${url}#/jobs`);
+  await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 7);
+  const table = await text(page, '.jobs');
+  for (const words of ['3 before it', 'next', '42 %', 'build 1/2 key', 'sees nothing', 'cancelled', 'promise broken', 'from an earlier result', '5.38 s'])
+    assert.ok(table.includes(words), words);
+  // It moves without a reload, and the row stays the same element.
+  await page.locator('.jobs tbody tr').nth(2).evaluate((row) => { row.id = 'kept'; });
+  mock.step(running);
+  await page.waitForFunction(() => document.querySelector('#kept progress')?.value === 0.8);
+  while (running.state !== 'succeeded') mock.step(running);
+  await page.waitForFunction(() => document.querySelector('#kept').textContent.includes('succeeded'));
+  assert.equal(await page.locator('#status').innerText(), 'small: succeeded');
+};
+
+states['cancel and delete'] = async ({page, url, mock}) => {
+  mock.job('running');
+  await page.goto(`${url}#/jobs`);
+  await page.click('.jobs button:has-text("Cancel")');
+  await page.waitForSelector('.jobs .state-cancelled');
+  await page.click('.jobs button:has-text("Delete")');
+  await page.waitForSelector('.empty:not([hidden])');
+  assert.equal(mock.jobs.length, 0);
+};
+
+states['older jobs and a state'] = async ({page, url, mock}) => {
+  for (let i = 0; i < 60; ++i) mock.job(i % 2 ? 'cancelled' : 'failed', {name: `job ${i}`});
+  await page.goto(`${url}#/jobs`);
+  await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 50);
+  await page.click('button:has-text("Show older ones")');
+  await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 60);
+  await page.selectOption('.page-head select', 'failed');
+  await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 30);
+};
+
+states['a job that failed'] = async ({page, url, mock}) => {
+  const job = mock.job('failed', {attempts: 3, error: {code: 65, where: '/lights/0', message: '<i>sees</i> nothing'}});
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('.fault');
+  assert.match(await text(page, '.fault'), /\/lights\/0 <i>sees<\/i> nothing/);
+  assert.match(await text(page, '.fault'), /3 attempts/);
+  await page.click('button:has-text("Edit and run again")');
+  await page.waitForSelector('.verdict-box .good');
+  assert.match(await page.locator('#scenario').inputValue(), /"quickstart"/);
+};
+
+states['a job in the queue is cancelled'] = async ({page, url, mock}) => {
+  const job = mock.job('queued', {position: 2});
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForFunction(() => document.querySelector('.stage-text')?.textContent === 'Queued: 2 before it');
+  await page.click('.progress button');
+  await page.waitForFunction(() => document.querySelector('.fault')?.textContent.includes('It was cancelled'));
+};
+
+states['no such job'] = async ({page, url}) => {
+  await page.goto(`${url}#/jobs/j-none`);
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'There is no such job.');
+};
+
+states['text that is no JSON'] = async ({page, url}) => {
+  await page.goto(url);
+  await page.waitForSelector('.verdict-box .good');
+  await page.locator('#scenario').fill('{\n  "name": "x",\n  "lights": [1, 2,, 3]\n}');
+  await page.waitForSelector('.faults');
+  assert.equal(await text(page, '.numbers .bad'), '3');
+  assert.match(await text(page, '.faults'), /line 3\s*A value is expected instead of ","/);
+  await page.click('button.primary');  // says it again, and sends nothing
+  assert.ok(await page.evaluate(() => document.activeElement.id === 'scenario'));
+};
+
+states['a fault inside a part that is missing'] = async ({page, url}) => {
+  await page.goto(url);
+  await page.waitForSelector('.verdict-box .good');
+  await page.locator('#scenario').fill('{\n  "name": "x",\n  "rays": {"samples_per_pixel": 4}\n}');
+  await page.waitForSelector('.faults');
+  assert.match(await text(page, '.faults'), /line 1\s*\/techniques/);
+};
+
+states['a full queue'] = async ({page, url, mock}) => {
+  mock.refuse = {status: 429, detail: 'The queue is full.', headers: {'Retry-After': '90'}};
+  await page.goto(url);
+  await page.waitForSelector('.verdict-box .good');
+  await page.click('button.primary');
+  await page.waitForFunction(() => document.querySelector('.problem').textContent ===
+    'Not accepted: The queue is full. Try again in 1 min 30 s.');
+  // The same again is the same request; another text is another.
+  mock.refuse = null;
+  await page.click('button.primary');
+  await page.waitForURL(/#\/jobs\/j-/);
+  assert.equal(mock.keys.length, 2);
+  assert.equal(mock.keys[0], mock.keys[1]);
+  await page.click('nav a[href="#/"]');
+  await page.waitForSelector('.verdict-box .good');
+  await page.click('button.primary');
+  await page.waitForURL(/#\/jobs\/j-/);
+  assert.notEqual(mock.keys[2], mock.keys[1]);
+};
+
+states['options reach the server'] = async ({page, url, mock}) => {
+  await page.goto(url);
+  await page.waitForSelector('.verdict-box .good');
+  const scenario = await page.locator('#scenario').inputValue();
+  await page.locator('#scenario').fill(scenario.replace('"rays": {', '"rays": {"seed": 12345678901234567891, '));
+  await page.waitForSelector('.verdict-box .good');
+  await page.uncheck('#pictures');
+  await page.selectOption('.actions select', 'fresh');
+  await page.click('button.primary');
+  await page.waitForURL(/#\/jobs\/j-/);
+  assert.deepEqual(mock.jobs[0].options, {cache: 'fresh', pictures: false});
+  assert.match(mock.bodies[0], /"seed": 12345678901234567891,/, 'with all digits');
+};
+
+states['a server that asks for a token'] = async ({page, url, mock}) => {
+  mock.token = 'let me in';
+  const job = mock.job('succeeded');
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('dialog');
+  await page.fill('#token', 'wrong');
+  await page.click('dialog button');
+  await page.waitForFunction(() => document.querySelector('#token')?.value === '');
+  await assertContrast(page);
+  await page.fill('#token', 'let me in');
+  await page.click('dialog button');
+  await page.waitForFunction(() => document.querySelectorAll('#cell .strip img').length === 4 &&
+    [...document.querySelectorAll('#cell .strip img')].every((image) => image.src.startsWith('blob:') && image.naturalWidth > 0));
+};
+
+states['a server that is gone'] = async ({page, url, mock}) => {
+  mock.job('succeeded');
+  await page.goto(`${url}#/jobs`);
+  await page.waitForSelector('.jobs tbody tr');
+  mock.stop();
+  await page.waitForFunction(() => document.querySelector('.problem').textContent.includes('does not answer'));
+  assert.equal(await page.locator('.jobs tbody tr').count(), 1, 'what was known stays');
+};
+
+export default async function run(options) {
+  const fixture = makeFixture(options);
+  const expected = [/Failed to load resource/];  // the answers that are no success
+  for (const [name, state] of Object.entries(states)) {
+    const {mock, url, stop} = await startMock({...options, fixture});
+    const {page, close} = await openPage(options.browser, {allowed: url, expected});
+    try {
+      await state({page, url, mock});
+      for (const [colorScheme, width] of [['light', 1280], ['dark', 400]]) {
+        await page.emulateMedia({colorScheme});
+        await page.setViewportSize({width, height: 900});
+        await assertAccessible(page);
+        await assertContrast(page);
+        await picture(page, `state-${name.replaceAll(' ', '-')}-${colorScheme}-${width}`);
+      }
+      await close();
+    } catch (error) {
+      error.message = `${name}: ${error.message}`;
+      throw error;
+    } finally {
+      await stop();
+    }
+  }
+}
