@@ -35,6 +35,9 @@ void check_dds_size(const OIIO::ImageSpec& spec, const std::filesystem::path& fi
     const std::string compression = spec.get_string_attribute("compression");
     std::uint64_t bytes = width * height * bits / 8;
     if (!compression.empty()) {
+        // OpenImageIO 2.4 divides whole numbers by alpha to undo it, and alpha may be 0.
+        if (compression == "DXT2" || compression == "DXT4")
+            refuse_image(file, "a " + compression + " file holds colours multiplied by alpha: save it as DXT3 or DXT5");
         // 4 x 4 texels a block.
         const std::uint64_t block = compression == "DXT1" || compression == "BC4" ? 8 : 16;
         bytes = (width + 3) / 4 * ((height + 3) / 4) * block;

@@ -67,6 +67,24 @@ TEST(ReadAlpha, ReadsTheLeaves) {
     EXPECT_NEAR(mean, 0.411, 0.001);
 }
 
+// A block of 4 x 4 texels whose alpha is 0.
+std::string dds_block(const std::string& compression) {
+    std::string bytes(128 + 16, '\0');
+    bytes.replace(0, 20, "DDS " + test::bytes_of(124, 0x1007, 4, 4));
+    bytes.replace(76, 12, test::bytes_of(32, 4) + compression);
+    bytes.replace(108, 4, test::bytes_of(0x1000));
+    return bytes;
+}
+
+// The library divides colours by alpha, as whole numbers.
+TEST(ReadAlpha, RefusesADdsWhoseColoursAreMultipliedByAlpha) {
+    EXPECT_EQ(read_alpha(test::write_file("straight.dds", dds_block("DXT3"))).alpha, std::vector<float>(16, 0.0f));
+    for (const std::string compression : {"DXT2", "DXT4"}) {
+        const auto file = test::write_file("multiplied.dds", dds_block(compression));
+        EXPECT_THAT(error_of([&] { read_alpha(file); }).message(), testing::HasSubstr("save it as DXT3 or DXT5"));
+    }
+}
+
 TEST(ReadAlpha, RefusesADdsThatEndsInsideItsPixels) {
     SHADOWBENCH_NEED_DATA(file, "meshes/tree_leaves_alpha.dds");
     // DXT3: a byte a texel, behind a header of 128 bytes.
