@@ -26,16 +26,29 @@ int alpha_channel(const OIIO::ImageSpec& spec) {
     return named >= 0 ? named : spec.alpha_channel;
 }
 
-// The DDS reader of OpenImageIO 2.4 gives pixels also for a file that ends before them. Layout: Microsoft, DDS_HEADER.
-void check_dds_size(const OIIO::ImageSpec& spec, const std::filesystem::path& file) {
+// Of pixels without compression: so many bits each, and which of them are a channel's.
+void check_dds_masks(const OIIO::ImageSpec& spec, const std::filesystem::path& file, std::uint32_t bits,
+                     const std::array<std::uint32_t, 4>& masks) {
+    if (bits == 0) refuse_image(file, "pixels of no bits");
+    const bool coloured = spec.nchannels > 2, alpha = spec.nchannels % 2 == 0;
+    if (masks[0] == 0 || (coloured && (masks[1] == 0 || masks[2] == 0)) || (alpha && masks[3] == 0))
+        refuse_image(file, "it tells of a channel, but of no bits for it");
+}
+
+// The DDS reader of OpenImageIO 2.4 gives pixels also for a file that ends before them, and never ends on a channel of
+// no bits. Layout: Microsoft, DDS_HEADER.
+void check_dds(const OIIO::ImageSpec& spec, const std::filesystem::path& file) {
     FileReader reader(file);
     reader.seek(88, "pixel format");
     const auto bits = reader.value<std::uint32_t>("pixel format");
+    const auto masks = reader.value<std::array<std::uint32_t, 4>>("pixel format");
     const auto width = static_cast<std::uint64_t>(spec.width), height = static_cast<std::uint64_t>(spec.height);
     const std::string compression = spec.get_string_attribute("compression");
     std::uint64_t bytes = width * height * bits / 8;
-    if (!compression.empty()) {
-        // OpenImageIO 2.4 divides whole numbers by alpha to undo it, and alpha may be 0.
+    if (compression.empty()) {
+        check_dds_masks(spec, file, bits, masks);
+    } else {
+        // The library divides whole numbers by alpha to undo it, and alpha may be 0.
         if (compression == "DXT2" || compression == "DXT4")
             refuse_image(file, "a " + compression + " file holds colours multiplied by alpha: save it as DXT3 or DXT5");
         // 4 x 4 texels a block.
@@ -117,7 +130,7 @@ AlphaTexture read_alpha(const std::filesystem::path& file) {
     try {
         const std::unique_ptr<OIIO::ImageInput> input = open_image(file);
         const OIIO::ImageSpec spec = input->spec();
-        if (std::string_view(input->format_name()) == "dds") check_dds_size(spec, file);
+        if (std::string_view(input->format_name()) == "dds") check_dds(spec, file);
         if (spec.deep) refuse_image(file, "a deep image is no texture");
         const std::uint64_t texels = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
         const int channels = spec.nchannels;
