@@ -48,8 +48,7 @@ void add_time(Cell& cell, const Field& run) {
     if (!run.has("real_time")) return;
     const std::string& unit = run.at("time_unit").text();
     if (cell.timed.empty()) cell.timed.push_back({"time", unit, {{}}});
-    if (cell.timed[0].unit != unit)
-        refuse(run.where + "/time_unit", "repetitions of one kernel have different units");
+    if (cell.timed[0].unit != unit) refuse(run.where + "/time_unit", "repetitions of one kernel have different units");
     cell.timed[0].processes[0].raw.push_back(time_of(run.at("real_time")));
 }
 
@@ -101,6 +100,7 @@ Suite read_kernels(const Field& kernels) {
             cell.name = name;
             cell.rerun.kernel = true;
             cell.rerun.program = context(about, "executable");
+            if (cell.rerun.program.empty()) cell.rerun.program = "kernels";
             cell.rerun.source = name;
             suite.cells.push_back(std::move(cell));
         }

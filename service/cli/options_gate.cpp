@@ -91,7 +91,7 @@ void add_history(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<HistoryArguments>();
     CLI::App* history = app.add_subcommand("history", "Every measure of every cell over many results, and what drifts");
     history->add_option("DIR", arguments->folder, "A folder: every result and kernel file below it")->required();
-    history->add_option("--out", arguments->out, "Folder of history.json [results/history]");
+    history->add_option("--out", arguments->out, "Folder of history.json and the page history.html [results/history]");
     history->add_option("--last", arguments->last, "A drift is looked for in so many of the latest results")
         ->check(CLI::Range(5, 1000))
         ->capture_default_str();

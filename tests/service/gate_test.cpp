@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/read_text.h"
 #include "service/cli/child.h"
 #include "service/cli/cli.h"
 
@@ -260,6 +261,7 @@ TEST_F(Gate, HistoryWritesItsJson) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("1 result, 4 cells"));
     EXPECT_EQ(read_json(folder_ / "history/history.json")["runs"].size(), 1u);
+    EXPECT_THAT(base::read_text(folder_ / "history/history.html"), ::testing::HasSubstr("<html"));
 }
 
 TEST(Child, HasNoInputAndLeavesItsOutput) {
