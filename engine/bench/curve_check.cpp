@@ -20,7 +20,13 @@ using rays::LightRays;
 using rays::MapLayout;
 using techniques::Cells;
 
-constexpr double rounding = 1e-6;  // of stored floats, allowed beyond every promise
+constexpr double rounding = 1e-6;     // of stored floats, allowed beyond every promise
+constexpr double finest = 0x1p-24;    // than this, floats do not tell lines from exponentials
+constexpr double fine_bound = 16e-6;  // promises up to this are judged beside a reference of their own
+
+// Rays whose cells are judged beside the finer reference; it has up to forty times the vertices of the other.
+constexpr std::size_t fine_rays = std::size_t{1} << 14;
+constexpr std::size_t least_fine_cells = 64;
 
 // What one tile tells of one technique.
 struct TileErrors {
@@ -93,12 +99,27 @@ struct PixelScratch {
     std::vector<curves::WeightedRay> weights;
 };
 
+bool is_checked(const CellRays& cell, std::uint64_t share) {
+    return share == 1 ||
+           (share > 1 &&
+            base::hash(static_cast<std::uint64_t>(cell.x), static_cast<std::uint64_t>(cell.y)) % share == 0);
+}
+
 struct Pass {
     const MapLayout& layout;
     std::span<const CheckedMap> maps;
-    int apron;                         // of the tiles; maps of other aprons wait for theirs
-    std::vector<std::uint64_t> share;  // one cell in so many is checked, one number a technique
-    double linearisation;
+    int apron;                                     // of the tiles; maps of other aprons wait for theirs
+    std::vector<std::uint64_t> share, fine_share;  // one cell in so many, one number a technique; 0: none
+    double coarse, finer;                          // how closely the two references join exponentials by lines
+
+    double linearisation(bool fine) const { return fine ? finer : coarse; }
+
+    // Whether this cell of a map is held to the finer reference, or to the other.
+    bool checks(std::size_t m, Cells kind, bool fine, const CellRays& cell) const {
+        if (maps[m].apron != apron || cells(*maps[m].maps) != kind) return false;
+        const bool finely = is_checked(cell, fine_share[m]);
+        return fine ? finely : !finely && is_checked(cell, share[m]);
+    }
 };
 
 std::uint64_t share_of(Cells kind, const MapLayout& layout, std::size_t max_cells) {
@@ -107,9 +128,22 @@ std::uint64_t share_of(Cells kind, const MapLayout& layout, std::size_t max_cell
     return std::max<std::uint64_t>(1, (cells + max_cells - 1) / max_cells);
 }
 
-bool is_checked(const CellRays& cell, std::uint64_t share) {
-    return share == 1 ||
-           base::hash(static_cast<std::uint64_t>(cell.x), static_cast<std::uint64_t>(cell.y)) % share == 0;
+bool is_fine(const CheckedMap& map, const MapLayout& layout) {
+    return layout.media && map.bound_holds && map.error_bound <= fine_bound;
+}
+
+// A sixteenth of the smallest bound of those that this reference is for.
+double linearisation_for(const Pass& pass, bool fine) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const CheckedMap& map : pass.maps)
+        if (map.bound_holds && is_fine(map, pass.layout) == fine) smallest = std::min(smallest, map.error_bound);
+    return fine ? std::clamp(smallest / 16.0, finest, 1e-6) : std::clamp(smallest / 16.0, 1e-6, 1e-4);
+}
+
+std::size_t max_fine_cells(Cells kind, const MapLayout& layout) {
+    const bool one_ray = kind == Cells::sample || kind == Cells::centre;
+    const std::size_t rays = one_ray ? 1 : static_cast<std::size_t>(layout.samples());
+    return std::max(fine_rays / rays, least_fine_cells);
 }
 
 void take_depths(PixelScratch& scratch) {
@@ -117,21 +151,26 @@ void take_depths(PixelScratch& scratch) {
     for (const curves::Vertex& v : scratch.reference) scratch.depths.push_back(v.z);
 }
 
-void check_cell(const Pass& pass, const CheckedMap& checked, int channel, const CellRays& cell, PixelScratch& scratch,
+void measure(const curves::Distance& d, const CellRays& cell, TileErrors& errors) {
+    errors.max.push_back(d.max);
+    errors.l1 += d.l1;
+    if (d.max <= errors.worst) return;
+    errors.worst = d.max;
+    errors.worst_x = cell.x;
+    errors.worst_y = cell.y;
+}
+
+// `fine`: beside which of the two references.
+void check_cell(const Pass& pass, std::size_t m, bool fine, int channel, const CellRays& cell, PixelScratch& scratch,
                 TileErrors& errors) {
+    const CheckedMap& checked = pass.maps[m];
     stored(*checked.maps, cell.x, cell.y, channel, scratch.depths, scratch.stored);
     const curves::Distance d =
         curves::distance(scratch.stored, scratch.reference, pass.layout.z_min, pass.layout.z_max);
-    errors.max.push_back(d.max);
-    errors.l1 += d.l1;
-    if (d.max > errors.worst) {
-        errors.worst = d.max;
-        errors.worst_x = cell.x;
-        errors.worst_y = cell.y;
-    }
+    if (fine == is_fine(checked, pass.layout)) measure(d, cell, errors);
     if (!errors.broken.empty()) return;
     std::string fault = fault_of(scratch.stored, checked.promises);
-    const double slack = (pass.layout.media ? pass.linearisation : 0.0) + rounding;
+    const double slack = (pass.layout.media ? pass.linearisation(fine) : 0.0) + rounding;
     const double allowed = checked.error_bound + slack;
     if (fault.empty() && checked.bound_holds && !checked.promises.localised)
         fault = fault_of_ends(scratch.stored, scratch.reference, checked.promises.leak + slack);
@@ -140,36 +179,34 @@ void check_cell(const Pass& pass, const CheckedMap& checked, int channel, const 
     if (!fault.empty()) errors.broken = fmt::format("cell ({}, {}): {}", cell.x, cell.y, fault);
 }
 
-void check_kind(const Pass& pass, Cells kind, int channel, const LightRays& rays, std::size_t pixel,
+void check_kind(const Pass& pass, Cells kind, bool fine, int channel, const LightRays& rays, std::size_t pixel,
                 PixelScratch& scratch, std::vector<TileErrors>& errors) {
     cells_of_pixel(kind, rays, pass.layout, pixel, scratch.cells);
     for (const CellRays& cell : scratch.cells) {
         bool have_reference = false;
         for (std::size_t m = 0; m < pass.maps.size(); ++m) {
-            const CheckedMap& map = pass.maps[m];
-            if (map.apron != pass.apron || cells(*map.maps) != kind || !is_checked(cell, pass.share[m])) continue;
+            if (!pass.checks(m, kind, fine, cell)) continue;
             if (!have_reference) {
-                curves::visibility(rays, cell.first, cell.count, pass.linearisation, scratch.sweep, scratch.reference);
+                curves::visibility(rays, cell.first, cell.count, pass.linearisation(fine), scratch.sweep,
+                                   scratch.reference);
                 take_depths(scratch);
                 have_reference = true;
             }
-            check_cell(pass, map, channel, cell, scratch, errors[m]);
+            check_cell(pass, m, fine, channel, cell, scratch, errors[m]);
         }
     }
 }
 
 // Cells of rays that their technique weighs: each technique has its own reference.
-void check_filtered(const Pass& pass, int channel, const LightRays& rays, int x, int y, PixelScratch& scratch,
-                    std::vector<TileErrors>& errors) {
+void check_filtered(const Pass& pass, bool fine, int channel, const LightRays& rays, int x, int y,
+                    PixelScratch& scratch, std::vector<TileErrors>& errors) {
     const CellRays cell{x, y, 0, 0};
     for (std::size_t m = 0; m < pass.maps.size(); ++m) {
-        const CheckedMap& map = pass.maps[m];
-        if (map.apron != pass.apron || cells(*map.maps) != Cells::filtered || !is_checked(cell, pass.share[m]))
-            continue;
-        map.maps->parts[0]->weights(x, y, rays, scratch.weights);
-        curves::visibility(rays, scratch.weights, pass.linearisation, scratch.sweep, scratch.reference);
+        if (!pass.checks(m, Cells::filtered, fine, cell)) continue;
+        pass.maps[m].maps->parts[0]->weights(x, y, rays, scratch.weights);
+        curves::visibility(rays, scratch.weights, pass.linearisation(fine), scratch.sweep, scratch.reference);
         take_depths(scratch);
-        check_cell(pass, map, channel, cell, scratch, errors[m]);
+        check_cell(pass, m, fine, channel, cell, scratch, errors[m]);
     }
 }
 
@@ -185,9 +222,11 @@ std::vector<TileErrors> check_tile(const Pass& pass, const LightRays& tile) {
             for (int x = core.x0; x < core.x0 + core.width; ++x) {
                 const std::size_t p = static_cast<std::size_t>(y - tile.y0) * static_cast<std::size_t>(tile.width) +
                                       static_cast<std::size_t>(x - tile.x0);
-                for (const Cells kind : {Cells::pixel, Cells::sample, Cells::centre})
-                    check_kind(pass, kind, c, rays, p, scratch, errors);
-                check_filtered(pass, c, rays, x, y, scratch, errors);
+                for (const bool fine : {false, true}) {
+                    for (const Cells kind : {Cells::pixel, Cells::sample, Cells::centre})
+                        check_kind(pass, kind, fine, c, rays, p, scratch, errors);
+                    check_filtered(pass, fine, c, rays, x, y, scratch, errors);
+                }
             }
     }
     return errors;
@@ -220,20 +259,18 @@ CurveVerdict merge(std::span<const std::vector<TileErrors>> tiles, std::size_t m
 
 }  // namespace
 
-double reference_linearisation(std::span<const CheckedMap> maps) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (const CheckedMap& map : maps)
-        if (map.error_bound > 16e-6) smallest = std::min(smallest, map.error_bound);  // smaller ones: stored exactly
-    return std::clamp(smallest / 16.0, 1e-6, 1e-4);
-}
-
 std::vector<CurveVerdict> check_curves(const RaySource& source, const MapLayout& layout,
                                        std::span<const CheckedMap> maps, std::size_t max_cells,
                                        const RaySource::Watch& watch) {
-    Pass pass{layout, maps, 0, {}, reference_linearisation(maps)};
+    Pass pass{layout, maps, 0, {}, {}, 0.0, 0.0};
+    pass.coarse = linearisation_for(pass, false);
+    pass.finer = linearisation_for(pass, true);
     std::set<int> aprons;
     for (const CheckedMap& map : maps) {
-        pass.share.push_back(share_of(cells(*map.maps), layout, max_cells));
+        const Cells kind = cells(*map.maps);
+        const std::size_t fine_cells = std::min(max_cells, max_fine_cells(kind, layout));
+        pass.share.push_back(share_of(kind, layout, max_cells));
+        pass.fine_share.push_back(is_fine(map, layout) ? share_of(kind, layout, fine_cells) : 0);
         aprons.insert(map.apron);
     }
 
@@ -250,7 +287,7 @@ std::vector<CurveVerdict> check_curves(const RaySource& source, const MapLayout&
 
     std::vector<CurveVerdict> verdicts;
     for (std::size_t m = 0; m < maps.size(); ++m)
-        verdicts.push_back(merge(tiles, m, layout.media ? pass.linearisation : 0.0));
+        verdicts.push_back(merge(tiles, m, layout.media ? pass.linearisation(is_fine(maps[m], layout)) : 0.0));
     return verdicts;
 }
 

@@ -30,12 +30,13 @@ struct CurveVerdict {
     std::string broken;                 // the first promise that is broken; empty: none
 };
 
-// How closely a reference curve joins exponentials by lines when these bounds are to be judged: a sixteenth of the
-// smallest one, within [1e-6, 1e-4]. Media only; surfaces are exact.
-double reference_linearisation(std::span<const CheckedMap> maps);
-
 // Checks all maps in one pass over the light rays, tiles in parallel. Of maps with more than `max_cells` cells an even
 // share is checked.
+//
+// In media a reference curve joins exponentials by lines, and errs itself: by a sixteenth of the smallest bound that is
+// judged beside it, within [1e-6, 1e-4]; beyond its bound each map is allowed that and 1e-6 for rounding. Bounds of at
+// most 16e-6 have a finer reference, within [2^-24, 1e-6], which an even share of about 16,384 rays' cells is held to,
+// and which alone gives their errors; their other cells are held to the coarser one. Surfaces are exact.
 std::vector<CurveVerdict> check_curves(const RaySource& source, const rays::MapLayout& layout,
                                        std::span<const CheckedMap> maps, std::size_t max_cells,
                                        const RaySource::Watch& watch);

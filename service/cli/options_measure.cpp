@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -17,6 +18,18 @@ void repeatable(CLI::Option* option) {
     option->allow_extra_args(false);
 }
 
+// CLI::Range lets what is not a number through.
+CLI::Validator in_range(double least, double most) {
+    const CLI::Range range(least, most);
+    return {[range](std::string& text) {
+                double value = 0.0;
+                if (CLI::detail::lexical_cast(text, value) && std::isnan(value))
+                    return "Value " + text + " is not a number";
+                return range(text);
+            },
+            range.get_description()};
+}
+
 void add_job_options(CLI::App& command, JobArguments& arguments) {
     repeatable(command.add_option("--set", arguments.set,
                                   "path=value: change one value of the scenario, as in rays.samples_per_pixel=64 or "
@@ -27,7 +40,7 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
     command.add_option("--threads", arguments.threads, "Threads of capture and checks; 0: all (times are of one)")
         ->check(CLI::Range(0, 4096));
     command.add_option("--memory-limit", arguments.memory_limit, "GiB; what surely needs more is refused")
-        ->check(CLI::Range(0.001, 1e6))
+        ->check(in_range(0.001, 1e6))
         ->capture_default_str();
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -10,7 +11,8 @@
 #include "bench/fake_map.h"
 #include "bench/half_covered.h"
 #include "bench/memory.h"
-#include "rays/capture.h"
+#include "curves/sweep.h"
+#include "rays/scenes.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -162,6 +164,65 @@ TEST_F(Contenders, are_judged_alike_when_the_rays_are_captured_anew) {
         for (const rays::LightRays& tile : batch) rays += tile.rays();
     });
     EXPECT_EQ(rays, source_.rays());
+}
+
+// A fake technique on a medium of optical depth 2 over all of the map.
+class ContendersInAMedium : public ::testing::Test {
+protected:
+    ContendersInAMedium() {
+        scene_.objects.emplace_back();
+        scene_.objects[0].shape = rays::testing::slab();
+        view_ = rays::make_light_view(rays::testing::directional(), scene_, {4, 4}, "");
+        layout_ = rays::make_layout(scene_, view_, rays::testing::rays(4, 4));
+        capture_.emplace(scene_, view_, layout_);
+        source_.emplace(*capture_, layout_, std::size_t{1} << 30, RaySource::Watch{});
+    }
+
+    // The function of every pixel, too bright by up to `stray` halfway down.
+    curves::Curve function(float stray) const {
+        curves::SweepScratch scratch;
+        curves::Curve curve;
+        curves::visibility(capture_->tile(0, {}, 0), 0, 4, 0x1p-24, scratch, curve);
+        const float end = curve.back().value, span = 1.0f - end;
+        for (curves::Vertex& v : curve) v.value += stray * 4.0f * (1.0f - v.value) * (v.value - end) / (span * span);
+        return curve;
+    }
+
+    Cell judge(float stray, double error_bound) {
+        fake_answers = {.function = function(stray), .error_bound = error_bound};
+        std::vector<Contender> contenders(1);
+        contenders[0].row = &fake_technique();
+        build_all(contenders, *source_, {layout_, view_, nullptr}, MemoryLimits{}.all, {});
+        check_functions(contenders, *source_, layout_, {});
+        return contenders[0].cell;
+    }
+
+    scene::Scene scene_;
+    rays::LightView view_;
+    rays::MapLayout layout_;
+    std::optional<rays::Capture> capture_;
+    std::optional<RaySource> source_;
+};
+
+TEST_F(ContendersInAMedium, are_held_to_a_promise_far_below_what_lines_cost_a_coarse_reference) {
+    const Cell right = judge(0.0f, 1e-6);
+    EXPECT_EQ(right.status, CellStatus::ok) << right.reason;
+    ASSERT_TRUE(right.curve);
+    EXPECT_EQ(right.curve->cells, 16u);
+    EXPECT_LT(right.curve->reference_error, 1e-7);
+    EXPECT_LT(right.curve->norms.max, 5e-7);
+    const Cell wrong = judge(1e-5f, 1e-6);
+    EXPECT_EQ(wrong.status, CellStatus::failed);
+    EXPECT_NE(wrong.reason.find("above the promised 1e-06"), std::string::npos) << wrong.reason;
+    ASSERT_TRUE(wrong.curve);
+    EXPECT_NEAR(wrong.curve->norms.max, 1e-5, 1e-6);
+}
+
+TEST_F(ContendersInAMedium, with_wide_promises_have_the_coarse_reference) {
+    const Cell cell = judge(1e-5f, 0.01);
+    EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+    ASSERT_TRUE(cell.curve);
+    EXPECT_EQ(cell.curve->reference_error, 1e-4);
 }
 
 }  // namespace

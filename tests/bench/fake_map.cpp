@@ -19,7 +19,7 @@ const techniques::Technique& fake_technique() {
         [](const techniques::ParameterValues&) -> std::unique_ptr<techniques::Map> {
             return std::make_unique<FakeMap>(fake_answers);
         },
-        [](const techniques::ParameterValues&, const rays::MapLayout&) { return 0.01; },
+        [](const techniques::ParameterValues&, const rays::MapLayout&) { return fake_answers.error_bound; },
         nullptr,
         [](const techniques::ParameterValues&, const rays::MapLayout&) { return std::size_t{100}; },
         false,

@@ -16,6 +16,7 @@ struct FakeAnswers {
     int lines = 0;           // that a lookup reads, at most 16
     bool refuses_begin = false;
     techniques::Promises promises = {};
+    double error_bound = 0.01;  // of curves
 };
 
 class FakeMap final : public techniques::Map {
@@ -52,7 +53,7 @@ private:
 // What fake_technique() makes, until it is set anew.
 inline FakeAnswers fake_answers;
 
-// A row that promises what the answers say, everything by default, and a curve error of at most 0.01.
+// A row that promises what the answers say: everything by default, and a curve error of at most 0.01.
 const techniques::Technique& fake_technique();
 
 }  // namespace shadowbench::bench

@@ -99,6 +99,8 @@ TEST_F(Cli, refuses_wrong_usage) {
     fails({"run", path("tiny.json"), "--frobnicate"}, 64, "--frobnicate");
     fails({"run", path("tiny.json"), "--threads", "many"}, 64, "--threads");
     fails({"run", path("tiny.json"), "--threads", "-1"}, 64, "--threads");
+    for (const char* limit : {"nan", "-nan", "NAN", "inf", "0", "-1", "many"})
+        fails({"run", path("tiny.json"), "--memory-limit", limit}, 64, "--memory-limit");
     fails({"list", "everything"}, 64, "techniques");
     fails({"run", path("tiny.json"), "--set", "rays.seed"}, 64, "--set rays.seed");
     fails({"run", path("tiny.json"), "--set", "rayz.seed=3"}, 64, "rayz.seed=3");
