@@ -1,4 +1,4 @@
-#include "service/cli/cli.h"
+#include "service/run_cli.h"
 
 #include <gtest/gtest.h>
 
@@ -16,19 +16,6 @@ namespace shadowbench::service {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-    int code;
-    std::string out, err;
-};
-
-Outcome cli(std::vector<std::string> arguments) {
-    std::vector<const char*> argv{"shadowbench"};
-    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-    std::ostringstream out, err;
-    const int code = cli_main(static_cast<int>(argv.size()), argv.data(), out, err);
-    return {code, out.str(), err.str()};
-}
 
 std::string read(const fs::path& file) {
     std::ifstream stream(file);

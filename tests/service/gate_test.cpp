@@ -13,7 +13,7 @@
 
 #include "base/read_text.h"
 #include "service/cli/child.h"
-#include "service/cli/cli.h"
+#include "service/run_cli.h"
 
 namespace shadowbench::service {
 namespace {
@@ -21,19 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
-
-struct Outcome {
-    int code;
-    std::string out, err;
-};
-
-Outcome cli(std::vector<std::string> arguments) {
-    std::vector<const char*> argv{"shadowbench"};
-    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-    std::ostringstream out, err;
-    const int code = cli_main(static_cast<int>(argv.size()), argv.data(), out, err);
-    return {code, out.str(), err.str()};
-}
 
 json read_json(const fs::path& file) {
     std::ifstream stream(file);

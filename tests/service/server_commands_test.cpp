@@ -19,7 +19,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "service/cli/cli.h"
+#include "service/run_cli.h"
 
 namespace shadowbench::service {
 namespace {
@@ -36,19 +36,6 @@ const char* const tiny = R"({
     "timing": {"repetitions": 1, "lookups": 64},
     "techniques": [{"type": "deep"}, {"type": "uncompressed"}]
 })";
-
-struct Outcome {
-    int code;
-    std::string out, err;
-};
-
-Outcome cli(std::vector<std::string> arguments) {
-    std::vector<const char*> argv{"shadowbench"};
-    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-    std::ostringstream out, err;
-    const int code = cli_main(static_cast<int>(argv.size()), argv.data(), out, err);
-    return {code, out.str(), err.str()};
-}
 
 std::string read(const fs::path& file) {
     std::ifstream stream(file);
