@@ -7,13 +7,13 @@
 // of one program gave medians that lay a factor of 1.3 to 6 apart, so fewer than 4 processes a side decide nothing.
 //  - Interleaved sides (`ab`): process i of one beside process i of the other. Judged are the pairs' ratios of plain
 //    times: what disturbs a pair disturbs both, and a floor would only add its own noise (and moves itself when a
-//    change touches other lines). Interval: bootstrap of the median; test: Wilcoxon's signed ranks.
+//    change touches other lines). Plain times of kernels are the processor's. Interval: bootstrap of the median; test:
+//    Wilcoxon's signed ranks.
 //  - Otherwise: the medians of time over floor, which the machine's state moves less; of times without a floor the
-//  plain
-//    ones. Interval: bootstrap of the ratio of medians; test: Mann-Whitney's rank sum. What two blocks of processes
-//    differ in without any change is added to the minimum effect; and where Embree's own queries, which stand in every
-//    result, say that the machine was in another state, nothing is slower or faster. All that lowers the chance of a
-//    false alarm on a shared machine; only pairs bound it.
+//    plain ones. Interval: bootstrap of the ratio of medians; test: Mann-Whitney's rank sum. What two blocks of
+//    processes differ in without any change is added to the minimum effect; and where Embree's own queries, which stand
+//    in every result, say that the machine was in another state, nothing is slower or faster. All that lowers the
+//    chance of a false alarm on a shared machine; only pairs bound it.
 // A time is slower when its whole interval is beyond the minimum effect AND the test against that effect, not against
 // equality, holds after Holm's correction over all times that were judged: one false alarm fails a build, so the chance
 // of any one, not their share, is held under 5 %, however many cells there are.
@@ -38,6 +38,7 @@ struct Options {
     double effect = 0.05;                     // of times: smaller changes are none
     std::map<std::string, double> tolerance;  // of an exact measure, relative, by its name
     bool allow_missing = false;
+    double alpha = 0.05;  // of any false alarm among all times
 };
 
 enum class Verdict {

@@ -9,7 +9,6 @@
 namespace shadowbench::compare {
 namespace {
 
-constexpr double alpha = 0.05;
 constexpr double shortest_ms = 0.05;  // of one sample: shorter ones measure the clock and the cache of the moment
 
 struct Sides {
@@ -188,7 +187,7 @@ void apply_holm(Comparison& comparison) {
         const double p = line.verdict == Verdict::slower   ? slower[i]
                          : line.verdict == Verdict::faster ? faster[i]
                                                            : 0.0;
-        if (p <= alpha) continue;
+        if (p <= comparison.options.alpha) continue;
         line.reason =
             fmt::format("looks {}, but {} {} do not show it beyond chance among {} times (p {:.2g} after Holm)",
                         to_string(line.verdict), line.processes, comparison.interleaved ? "pairs" : "processes a side",

@@ -26,7 +26,9 @@ std::string escaped(const std::string& name) {
 std::vector<std::string> kernel_arguments(const std::vector<Rerun>& reruns) {
     std::string names;
     for (const Rerun& rerun : reruns) names += (names.empty() ? "" : "|") + escaped(rerun.source);
-    return {fmt::format("--benchmark_filter=^({})$", names)};
+    std::vector<std::string> arguments{fmt::format("--benchmark_filter=^({})$", names)};
+    arguments.insert(arguments.end(), reruns[0].given.begin(), reruns[0].given.end());
+    return arguments;
 }
 
 }  // namespace

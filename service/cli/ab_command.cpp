@@ -1,6 +1,8 @@
 #include <filesystem>
 #include <ostream>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "compare/compare.h"
 #include "service/cli/child.h"
@@ -14,8 +16,9 @@ namespace {
 using base::Error;
 using base::ErrorCode;
 
-// "--set x --data y": what every run of the scenario is given.
+// "--set x --data y": what every run of the scenario, or of kernels, is given.
 std::vector<std::string> given(const AbArguments& arguments) {
+    if (!arguments.kernels.empty()) return {fmt::format("--benchmark_min_time={}", arguments.min_time)};
     std::vector<std::string> words;
     for (const std::string& assignment : arguments.set) words.insert(words.end(), {"--set", assignment});
     for (const std::string& folder : arguments.data) words.insert(words.end(), {"--data", folder});
@@ -27,11 +30,10 @@ Turns turns_of(const AbArguments& arguments) {
     if (turns.kernels == !arguments.scenario.empty())
         throw Error(ErrorCode::usage, "ab",
                     "give a SCENARIO, or --kernels with a filter where the programs are kernels");
-    if (turns.kernels) {
+    if (turns.kernels)
         turns.arguments = {"--benchmark_filter=" + arguments.kernels};
-        return turns;
-    }
-    turns.arguments = {"run", arguments.scenario};
+    else
+        turns.arguments = {"run", arguments.scenario};
     for (const std::string& word : given(arguments)) turns.arguments.push_back(word);
     for (const std::string& only : arguments.only) turns.arguments.insert(turns.arguments.end(), {"--only", only});
     return turns;
@@ -42,9 +44,8 @@ void name_the_source(compare::Comparison& comparison, const AbArguments& argumen
     for (compare::Line& line : comparison.lines) {
         if (line.rerun.source.empty()) continue;
         line.rerun.program = arguments.binary_b;
-        if (line.rerun.kernel) continue;
-        line.rerun.source = arguments.scenario;
         line.rerun.given = given(arguments);
+        if (!line.rerun.kernel) line.rerun.source = arguments.scenario;
     }
 }
 

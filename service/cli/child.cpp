@@ -1,6 +1,7 @@
 #include "service/cli/child.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -39,11 +40,68 @@ private:
     posix_spawn_file_actions_t actions_;
 };
 
-int wait_for(pid_t child) {
+// While it lives, the signals that end a program wait, so that the child can be ended first. Ignored ones (nohup) stay
+// ignored.
+class EndingSignals {
+public:
+    EndingSignals() {
+        sigemptyset(&waiting_);
+        sigaddset(&waiting_, SIGCHLD);
+        for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+            struct sigaction now {};
+            if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) sigaddset(&waiting_, signal);
+        }
+        pthread_sigmask(SIG_BLOCK, &waiting_, &before_);
+    }
+    ~EndingSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    EndingSignals(const EndingSignals&) = delete;
+    EndingSignals& operator=(const EndingSignals&) = delete;
+
+    const sigset_t& before() const { return before_; }
+
+    // The signal that came, or 0: a child may have ended, or some time has gone by.
+    int wait() const {
+        const timespec a_while{0, 200'000'000};
+        const int signal = sigtimedwait(&waiting_, nullptr, &a_while);
+        return signal > 0 && signal != SIGCHLD ? signal : 0;
+    }
+
+private:
+    sigset_t waiting_{}, before_{};
+};
+
+// In a group of its own, so that all it started can be ended with it.
+class SpawnAttributes {
+public:
+    explicit SpawnAttributes(const sigset_t& signals) {
+        posix_spawnattr_init(&attributes_);
+        posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+        posix_spawnattr_setsigmask(&attributes_, &signals);
+        posix_spawnattr_setpgroup(&attributes_, 0);
+    }
+    ~SpawnAttributes() { posix_spawnattr_destroy(&attributes_); }
+    SpawnAttributes(const SpawnAttributes&) = delete;
+    SpawnAttributes& operator=(const SpawnAttributes&) = delete;
+    const posix_spawnattr_t* get() const { return &attributes_; }
+
+private:
+    posix_spawnattr_t attributes_;
+};
+
+// Its status.
+int wait_for(pid_t child, const EndingSignals& signals) {
     int status = 0;
-    while (waitpid(child, &status, 0) < 0)
-        if (errno != EINTR) return -1;
-    return status;
+    for (;;) {
+        const pid_t ended = waitpid(child, &status, WNOHANG);
+        if (ended == child) return status;
+        if (ended < 0 && errno != EINTR) return -1;
+        if (const int signal = signals.wait()) {
+            kill(-child, SIGKILL);  // nothing of it is kept
+            while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+            }
+            throw Interrupted{signal};
+        }
+    }
 }
 
 }  // namespace
@@ -75,10 +133,12 @@ int run_child(const std::string& program, const std::vector<std::string>& argume
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
     const FileActions actions(log);
+    const EndingSignals signals;
+    const SpawnAttributes attributes(signals.before());
     pid_t child = 0;
-    if (const int failed = posix_spawn(&child, program.c_str(), actions.get(), nullptr, argv.data(), environ))
+    if (const int failed = posix_spawn(&child, program.c_str(), actions.get(), attributes.get(), argv.data(), environ))
         throw Error(ErrorCode::io, program, fmt::format("cannot be started: {}", std::strerror(failed)));
-    const int status = wait_for(child);
+    const int status = wait_for(child, signals);
     if (status >= 0 && WIFSIGNALED(status))
         throw Error(ErrorCode::internal, program,
                     fmt::format("was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))));

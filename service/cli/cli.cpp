@@ -1,6 +1,7 @@
 #include "service/cli/cli.h"
 
 #include <algorithm>
+#include <csignal>
 #include <new>
 #include <ostream>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "base/error.h"
 #include "bench/build_info.h"
+#include "service/cli/child.h"
 #include "service/cli/options.h"
 
 namespace shadowbench::service {
@@ -92,6 +94,11 @@ int cli_main(int argc, const char* const* argv, std::ostream& out, std::ostream&
         return code;
     } catch (const base::Error& error) {
         return report(err, error.code(), error.what());
+    } catch (const Interrupted& interrupted) {
+        // Its caller shall see that a signal ended it, but only now that temporary files are gone.
+        std::signal(interrupted.signal, SIG_DFL);
+        std::raise(interrupted.signal);
+        return 128 + interrupted.signal;
     } catch (const std::bad_alloc&) {
         return report(err, ErrorCode::internal, "out of memory; a smaller map or --memory-limit may help");
     } catch (const std::exception& error) {

@@ -32,9 +32,11 @@ int compare_command(const CompareArguments& arguments, std::ostream& out, std::o
     comparison.current = arguments.current;
     const std::vector<compare::Line> suspects = compare::suspicious(comparison);
     if (arguments.confirm && !suspects.empty()) {
-        for (compare::Line& line : comparison.lines)
+        for (compare::Line& line : comparison.lines) {
+            if (line.rerun.kernel) continue;
             for (const std::string& folder : arguments.data)
                 line.rerun.given.insert(line.rerun.given.end(), {"--data", folder});
+        }
         Turns turns;
         turns.binary_a = arguments.binary_a;
         turns.binary_b = arguments.binary_b.empty() ? this_program() : arguments.binary_b;

@@ -25,8 +25,9 @@ struct CompareArguments : VerdictArguments {
 
 struct AbArguments : VerdictArguments {
     std::string binary_a, binary_b;
-    std::string scenario;  // empty: kernels
-    std::string kernels;   // a regular expression; empty: a scenario
+    std::string scenario;    // empty: kernels
+    std::string kernels;     // a regular expression; empty: a scenario
+    double min_time = 0.05;  // seconds of one kernel in one process
     std::vector<std::string> set, only;
     std::string out;  // folder that keeps the results; empty: none is kept
 };

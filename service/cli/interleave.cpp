@@ -1,5 +1,6 @@
 #include "service/cli/interleave.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -114,9 +115,11 @@ void confirm_with_turns(compare::Comparison& first, Turns turns, const compare::
         const std::string only = line.rerun.technique.empty() ? line.rerun.only : "";
         groups[{source, line.rerun.sweeps, only}][line.cell] = line.rerun;
     }
+    // Holm's correction is over one group; that none of all groups raises a false alarm takes Bonferroni's.
+    compare::Options each = options;
+    each.alpha /= static_cast<double>(std::max<std::size_t>(groups.size(), 1));
     compare::Comparison again;
     again.interleaved = true;
-    compare::Measured a, b;
     int count = 0;
     for (const auto& [key, cells] : groups) {
         const TemporaryFolder folder;
@@ -126,7 +129,7 @@ void confirm_with_turns(compare::Comparison& first, Turns turns, const compare::
         turns.arguments = compare::arguments_of(reruns);
         turns.what = fmt::format("confirming {}/{}", ++count, groups.size());
         run_turns(turns, folder.path(), err);
-        for (compare::Line& line : compare_turns(turns, folder.path(), options).lines)
+        for (compare::Line& line : compare_turns(turns, folder.path(), each).lines)
             again.lines.push_back(std::move(line));
     }
     compare::confirm(first, again);

@@ -71,10 +71,20 @@ void add_ab(CLI::App& app, Commands& commands) {
     ab->add_option("SCENARIO", arguments->scenario,
                    "A scenario, as for run. Short processes in many pairs see more than long ones: --set "
                    "timing.repetitions=3");
-    ab->add_option("--kernels", arguments->kernels,
-                   "Instead of a scenario: the programs are kernels (Google Benchmark); those that match this filter");
-    repeatable(ab->add_option("--set", arguments->set, "path=value, as for run"));
-    repeatable(ab->add_option("--only", arguments->only, "Only techniques of this type"));
+    CLI::Option* kernels = ab->add_option("--kernels", arguments->kernels,
+                                          "Instead of a scenario: the programs are kernels (Google Benchmark); those "
+                                          "that match this filter");
+    ab->add_option("--min-time", arguments->min_time,
+                   "Seconds of one kernel in one process; more pairs see more than longer ones")
+        ->check(CLI::Range(0.001, 1000.0))
+        ->capture_default_str()
+        ->needs(kernels);
+    CLI::Option* set = ab->add_option("--set", arguments->set, "path=value, as for run");
+    CLI::Option* only = ab->add_option("--only", arguments->only, "Only techniques of this type");
+    for (CLI::Option* of_scenario : {set, only}) {
+        repeatable(of_scenario);
+        of_scenario->excludes(kernels);
+    }
     add_pairs(*ab, *arguments, "Pairs of processes; 20 see 3 to 4 percent on a shared machine, 80 see 1.5");
     ab->add_option("--out", arguments->out,
                    "Keep the results in this folder, in a/ and b/, for compare [none is kept]");

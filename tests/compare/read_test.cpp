@@ -97,6 +97,24 @@ TEST_F(Read, KernelsAreCells) {
     EXPECT_EQ(command_of(kernel.rerun), "build/kernels '--benchmark_filter=^(sweep\\(x\\)/8)$'");
 }
 
+// Real time would hold what other programs took of the processor; but where a name asks for it, or threads share the
+// work, it is what was measured.
+TEST_F(Read, KernelsAreTimedByTheProcessorUnlessTheySayOtherwise) {
+    const auto time_of = [](json run) {
+        json kernels = made_kernels();
+        for (const auto& [key, value] : kernels["benchmarks"][0].items())
+            if (!run.contains(key)) run[key] = value;
+        run["real_time"] = 70.0;
+        run["cpu_time"] = 60.0;
+        kernels["benchmarks"] = {run};
+        return side({kernels}).suites.at(0).cells.at(0).timed.at(0).processes.at(0).raw.at(0);
+    };
+    EXPECT_EQ(time_of({{"run_name", "a/64"}}), 60.0);
+    EXPECT_EQ(time_of({{"run_name", "a/64/real_time"}}), 70.0);
+    EXPECT_EQ(time_of({{"run_name", "a/64/manual_time"}}), 70.0);
+    EXPECT_EQ(time_of({{"run_name", "a/64/threads:2"}, {"threads", 2}}), 70.0);
+}
+
 TEST_F(Read, AKernelThatReportsAnErrorFailed) {
     json kernels = made_kernels();
     kernels["benchmarks"][0]["error_occurred"] = true;

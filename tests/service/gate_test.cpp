@@ -211,13 +211,13 @@ TEST_F(Gate, CompareConfirmsWithBothBuilds) {
             .code,
         1);
     EXPECT_EQ(cli({"compare", path("kept/a"), path("kept/b"), "--confirm", "--binary-a", path("a"), "--binary-b",
-                   path("a"), "--pairs", "8"})
+                   path("a"), "--pairs", "10"})
                   .code,
               0);
     const Outcome outcome = cli({"compare", path("kept/a"), path("kept/b"), "--confirm", "--binary-a", path("a"),
-                                 "--binary-b", path("b"), "--pairs", "8"});
+                                 "--binary-b", path("b"), "--pairs", "10"});
     EXPECT_EQ(outcome.code, 1);
-    EXPECT_THAT(outcome.out, HasSubstr("confirmed by 8 fresh pairs"));
+    EXPECT_THAT(outcome.out, HasSubstr("confirmed by 10 fresh pairs"));
 }
 
 TEST_F(Gate, AbTakesKernels) {
@@ -240,7 +240,14 @@ TEST_F(Gate, AbTakesKernels) {
         cli({"ab", kernels("k1", 50.0), kernels("k2", 60.0), "--kernels", "compress", "--pairs", "8", "--confirm"});
     EXPECT_EQ(outcome.code, 1) << outcome.out << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("confirmed by 16 fresh pairs"));
-    EXPECT_THAT(outcome.out, HasSubstr(path("k2") + " '--benchmark_filter=^(compress/64)$'"));
+    EXPECT_THAT(outcome.out, HasSubstr(path("k2") + " '--benchmark_filter=^(compress/64)$' --benchmark_min_time=0.05"));
+    std::istringstream runs(base::read_text(folder_ / "k2.log"));
+    int count = 0;
+    for (std::string line; std::getline(runs, line); ++count)
+        EXPECT_THAT(line, HasSubstr("--benchmark_min_time=0.05")) << "confirming too";
+    EXPECT_EQ(count, 8 + 16);
+    fails({"ab", path("k1"), path("k2"), "--kernels", "compress", "--only", "deep"}, 64, "--only");
+    fails({"ab", path("k1"), path("k2"), path("tiny.json"), "--min-time", "1"}, 64, "--kernels");
 }
 
 TEST_F(Gate, HistoryWritesItsJson) {

@@ -101,6 +101,32 @@ TEST_F(KernelCommands, InstructionsRepeatAndATenthMoreWorkIsATenthMore) {
     ASSERT_GT(once, 1e5);
     EXPECT_NEAR(again / once, 1.0, 1e-5);
     EXPECT_NEAR(slow / once, 1.1, 1e-3);
+    EXPECT_EQ(cli({"compare", path("a.json"), path("b.json")}).code, 0);
+    const Outcome verdict = cli({"compare", path("a.json"), path("c.json")});
+    EXPECT_EQ(verdict.code, 1);
+    EXPECT_NE(verdict.out.find("kernels / compress/hair/tolerance:0.1\n  slower          instructions"),
+              std::string::npos)
+        << verdict.out;
+}
+
+// Both builds as real processes: what is put into B stands under its name, and the rest of B is as A.
+TEST_F(KernelCommands, AbNamesWhatIsPutIn) {
+    const std::string kernels = SHADOWBENCH_KERNELS;
+    const auto ab = [&](const std::string& injection) {
+        return cli({"ab", kernels, program("exec " + kernels + " '--inject=" + injection + "' \"$@\""), "--kernels",
+                    "^compress/hair/tolerance:0.0?2$", "--min-time", "0.001", "--pairs", "2"});
+    };
+    const std::string name = "kernels / compress/hair/tolerance:0.02\n  ";
+    for (const auto& [fault, says] :
+         std::vector<std::pair<std::string, std::string>>{{"node:tolerance:0.02:1", "larger          nodes"},
+                                                          {"byte:tolerance:0.02:1", "larger          bytes"},
+                                                          {"error:tolerance:0.02:1e-3", "less accurate   error"}}) {
+        const Outcome outcome = ab(fault);
+        EXPECT_EQ(outcome.code, 2) << outcome.err;
+        EXPECT_NE(outcome.out.find(name + says), std::string::npos) << outcome.out;
+        EXPECT_EQ(outcome.out.find("tolerance:0.2\n"), std::string::npos) << "the other kernel is unchanged";
+    }
+    EXPECT_EQ(ab("node:tolerance:0.02:0").code, 0);
 }
 
 const char* const tiny = R"({

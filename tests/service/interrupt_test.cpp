@@ -1,0 +1,97 @@
+// A command that is told to end while its child runs leaves nothing behind: no process, no file.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "service/cli/child.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool soon(const auto& holds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+    while (!holds() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return holds();
+}
+
+class Interrupt : public ::testing::Test {
+protected:
+    void SetUp() override {
+        // A build that never ends, behind a shell that would not pass a signal on.
+        std::ofstream(path("build")) << "#!/bin/sh\nsleep 1000 &\necho $! > " << path("made") << "\nmv " << path("made")
+                                     << " " << path("sleeper") << "\nwait\n";
+        fs::permissions(path("build"), fs::perms::owner_all);
+        fs::create_directory(path("tmp"));
+    }
+
+    std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+    // `ab` as a process, once its child runs; 0 where that does not come to be.
+    pid_t start(bool without_hangup) {
+        const pid_t ab = ::fork();
+        if (ab == 0) {
+            ::setenv("TMPDIR", path("tmp").c_str(), 1);
+            if (without_hangup) ::signal(SIGHUP, SIG_IGN);
+            ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), 2);
+            const std::string build = path("build");
+            ::execl(SHADOWBENCH_PROGRAM, "shadowbench", "ab", build.c_str(), build.c_str(), "--kernels", ".", nullptr);
+            ::_exit(127);
+        }
+        if (!soon([&] { return fs::exists(path("sleeper")); })) return 0;
+        std::ifstream(path("sleeper")) >> sleeper_;
+        return ab;
+    }
+
+    // A process that has ended stays known until somebody asks for it, which here may take its time.
+    bool sleeps() const {
+        std::ifstream stat("/proc/" + std::to_string(sleeper_) + "/stat");
+        std::string number, name, state;
+        return stat >> number >> name >> state && state != "Z";
+    }
+
+    const TemporaryFolder folder_;
+    pid_t sleeper_ = 0;
+};
+
+TEST_F(Interrupt, LeavesNothingBehind) {
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+        const pid_t ab = start(false);
+        ASSERT_GT(ab, 0);
+        EXPECT_FALSE(fs::is_empty(path("tmp"))) << "else there was nothing to leave";
+        EXPECT_TRUE(sleeps());
+        ::kill(ab, signal);
+        int status = 0;
+        ASSERT_EQ(::waitpid(ab, &status, 0), ab);
+        EXPECT_TRUE(WIFSIGNALED(status)) << "its caller sees the signal";
+        EXPECT_EQ(WTERMSIG(status), signal);
+        EXPECT_TRUE(soon([&] { return !sleeps(); }));
+        EXPECT_TRUE(fs::is_empty(path("tmp")));
+        fs::remove(path("sleeper"));
+    }
+}
+
+TEST_F(Interrupt, AnIgnoredSignalStaysIgnored) {
+    const pid_t ab = start(true);
+    ASSERT_GT(ab, 0);
+    ::kill(ab, SIGHUP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_TRUE(sleeps());
+    ::kill(ab, SIGTERM);
+    int status = 0;
+    ASSERT_EQ(::waitpid(ab, &status, 0), ab);
+    EXPECT_EQ(WTERMSIG(status), SIGTERM) << "not SIGHUP";
+}
+
+}  // namespace
+}  // namespace shadowbench::service
