@@ -32,6 +32,7 @@ constexpr std::size_t least_fine_cells = 64;
 struct TileErrors {
     std::vector<double> max;  // one a checked cell
     double l1 = 0.0, worst = -1.0;
+    double rise = 0.0, lowest = 0.0;
     int worst_x = 0, worst_y = 0;
     std::string broken;
 };
@@ -151,7 +152,13 @@ void take_depths(PixelScratch& scratch) {
     for (const curves::Vertex& v : scratch.reference) scratch.depths.push_back(v.z);
 }
 
-void measure(const curves::Distance& d, const CellRays& cell, TileErrors& errors) {
+void measure(const curves::Distance& d, const Curve& stored, const CellRays& cell, TileErrors& errors) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const curves::Vertex& v : stored) {
+        errors.rise = std::max(errors.rise, v.value - least);
+        least = std::min<double>(least, v.value);
+    }
+    errors.lowest = std::min(errors.lowest, least);
     errors.max.push_back(d.max);
     errors.l1 += d.l1;
     if (d.max <= errors.worst) return;
@@ -167,7 +174,7 @@ void check_cell(const Pass& pass, std::size_t m, bool fine, int channel, const C
     stored(*checked.maps, cell.x, cell.y, channel, scratch.depths, scratch.stored);
     const curves::Distance d =
         curves::distance(scratch.stored, scratch.reference, pass.layout.z_min, pass.layout.z_max);
-    if (fine == is_fine(checked, pass.layout)) measure(d, cell, errors);
+    if (fine == is_fine(checked, pass.layout)) measure(d, scratch.stored, cell, errors);
     if (!errors.broken.empty()) return;
     std::string fault = fault_of(scratch.stored, checked.promises);
     const double slack = (pass.layout.media ? pass.linearisation(fine) : 0.0) + rounding;
@@ -242,6 +249,8 @@ CurveVerdict merge(std::span<const std::vector<TileErrors>> tiles, std::size_t m
         const TileErrors& part = tile[map];
         all.insert(all.end(), part.max.begin(), part.max.end());
         errors.mean_l1 += part.l1;
+        errors.rise = std::max(errors.rise, part.rise);
+        errors.lowest = std::min(errors.lowest, part.lowest);
         if (part.worst > worst) {
             worst = part.worst;
             errors.worst_x = part.worst_x;

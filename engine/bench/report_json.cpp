@@ -52,6 +52,8 @@ json to_json(const std::optional<CurveErrors>& errors) {
     out["cells"] = errors->cells;
     out["worst_cell"] = {errors->worst_x, errors->worst_y};
     out["reference_error"] = errors->reference_error;
+    out["rise"] = number(errors->rise);
+    out["lowest"] = number(errors->lowest);
     return out;
 }
 

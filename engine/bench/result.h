@@ -44,6 +44,8 @@ struct CurveErrors {
     metrics::ErrorNorms norms;     // over the cells, of each cell's largest error
     double mean_l1 = 0.0;          // mean over the cells of the integral of the error over depth
     int worst_x = 0, worst_y = 0;  // cell of the largest error
+    double rise = 0.0;             // largest, of a stored function from a depth to a deeper one
+    double lowest = 0.0;           // value of a stored function, where one is below 0
 };
 
 struct LookupErrors {

@@ -16,10 +16,22 @@ struct Strayed {
 Strayed strayed(const Cell& cell) {
     if (cell.curve) {
         const double error = cell.curve->norms.max;
-        return {error, fmt::format("curve error {:.2g}", error)};
+        return {error, fmt::format("curve error {:.3g}", error)};
     }
     const double error = cell.lookup ? cell.lookup->norms.rms : 0.0;
-    return {error, fmt::format("lookup error rms {:.2g}", error)};
+    return {error, fmt::format("lookup error rms {:.3g}", error)};
+}
+
+// How far functions rise and fall below 0 that promise neither.
+std::string faults(const Cell& cell) {
+    constexpr double rounding = 1e-6;
+    std::string text;
+    if (!cell.curve) return text;
+    if (!cell.promises.monotone && cell.curve->rise > rounding)
+        text += fmt::format("; rises by up to {:.3g}", cell.curve->rise);
+    if (!cell.promises.unit_range && cell.curve->lowest < -rounding)
+        text += fmt::format("; falls to {:.3g}", cell.curve->lowest);
+    return text;
 }
 
 // Why no bound is promised.
@@ -36,13 +48,14 @@ std::string cause(const Cell& cell) {
 Judgement judge(const Cell& cell, const LightResult& light) {
     if (cell.status == CellStatus::failed) return {Verdict::failed, cell.reason};
     if (cell.curve && std::isfinite(cell.error_bound) && !cell.outside_promise)
-        return {Verdict::kept,
-                fmt::format("curve error {:.2g}, promised {:.2g}", cell.curve->norms.max, cell.error_bound)};
+        return {Verdict::kept, fmt::format("curve error {:.3g}, promised {:.3g}{}", cell.curve->norms.max,
+                                           cell.error_bound, faults(cell))};
     const Strayed far = strayed(cell);
     const double noise = light.reference.noise_tolerance;
     if (far.error <= noise)
-        return {Verdict::kept, fmt::format("{}, within the noise tolerance {:.2g}", far.text, noise)};
-    return {Verdict::degraded, fmt::format("{}: {}, noise tolerance {:.2g}", cause(cell), far.text, noise)};
+        return {Verdict::kept, fmt::format("{}, within the noise tolerance {:.3g}{}", far.text, noise, faults(cell))};
+    return {Verdict::degraded,
+            fmt::format("{}: {}, noise tolerance {:.3g}{}", cause(cell), far.text, noise, faults(cell))};
 }
 
 const char* to_string(Verdict verdict) {

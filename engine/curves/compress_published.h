@@ -18,6 +18,9 @@ namespace shadowbench::curves {
 //    passes it, else only the vertical does. The vertical passes all vertices at that z; its middle is the last one's
 //    value;
 //  - slopes are double, the origin is the vertex as written, rounded to float.
+//
+// The output is within the tolerance of the input, up to one rounding, and never above 1; it may rise by up to twice the
+// tolerance and fall below 0 by up to it.
 std::size_t compress_published(CurveView curve, float tolerance, Vertex* out);
 
 Curve compress_published(CurveView curve, float tolerance);

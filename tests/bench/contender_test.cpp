@@ -100,6 +100,7 @@ TEST_F(Contenders, whose_values_promise_no_range_may_leave_it) {
     EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
     ASSERT_TRUE(cell.lookup);
     EXPECT_NEAR(cell.lookup->norms.max, 0.8, 1e-6);
+    EXPECT_NEAR(cell.curve->rise, 0.005, 1e-6);
     FakeAnswers infinite = raw;
     infinite.lookup = std::numeric_limits<float>::infinity();
     EXPECT_EQ(judge(infinite).status, CellStatus::failed);

@@ -47,9 +47,9 @@ TEST(Verdict, of_a_bound_that_held_is_kept) {
 }
 
 TEST(Verdict, without_a_bound_goes_by_the_noise_tolerance) {
-    expect(cell(0.125, infinity), Verdict::kept, "within the noise tolerance 0.12");
+    expect(cell(0.125, infinity), Verdict::kept, "within the noise tolerance 0.125");
     expect(cell(0.1251, infinity), Verdict::degraded, "at most 8 nodes");
-    expect(cell(0.1251, infinity), Verdict::degraded, "curve error 0.13");
+    expect(cell(0.1251, infinity), Verdict::degraded, "curve error 0.125, noise tolerance 0.125");
 }
 
 TEST(Verdict, of_an_opaque_technique_in_a_translucent_scene_does_not_rest_on_its_bound) {
@@ -58,6 +58,14 @@ TEST(Verdict, of_an_opaque_technique_in_a_translucent_scene_does_not_rest_on_its
     expect(opaque, Verdict::degraded, "made for opaque scenes");
     opaque.curve->norms.max = 0.1;
     expect(opaque, Verdict::kept, "within the noise tolerance");
+}
+
+TEST(Verdict, tells_the_rise_and_the_fall_of_what_promises_neither) {
+    Cell published = cell(0.3, 0.4);
+    published.promises = {.monotone = false, .unit_range = false};
+    published.curve->rise = 0.25;
+    published.curve->lowest = -0.125;
+    expect(published, Verdict::kept, "promised 0.4; rises by up to 0.25; falls to -0.125");
 }
 
 TEST(Verdict, names_what_is_promised_before_and_behind_alone) {

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <filesystem>
+
+#include "base/error.h"
 #include "techniques/any_rays.h"
 #include "techniques/deep/deep.h"
 #include "techniques/deep/tile_cache.h"
@@ -15,18 +18,34 @@ bool same_bits(std::span<const float> a, std::span<const float> b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
+// As published compression may; the file cannot hold that.
+bool leaves_the_unit_range(std::span<const DeepLevel> levels) {
+    for (const DeepLevel& level : levels)
+        for (std::size_t p = 0; p + 1 < level.offsets.size(); ++p)
+            for (std::size_t i = level.offsets[p] + level.nodes(p); i < level.offsets[p + 1]; ++i)
+                if (level.floats[i] < 0.0f || level.floats[i] > 1.0f) return true;
+    return false;
+}
+
 RC_GTEST_PROP(DeepFileLookup, AnswersAsTheMapInMemory, ()) {
     const Technique& row = find("deep", "");
     testing::HandRays given = *testing::any_rays();
     given.coloured = *rc::gen::arbitrary<bool>();
     ParameterValues values = testing::defaults(row);
-    values.values["tolerance"] = *rc::gen::element(0.01, 1e-3, 0.25);
+    values.values["tolerance"] = *rc::gen::element(0.01, 0.0, 1e-3, 0.25, 1.0);
+    values.values["compression"] = std::string(*rc::gen::element("bounded", "published"));
     const bool mip = *rc::gen::arbitrary<bool>();
     if (mip) values.values["mip"] = std::string("nearest");
     const testing::HandMap made = make_map(row, values, given);
 
     const testing::TestFile path;
-    write_deep_file(path.path, levels(*made.map), *rc::gen::inRange(1, 5), {});
+    const int tile = *rc::gen::inRange(1, 5);
+    if (leaves_the_unit_range(levels(*made.map))) {
+        RC_ASSERT_THROWS_AS(write_deep_file(path.path, levels(*made.map), tile, {}), base::Error);
+        RC_ASSERT(!std::filesystem::exists(path.path));
+        return;
+    }
+    write_deep_file(path.path, levels(*made.map), tile, {});
     const DeepFile file(path.path);
     TileCache cache(file, static_cast<std::size_t>(*rc::gen::inRange(1, 4)));
     std::vector<Query> queries;

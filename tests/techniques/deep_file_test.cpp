@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <bit>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
 #include "base/error.h"
@@ -100,16 +102,22 @@ TEST(DeepFile, RefusesNodesThatAreNoVisibility) {
     const TestFile file;
     constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<float> right = {1, 2, 2, 1, 0.5f, 0};
+    std::vector<DeepLevel> levels = {{1, 1, 1, {0, 6}, right, {}}};
+    levels[0].floats.resize(6 + DeepLevel::padding);
+    write_deep_file(file.path, levels, 16, {});
+    expect_same(read_levels(DeepFile(file.path)), levels);
+    const std::string bytes = base::read_text(file.path);
+    constexpr std::size_t directory = 64, tile = directory + 16 + 4;
+    // Behind a checksum that fits. Where the float lies.
     const auto write = [&](std::size_t index, float value) {
-        std::vector<DeepLevel> levels = {{1, 1, 1, {0, 6}, right, {}}};
-        levels[0].floats[index] = value;
-        levels[0].floats.resize(6 + DeepLevel::padding);
-        write_deep_file(file.path, levels, 16, {});
-        return std::filesystem::file_size(file.path) - (6 - index) * sizeof(float);
+        std::string changed = bytes;
+        const std::size_t place = changed.size() - (6 - index) * sizeof(float);
+        poke(changed, place, std::bit_cast<std::uint32_t>(value));
+        poke(changed, directory + 12, crc(changed, tile, peek(changed, directory + 8) * 4));
+        poke(changed, directory + 16, crc(changed, directory, 16));
+        write_bytes(file.path, changed);
+        return place;
     };
-    write(0, 1);
-    expect_same(read_levels(DeepFile(file.path)),
-                {{1, 1, 1, {0, 6}, {1, 2, 2, 1, 0.5f, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {}}});
     for (const auto& [index, value] : {std::pair<std::size_t, float>{0, nan},
                                        {0, -infinity},
                                        {1, nan},
@@ -123,6 +131,23 @@ TEST(DeepFile, RefusesNodesThatAreNoVisibility) {
         const base::Error error = fault(file.path);
         EXPECT_EQ(error.code(), base::ErrorCode::bad_input) << index << " " << value;
         EXPECT_EQ(error.where(), file.path.string() + ":" + std::to_string(place));
+    }
+}
+
+// As published compression may leave them: nothing is written, rather than a file that nobody can read.
+TEST(DeepFile, ValuesOutsideTheUnitRangeAreNotWritten) {
+    const TestFile file;
+    for (const float value : {-1e-6f, 1.0f + 1e-6f, std::numeric_limits<float>::quiet_NaN()}) {
+        std::vector<DeepLevel> levels = {{1, 1, 1, {0, 4}, {1, 2, 1, value}, {}}};
+        levels[0].floats.resize(4 + DeepLevel::padding);
+        try {
+            write_deep_file(file.path, levels, 16, {});
+            ADD_FAILURE() << value << " was written";
+        } catch (const base::Error& error) {
+            EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
+            EXPECT_THAT(error.message(), HasSubstr("pixel 0"));
+        }
+        EXPECT_FALSE(std::filesystem::exists(file.path));
     }
 }
 

@@ -51,8 +51,8 @@ struct DeepFileNotes {
 inline constexpr int max_deep_tile = 1024;  // pixels a side
 
 // Writes level 0 and its mip levels, if any: all of it, or nothing. Throws Error: internal for levels that are not
-// whole or not each half of the one before; bad_input for a tile size outside [1, max_deep_tile] or a text that is too
-// long; io.
+// whole or not each half of the one before; bad_input for a tile size outside [1, max_deep_tile], a text that is too
+// long, or values outside [0, 1], as published compression leaves them; io.
 void write_deep_file(const std::filesystem::path& file, std::span<const DeepLevel> levels, int tile_size,
                      const DeepFileNotes& notes);
 

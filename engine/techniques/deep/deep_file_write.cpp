@@ -57,6 +57,13 @@ void check(const std::filesystem::path& file, std::span<const DeepLevel> levels,
         if (!fault.empty())
             throw Error(ErrorCode::internal, file.string(), fmt::format("level {} cannot be written: {}", i, fault));
     }
+    for (const DeepLevel& level : levels)
+        for (std::size_t p = 0; p + 1 < level.offsets.size(); ++p)
+            for (std::size_t i = std::size_t{level.offsets[p]} + level.nodes(p); i < level.offsets[p + 1]; ++i)
+                if (!(level.floats[i] >= 0.0f && level.floats[i] <= 1.0f))
+                    throw Error(ErrorCode::bad_input, file.string(),
+                                fmt::format("pixel {} has the visibility {}, and the file holds values in [0, 1] alone",
+                                            p, level.floats[i]));
 }
 
 // The words of one tile, appended to `words`.
