@@ -13,8 +13,10 @@ namespace shadowbench::bench {
 namespace {
 
 constexpr std::size_t run_length = 64;
-constexpr double longest_pass = 0.050;       // seconds
-constexpr double longest_warm_pass = 0.100;  // seconds: only 64 lookups that take longer stay cold
+constexpr double longest_pass = 0.050;         // seconds
+constexpr double longest_warm_pass = 0.100;    // seconds: only 64 lookups that take longer stay cold
+constexpr double longest_random_pass = 0.010;  // seconds: of several random orders
+constexpr double unforgotten = 65536.0;        // lookups in a row that are more than a branch predictor learns
 constexpr int least_warm_passes = 2, most_warm_passes = 16;
 constexpr double warm_time = 0.050;      // seconds: a map of the size of L3 takes several passes to settle there
 constexpr double shortest_pass = 0.002;  // seconds: the clock and a late interrupt stay below 1 %
@@ -42,13 +44,21 @@ double seconds_of_floor(std::span<const void* const> lines, int rounds) {
     return seconds;
 }
 
-void shuffle(LookupOrder& order, std::uint64_t seed) {
-    base::Random random(base::hash(seed));
-    for (std::size_t i = order.queries.size(); i > 1; --i) {
-        const std::size_t other = random.below(i);
-        std::swap(order.queries[i - 1], order.queries[other]);
-        if (!order.footprints.empty()) std::swap(order.footprints[i - 1], order.footprints[other]);
+// Appends all queries in a random order.
+void append_shuffled(const LookupOrder& all, base::Random& random, LookupOrder& to) {
+    const std::size_t first = to.queries.size(), count = all.queries.size();
+    to.queries.insert(to.queries.end(), all.queries.begin(), all.queries.end());
+    to.footprints.insert(to.footprints.end(), all.footprints.begin(), all.footprints.end());
+    for (std::size_t i = count; i > 1; --i) {
+        const std::size_t one = first + i - 1, other = first + random.below(i);
+        std::swap(to.queries[one], to.queries[other]);
+        if (!to.footprints.empty()) std::swap(to.footprints[one], to.footprints[other]);
     }
+}
+
+int rounds_of(double seconds_a_round) {
+    if (seconds_a_round >= shortest_pass) return 1;
+    return static_cast<int>(std::min(1000.0, std::ceil(shortest_pass / seconds_a_round)));
 }
 
 // Seconds a lookup, from passes that grow until one is long enough to tell.
@@ -72,7 +82,7 @@ void warm_up(const Pass& pass) {
 }
 
 void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bool floor_first) {
-    const int rounds = plan.rounds;
+    const int rounds = order.rounds;
     const double lookups = static_cast<double>(order.queries.size()) * rounds;
     const double read = static_cast<double>(order.covered) * rounds;
     // Each warms up for itself: what ran before, the other or another technique, must not tell.
@@ -109,6 +119,12 @@ std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count) {
     return chosen;
 }
 
+std::size_t random_orders(std::size_t queries, double seconds_a_lookup) {
+    const double count = static_cast<double>(std::max<std::size_t>(queries, 1));
+    const double enough = std::ceil(unforgotten / count), fit = longest_random_pass / (seconds_a_lookup * count);
+    return static_cast<std::size_t>(std::clamp(fit, 1.0, std::max(enough, 1.0)));
+}
+
 LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed) {
     const double each = calibrate(maps, asked);
     const double fit = each > 0.0 ? longest_pass / each : static_cast<double>(most);
@@ -119,15 +135,15 @@ LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, 
     QuerySet chosen = pick(asked, choose_runs(asked.queries.size(), count));
     plan.image.queries = std::move(chosen.queries);
     plan.image.footprints = std::move(chosen.footprints);
-    plan.random = plan.image;
-    shuffle(plan.random, seed);
+    base::Random random(base::hash(seed));
+    const std::size_t orders = random_orders(plan.image.queries.size(), each);
+    for (std::size_t o = 0; o < orders; ++o) append_shuffled(plan.image, random, plan.random);
     for (LookupOrder* order : {&plan.image, &plan.random}) {
         order->covered = touched(maps, order->asked(), most_lines, order->lines);
         order->lines.shrink_to_fit();
+        order->rounds = rounds_of(each * static_cast<double>(order->queries.size()));
     }
-    const double pass = each * static_cast<double>(plan.image.queries.size());
-    plan.warm = pass < longest_warm_pass;
-    plan.rounds = pass < shortest_pass ? static_cast<int>(std::min(1000.0, std::ceil(shortest_pass / pass))) : 1;
+    plan.warm = each * static_cast<double>(plan.image.queries.size()) < longest_warm_pass;
     return plan;
 }
 

@@ -18,6 +18,7 @@ struct LookupOrder {
     std::vector<techniques::Footprint> footprints;  // one a query, or none
     std::vector<const void*> lines;  // that the first `covered` of the queries read; empty: no map is read
     std::size_t covered = 0;
+    int rounds = 1;  // a pass goes over its queries so often: more than once when once is too short for the clock
     std::vector<float> answers;        // of the last pass, channel after channel
     std::vector<double> ns, floor_ns;  // a lookup; one of each a repetition (floor_ns: none without lines)
 
@@ -26,12 +27,17 @@ struct LookupOrder {
 
 struct LookupPlan {
     LookupOrder image, random;
-    int rounds = 1;     // a pass goes over its queries so often: more than once when once is too short for the clock
     bool warm = false;  // each pass follows untimed ones of its kind, so that it finds in the cache what fits into it
 };
 
 // Indices of `count` of `total` queries: all, or runs of 64 neighbours spread evenly.
 std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count);
+
+// How many different random orders of `queries` lookups follow one another in a pass, when one lookup takes so long. A
+// processor learns the branches of up to some 20,000 lookups by heart when they come in the same order again and again,
+// and then a deep shadow map answers in random order in half the time; so that a pass holds more than that, or takes
+// 10 ms, beside which mispredicted branches are small.
+std::size_t random_orders(std::size_t queries, double seconds_a_lookup);
 
 // Warms up, and chooses for this map how many of the queries (at most `most`, at least 64 where there are so many) keep
 // one pass at or under 50 ms.

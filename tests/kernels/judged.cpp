@@ -66,7 +66,7 @@ Judged::Judged(const Setting& setting) : state_(std::make_unique<State>(setting)
     scene::RaySettings settings = s.input->settings;
     settings.samples_per_pixel = truth_samples;
     settings.seed = 2;
-    const std::vector<techniques::Query> judged = queries(judged_side);
+    const std::vector<techniques::Query> judged = queries(judged_side, 5);
     bench::check_lookups(s.contender, judged,
                          bench::reference_visibility(s.input->scene, s.input->view, settings, judged, {}));
     s.check_ok();
@@ -100,10 +100,10 @@ bench::Maps Judged::build() const {
     return maps;
 }
 
-std::vector<techniques::Query> Judged::queries(std::size_t side) const {
+std::vector<techniques::Query> Judged::queries(std::size_t side, std::uint64_t seed) const {
     const rays::MapLayout& layout = state_->layout;
     const double depth = 1.1 * (layout.z_max - layout.z_min);  // a little behind everything too
-    base::Random random(5);
+    base::Random random(seed);
     const auto place = [&](std::size_t cell, int size) {
         return static_cast<float>((static_cast<double>(cell) + random.uniform()) * size / static_cast<double>(side));
     };

@@ -1,6 +1,8 @@
 // The map of a technique, built and held to what the technique promises, the way a run does it.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -36,8 +38,8 @@ public:
 
     bench::Maps build() const;
 
-    // side * side places all over the map, row after row, each at a depth of its own.
-    std::vector<techniques::Query> queries(std::size_t side) const;
+    // side * side places all over the map, row after row, each at a depth of its own; others with every seed.
+    std::vector<techniques::Query> queries(std::size_t side, std::uint64_t seed) const;
 
     // Makes the pass twice: throws unless both answer the same, and what is promised.
     void check_answers(const std::vector<techniques::Query>& queries, const std::function<void()>& pass,

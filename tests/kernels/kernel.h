@@ -34,7 +34,7 @@ struct Subject {
     // Reads what a pass reads and does nothing else; the sum is returned so that the reads cannot be left out. Empty:
     // the kernel reads nothing that could be named.
     std::function<unsigned()> floor;
-    double floor_share = 1.0;  // of a pass that the floor covers
+    double floor_share = 1.0;  // passes that the floor covers
 };
 
 struct Kernel {
