@@ -95,7 +95,7 @@ public:
 private:
     void cells(const Pair& pair, const Cell& baseline, const Cell& current, bool times);
     void promises(const Pair& pair, const Cell& baseline, const Cell& current);
-    void exact(const Pair& pair, const Cell& baseline, const Cell& current);
+    void exact(const Pair& pair, const Cell& baseline, const Cell& current, bool one_machine);
     void times(const Pair& pair, const Cell& baseline, const Cell& current);
     void fronts(const Pair& pair, const std::map<Name, FrontCell>& all, bool times);
     void add(Line line) { comparison_.lines.push_back(std::move(line)); }
@@ -120,7 +120,7 @@ void Judge::promises(const Pair& pair, const Cell& baseline, const Cell& current
     add(std::move(line));
 }
 
-void Judge::exact(const Pair& pair, const Cell& baseline, const Cell& current) {
+void Judge::exact(const Pair& pair, const Cell& baseline, const Cell& current, bool one_machine) {
     for (const Exact& before : baseline.exact) {
         Line line = line_of(pair, &current, Verdict::missing, "not measured now");
         line.measure = before.name;
@@ -128,7 +128,13 @@ void Judge::exact(const Pair& pair, const Cell& baseline, const Cell& current) {
         if (const Exact* now = find(current.exact, before.name)) {
             line.reason.clear();
             line.verdict = Verdict::same;
-            judge_exact(before, *now, options_, line);
+            if (before.kind == Kind::instructions && !one_machine) {
+                line.verdict = Verdict::not_comparable;
+                line.time = true;
+                line.reason = "another machine, where libraries may choose other code";
+            } else {
+                judge_exact(before, *now, options_, line);
+            }
         }
         add(std::move(line));
     }
@@ -163,7 +169,7 @@ void Judge::cells(const Pair& pair, const Cell& baseline, const Cell& current, b
         return;
     }
     promises(pair, baseline, current);
-    exact(pair, baseline, current);
+    exact(pair, baseline, current, times_compare);
     if (times_compare) times(pair, baseline, current);
 }
 
@@ -290,6 +296,10 @@ Comparison compare(const Measured& baseline, const Measured& current, const Opti
     Comparison comparison;
     comparison.options = options;
     comparison.interleaved = !baseline.interleaved.empty() && baseline.interleaved == current.interleaved;
+    if (comparison.interleaved && baseline.files != current.files) {
+        comparison.interleaved = false;
+        comparison.notes.push_back("not judged in pairs: one side has files that the other has not");
+    }
     for (const auto& [side, measured] : {std::pair("baseline", &baseline), std::pair("current", &current)})
         for (const std::string& note : measured->notes) comparison.notes.push_back(fmt::format("{}: {}", side, note));
     Judge judge(options, comparison);
@@ -312,7 +322,15 @@ void confirm(Comparison& first, const Comparison& again) {
             return other.suite == line.suite && other.group == line.group && other.cell == line.cell &&
                    other.measure == line.measure && other.ratio > 0.0;
         });
-        if (fresh == again.lines.end()) continue;
+        if (fresh == again.lines.end()) {
+            line.reason += (line.reason.empty() ? "" : "; ") + std::string("it was not run again");
+            continue;
+        }
+        if (again.enough > fresh->processes) {
+            line.reason += fmt::format("{}{} fresh {} cannot confirm it: it takes {}", line.reason.empty() ? "" : "; ",
+                                       fresh->processes, again.interleaved ? "pairs" : "processes", again.enough);
+            continue;
+        }
         const std::string what = fmt::format("{} fresh {}: x{:.3f} [{:.3f}, {:.3f}], x{:.3f} at first",
                                              fresh->processes, again.interleaved ? "pairs" : "processes", fresh->ratio,
                                              fresh->interval.low, fresh->interval.high, line.ratio);
@@ -322,6 +340,7 @@ void confirm(Comparison& first, const Comparison& again) {
         line.rerun = rerun;
         line.verdict = confirmed ? Verdict::slower : Verdict::inconclusive;
         line.suspicious = confirmed;
+        line.fresh = true;
         line.reason = (confirmed ? "confirmed by " : "looked slower, not confirmed by ") + what;
     }
 }

@@ -12,8 +12,9 @@
 //  - Otherwise: the medians of time over floor, which the machine's state moves less; of times without a floor the
 //    plain ones. Interval: bootstrap of the ratio of medians; test: Mann-Whitney's rank sum. What two blocks of
 //    processes differ in without any change is added to the minimum effect; and where Embree's own queries, which stand
-//    in every result, say that the machine was in another state, nothing is slower or faster. All that lowers the
-//    chance of a false alarm on a shared machine; only pairs bound it.
+//    in every result, say that the machine was in another state, only what differs by far more is slower or faster.
+//    Where plain times are slower and their floor with them, it is inconclusive. All that lowers the chance of a false
+//    alarm on a shared machine; only pairs bound it.
 // A time is slower when its whole interval is beyond the minimum effect AND the test against that effect, not against
 // equality, holds after Holm's correction over all times that were judged: one false alarm fails a build, so the chance
 // of any one, not their share, is held under 5 %, however many cells there are.
@@ -33,6 +34,7 @@ inline constexpr std::size_t fewest_processes = 4;
 inline constexpr double block_noise = 0.03;        // of ratios to the floor, between blocks of processes
 inline constexpr double plain_block_noise = 0.06;  // of plain times
 inline constexpr double machine_state = 1.15;      // Embree's queries took so much longer: another state of the machine
+inline constexpr double worst_state = 2.0;  // what another state slows some code by, beside what it slows Embree by
 
 struct Options {
     double effect = 0.05;                     // of times: smaller changes are none
@@ -69,6 +71,7 @@ struct Line {
     metrics::Interval interval{0.0, 0.0};
     std::size_t processes = 0;  // the fewer of the two sides; interleaved: pairs
     bool suspicious = false;    // looks slower, whatever the verdict
+    bool fresh = false;         // judged anew by confirm()
     double p_slower = 1.0, p_faster = 1.0;
     std::string reason;  // in words
     Rerun rerun;         // of the current side, where it has the cell
@@ -87,10 +90,14 @@ struct Comparison {
     bool interleaved = false;
     Options options;
     std::size_t judged_times = 0;  // that Holm's correction is over
+    // Where some of them have too few processes to be called slower, however slow: how many a side (pairs) are enough.
+    std::size_t enough = 0;
     std::vector<Line> lines;
     std::vector<FrontChange> fronts;
     std::vector<std::string> notes;
 };
+
+inline constexpr const char* over_floor = "x floor";  // the unit of such times
 
 // What a line asks for: 2 where it is larger, less accurate, missing or, other than for its time, not comparable (the
 // last two unless they are allowed); 1 where it is slower; else 0.
@@ -106,7 +113,8 @@ Comparison compare(const Measured& baseline, const Measured& current, const Opti
 std::vector<Line> suspicious(const Comparison& comparison);
 
 // A second look: `again` compares fresh processes of the suspicious cells alone. What looked slower is slower only
-// where it is so in the fresh ones by themselves; else it is inconclusive, and says what both looks gave.
+// where it is so in the fresh ones by themselves; else it is inconclusive, and says what both looks gave. Fresh ones
+// too few to show anything change no verdict.
 void confirm(Comparison& first, const Comparison& again);
 
 }  // namespace shadowbench::compare

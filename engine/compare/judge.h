@@ -17,6 +17,10 @@ void judge_exact(const Exact& baseline, const Exact& current, const Options& opt
 void judge_time(const Timed& baseline, const Timed& current, bool interleaved, double machine, const Options& options,
                 Line& line);
 
+// Processes a side (pairs, where interleaved) that can call one of so many times slower: with fewer, even the smallest
+// p value is above alpha after Holm's correction.
+std::size_t enough_processes(std::size_t times, bool interleaved, double alpha);
+
 // Takes back what is not beyond chance among all times judged.
 void apply_holm(Comparison& comparison);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -86,28 +87,40 @@ void decide(double margin, Line& line) {
         line.verdict = Verdict::inconclusive;
 }
 
-// The verdict from time over floor is none where the plain times say the contrary: then the floor itself moved, because
-// other lines are touched.
-void heed_the_floor(const Sides& plain, Line& line) {
-    if (line.verdict != Verdict::slower && line.verdict != Verdict::faster) return;
-    const double ratio = metrics::median(plain.current) / metrics::median(plain.baseline);
-    if ((ratio > 1.0) == (line.verdict == Verdict::slower)) return;
-    line.reason = fmt::format("{} over its floor, but the plain time is x{:.3f}: the floor moved; `ab` decides",
-                              to_string(line.verdict), ratio);
+void take_back(Line& line, std::string reason) {
+    line.reason = std::move(reason);
     line.verdict = Verdict::inconclusive;
     line.p_slower = line.p_faster = 1.0;
 }
 
+// Time over floor decides nothing where the floor itself moved, because other lines are touched: where the plain times
+// say the contrary, or are slower by more than blocks of processes and the machine account for.
+void heed_the_floor(const Sides& plain, double machine, const Options& options, Line& line) {
+    const double ratio = metrics::median(plain.current) / metrics::median(plain.baseline);
+    const bool told = line.verdict == Verdict::slower || line.verdict == Verdict::faster;
+    if (told && (ratio > 1.0) != (line.verdict == Verdict::slower))
+        return take_back(line,
+                         fmt::format("{} over its floor, but the plain time is x{:.3f}: the floor moved; `ab` decides",
+                                     to_string(line.verdict), ratio));
+    if (line.verdict == Verdict::slower) return;
+    const double margin = (1.0 + options.effect + plain_block_noise) * std::max(1.0, machine);
+    if (metrics::median_ratio_interval(plain.baseline, plain.current).low <= margin) return;
+    line.suspicious = true;
+    take_back(line,
+              fmt::format("looks slower: the plain time is x{:.3f}, and its floor moved with it; `ab` decides", ratio));
+}
+
 // Blocks of processes may meet the machine in different states (another tenant on the same core makes some code 1.8
 // times slower and leaves its floor as it was).
-void heed_the_machine(double machine, Line& line) {
+void heed_the_machine(double machine, double margin, Line& line) {
     if (line.verdict != Verdict::slower && line.verdict != Verdict::faster) return;
-    if (machine <= machine_state && machine >= 1.0 / machine_state) return;
-    line.reason =
-        fmt::format("looks {}, but the machine was in another state: Embree's own queries took x{:.2f} as long",
-                    to_string(line.verdict), machine);
-    line.verdict = Verdict::inconclusive;
-    line.p_slower = line.p_faster = 1.0;
+    const double state = std::max(machine, 1.0 / machine);
+    if (state <= machine_state) return;
+    const double needed = margin * state * worst_state;
+    if (line.interval.low > needed || line.interval.high < 1.0 / needed) return;
+    take_back(line,
+              fmt::format("looks {}, but the machine was in another state: Embree's own queries took x{:.2f} as long",
+                          to_string(line.verdict), machine));
 }
 
 }  // namespace
@@ -120,7 +133,7 @@ void judge_time(const Timed& baseline, const Timed& current, bool interleaved, d
     const Sides plain{medians(baseline, false), medians(current, false)};
     const bool floor = !interleaved && have_floor(baseline) && have_floor(current);
     Sides sides = floor ? Sides{medians(baseline, true), medians(current, true)} : plain;
-    if (floor) line.unit = "x floor";
+    if (floor) line.unit = over_floor;
     line.baseline = metrics::median(sides.baseline);
     line.current = metrics::median(sides.current);
     line.processes = std::min(sides.baseline.size(), sides.current.size());
@@ -164,8 +177,19 @@ void judge_time(const Timed& baseline, const Timed& current, bool interleaved, d
     } else if (line.verdict == Verdict::inconclusive) {
         line.reason = fmt::format("the interval reaches across {:.3f} or {:.3f}", 1.0 / margin, margin);
     }
-    if (floor) heed_the_floor(plain, line);
-    if (!paired) heed_the_machine(machine, line);
+    if (floor && !few) heed_the_floor(plain, machine, options, line);
+    if (!paired) heed_the_machine(machine, margin, line);
+}
+
+std::size_t enough_processes(std::size_t times, bool interleaved, double alpha) {
+    // All of one side above all of the other: 1 in 2^n signs of pairs, 1 in (2n over n) orders.
+    double p = static_cast<double>(times);
+    std::size_t n = 0;
+    while (p > alpha) {
+        ++n;
+        p *= interleaved ? 0.5 : static_cast<double>(n) / (2.0 * (2.0 * static_cast<double>(n) - 1.0));
+    }
+    return std::max(n, fewest_processes);
 }
 
 void apply_holm(Comparison& comparison) {
@@ -178,6 +202,9 @@ void apply_holm(Comparison& comparison) {
         faster.push_back(line.p_faster);
     }
     comparison.judged_times = judged.size();
+    const std::size_t enough = enough_processes(judged.size(), comparison.interleaved, comparison.options.alpha);
+    for (const Line* line : judged)
+        if (line->processes < enough) comparison.enough = enough;
     slower = metrics::holm(slower);
     faster = metrics::holm(faster);
     for (std::size_t i = 0; i < judged.size(); ++i) {
@@ -189,9 +216,9 @@ void apply_holm(Comparison& comparison) {
                                                            : 0.0;
         if (p <= comparison.options.alpha) continue;
         line.reason =
-            fmt::format("looks {}, but {} {} do not show it beyond chance among {} times (p {:.2g} after Holm)",
+            fmt::format("looks {}, but {} {} {} not show it beyond chance among {} times (p {:.2g} after Holm)",
                         to_string(line.verdict), line.processes, comparison.interleaved ? "pairs" : "processes a side",
-                        judged.size(), p);
+                        line.processes < enough ? "can" : "do", judged.size(), p);
         line.verdict = Verdict::inconclusive;
     }
 }

@@ -37,8 +37,9 @@ struct Timed {
 // How to run a cell again, alone.
 struct Rerun {
     std::string program = "shadowbench";
-    bool kernel = false;  // else a cell of a scenario
-    std::string source;   // a scenario, its name, or a result.json; of a kernel its name; empty: cannot be run
+    bool kernel = false;   // else a cell of a scenario
+    bool counted = false;  // a kernel whose instructions were counted, not timed
+    std::string source;    // a scenario, its name, or a result.json; of a kernel its name; empty: cannot be run
     std::vector<std::string> given;  // further arguments, as "--set", "rays.seed=2"
     std::string technique;           // JSON, as in a scenario; empty: not known
     std::string only;                // the technique's type
@@ -85,6 +86,7 @@ struct Measured {
     // Both sides of one interleaved comparison have the same; else empty. Process i of one side then ran beside process
     // i of the other.
     std::string interleaved;
+    std::vector<std::string> files;  // of a folder, as they are called inside it
 };
 
 // Adds what one JSON document holds: a result of `shadowbench run`, or what a kernel program wrote. `origin` is its

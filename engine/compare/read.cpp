@@ -19,7 +19,7 @@ constexpr int most_deep = 64;
 
 // Another process of cells that are already there: its times beside theirs. Where their exact measures differ, the
 // worst counts.
-void merge_cell(Cell& into, Cell&& from, std::vector<std::string>& unsteady, bool same_machine) {
+void merge_cell(Cell& into, Cell&& from, std::vector<std::string>& unsteady) {
     if (from.failed && !into.failed) {
         into.failed = true;
         into.failure = from.failure;
@@ -35,7 +35,6 @@ void merge_cell(Cell& into, Cell&& from, std::vector<std::string>& unsteady, boo
             found->value = std::max(found->value, exact.value);
         }
     }
-    if (!same_machine) return;
     for (Timed& timed : from.timed) {
         const auto found = std::find_if(into.timed.begin(), into.timed.end(), [&](const Timed& other) {
             return other.name == timed.name && other.unit == timed.unit;
@@ -57,15 +56,16 @@ void merge(Suite& into, Suite&& from, const std::string& origin, std::vector<std
             fmt::format("{}: program {}, results of {} before it: {}", origin, from.program, into.name, into.program));
     std::vector<std::string> unsteady;
     ++into.results;
-    into.speed.insert(into.speed.end(), from.speed.begin(), from.speed.end());
+    if (same_machine) into.speed.insert(into.speed.end(), from.speed.begin(), from.speed.end());
     for (Cell& cell : from.cells) {
+        if (!same_machine) cell.timed.clear();
         const auto found = std::find_if(into.cells.begin(), into.cells.end(), [&](const Cell& other) {
             return other.group == cell.group && other.name == cell.name;
         });
         if (found == into.cells.end())
             into.cells.push_back(std::move(cell));
         else
-            merge_cell(*found, std::move(cell), unsteady, same_machine);
+            merge_cell(*found, std::move(cell), unsteady);
     }
     if (!unsteady.empty())
         notes.push_back(fmt::format("{}: differs from results of {} before it in {}{}; the worst counts", origin,
@@ -156,12 +156,15 @@ std::vector<fs::path> result_files(const fs::path& path) {
 
 Measured read(const fs::path& path) {
     Measured measured;
-    for (const fs::path& file : result_files(path)) add(measured, read_json(file), file.string());
+    for (const fs::path& file : result_files(path)) {
+        add(measured, read_json(file), file.string());
+        measured.files.push_back(file.lexically_relative(path).string());
+    }
     bool any = false;
     for (const Suite& suite : measured.suites) any = any || !suite.cells.empty();
     if (!any)
         throw Error(ErrorCode::bad_input, path.string(),
-                    "holds no result of shadowbench run and none of a kernel program");
+                    "holds no result of shadowbench run and none of a kernel program (aggregates alone are none)");
     measured.interleaved = interleaved_with(path);
     return measured;
 }

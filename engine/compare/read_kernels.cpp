@@ -73,9 +73,10 @@ void add_run(Cell& cell, const Field& run) {
         if (!value.is_number() || !is_counter(name)) continue;
         if (is_ratio(name) && !cell.timed.empty())
             cell.timed[0].processes[0].ratio.push_back(time_of(run.at(name.c_str())));
-        else if (name == "instructions")
+        else if (name == "instructions") {
             add_exact(cell, name, Kind::instructions, time_of(run.at(name.c_str())));
-        else if (has(name, "error"))
+            cell.rerun.counted = true;
+        } else if (has(name, "error"))
             add_exact(cell, name, Kind::error, time_of(run.at(name.c_str())));
         else if (has(name, "byte") || has(name, "node"))
             add_exact(cell, name, Kind::size, time_of(run.at(name.c_str())));

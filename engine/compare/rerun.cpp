@@ -53,6 +53,9 @@ std::vector<std::string> arguments_of(const std::vector<Rerun>& reruns) {
 }
 
 std::string command_of(const Rerun& rerun) {
+    if (rerun.counted)
+        return fmt::format("shadowbench instructions --kernels {} --filter {} --out counts.json", quoted(rerun.program),
+                           quoted("^" + escaped(rerun.source) + "$"));
     std::string line = quoted(rerun.program);
     for (const std::string& argument : arguments_of({rerun})) line += " " + quoted(argument);
     return line;

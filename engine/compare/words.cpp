@@ -58,12 +58,16 @@ std::string method(const Comparison& comparison) {
                                      "medians of processes, over the floor where there is one; minimum effect {}, "
                                      "and {:g} % more ({:g} % without a floor) that blocks of processes differ by",
                                      effect, 100.0 * block_noise, 100.0 * plain_block_noise);
-    return fmt::format(
+    std::string text = fmt::format(
         "{} times judged: {}; the whole 95 % bootstrap interval has to lie beyond, and the test against that effect to "
         "hold after Holm's correction over all times: any false alarm in at most 5 % of comparisons{}",
         comparison.judged_times, of,
         comparison.interleaved ? ""
                                : ", as far as the machine's state was the same for both blocks (ab, or --confirm)");
+    if (comparison.enough > 0)
+        text += fmt::format(". Too few to call a time slower, however slow: of so many times that takes {} {}",
+                            comparison.enough, comparison.interleaved ? "pairs" : "processes a side");
+    return text;
 }
 
 std::string values_text(const Line& line) {
@@ -101,6 +105,8 @@ std::string counts_text(const Comparison& comparison) {
 
 std::string outcome_text(const Comparison& comparison) {
     const int code = exit_code(comparison);
+    if (code == 0 && comparison.enough > 0)
+        return "exit code 0: nothing is larger or less accurate; too few processes for slower";
     if (code == 0) return "exit code 0: nothing is slower, larger or less accurate";
     if (code == 1) return "exit code 1: slower";
     bool worse = false;
@@ -125,21 +131,26 @@ std::vector<const Line*> by_severity(const Comparison& comparison) {
 }
 
 std::string sensitivity(const Comparison& comparison) {
+    const std::size_t enough = std::max(comparison.enough, fewest_processes);
     std::vector<std::pair<double, const Line*>> widths;
-    for (const Line& line : comparison.lines)
-        if (line.time && line.ratio > 0.0 && line.processes >= fewest_processes)
-            widths.emplace_back(line.ratio / line.interval.low, &line);
+    std::vector<double> called;
+    for (const Line& line : comparison.lines) {
+        if (!line.time || line.fresh || !(line.ratio > 0.0) || line.processes < enough) continue;
+        const double width = line.ratio / line.interval.low;
+        const double blocks = comparison.interleaved ? 0.0 : line.unit == over_floor ? block_noise : plain_block_noise;
+        widths.emplace_back(width, &line);
+        called.push_back(width * (1.0 + comparison.options.effect + blocks));
+    }
     if (widths.empty()) return "";
     std::sort(widths.begin(), widths.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    const double margin = 1.0 + comparison.options.effect + (comparison.interleaved ? 0.0 : block_noise);
-    const double quietest = widths.front().first;
+    std::sort(called.begin(), called.end());
     const auto& [noisiest, noisy_line] = widths.back();
-    const double middle = widths[widths.size() / 2].first;
     return fmt::format(
         "smallest slowdown told from none: {} at the quietest time, {} at the median, {} at the noisiest ({}, {}); "
         "called slower, beyond the minimum effect: {}, {} and {}",
-        percent(quietest), percent(middle), percent(noisiest), title_of(*noisy_line), noisy_line->measure,
-        percent(quietest * margin), percent(middle * margin), percent(noisiest * margin));
+        percent(widths.front().first), percent(widths[widths.size() / 2].first), percent(noisiest),
+        title_of(*noisy_line), noisy_line->measure, percent(called.front()), percent(called[called.size() / 2]),
+        percent(called.back()));
 }
 
 }  // namespace shadowbench::compare

@@ -54,6 +54,7 @@ void name_the_source(compare::Comparison& comparison, const AbArguments& argumen
 int ab_command(const AbArguments& arguments, std::ostream& out, std::ostream& err) {
     const compare::Options options = verdict_options(arguments);
     Turns turns = turns_of(arguments);
+    const EndingSignals signals;
     const TemporaryFolder temporary;
     const std::filesystem::path folder =
         arguments.out.empty() ? temporary.path() : std::filesystem::path(arguments.out);

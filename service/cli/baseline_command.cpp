@@ -55,6 +55,7 @@ bool add_scenario(const fs::path& scenario, int threads, const fs::path& folder,
 
 bool add_kernels(const std::string& told, const fs::path& folder, std::vector<bench::NewFile>& files) {
     const std::string program = kernel_program(told);
+    const EndingSignals signals;
     const TemporaryFolder temporary;
     const fs::path counts = temporary.path() / "kernels.json", log = temporary.path() / "log";
     const int code = run_child(program, {"--exact=" + counts.string()}, log);

@@ -40,36 +40,6 @@ private:
     posix_spawn_file_actions_t actions_;
 };
 
-// While it lives, the signals that end a program wait, so that the child can be ended first. Ignored ones (nohup) stay
-// ignored.
-class EndingSignals {
-public:
-    EndingSignals() {
-        sigemptyset(&waiting_);
-        sigaddset(&waiting_, SIGCHLD);
-        for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
-            struct sigaction now {};
-            if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) sigaddset(&waiting_, signal);
-        }
-        pthread_sigmask(SIG_BLOCK, &waiting_, &before_);
-    }
-    ~EndingSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-    EndingSignals(const EndingSignals&) = delete;
-    EndingSignals& operator=(const EndingSignals&) = delete;
-
-    const sigset_t& before() const { return before_; }
-
-    // The signal that came, or 0: a child may have ended, or some time has gone by.
-    int wait() const {
-        const timespec a_while{0, 200'000'000};
-        const int signal = sigtimedwait(&waiting_, nullptr, &a_while);
-        return signal > 0 && signal != SIGCHLD ? signal : 0;
-    }
-
-private:
-    sigset_t waiting_{}, before_{};
-};
-
 // In a group of its own, so that all it started can be ended with it.
 class SpawnAttributes {
 public:
@@ -106,6 +76,33 @@ int wait_for(pid_t child, const EndingSignals& signals) {
 
 }  // namespace
 
+EndingSignals::EndingSignals() {
+    sigemptyset(&waiting_);
+    sigaddset(&waiting_, SIGCHLD);
+    for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM}) {
+        struct sigaction now {};
+        if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) sigaddset(&waiting_, signal);
+    }
+    pthread_sigmask(SIG_BLOCK, &waiting_, &before_);
+}
+
+EndingSignals::~EndingSignals() {
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+sigset_t EndingSignals::let_through() const {
+    sigset_t mask = before_;
+    for (int signal = 1; signal < NSIG; ++signal)
+        if (sigismember(&waiting_, signal) == 1) sigdelset(&mask, signal);
+    return mask;
+}
+
+int EndingSignals::wait() const {
+    const timespec a_while{0, 200'000'000};
+    const int signal = sigtimedwait(&waiting_, nullptr, &a_while);
+    return signal > 0 && signal != SIGCHLD ? signal : 0;
+}
+
 TemporaryFolder::TemporaryFolder() {
     std::error_code failed;
     std::string name = (fs::temp_directory_path(failed) / "shadowbench-XXXXXX").string();
@@ -134,7 +131,7 @@ int run_child(const std::string& program, const std::vector<std::string>& argume
     argv.push_back(nullptr);
     const FileActions actions(log);
     const EndingSignals signals;
-    const SpawnAttributes attributes(signals.before());
+    const SpawnAttributes attributes(signals.let_through());
     pid_t child = 0;
     if (const int failed = posix_spawn(&child, program.c_str(), actions.get(), attributes.get(), argv.data(), environ))
         throw Error(ErrorCode::io, program, fmt::format("cannot be started: {}", std::strerror(failed)));

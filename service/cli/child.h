@@ -1,6 +1,8 @@
 // Child processes, and a folder for what they leave.
 #pragma once
 
+#include <signal.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -23,7 +25,25 @@ private:
 // Throws Error{no_such_file} where it is not there, {usage} where it cannot be executed.
 void check_program(const std::string& program);
 
-// SIGHUP, SIGINT or SIGTERM came while a child ran. The child is gone, with all that it started.
+// While it lives, signals that end a program (SIGHUP, SIGINT, SIGQUIT, SIGTERM) wait: run_child() looks for them, and
+// the end of the last such object lets them through. A command makes one before its temporary folder, so that no moment
+// leaves that behind. Ignored ones (nohup) stay ignored.
+class EndingSignals {
+public:
+    EndingSignals();
+    ~EndingSignals();
+    EndingSignals(const EndingSignals&) = delete;
+    EndingSignals& operator=(const EndingSignals&) = delete;
+
+    sigset_t let_through() const;  // the mask of a child
+    // The signal that came, or 0: a child may have ended, or some time has gone by.
+    int wait() const;
+
+private:
+    sigset_t waiting_{}, before_{};
+};
+
+// One of them came while a child ran. The child is gone, with all that it started.
 struct Interrupted {
     int signal;
 };

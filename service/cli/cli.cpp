@@ -30,7 +30,7 @@ constexpr const char* examples = R"(Examples:
   shadowbench inspect hair.dsm
   shadowbench list techniques
   shadowbench reproduce lokovic2000 --quick
-  shadowbench compare results/baseline results/runs --markdown verdict.md
+  shadowbench compare nightly/monday nightly/tuesday --markdown verdict.md
   shadowbench ab old/shadowbench build/release/shadowbench hairball --only deep
   shadowbench ab old/kernels build/release/kernels --kernels ^compress/
   shadowbench instructions --filter ^compress/ --out counts.json

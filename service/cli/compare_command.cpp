@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "compare/compare.h"
+#include "service/cli/child.h"
 #include "service/cli/gate_commands.h"
 #include "service/cli/interleave.h"
 #include "service/cli/verdict_report.h"
@@ -37,6 +38,7 @@ int compare_command(const CompareArguments& arguments, std::ostream& out, std::o
             for (const std::string& folder : arguments.data)
                 line.rerun.given.insert(line.rerun.given.end(), {"--data", folder});
         }
+        const EndingSignals signals;
         Turns turns;
         turns.binary_a = arguments.binary_a;
         turns.binary_b = arguments.binary_b.empty() ? this_program() : arguments.binary_b;

@@ -42,12 +42,13 @@ std::string find_valgrind() {
                 "it is not installed, so no instructions are counted; install the package valgrind");
 }
 
+// What the program itself said last: valgrind's own lines begin with "==".
 std::string last_line(const std::string& text) {
-    const std::size_t end = text.find_last_not_of('\n');
-    if (end == std::string::npos) return "it said nothing";
-    const std::size_t start = text.rfind('\n', end);
-    return text.substr(start == std::string::npos ? 0 : start + 1,
-                       end - (start == std::string::npos ? 0 : start + 1) + 1);
+    std::istringstream lines(text);
+    std::string last = "it said nothing";
+    for (std::string line; std::getline(lines, line);)
+        if (!line.empty() && line.rfind("==", 0) != 0) last = line;
+    return last;
 }
 
 std::vector<std::string> arguments_of(const InstructionArguments& told, const std::string& program,
@@ -105,6 +106,7 @@ std::string kernel_program(const std::string& told) {
 
 bool instructions_command(const InstructionArguments& arguments, std::ostream& out) {
     const std::string program = fs::absolute(kernel_program(arguments.kernels)).string();
+    const EndingSignals signals;
     const TemporaryFolder folder;
     const fs::path log = folder.path() / "log";
     const int code = run_child("/usr/bin/env", arguments_of(arguments, program, find_valgrind(), folder.path()), log);

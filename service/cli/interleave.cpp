@@ -57,6 +57,8 @@ void run_once(const Turns& turns, bool is_b, int pair, const fs::path& folder) {
         throw Error(code_of_child(code), fmt::format("{} ({}), exit code {}", program, is_b ? "B" : "A", code),
                     last_line(log));
     if (!written) throw Error(ErrorCode::internal, program, "ended well, but wrote no result");
+    if (turns.kernels && fs::file_size(result) == 0)  // Google Benchmark's way to say so
+        throw Error(ErrorCode::usage, program + " --kernels", last_line(log));
 }
 
 // Older builds take no result.json in a scenario's place.
@@ -107,13 +109,19 @@ compare::Comparison compare_turns(const Turns& turns, const fs::path& folder, co
 }
 
 void confirm_with_turns(compare::Comparison& first, Turns turns, const compare::Options& options, std::ostream& err) {
-    // Cells that one process can run together.
-    std::map<std::tuple<std::string, std::string, std::string>, std::map<std::string, compare::Rerun>> groups;
+    // Cells that one process can run together; they are of one result, so of one suite.
+    struct Group {
+        std::string suite;
+        std::map<std::string, compare::Rerun> cells;
+    };
+    std::map<std::tuple<std::string, std::string, std::string>, Group> groups;
     for (const compare::Line& line : compare::suspicious(first)) {
         if (line.rerun.kernel != turns.kernels) continue;
         const std::string source = line.rerun.kernel ? "" : line.rerun.source;
         const std::string only = line.rerun.technique.empty() ? line.rerun.only : "";
-        groups[{source, line.rerun.sweeps, only}][line.cell] = line.rerun;
+        Group& group = groups[{source, line.rerun.sweeps, only}];
+        group.suite = line.suite;
+        group.cells[line.cell] = line.rerun;
     }
     // Holm's correction is over one group; that none of all groups raises a false alarm takes Bonferroni's.
     compare::Options each = options;
@@ -121,16 +129,20 @@ void confirm_with_turns(compare::Comparison& first, Turns turns, const compare::
     compare::Comparison again;
     again.interleaved = true;
     int count = 0;
-    for (const auto& [key, cells] : groups) {
+    for (const auto& [key, group] : groups) {
         const TemporaryFolder folder;
         std::vector<compare::Rerun> reruns;
-        for (const auto& [name, rerun] : cells) reruns.push_back(rerun);
+        for (const auto& [name, rerun] : group.cells) reruns.push_back(rerun);
         if (!turns.kernels) reruns[0].source = scenario_of(reruns[0].source, folder.path());
         turns.arguments = compare::arguments_of(reruns);
         turns.what = fmt::format("confirming {}/{}", ++count, groups.size());
         run_turns(turns, folder.path(), err);
-        for (compare::Line& line : compare_turns(turns, folder.path(), each).lines)
+        compare::Comparison fresh = compare_turns(turns, folder.path(), each);
+        again.enough = std::max(again.enough, fresh.enough);
+        for (compare::Line& line : fresh.lines) {
+            line.suite = group.suite;  // whose name may have been told from others by its hash
             again.lines.push_back(std::move(line));
+        }
     }
     compare::confirm(first, again);
 }

@@ -85,7 +85,7 @@ void add_ab(CLI::App& app, Commands& commands) {
         repeatable(of_scenario);
         of_scenario->excludes(kernels);
     }
-    add_pairs(*ab, *arguments, "Pairs of processes; 20 see 3 to 4 percent on a shared machine, 80 see 1.5");
+    add_pairs(*ab, *arguments, "Pairs of processes; on a busy machine 20 tell some 1 to 5 percent from none");
     ab->add_option("--out", arguments->out,
                    "Keep the results in this folder, in a/ and b/, for compare [none is kept]");
     add_verdict_options(*ab, *arguments);
@@ -103,7 +103,7 @@ void add_history(CLI::App& app, Commands& commands) {
     history->add_option("DIR", arguments->folder, "A folder: every result and kernel file below it")->required();
     history->add_option("--out", arguments->out, "Folder of history.json and the page history.html [results/history]");
     history->add_option("--last", arguments->last, "A drift is looked for in so many of the latest results")
-        ->check(CLI::Range(5, 1000))
+        ->check(CLI::Range(6, 1000))
         ->capture_default_str();
     history->add_option("--effect", arguments->effect, "Percent: smaller drifts of a time are none")
         ->check(CLI::Range(0.0, 1000.0))

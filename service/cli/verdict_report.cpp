@@ -1,6 +1,7 @@
 #include "service/cli/verdict_report.h"
 
 #include <charconv>
+#include <map>
 #include <ostream>
 #include <set>
 #include <vector>
@@ -31,9 +32,17 @@ void check_names(const compare::Comparison& comparison) {
                         "nothing that is compared has such a measure; there are: " + names.substr(2));
 }
 
+void check_places(const VerdictArguments& arguments) {
+    std::map<std::string, int> uses;
+    for (const std::string* place : {&arguments.markdown, &arguments.junit, &arguments.json})
+        if (!place->empty() && ++uses[*place] > 1)
+            throw Error(ErrorCode::usage, *place, "only one of --markdown, --junit and --json can be written there");
+}
+
 }  // namespace
 
 compare::Options verdict_options(const VerdictArguments& arguments) {
+    check_places(arguments);
     compare::Options options;
     options.effect = arguments.effect / 100.0;
     options.allow_missing = arguments.allow_missing;

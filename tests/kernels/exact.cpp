@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <regex>
+#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
@@ -32,15 +33,24 @@ json entry_of(const Kernel& kernel, std::span<const Injection> injections, std::
     return entry;
 }
 
+std::regex read_filter(const std::string& filter) {
+    try {
+        return std::regex(filter);
+    } catch (const std::regex_error&) {
+        throw std::invalid_argument("--benchmark_filter=" + filter + ": the expression is not valid");
+    }
+}
+
 }  // namespace
 
 std::size_t write_exact(std::span<const Kernel> kernels, const std::string& filter,
                         std::span<const Injection> injections, const std::filesystem::path& file) {
-    const std::regex wanted(filter);
+    const std::regex wanted = read_filter(filter);
     std::size_t wrong = 0;
     json entries = json::array();
     for (const Kernel& kernel : kernels)
         if (std::regex_search(kernel.name, wanted)) entries.push_back(entry_of(kernel, injections, wrong));
+    if (entries.empty()) throw std::invalid_argument("--benchmark_filter=" + filter + ": no kernel has such a name");
     base::PendingFile pending(file);
     {
         std::ofstream stream(pending.temporary());

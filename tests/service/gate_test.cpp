@@ -98,6 +98,7 @@ TEST_F(Gate, CompareTellsByItsExitCode) {
     EXPECT_EQ(read_json(folder_ / "out/verdict.json")["exit_code"], 2);
     const Outcome as_json = cli({"compare", path("base"), path("larger"), "--json", "-"});
     EXPECT_EQ(json::parse(as_json.out).at("exit_code"), 2);
+    fails({"compare", path("base"), path("larger"), "--json", "-", "--markdown", "-"}, 64, "only one of");
     EXPECT_EQ(cli({"compare", path("base"), path("larger"), "--tolerance", "bytes=1"}).code, 0);
 }
 
@@ -218,6 +219,16 @@ TEST_F(Gate, CompareConfirmsWithBothBuilds) {
                                  "--binary-b", path("b"), "--pairs", "10"});
     EXPECT_EQ(outcome.code, 1);
     EXPECT_THAT(outcome.out, HasSubstr("confirmed by 10 fresh pairs"));
+    // Another scenario of this name stands beside it: then both are told apart by their hashes, but not in the rerun.
+    json other = base();
+    other["scenario_hash"] = "ffffffffffffffff";
+    write("kept/a/other.json", other.dump());
+    write("kept/b/other.json", other.dump());
+    const Outcome both = cli({"compare", path("kept/a"), path("kept/b"), "--confirm", "--binary-a", path("a"),
+                              "--binary-b", path("b"), "--pairs", "10"});
+    EXPECT_THAT(both.out, HasSubstr("tiny ["));
+    EXPECT_THAT(both.out, HasSubstr("confirmed by 10 fresh pairs"));
+    EXPECT_THAT(both.out, ::testing::Not(HasSubstr("not run again")));
 }
 
 TEST_F(Gate, AbTakesKernels) {
@@ -247,6 +258,11 @@ TEST_F(Gate, AbTakesKernels) {
         EXPECT_THAT(line, HasSubstr("--benchmark_min_time=0.05")) << "confirming too";
     EXPECT_EQ(count, 8 + 16);
     fails({"ab", path("k1"), path("k2"), "--kernels", "compress", "--only", "deep"}, 64, "--only");
+    write("none",
+          "#!/bin/sh\nfor word; do case \"$word\" in --benchmark_out=*) : > \"${word#*=}\";; esac; done\n"
+          "echo 'Failed to match any benchmarks against regex: x' >&2\n");
+    chmod(path("none").c_str(), 0755);
+    fails({"ab", path("none"), path("none"), "--kernels", "x"}, 64, "Failed to match any benchmarks");
     fails({"ab", path("k1"), path("k2"), path("tiny.json"), "--min-time", "1"}, 64, "--kernels");
 }
 

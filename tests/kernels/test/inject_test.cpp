@@ -117,6 +117,17 @@ TEST(Inject, AWrongKernelIsNotTimedAndSaysWhy) {
     EXPECT_EQ(entries[1].at("bytes"), 100.0);
 }
 
+TEST(Inject, AFilterThatNamesNothingWritesNothing) {
+    const testing::Folder folder;
+    for (const auto& [filter, says] : {std::pair{"nothing", "no kernel has such a name"}, {"(", "is not valid"}}) {
+        const testing::Outcome outcome =
+            testing::run(std::string("--benchmark_filter='") + filter + "' --exact=" + folder.path("exact.json"));
+        EXPECT_EQ(outcome.code, 64);
+        EXPECT_NE(outcome.said.find(says), std::string::npos) << outcome.said;
+        EXPECT_FALSE(std::filesystem::exists(folder.path("exact.json")));
+    }
+}
+
 TEST(Inject, TheProgramChangesWhatItIsToldAndNothingElse) {
     const testing::Folder folder;
     const std::string filter = "--benchmark_filter='^compress/hair|^reference' ";
