@@ -225,8 +225,10 @@ void Judge::suites(const Pair& pair) {
             continue;
         }
         const std::string& only = pair.current->only;
+        const bool left_out =
+            !only.empty() && (" " + only + " ").find(" " + cell.rerun.only + " ") == std::string::npos;
         add(line_of(pair, &cell, Verdict::missing,
-                    only.empty() ? "no such cell now" : "no such cell now: that run was limited to --only " + only));
+                    left_out ? "no such cell now: that run was limited to --only " + only : "no such cell now"));
     }
     for (const Cell& cell : pair.current->cells)
         if (!all[{cell.group, cell.name}].baseline) add(line_of(pair, &cell, Verdict::extra, "no such cell before"));

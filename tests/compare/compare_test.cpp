@@ -54,6 +54,8 @@ TEST(Compare, MissingCellsFailAndExtraOnesAreTold) {
     EXPECT_EQ(exit_code(comparison), 2);
     EXPECT_EQ(line(comparison, "uncompressed", "").verdict, Verdict::missing);
     EXPECT_NE(line(comparison, "uncompressed", "").reason.find("--only deep"), std::string::npos);
+    fewer["only"] = {"deep", "uncompressed"};
+    EXPECT_EQ(line(compare(side({made_result()}), side({fewer}), {}), "uncompressed", "").reason, "no such cell now");
     options.allow_missing = true;
     EXPECT_EQ(exit_code(compare(side({made_result()}), side({fewer}), options)), 0);
     comparison = compare(side({fewer}), side({made_result()}), {});
