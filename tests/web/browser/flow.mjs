@@ -1,4 +1,5 @@
-// From a scenario to its visibility functions: submit, progress, result, click a point, slider, curve.
+// From a scenario to its visibility functions: submit, progress, result, click a point, slider, curve; then a comparison and
+// a queue.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
@@ -33,7 +34,6 @@ async function submit(page, scenario) {
 
 async function progress(page, mock) {
   await page.waitForSelector('.progress progress, #cell');
-  await picture(page, 'flow-progress');
   if (!mock) return;
   const [job] = mock.jobs;
   const bar = page.locator('.progress progress');
@@ -123,12 +123,31 @@ async function slider(page) {
   await page.selectOption('#compare select >> nth=2', 'heat');
 }
 
-async function curves(page) {
+const legendAt = (page, words) => page.waitForFunction((w) => document.querySelector('#curves .curve-title').textContent.includes(w), words);
+
+async function choosePixel(page, x, y) {
+  await page.fill('#curves input[aria-label="x"]', String(x));
+  await page.fill('#curves input[aria-label="y"]', String(y));
+  await page.click('#curves button:has-text("Show")');
+  await legendAt(page, `${x}, ${y}`);
+}
+
+// Of a linear value, as the picture of the map has it at a pixel.
+function pictureAt(page, x, y) {
+  return page.locator('#curves .grid img').evaluate((image, [px, py]) => {
+    const canvas = document.createElement('canvas');
+    canvas.width = image.naturalWidth;
+    canvas.height = image.naturalHeight;
+    const paint = canvas.getContext('2d');
+    paint.drawImage(image, 0, 0);
+    const v = paint.getImageData(px, image.naturalHeight - 1 - py, 1, 1).data[0] / 255;
+    return v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+  }, [x, y]);
+}
+
+async function curves(page, mock) {
   await page.waitForSelector('#curves .curve-legend');
-  await page.fill('#curves input[aria-label="x"]', '7');
-  await page.fill('#curves input[aria-label="y"]', '9');
-  await page.keyboard.press('Enter');
-  await page.waitForFunction(() => document.querySelector('#curves .axis-title[aria-live]').textContent.includes('7, 9'));
+  await choosePixel(page, 7, 9);
   const rows = await page.locator('#curves .curve-legend tbody tr').count();
   assert.ok(rows >= 4, `${rows} functions`);
   const lines = page.locator('#curves .mark-line path');
@@ -137,14 +156,46 @@ async function curves(page) {
   await page.locator('#curves .curve-legend input').first().uncheck();
   await page.waitForFunction((n) => document.querySelectorAll('#curves .mark-line path').length === n, drawn - 1);
 
-  const canvas = page.locator('#curves canvas');
-  await canvas.scrollIntoViewIfNeeded();
-  const box = await canvas.boundingBox();
+  // Pixels are chosen over a picture of the map, with the pointer and from the keyboard, and are spoken.
+  const grid = page.locator('#curves .grid');
+  await grid.scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => document.querySelector('#curves .grid img').naturalWidth === 32);
+  const box = await grid.boundingBox();
   await page.mouse.move(box.x + box.width * 0.51, box.y + box.height * 0.26);
-  await page.waitForFunction(() => document.querySelector('#curves .axis-title[aria-live]').textContent.includes('16, 8'));
-  await canvas.focus();
+  await legendAt(page, '16, 23');
+  await grid.focus();
   await page.keyboard.press('ArrowRight');
-  await page.waitForFunction(() => document.querySelector('#curves .axis-title[aria-live]').textContent.includes('17, 8'));
+  await legendAt(page, '17, 23');
+  await page.keyboard.press('ArrowUp');
+  await legendAt(page, '17, 24');
+  await page.keyboard.press('Shift+ArrowDown');
+  await legendAt(page, '17, 16');
+  assert.match(await grid.getAttribute('aria-label'), /Map of light key, 32 by 32 pixels, at 17, 16\./);
+  const marker = await page.locator('#curves .marker').boundingBox();
+  assert.ok(Math.abs(marker.x + marker.width / 2 - box.x - box.width * 17.5 / 32) < 2, 'the marker is in its column');
+  assert.ok(Math.abs(marker.y + marker.height / 2 - box.y - box.height * 15.5 / 32) < 2, 'the marker is in its row');
+  if (mock) return;
+  for (const [x, y] of [[17, 16], [2, 29], [14, 20], [29, 13]]) {
+    await choosePixel(page, x, y);
+    const said = /: ([\d.]+) % of the light/.exec(await text(page.locator('#status')));
+    assert.ok(Math.abs(Number(said[1]) / 100 - await pictureAt(page, x, y)) < 0.01, `${said[0]} at ${x}, ${y}, and ${await pictureAt(page, x, y)} in the picture`);
+  }
+}
+
+// The table of figures scrolls within its place, and its first column stays.
+async function narrowTable(page) {
+  const {scrolls, stays, share, cut} = await page.locator('.scroll:has(> .cells)').first().evaluate((place) => {
+    place.scrollLeft = place.scrollWidth;
+    const [outer, head] = [place, place.querySelector('tbody th')].map((e) => e.getBoundingClientRect());
+    const names = [...place.querySelectorAll('tbody th')];
+    const all = {scrolls: place.scrollWidth > place.clientWidth && place.scrollLeft > 0, stays: Math.abs(head.left - outer.left) < 2, share: head.width / outer.width,
+      cut: names.some((th) => th.scrollWidth > th.clientWidth + 1)};
+    place.scrollLeft = 0;
+    return all;
+  });
+  assert.ok(scrolls, 'the table scrolls');
+  assert.ok(stays && !cut, 'names of techniques stay in view, whole');
+  assert.ok(share < 0.6, `names take ${share} of the width`);
 }
 
 async function variants(page, mock) {
@@ -162,15 +213,77 @@ async function variants(page, mock) {
   await select.selectOption({label: 'rays.samples_per_pixel = 16'});
   await page.waitForFunction(() => document.querySelector('main').textContent.includes('Pictures were made of another variant'));
   assert.match(await text(page.locator('#cell .command code')), /--set \/rays\/samples_per_pixel=16/);
+  // Nor of its map: it is painted by what was asked for.
+  assert.equal(await page.locator('#curves .grid img').isVisible(), false);
+  await page.click('#curves button:has-text("Survey")');
+  await page.waitForFunction(() => {
+    const canvas = document.querySelector('#curves canvas');
+    return canvas.getContext('2d').getImageData(canvas.width - 1, 0, 1, 1).data[3] === 255;
+  });
   await select.selectOption({label: 'rays.samples_per_pixel = 4'});
   await page.waitForSelector('#compare');
 }
 
-async function remove(page) {
+// The same result against itself, then against a file in which a map is larger.
+async function comparison(page, mock) {
+  const result = await page.evaluate(async () => (await fetch(`/v1/${location.hash.slice(2)}/result`)).json());
+  await page.click('.links a:has-text("Compare with another")');
+  await page.waitForSelector('.side select option:checked:not([value=""])', {state: 'attached'});
+  const current = page.locator('.side', {hasText: 'Current'});
+  await current.locator('select').selectOption({index: 1});
+  await page.waitForSelector('.outcome');
+  if (!mock) assert.match(await text(page.locator('.outcome')), /nothing is slower, larger or less accurate/);
+  result.variants[0].lights[0].cells[1].bytes *= 2;
+  await current.locator('input').setInputFiles({name: 'mine.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(result))});
+  await page.waitForSelector('.outcome.bad-title');
+  assert.match(await text(page.locator('.lines')), /deep tolerance=0\.01\s+bytes\s+✕ larger/);
+  await page.selectOption('.panel:has(#verdicts-title) select', 'all');
+  assert.ok(await page.locator('.lines tbody tr').count() > 8);
+  await looks(page, 'flow-compare');
+  await current.locator('input').setInputFiles({name: 'no.json', mimeType: 'application/json', buffer: Buffer.from('{')});
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'no.json is no JSON.');
+}
+
+// In both colour schemes, wide and narrow.
+async function looks(page, name) {
+  for (const colorScheme of ['light', 'dark'])
+    for (const width of [1280, 400]) {
+      await page.emulateMedia({colorScheme});
+      await page.setViewportSize({width, height: 900});
+      await assertAccessible(page);
+      await assertContrast(page);
+      await picture(page, `${name}-${colorScheme}-${width}`);
+    }
+  await page.emulateMedia({colorScheme: 'light'});
+  await page.setViewportSize({width: 1280, height: 900});
+}
+
+// One job that takes a while, and one behind it.
+async function queue(page, scenario, mock) {
+  const slow = {...JSON.parse(scenario), name: 'slow', timing: {repetitions: 10000, lookups: 4096}};
+  for (const seed of [1, 2])
+    await page.evaluate((body) => fetch('/v1/jobs', {method: 'POST', headers: {'Content-Type': 'application/json'}, body}),
+      JSON.stringify({scenario: {...slow, rays: {...slow.rays, seed}}}));
+  if (mock) for (const _ of [1, 2]) mock.step(mock.jobs[1]);
   await page.click('nav a[href="#/jobs"]');
-  await page.waitForSelector('.jobs tbody tr');
-  await picture(page, 'flow-jobs');
-  await page.click('.jobs tbody tr button');
+  await page.waitForSelector('.jobs .state-queued');
+  await page.waitForFunction(() => /\d %\s+[a-z]/.test(document.querySelector('.jobs tr:has(.state-running) .what')?.textContent));
+  await looks(page, 'flow-jobs');
+  await page.click('.jobs tr:has(.state-running) a');
+  await page.waitForFunction(() => /\d %\s+[a-z]/.test(document.querySelector('.stage-text')?.textContent));
+  await looks(page, 'flow-progress');
+  await page.click('nav a[href="#/jobs"]');
+  for (let left = 2; left > 0; --left) {
+    await page.locator('.jobs button:has-text("Cancel")').last().click();
+    await page.waitForFunction((n) => document.querySelectorAll('.jobs .state-cancelled').length === n, 3 - left);
+  }
+}
+
+async function remove(page) {
+  for (let left = await page.locator('.jobs tbody tr').count(); left > 0; --left) {
+    await page.locator('.jobs tbody tr button').last().click();
+    await page.waitForFunction((n) => document.querySelectorAll('.jobs tbody tr').length === n, left - 1);
+  }
   await page.waitForSelector('.empty:not([hidden])');
 }
 
@@ -186,7 +299,7 @@ export default async function run(options) {
     await result(page);
     await measures(page);
     await slider(page);
-    await curves(page);
+    await curves(page, server.mock);
     await variants(page, server.mock);
     const address = page.url();
     for (const scheme of ['light', 'dark']) {
@@ -195,12 +308,18 @@ export default async function run(options) {
         await look.page.goto(address);
         await look.page.waitForSelector('#curves .curve-legend');
         await look.page.waitForSelector('.trade .mark-symbol path');
+        await look.page.waitForFunction(() => document.querySelector('#curves .grid img').naturalWidth > 0);
+        await choosePixel(look.page, 17, 18);  // below the sphere and the layer
+        if (!server.mock) assert.ok(Number(/: ([\d.]+) %/.exec(await text(look.page.locator('#status')))[1]) < 40, 'an occluded pixel');
+        if (width === 400) await narrowTable(look.page);
         await assertAccessible(look.page);
         await assertContrast(look.page);
         await picture(look.page, `flow-result-${scheme}-${width}`);
         await look.close();
       }
     }
+    await comparison(page, server.mock);
+    await queue(page, scenario, server.mock);
     await remove(page);
     await close();
   } finally {
