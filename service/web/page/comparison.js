@@ -15,25 +15,28 @@ async function finishedJobs(ids, signal) {
 
 const words = (verdict) => verdict.replaceAll('_', ' ');
 
-function changeOf({baseline, current, time}) {
-  if (time) return `× ${significant(time.ratio)}, 95 %: ${significant(time.interval95[0])} to ${significant(time.interval95[1])}`;
-  if (baseline === current || !baseline || current === null) return '';
-  const change = 100 * (current / baseline - 1);
-  return `${change > 0 ? '+' : '−'}${significant(Math.abs(change), 2)} %`;
+function changeOf({time, reason}) {
+  const ratio = time && `× ${significant(time.ratio)}, 95 %: ${significant(time.interval95[0])} to ${significant(time.interval95[1])}`;
+  return [ratio, reason].filter(Boolean).join('; ');
 }
 
 function lineTable(lines) {
-  const heads = [['Cell'], ['Measure'], ['Verdict'], ['Baseline', 'number'], ['Current', 'number'], ['Change', 'number'], ['Why']];
+  const heads = [['Cell'], ['Measure'], ['Verdict'], ['Baseline', 'number'], ['Current', 'number'], ['Change']];
   const number = (value, unit) => h('td', {class: 'number'}, significant(value, 5), value !== null && unit && h('small', {}, ` ${unit}`));
   return h('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Table of verdicts'},
     h('table', {class: 'cells lines'}, h('caption', {class: 'hidden'}, 'Every measure of every technique, what needs a look first'),
       h('thead', {}, h('tr', {}, heads.map(([text, kind]) => h('th', {scope: 'col', class: kind}, text)))),
       h('tbody', {}, lines.map((line) => h('tr', {}, h('th', {scope: 'row'}, line.title), h('td', {}, line.measure || 'all'), h('td', {}, verdictMark(line)),
-        number(line.baseline, line.unit), number(line.current, line.unit), h('td', {class: 'number'}, changeOf(line)), h('td', {class: 'reason'}, line.reason))))));
+        number(line.baseline, line.unit), number(line.current, line.unit), h('td', {class: 'change'}, changeOf(line)))))));
+}
+
+// Without the exit code of the command line.
+function outcomeOf(answer) {
+  return answer.outcome.replace(/^exit code \d+: /, '');
 }
 
 function answerView(answer) {
-  const place = h('div'), counts = Object.entries(answer.counts);
+  const place = h('div'), counts = Object.entries(answer.counts), outcome = outcomeOf(answer);
   const differ = answer.lines.filter((line) => !settled.has(line.verdict));
   const show = (wanted) => {
     const lines = wanted === 'all' ? answer.lines : wanted === 'differ' ? differ : answer.lines.filter((line) => line.verdict === wanted);
@@ -44,7 +47,7 @@ function answerView(answer) {
     h('div', {class: 'panel-head'}, h('h2', {id: 'verdicts-title'}, 'Verdicts'),
       choice('Show', [{value: 'differ', text: `what differs (${differ.length})`}, {value: 'all', text: `all (${answer.lines.length})`},
         ...counts.map(([verdict, n]) => ({value: verdict, text: `${words(verdict)} (${n})`}))], 'differ', show)),
-    h('p', {class: `outcome ${answer.exit_code ? 'bad-title' : 'good'}`}, `${answer.outcome[0].toUpperCase()}${answer.outcome.slice(1)}.`),
+    h('p', {class: `outcome ${answer.exit_code ? 'bad-title' : 'good'}`}, `${outcome[0].toUpperCase()}${outcome.slice(1)}.`),
     h('p', {}, `${counts.map(([verdict, n]) => `${n} ${words(verdict)}`).join(', ')}.`),
     h('p', {class: 'note'}, [answer.method, answer.sensitivity].filter(Boolean).join('; ')),
     answer.notes.map((note) => h('p', {class: 'note'}, note)),
@@ -96,7 +99,7 @@ export function comparisonView({ids, signal}) {
       const answer = await post('/v1/compare', `{${parts.join(', ')}}`, {}, signal);
       if (mine !== turn) return;
       place.replaceChildren(answerView(answer));
-      announce(answer.outcome);
+      announce(outcomeOf(answer));
     } catch (error) {
       if (!signal.aborted && mine === turn) failed(error.message);
     }

@@ -95,7 +95,7 @@ states['two results that differ'] = async ({page, url, mock}) => {
   assert.deepEqual(mock.compared, {baseline: {job: a.id}, current: {job: b.id}});
   assert.ok(page.url().endsWith(`#/compare/${a.id}/${b.id}`), 'the address names them');
   const table = await text(page, '.lines');
-  for (const words of ['✕ less accurate', '✕ larger', '+21 %', '<b>not</b> in the current side', '× 1.22, 95 %: 1.17 to 1.29', '✓ smaller', '△ not comparable']) assert.ok(table.includes(words), words);
+  for (const words of ['✕ less accurate', '✕ larger', '+8400 (+21 %)', '<b>not</b> in the current side', '× 1.22, 95 %: 1.17 to 1.29', '✓ smaller', '△ not comparable']) assert.ok(table.includes(words), words);
   assert.doesNotMatch(table, /inconclusive/);
   assert.match(await text(page, '.fronts'), /avsm nodes=4 left the front/);
 };

@@ -171,7 +171,7 @@ export function curvesView({source, result, images, group, series, signal}) {
       h('div', {class: 'choices'}, channels, worst.length > 0 && choice('Worst pixel of', [{value: '', text: '…'}, ...worst.map((w, i) => ({value: i, text: w.text}))], '',
         (i) => { if (i !== '') show(...worst[i].at, true); }))),
     h('div', {class: 'pixels'},
-      h('figure', {}, h('figcaption', {class: 'axis-title'}, `map of light ${group.light.light}${up ? ', as the light sees it' : ''}: ${width} × ${height} pixels, 0, 0 at the ${up ? 'lower' : 'upper'} left`),
+      h('figure', {}, h('figcaption', {class: 'axis-title'}, `map of light ${group.light.light}${up ? ', as the light sees it' : ''}: ${width} × ${height} pixels, (0, 0) at the ${up ? 'lower' : 'upper'} left`),
         grid.element, throughLegend(),
         h('form', {class: 'pixel-entry', onsubmit: entered},
           h('label', {}, 'x ', xInput), h('label', {}, 'y ', yInput), h('button', {type: 'submit', class: 'quiet'}, 'Show'), surveyButton),

@@ -28,7 +28,7 @@ export function pixelGrid({name, width, height, up, ask, choose}) {
   const paint = canvas.getContext('2d');
   paint.scale(canvas.width / width, canvas.height / height);
   const rowOf = (y) => (up ? height - 1 - y : y);
-  let at = [Math.floor(width / 2), Math.floor(height / 2)];
+  let at;
   const pixel = (event) => {
     const box = canvas.getBoundingClientRect();  // within the border
     const clamp = (v, n) => Math.max(0, Math.min(n - 1, Math.floor(v * n)));
@@ -42,9 +42,13 @@ export function pixelGrid({name, width, height, up, ask, choose}) {
     event.preventDefault();
     choose(Math.max(0, Math.min(width - 1, at[0] + move[0])), Math.max(0, Math.min(height - 1, at[1] + move[1])));
   });
-  const mark = (x, y) => {
+  const stand = (x, y) => {
     at = [x, y];
     element.setAttribute('aria-label', `${name}, ${width} by ${height} pixels, at ${x}, ${y}. Arrow keys choose a pixel, with Shift ${stride} further`);
+  };
+  stand(Math.floor(width / 2), Math.floor(height / 2));
+  const mark = (x, y) => {
+    stand(x, y);
     marker.hidden = false;
     marker.style.left = `${100 * x / width}%`;
     marker.style.top = `${100 * rowOf(y) / height}%`;
