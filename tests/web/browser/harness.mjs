@@ -64,7 +64,8 @@ export async function assertAccessible(page) {
       e.focus({focusVisible: true, preventScroll: true});
       if (document.activeElement !== e || getComputedStyle(e).outlineStyle === 'none') found.push(`no focus to see: ${e.outerHTML.slice(0, 90)}`);
     }
-    before.focus({preventScroll: true});
+    document.activeElement.blur();
+    if (before !== document.body) before.focus({preventScroll: true});
     for (const e of document.querySelectorAll('img')) if (!e.hasAttribute('alt')) found.push(`no alt: ${e.outerHTML.slice(0, 90)}`);
     for (const e of document.querySelectorAll('.plot svg')) {
       const a = e.getBoundingClientRect(), b = e.closest('.plot').getBoundingClientRect();
@@ -78,6 +79,8 @@ export async function assertAccessible(page) {
       labels.forEach((label, i) => all.slice(i + 1).forEach((other) => { if (overlap(label.box, other.box)) found.push(`"${label.text}" covers ${other.text || 'a mark'}`); }));
     }
     for (const what of ['main', 'h1']) if (document.querySelectorAll(what).length !== 1) found.push(`not one ${what}`);
+    for (const e of document.querySelectorAll('.panel :is(select, input, button)'))
+      if (e.checkVisibility() && !e.closest('.scroll') && e.getBoundingClientRect().right > e.closest('.panel').getBoundingClientRect().right - 8) found.push(`outside its panel: ${e.outerHTML.slice(0, 90)}`);
     const {scrollWidth} = document.scrollingElement;
     if (scrollWidth > innerWidth) found.push(`wider than the window: ${scrollWidth} > ${innerWidth}`);
     return found;

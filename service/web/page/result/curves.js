@@ -163,8 +163,9 @@ export function curvesView({source, result, images, group, series, signal}) {
 
   onThemeChange(() => { if (shown) draw(); }, signal);
   signal.addEventListener('abort', () => clearTimeout(timer), {once: true});
-  const start = worst[0]?.at ?? [Math.floor(width / 2), Math.floor(height / 2)];
-  show(...start, false);
+  // Where a function a pixel is off, more than one ray of it tells why.
+  const start = worst.find((w) => w.cell.nodes?.cells === width * height) ?? worst[0];
+  show(...start?.at ?? [Math.floor(width / 2), Math.floor(height / 2)], false);
 
   return h('section', {class: 'panel', id: 'curves', 'aria-labelledby': 'curves-title'},
     h('div', {class: 'panel-head'}, h('h2', {id: 'curves-title'}, 'Visibility functions'),
