@@ -1,5 +1,7 @@
 // What the page says when things are not as they should be; the server is a mock.
 import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import {join} from 'node:path';
 import {assertAccessible, assertContrast, openPage, picture} from './harness.mjs';
 import {makeFixture, startMock} from './server.mjs';
 
@@ -82,6 +84,21 @@ states['pictures that could not be made'] = async ({page, url, mock}) => {
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForSelector('#curves .curve-legend');
   assert.match(await text(page, 'main'), /Pictures could not be made: \/receivers the camera sees no <b>surface<\/b>\./);
+};
+
+states['legends of the scale that was stored'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  const images = JSON.parse(readFileSync(join(mock.fixture, 'images', 'images.json'), 'utf8'));
+  mock.files['images/images.json'] = {...images, heat_top: 0.02, difference_factor: 8};
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('#compare .ramp-heat');
+  const legends = () => page.locator('.legend').evaluateAll((all) => all.map((e) => e.innerText.split(/\n+/).join(' ')));
+  const heat = '0 0.01 ≥ 0.02 |visibility − reference|, mean of the channels; 1 is all of the light', through = '0 0.5 1 share of the light that gets past all that casts shadows';
+  const difference = '0 0.0625 ≥ 0.125 |radiance − reference| a channel; 1 is white';
+  assert.deepEqual(await legends(), [difference, heat, heat, through]);
+  assert.match(await text(page, '#cell .strip'), /Difference to the reference, × 8/);
+  await page.selectOption('#compare select >> nth=2', 'difference');
+  assert.deepEqual(await legends(), [difference, heat, difference, through]);
 };
 
 states['two results that differ'] = async ({page, url, mock}) => {

@@ -30,5 +30,5 @@ export function mapLegend(kind, images) {
 }
 
 export function throughLegend() {
-  return ramp('through', ['0', '0.5', '1'], 'share of the light that gets through the whole map');
+  return ramp('through', ['0', '0.5', '1'], 'share of the light that gets past all that casts shadows');
 }
