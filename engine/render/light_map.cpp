@@ -17,8 +17,8 @@ using rays::LightRays;
 Vec2i picture_size(const rays::MapLayout& layout) {
     const std::int64_t longest = std::max(layout.width, layout.height);
     const auto scaled = [&](std::int64_t side) {
-        return static_cast<int>(longest <= longest_light_map ? side
-                                                             : std::max<std::int64_t>(1, side * longest_light_map / longest));
+        return static_cast<int>(
+            longest <= longest_light_map ? side : std::max<std::int64_t>(1, side * longest_light_map / longest));
     };
     return {scaled(layout.width), scaled(layout.height)};
 }
@@ -51,8 +51,9 @@ Image light_map(const bench::RaySource& source, const rays::MapLayout& layout) {
                     const int row = place(layout.height - 1 - (tile.y0 + y), image.height, layout.height);
                     const auto to = static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
                                     static_cast<std::size_t>(column);
-                    image.pixels[to] += through(tile, static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) +
-                                                          static_cast<std::size_t>(x));
+                    image.pixels[to] +=
+                        through(tile, static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.width) +
+                                          static_cast<std::size_t>(x));
                     rays[to] += static_cast<std::uint32_t>(tile.samples);
                 }
     });
