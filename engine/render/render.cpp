@@ -127,6 +127,8 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
     const bench::RaySource source(capture, layout, limits.kept_rays, watch(work, light, "capture", tiles));
     bench::build_all(contenders, source, {layout, view, &work.casters}, limits.all, watch(work, light, "build", tiles));
 
+    result.lights.push_back({light.name, {layout.width, layout.height}, light_map(source, layout)});
+
     const LightQueries asked = make_queries(work, view);
     const auto looked_up = watch(work, light, "lookup", contenders.size());
     for (std::size_t i = 0; i < contenders.size(); ++i) {

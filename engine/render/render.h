@@ -11,6 +11,7 @@
 #include "bench/progress.h"
 #include "bench/result.h"
 #include "bench/run.h"
+#include "render/light_map.h"
 #include "render/shading_points.h"
 
 namespace shadowbench::render {
@@ -47,6 +48,7 @@ struct Rendering {
     int reference_samples = 0;              // rays a map pixel
     double reference_standard_error = 0.0;  // RMS over the points; the largest of the lights
     double heat_top = 1.0;                  // of the heat maps' legend, the same for all techniques
+    std::vector<LightMap> lights;           // of each light
     std::vector<TechniquePictures> techniques;
 };
 

@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
+constexpr int difference_factor = 4;  // of difference_times_four
 constexpr const char* extensions[] = {".exr", ".png"};
 
 std::string file_label(const bench::Cell& cell) {
@@ -49,6 +50,7 @@ std::vector<std::string> names(const std::string& label, std::initializer_list<c
     return result;
 }
 
+constexpr std::initializer_list<const char*> light_kinds = {"through"};
 constexpr std::initializer_list<const char*> reference_kinds = {"shaded", "shadow"};
 constexpr std::initializer_list<const char*> technique_kinds = {"shaded", "shadow", "difference", "heat"};
 
@@ -79,6 +81,10 @@ json to_json(const TechniquePictures& one, const std::string& label) {
             {"files", ok ? json(names(label, technique_kinds)) : json::array()}};
 }
 
+std::string light_label(std::size_t light) {
+    return "light_" + std::to_string(light);
+}
+
 json shading_json() {
     return {{"surface_albedo", surface_albedo}, {"hair_diffuse", hair_diffuse},   {"hair_specular", hair_specular},
             {"hair_exponent", hair_exponent},   {"medium_albedo", medium_albedo}, {"falloff", "none"}};
@@ -88,8 +94,13 @@ json shading_json() {
 
 json to_json(const Rendering& rendering) {
     const bench::BuildInfo build = bench::build_info();
-    json settings = json::object(), techniques = json::array();
+    json settings = json::object(), lights = json::array(), techniques = json::array();
     for (const bench::Setting& s : rendering.settings) settings[s.pointer] = json::parse(s.value);
+    for (std::size_t l = 0; l < rendering.lights.size(); ++l) {
+        const LightMap& one = rendering.lights[l];
+        lights.push_back(
+            {{"light", one.light}, {"map", {one.map.x, one.map.y}}, {"files", names(light_label(l), light_kinds)}});
+    }
     const std::vector<std::string> labels = file_labels(rendering);
     for (std::size_t t = 0; t < labels.size(); ++t) techniques.push_back(to_json(rendering.techniques[t], labels[t]));
     return {{"schema_version", images_schema_version},
@@ -114,6 +125,8 @@ json to_json(const Rendering& rendering) {
               {"files", names("reference", reference_kinds)}}},
             {"flip_pixels_per_degree", metrics::flip_pixels_per_degree},
             {"heat_top", rendering.heat_top},
+            {"difference_factor", difference_factor},
+            {"lights", lights},
             {"techniques", techniques}};
 }
 
@@ -124,6 +137,8 @@ void write_pictures(const fs::path& folder, const Rendering& rendering) {
         files.push_back({folder / (name + ".exr"), encode_exr(image)});
         files.push_back({folder / (name + ".png"), encode_png(image)});
     };
+    for (std::size_t l = 0; l < rendering.lights.size(); ++l)
+        add(light_label(l) + ".through", rendering.lights[l].through);
     add("reference.shaded", rendering.reference.shaded);
     add("reference.shadow", rendering.reference.shadow);
     for (std::size_t t = 0; t < labels.size(); ++t) {

@@ -22,7 +22,7 @@ std::string to_table(const Rendering& rendering);
 
 // Writes images.json and, as EXR (linear, half) and as PNG (sRGB), reference.shaded, reference.shadow and of every
 // technique <label>.shaded, .shadow (average visibility), .difference (|shaded - reference| times four) and .heat
-// (|shadow - reference| with its legend). All or nothing. Throws Error{io}.
+// (|shadow - reference| with its legend); light_<index>.through of every light. All or nothing. Throws Error{io}.
 void write_pictures(const std::filesystem::path& folder, const Rendering& rendering);
 
 }  // namespace shadowbench::render

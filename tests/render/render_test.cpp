@@ -249,18 +249,20 @@ TEST(WritePictures, leaves_every_file_that_images_json_names_and_no_other) {
     const json written = json::parse(stream);
     std::set<std::string> named{"images.json"}, found;
     for (const std::string name : written["reference"]["files"]) named.insert(name);
-    for (const json& technique : written["techniques"])
-        for (const std::string name : technique["files"]) named.insert(name);
+    for (const char* several : {"techniques", "lights"})
+        for (const json& one : written[several])
+            for (const std::string name : one["files"]) named.insert(name);
     for (const auto& entry : fs::directory_iterator(folder)) {
         found.insert(entry.path().filename().string());
         EXPECT_GT(entry.file_size(), 0u) << entry.path();
     }
     fs::remove_all(folder);
     EXPECT_EQ(found, named);
-    EXPECT_EQ(found.size(), 1u + 4 + 3 * 8);
+    EXPECT_EQ(found.size(), 1u + 4 + 2 + 3 * 8);
     EXPECT_TRUE(found.contains("uncompressed_2.heat.png"));
     EXPECT_EQ(written["techniques"][1]["shadow"]["rms"], result.techniques[1].shadow.rms);
     EXPECT_EQ(written["techniques"][0]["status"], "ok");
+    EXPECT_EQ(written["lights"][0]["map"], json({256, 256}));
 }
 
 TEST(Compare, measures_difference_in_linear_values) {

@@ -1,5 +1,6 @@
-// Which page the address names: #/ to submit, #/jobs, #/jobs/<id>.
+// Which page the address names: #/ to submit, #/jobs, #/jobs/<id>, #/compare/<id>/<id>.
 import {onTokenNeeded} from './api.js';
+import {comparisonView} from './comparison.js';
 import {h} from './dom.js';
 import {written} from './format.js';
 import {jobView} from './job.js';
@@ -23,14 +24,14 @@ function route(event) {
   shown?.abort();
   shown = new AbortController();
   const {signal} = shown;
-  const [, page = '', id] = location.hash.split('/');
+  const [, page = '', ...ids] = location.hash.split('/').map(decodeURIComponent);
   document.title = 'shadowbench';
-  const view = page === 'jobs' && id ? jobView({id: decodeURIComponent(id), signal, edit})
-    : page === 'jobs' ? jobsView({signal}) : submitView({draft, signal, go});
+  const view = page === 'jobs' && ids[0] ? jobView({id: ids[0], signal, edit})
+    : page === 'jobs' ? jobsView({signal}) : page === 'compare' ? comparisonView({ids, signal}) : submitView({draft, signal, go});
   draft = null;
   main.replaceChildren(view);
   for (const link of document.querySelectorAll('nav a'))
-    link.toggleAttribute('aria-current', link.getAttribute('href') === (page === 'jobs' ? '#/jobs' : '#/'));
+    link.toggleAttribute('aria-current', link.getAttribute('href') === (page === 'jobs' || page === 'compare' ? `#/${page}` : '#/'));
   if (event) {  // not when the page is first opened
     scrollTo(0, 0);
     view.querySelector('h1')?.focus();

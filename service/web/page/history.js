@@ -78,4 +78,5 @@ document.getElementById('main').append(h('div', {class: 'stack'},
     h('label', {class: 'check'}, h('input', {type: 'checkbox', onchange: (e) => { only = e.target.checked; draw(); }}), ' only what drifts'))),
   h('p', {class: 'purpose'}, `${plural(cells.length, 'cell')} over ${plural(runs.length, 'run')}` +
     (runs.length ? `, from ${moment(runs[0].started)} to ${moment(runs.at(-1).started)}` : '') + `. ${drifting ? plural(drifting, 'measure drifts', 'measures drift') : 'Nothing drifts'}.`),
+  h('p', {class: 'note'}, 'Across: runs, #1 is the first. Bars: 95 % intervals. A dashed line: the run from which on a measure drifts.'),
   list));

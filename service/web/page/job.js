@@ -67,12 +67,13 @@ export function jobView({id, signal, edit}) {
   async function showResult(job) {
     const source = sourceOf(job);
     const has = (name) => job.artifacts?.includes(name);
-    const [result, images] = await Promise.all([get(`${path}/result`, signal),
-      has('images/images.json') ? get(`${path}/artifacts/images/images.json`, signal) : null]);
+    const described = (name) => (has(name) ? get(`${path}/artifacts/${name}`, signal) : null);
+    const [result, images, fault] = await Promise.all([get(`${path}/result`, signal), described('images/images.json'), described('images/error.json')]);
     links.replaceChildren(fileLink('JSON', `${path}/result`, `${job.name}.json`), fileLink('CSV', `${path}/result.csv`, `${job.name}.csv`),
-      fileLink('Offline report', `${path}/report`, `${job.name}.html`), again);
+      fileLink('Offline report', `${path}/report`, `${job.name}.html`),
+      h('a', {href: `#/compare/${encodeURIComponent(id)}`}, 'Compare with another'), again);
     place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
-      h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)), resultView({source, result, images, signal}));
+      h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)), resultView({source, result, images, imagesFault: fault?.error, signal}));
     announce(`${job.name}: the result is shown`);
   }
   function update(job) {

@@ -124,7 +124,7 @@ export function jobsView({signal}) {
     for (;;) { await refresh(); await pause(askAgain, signal); }
   })().catch(() => {});
   return h('div', {class: 'stack'},
-    h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Jobs'),
-      choice('State', [{value: '', text: 'all'}, ...states.map((s) => ({value: s, text: s}))], '', (v) => { state = v; cursors = ['']; refresh(); })),
+    h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Jobs'), h('div', {class: 'choices'}, h('a', {href: '#/compare'}, 'Compare two results'),
+      choice('State', [{value: '', text: 'all'}, ...states.map((s) => ({value: s, text: s}))], '', (v) => { state = v; cursors = ['']; refresh(); }))),
     problem, h('div', {class: 'scroll panel flush'}, table, empty), more);
 }

@@ -7,8 +7,8 @@ import {JsonFault, lineOf, offsetOf, places} from './pointer.js';
 const checkPause = 400;  // milliseconds after the last key
 const draftKey = 'shadowbench-draft';
 
-// A text area whose lines have numbers and can be marked.
-function editor(changed) {
+// A text area whose lines have numbers and can be marked. typed() is told before changed() what came from the keyboard.
+function editor(changed, typed) {
   const area = h('textarea', {id: 'scenario', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', wrap: 'off', 'aria-describedby': 'verdict'});
   const numbers = h('div', {class: 'numbers', 'aria-hidden': 'true'});
   const marks = h('div', {class: 'line-marks', 'aria-hidden': 'true'});
@@ -23,7 +23,7 @@ function editor(changed) {
   function scrolled() {
     numbers.style.transform = marks.style.transform = `translateY(${-area.scrollTop}px)`;
   }
-  area.addEventListener('input', () => { marked = new Set(); draw(); changed(); });
+  area.addEventListener('input', () => { marked = new Set(); draw(); typed(); changed(); });
   area.addEventListener('scroll', scrolled);
   return {
     element: h('div', {class: 'editor'}, h('div', {class: 'numbers-box'}, numbers), h('div', {class: 'area-box'}, marks, area)),
@@ -104,6 +104,10 @@ export function submitView({draft, signal, go}) {
     key = newKey();  // another text is another request
     clearTimeout(timer);
     timer = setTimeout(check, checkPause);
+  }, () => {  // it is no example any more
+    setText(purpose, '');
+    const select = examples.querySelector('select');
+    if (select) select.value = '';
   });
   signal.addEventListener('abort', () => clearTimeout(timer), {once: true});
 
@@ -142,7 +146,7 @@ export function submitView({draft, signal, go}) {
     };
     const first = scenarios.find((s) => s.name === 'quickstart') ?? scenarios[0];
     const kept = draft ?? sessionStorage.getItem(draftKey);
-    examples.replaceChildren(choice('Example', [...(kept ? [{value: '', text: 'your own'}] : []), ...scenarios.map((s) => ({value: s.name, text: s.name}))],
+    examples.replaceChildren(choice('Example', [{value: '', text: 'your own'}, ...scenarios.map((s) => ({value: s.name, text: s.name}))],
       kept ? '' : first?.name, pick));
     if (kept) { if (!draft) edit.set(kept); } else if (first) pick(first.name);
   }

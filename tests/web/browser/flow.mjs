@@ -1,8 +1,10 @@
-// From a scenario to its visibility functions: submit, progress, result, click a point, slider, curve.
+// From a scenario to its visibility functions: submit, progress, result, click a point, slider, curve; then a comparison and
+// a queue.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {assertAccessible, assertContrast, openPage, picture} from './harness.mjs';
+import {choosePixel, curves, spoken} from './pixels.mjs';
 import {startServer} from './server.mjs';
 
 const text = (locator) => locator.innerText();
@@ -18,9 +20,8 @@ async function submit(page, scenario) {
   await page.waitForSelector('.faults');
   const line = faulty.split('\n').findIndex((l) => l.includes('"four"'));
   assert.equal(await text(page.locator('.numbers .bad')), String(line + 1));
-  await assertAccessible(page);
-  await assertContrast(page);
-  await picture(page, 'flow-fault');
+  assert.equal(await page.locator('.page-head select option:checked').innerText(), 'your own');
+  await looks(page, 'flow-fault');
   await page.click('.faults button');
   assert.ok(await area.evaluate((a) => a === document.activeElement && a.value.slice(a.selectionStart).startsWith('"samples_per_pixel": "four"')));
 
@@ -33,7 +34,6 @@ async function submit(page, scenario) {
 
 async function progress(page, mock) {
   await page.waitForSelector('.progress progress, #cell');
-  await picture(page, 'flow-progress');
   if (!mock) return;
   const [job] = mock.jobs;
   const bar = page.locator('.progress progress');
@@ -123,28 +123,20 @@ async function slider(page) {
   await page.selectOption('#compare select >> nth=2', 'heat');
 }
 
-async function curves(page) {
-  await page.waitForSelector('#curves .curve-legend');
-  await page.fill('#curves input[aria-label="x"]', '7');
-  await page.fill('#curves input[aria-label="y"]', '9');
-  await page.keyboard.press('Enter');
-  await page.waitForFunction(() => document.querySelector('#curves .axis-title[aria-live]').textContent.includes('7, 9'));
-  const rows = await page.locator('#curves .curve-legend tbody tr').count();
-  assert.ok(rows >= 4, `${rows} functions`);
-  const lines = page.locator('#curves .mark-line path');
-  const drawn = await lines.count();
-  assert.ok(drawn >= 3, `${drawn} lines`);
-  await page.locator('#curves .curve-legend input').first().uncheck();
-  await page.waitForFunction((n) => document.querySelectorAll('#curves .mark-line path').length === n, drawn - 1);
-
-  const canvas = page.locator('#curves canvas');
-  await canvas.scrollIntoViewIfNeeded();
-  const box = await canvas.boundingBox();
-  await page.mouse.move(box.x + box.width * 0.51, box.y + box.height * 0.26);
-  await page.waitForFunction(() => document.querySelector('#curves .axis-title[aria-live]').textContent.includes('16, 8'));
-  await canvas.focus();
-  await page.keyboard.press('ArrowRight');
-  await page.waitForFunction(() => document.querySelector('#curves .axis-title[aria-live]').textContent.includes('17, 8'));
+// The table of figures scrolls within its place, and its first column stays.
+async function narrowTable(page) {
+  const {scrolls, stays, share, cut} = await page.locator('.scroll:has(> .cells)').first().evaluate((place) => {
+    place.scrollLeft = place.scrollWidth;
+    const [outer, head] = [place, place.querySelector('tbody th')].map((e) => e.getBoundingClientRect());
+    const names = [...place.querySelectorAll('tbody th')];
+    const all = {scrolls: place.scrollWidth > place.clientWidth && place.scrollLeft > 0, stays: Math.abs(head.left - outer.left) < 2, share: head.width / outer.width,
+      cut: names.some((th) => th.scrollWidth > th.clientWidth + 1)};
+    place.scrollLeft = 0;
+    return all;
+  });
+  assert.ok(scrolls, 'the table scrolls');
+  assert.ok(stays && !cut, 'names of techniques stay in view, whole');
+  assert.ok(share < 0.6, `names take ${share} of the width`);
 }
 
 async function variants(page, mock) {
@@ -162,15 +154,78 @@ async function variants(page, mock) {
   await select.selectOption({label: 'rays.samples_per_pixel = 16'});
   await page.waitForFunction(() => document.querySelector('main').textContent.includes('Pictures were made of another variant'));
   assert.match(await text(page.locator('#cell .command code')), /--set \/rays\/samples_per_pixel=16/);
+  // Nor of its map: it is painted by what was asked for.
+  assert.equal(await page.locator('#curves .grid img').isVisible(), false);
+  await page.click('#curves button:has-text("Survey")');
+  await page.waitForSelector('#curves button:has-text("Stop")');
+  await page.waitForSelector('#curves button:has-text("Survey")');
+  const corner = await page.locator('#curves canvas').evaluate((canvas) => canvas.getContext('2d').getImageData(canvas.width - 1, 0, 1, 1).data[3]);
+  assert.equal(corner, 255, 'the last pixel is painted');
   await select.selectOption({label: 'rays.samples_per_pixel = 4'});
   await page.waitForSelector('#compare');
 }
 
-async function remove(page) {
+// The same result against itself, then against a file in which a map is larger.
+async function comparison(page, mock) {
+  const result = await page.evaluate(async () => (await fetch(`/v1/${location.hash.slice(2)}/result`)).json());
+  await page.click('.links a:has-text("Compare with another")');
+  await page.waitForSelector('.side select option:checked:not([value=""])', {state: 'attached'});
+  const current = page.locator('.side', {hasText: 'Current'});
+  await current.locator('select').selectOption({index: 1});
+  await page.waitForSelector('.outcome');
+  if (!mock) assert.match(await text(page.locator('.outcome')), /^Nothing is slower, larger or less accurate\.$/);
+  result.variants[0].lights[0].cells[1].bytes *= 2;
+  await current.locator('input').setInputFiles({name: 'mine.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(result))});
+  await page.waitForSelector('.outcome.bad-title');
+  assert.match(await text(page.locator('.lines')), /deep tolerance=0\.01\s+bytes\s+✕ larger/);
+  await page.selectOption('.panel:has(#verdicts-title) select', 'all');
+  assert.ok(await page.locator('.lines tbody tr').count() > 8);
+  await page.selectOption('.panel:has(#verdicts-title) select', 'differ');
+  await looks(page, 'flow-compare');
+  await current.locator('input').setInputFiles({name: 'no.json', mimeType: 'application/json', buffer: Buffer.from('{')});
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'no.json is no JSON.');
+}
+
+// In both colour schemes, wide and narrow.
+async function looks(page, name) {
+  for (const colorScheme of ['light', 'dark'])
+    for (const width of [1280, 400]) {
+      await page.emulateMedia({colorScheme});
+      await page.setViewportSize({width, height: 900});
+      await assertAccessible(page);
+      await assertContrast(page);
+      await picture(page, `${name}-${colorScheme}-${width}`);
+    }
+  await page.emulateMedia({colorScheme: 'light'});
+  await page.setViewportSize({width: 1280, height: 900});
+}
+
+// One job that takes a while, and one behind it.
+async function queue(page, scenario, mock) {
+  const slow = {...JSON.parse(scenario), name: 'slow', timing: {repetitions: 5000, lookups: 4096}};
+  for (const seed of [1, 2])
+    assert.equal(await page.evaluate(async (body) => (await fetch('/v1/jobs', {method: 'POST', headers: {'Content-Type': 'application/json'}, body})).status,
+      JSON.stringify({scenario: {...slow, rays: {...slow.rays, seed}}})), 202);
+  if (mock) for (const _ of [1, 2]) mock.step(mock.jobs[1]);
   await page.click('nav a[href="#/jobs"]');
-  await page.waitForSelector('.jobs tbody tr');
-  await picture(page, 'flow-jobs');
-  await page.click('.jobs tbody tr button');
+  await page.waitForSelector('.jobs .state-queued');
+  await page.waitForFunction(() => /\d %\s+[a-z]/.test(document.querySelector('.jobs tr:has(.state-running) .what')?.textContent));
+  await looks(page, 'flow-jobs');
+  await page.click('.jobs tr:has(.state-running) a');
+  await page.waitForFunction(() => /\d %\s+[a-z]/.test(document.querySelector('.stage-text')?.textContent));
+  await looks(page, 'flow-progress');
+  await page.click('nav a[href="#/jobs"]');
+  for (let left = 2; left > 0; --left) {
+    await page.locator('.jobs button:has-text("Cancel")').last().click();
+    await page.waitForFunction((n) => document.querySelectorAll('.jobs .state-cancelled').length === n, 3 - left);
+  }
+}
+
+async function remove(page) {
+  for (let left = await page.locator('.jobs tbody tr').count(); left > 0; --left) {
+    await page.locator('.jobs tbody tr button').last().click();
+    await page.waitForFunction((n) => document.querySelectorAll('.jobs tbody tr').length === n, left - 1);
+  }
   await page.waitForSelector('.empty:not([hidden])');
 }
 
@@ -186,7 +241,7 @@ export default async function run(options) {
     await result(page);
     await measures(page);
     await slider(page);
-    await curves(page);
+    await curves(page, server.mock);
     await variants(page, server.mock);
     const address = page.url();
     for (const scheme of ['light', 'dark']) {
@@ -195,12 +250,18 @@ export default async function run(options) {
         await look.page.goto(address);
         await look.page.waitForSelector('#curves .curve-legend');
         await look.page.waitForSelector('.trade .mark-symbol path');
+        await look.page.waitForFunction(() => document.querySelector('#curves .grid img').naturalWidth > 0);
+        await choosePixel(look.page, 17, 18);  // below the sphere and the layer
+        if (!server.mock) assert.ok(await spoken(look.page) < 0.4, 'an occluded pixel');
+        if (width === 400) await narrowTable(look.page);
         await assertAccessible(look.page);
         await assertContrast(look.page);
         await picture(look.page, `flow-result-${scheme}-${width}`);
         await look.close();
       }
     }
+    await comparison(page, server.mock);
+    await queue(page, scenario, server.mock);
     await remove(page);
     await close();
   } finally {

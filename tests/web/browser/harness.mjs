@@ -48,23 +48,41 @@ export async function picture(page, name) {
   await page.screenshot({path: join(process.env.SHADOWBENCH_SCREENSHOTS, `${name}.png`), fullPage: true});
 }
 
-// Every control has a name, every picture a text, ids are there once, plots stand where they belong, and the page does not
-// scroll sideways.
+// Every control has a name and shows when it has the focus, every picture and plot a text, ids are there once, plots stand
+// where they belong, their labels cover neither marks nor each other, and the page does not scroll sideways.
 export async function assertAccessible(page) {
   const faults = await page.evaluate(() => {
     const found = [];
     const seen = new Set();
     for (const {id} of document.querySelectorAll('[id]')) seen.has(id) ? found.push(`two elements #${id}`) : seen.add(id);
     const named = (e) => e.getAttribute('aria-label') || e.getAttribute('aria-labelledby') || e.textContent.trim() || e.labels?.length || e.title;
-    for (const e of document.querySelectorAll('button, a[href], input, select, textarea, progress, [role="slider"]'))
+    for (const e of document.querySelectorAll('button, a[href], input, select, textarea, progress, [role="slider"], [role="img"], [tabindex="0"]'))
       if (e.checkVisibility() && !named(e)) found.push(`no name: ${e.outerHTML.slice(0, 90)}`);
+    const before = document.activeElement;
+    for (const e of document.querySelectorAll('button:enabled, a[href], input, select, [tabindex="0"]')) {
+      if (!e.checkVisibility()) continue;
+      e.focus({focusVisible: true, preventScroll: true});
+      if (document.activeElement !== e || getComputedStyle(e).outlineStyle === 'none') found.push(`no focus to see: ${e.outerHTML.slice(0, 90)}`);
+    }
+    document.activeElement.blur();
+    if (before !== document.body) before.focus({preventScroll: true});
     for (const e of document.querySelectorAll('img')) if (!e.hasAttribute('alt')) found.push(`no alt: ${e.outerHTML.slice(0, 90)}`);
     for (const e of document.querySelectorAll('.plot svg')) {
       const a = e.getBoundingClientRect(), b = e.closest('.plot').getBoundingClientRect();
       if (a.top < b.top - 1 || a.bottom > b.bottom + 1 || a.left < b.left - 1 || a.right > b.right + 1) found.push('a plot outside its place');
     }
+    const overlap = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
+    for (const plot of document.querySelectorAll('.plot svg')) {
+      const boxes = (selector) => [...plot.querySelectorAll(selector)].map((e) => ({text: e.textContent, box: e.getBoundingClientRect()}));
+      const labels = boxes('.mark-text.role-mark text');
+      const all = [...labels, ...boxes('.mark-symbol.role-mark path')];
+      labels.forEach((label, i) => all.slice(i + 1).forEach((other) => { if (overlap(label.box, other.box)) found.push(`"${label.text}" covers ${other.text || 'a mark'}`); }));
+    }
     for (const what of ['main', 'h1']) if (document.querySelectorAll(what).length !== 1) found.push(`not one ${what}`);
-    if (document.documentElement.scrollWidth > innerWidth + 1) found.push(`wider than the window: ${document.documentElement.scrollWidth} > ${innerWidth}`);
+    for (const e of document.querySelectorAll('.panel :is(select, input, button)'))
+      if (e.checkVisibility() && !e.closest('.scroll') && e.getBoundingClientRect().right > e.closest('.panel').getBoundingClientRect().right - 8) found.push(`outside its panel: ${e.outerHTML.slice(0, 90)}`);
+    const {scrollWidth} = document.scrollingElement;
+    if (scrollWidth > innerWidth) found.push(`wider than the window: ${scrollWidth} > ${innerWidth}`);
     return found;
   });
   assert.deepEqual(faults, []);

@@ -32,9 +32,32 @@ function curvesOf(light, x, y) {
   };
 }
 
+// What the server says of two results that differ in everything that they can.
+function comparison() {
+  const line = (cell, measure, verdict, baseline, current, unit, reason, time = null) => ({title: `small / key / ${cell}`, suite: 'small', group: 'key', cell, measure, verdict,
+    code: {larger: 2, less_accurate: 2, missing: 2, not_comparable: 2, slower: 1}[verdict] ?? 0, unit, baseline, current, reason, command: null, time});
+  const lines = [
+    line('avsm nodes=4', 'lookup_error.rms', 'less_accurate', 0.0721, 0.0854, '', '+0.0133 (+18.4 %)'),
+    line('deep tolerance=0.01', 'bytes', 'larger', 40000, 48400, '', '+8400 (+21 %)'),
+    line('fourier', '', 'missing', null, null, '', '<b>not</b> in the current side'),
+    line('deep tolerance=0.01', 'lookup_random', 'slower', 8.1, 9.9, 'x floor', '', {ratio: 1.22, interval95: [1.17, 1.29], processes: 20, p_slower: 1e-5, p_faster: 1, looks_slower: true}),
+    line('shadow_map', 'lookup_image', 'not_comparable', 6.6, 6.4, 'x floor', 'another machine'),
+    line('avsm nodes=4', 'build', 'inconclusive', 0.0606, 0.0607, 'ms', 'fewer than 4 processes a side decide nothing', {ratio: 1.0016, interval95: [0.975, 1.186], processes: 1, p_slower: 1, p_faster: 1, looks_slower: false}),
+    line('avsm nodes=4', 'lookup_error.max', 'more_accurate', 0.31, 0.24, '', ''),
+    line('shadow_map', 'working_bytes', 'smaller', 16384, 8192, '', ''),
+    line('uncompressed', 'lookup_error.rms', 'same', 0.069, 0.069, '', ''),
+  ];
+  const counts = {};
+  for (const {verdict} of lines) counts[verdict] = (counts[verdict] ?? 0) + 1;
+  return {schema_version: 1, baseline: '', current: '', exit_code: 2, outcome: 'exit code 2: 3 measures are larger, less accurate or missing', interleaved: false, effect: 0.05,
+    judged_times: 1, method: 'medians of processes, over the floor where there is one', sensitivity: '', counts, lines,
+    fronts: [{suite: 'small', group: 'key', cell: 'avsm nodes=4', front: 'bytes and error', joined: false, by: ['fourier'], text: 'small / key / avsm nodes=4 left the front of bytes and error: fourier beats it'}],
+    notes: ['The two sides are of different commits.']};
+}
+
 export class Mock {
   constructor(pages, fixture, scenarios) {
-    Object.assign(this, {pages, fixture, scenarios, jobs: [], token: null, refuse: null, keys: [], bodies: []});
+    Object.assign(this, {pages, fixture, scenarios, jobs: [], token: null, refuse: null, keys: [], bodies: [], files: {}});
     this.waiting = new Set();
     this.server = createServer((request, response) => this.answer(request, response).catch((error) => {
       response.writeHead(500).end(String(error));
@@ -104,7 +127,7 @@ export class Mock {
     if (this.token && request.headers.authorization !== `Bearer ${this.token}`) return this.problem(response, 401, 'A token is needed.');
     let text = '';
     for await (const part of request) text += part;
-    const handler = {scenarios: this.getScenarios, validate: this.validate, jobs: path[2] ? this.oneJob : this.allJobs}[path[1]];
+    const handler = {scenarios: this.getScenarios, validate: this.validate, jobs: path[2] ? this.oneJob : this.allJobs, compare: this.compare}[path[1]];
     if (!handler) return this.problem(response, 404, 'There is nothing here.');
     return handler.call(this, {request, response, url, path, text, body: text ? JSON.parse(text) : null});
   }
@@ -140,6 +163,13 @@ export class Mock {
     return this.json(response, 202, job, {Location: `/v1/jobs/${job.id}`});
   }
 
+  compare({response, text, body}) {
+    this.compared = body;
+    this.comparedText = text;
+    if (body.current.result && !body.current.result.variants) return this.problem(response, 422, 'this is no result', {errors: [{pointer: '/current', detail: 'this is no result'}]});
+    return this.json(response, 200, comparison());
+  }
+
   oneJob({request, response, url, path, text}) {
     const job = this.jobs.find((j) => j.id === path[2]);
     if (!job) return this.problem(response, 404, 'There is no such job.');
@@ -159,7 +189,9 @@ export class Mock {
     if (part === 'scenario') return this.json(response, 200, job.scenario ?? this.scenarios[0].document);
     if (part === 'result') return this.file(response, join(this.fixture, 'result.json'));
     if (part === 'curves') return this.json(response, 200, curvesOf(url.searchParams.get('light'), Number(url.searchParams.get('x')), Number(url.searchParams.get('y'))));
-    return part === 'artifacts' ? this.file(response, join(this.fixture, normalize(path.slice(4).join('/')))) : this.problem(response, 404, 'There is nothing here.');
+    const name = path.slice(4).join('/');
+    if (part === 'artifacts' && this.files[name]) return this.json(response, 200, this.files[name]);
+    return part === 'artifacts' ? this.file(response, join(this.fixture, normalize(name))) : this.problem(response, 404, 'There is nothing here.');
   }
 
   events(request, response, job) {

@@ -28,6 +28,9 @@ async function report(options) {
   // A technique that broke its promise has no times; what does not exist is null.
   Object.assign(result.variants[0].lights[0].cells[2], {status: 'failed', verdict: 'failed', reason: 'rises by 0.5', times: undefined, curve_error: null, lookup_error: {rms: null}});
   writeFileSync(join(folder, 'result.json'), JSON.stringify(result));
+  const named = join(folder, 'images', 'images.json'), images = JSON.parse(readFileSync(named, 'utf8'));
+  images.techniques[1].label = result.variants[0].lights[0].cells[1].label;
+  writeFileSync(named, JSON.stringify(images));
   execFileSync(options.program, ['report', folder], {stdio: 'ignore'});
   await each(options.browser, join(folder, 'report.html'), async (page, name) => {
     await page.waitForSelector('.trade .mark-symbol path');

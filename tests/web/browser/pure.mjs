@@ -3,8 +3,9 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {bytes, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
 import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
-import {frontOf, quoted, rerunOf} from '../../../service/web/page/result/model.js';
-import {linearAxis, logAxis} from '../../../service/web/page/plots/axes.js';
+import {frontOf, lightMapOf, quoted, rerunOf, worstPixelOf} from '../../../service/web/page/result/model.js';
+import {linearAxis, logAxis, logPlace} from '../../../service/web/page/plots/axes.js';
+import {placeLabels} from '../../../service/web/page/plots/labels.js';
 
 test('a pointer leads to where its value stands', () => {
   const text = '{"a": [1, {"b/c": true, "d~": "x"}],\n "e": {}}';
@@ -50,6 +51,37 @@ test('the front holds what nothing beats in both', () => {
   assert.deepEqual(frontOf([p(3, 1), p(1, 3), p(2, 2), p(2, 3), p(4, 1), p(1, 4)]), [p(1, 3), p(2, 2), p(3, 1)]);
   assert.deepEqual(frontOf([p(1, 1), p(1, 1)]).length, 2);
   assert.deepEqual(frontOf([]), []);
+});
+
+test('labels of close points cover neither points nor each other', () => {
+  const [width, height, radius] = [300, 200, 8];
+  const points = [[150, 100], [158, 104], [150, 112], [2, 2], [299, 199], [298, 100]].map(([x, y], i) => ({x, y, radius, text: String(i + 1)}));
+  const boxes = placeLabels({points, lines: [[0, 100, 300, 100]], width, height}).map(({dx, dy}, i) => [points[i].x + dx, points[i].y + dy]);
+  boxes.forEach(([x, y], i) => {
+    assert.ok(x > 3 && x < width - 3 && y > 6 && y < height - 6, `${i} is inside`);
+    for (const p of points) assert.ok(Math.abs(p.x - x) >= radius + 3 || Math.abs(p.y - y) >= radius + 6, `${i} covers a point`);
+    boxes.slice(0, i).forEach(([u, v]) => assert.ok(Math.abs(u - x) >= 7 || Math.abs(v - y) >= 13, `${i} covers a label`));
+  });
+});
+
+test('the worst cell of a function a sample lies in a pixel', () => {
+  const map = {width: 32, height: 32, samples_per_pixel: 4, samples_x: 2, samples_y: 2};
+  assert.deepEqual(worstPixelOf({curve_error: {worst_cell: [21, 6]}, nodes: {cells: 4096}}, map), [10, 3]);
+  assert.deepEqual(worstPixelOf({curve_error: {worst_cell: [21, 6]}, nodes: {cells: 1024}}, map), [21, 6]);
+  assert.equal(worstPixelOf({curve_error: null}, map), null);
+});
+
+test('the picture of a map is that of its light', () => {
+  const images = {lights: [{light: 'key', files: ['light_0.through.exr', 'light_0.through.png']}]};
+  assert.equal(lightMapOf(images, {lightIndex: 0, light: {light: 'key'}}), 'light_0.through.png');
+  assert.equal(lightMapOf(images, {lightIndex: 0, light: {light: 'other'}}), null);
+  assert.equal(lightMapOf({}, {lightIndex: 0, light: {light: 'key'}}), null);
+  assert.equal(lightMapOf(null, {lightIndex: 0, light: {light: 'key'}}), null);
+});
+
+test('a log axis has a place for each value', () => {
+  const signals = {x_low: 1, x_high: 100};
+  assert.deepEqual([1, 10, 100, 0.1, 1000].map((v) => logPlace('x', signals, v)), [0, 0.5, 1, 0, 1]);
 });
 
 test('a log axis holds all values, and zero has a place below them', () => {

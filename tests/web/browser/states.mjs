@@ -1,5 +1,7 @@
 // What the page says when things are not as they should be; the server is a mock.
 import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import {join} from 'node:path';
 import {assertAccessible, assertContrast, openPage, picture} from './harness.mjs';
 import {makeFixture, startMock} from './server.mjs';
 
@@ -73,6 +75,60 @@ states['a job in the queue is cancelled'] = async ({page, url, mock}) => {
   await page.waitForFunction(() => document.querySelector('.stage-text')?.textContent === 'Queued: 2 before it');
   await page.click('.progress button');
   await page.waitForFunction(() => document.querySelector('.fault')?.textContent.includes('It was cancelled'));
+};
+
+states['pictures that could not be made'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  job.artifacts = ['result.json', 'images/error.json'];
+  mock.files['images/error.json'] = {error: {code: 65, where: '/receivers', message: 'the camera sees no <b>surface</b>'}};
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('#curves .curve-legend');
+  assert.match(await text(page, 'main'), /Pictures could not be made: \/receivers the camera sees no <b>surface<\/b>\./);
+};
+
+states['legends of the scale that was stored'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  const images = JSON.parse(readFileSync(join(mock.fixture, 'images', 'images.json'), 'utf8'));
+  mock.files['images/images.json'] = {...images, heat_top: 0.02, difference_factor: 8};
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('#compare .ramp-heat');
+  const legends = () => page.locator('.legend').evaluateAll((all) => all.map((e) => e.innerText.split(/\n+/).join(' ')));
+  const heat = '0 0.01 ≥ 0.02 |visibility − reference|, mean of the channels; 1 is all of the light', through = '0 0.5 1 share of the light that gets past all that casts shadows';
+  const difference = '0 0.0625 ≥ 0.125 |radiance − reference| a channel; 1 is white';
+  assert.deepEqual(await legends(), [difference, heat, heat, through]);
+  assert.match(await text(page, '#cell .strip'), /Difference to the reference, × 8/);
+  await page.selectOption('#compare select >> nth=2', 'difference');
+  assert.deepEqual(await legends(), [difference, heat, difference, through]);
+};
+
+states['two results that differ'] = async ({page, url, mock}) => {
+  const [a, b] = [mock.job('succeeded'), mock.job('succeeded', {name: 'other'})];
+  await page.goto(`${url}#/jobs`);
+  await page.click('.page-head a:has-text("Compare two results")');
+  await page.waitForFunction(() => document.querySelector('main').textContent.includes('Choose two results'));
+  await page.locator('.side select').nth(0).selectOption(a.id);
+  await page.locator('.side select').nth(1).selectOption(b.id);
+  await page.waitForSelector('.outcome.bad-title');
+  assert.deepEqual(mock.compared, {baseline: {job: a.id}, current: {job: b.id}});
+  assert.ok(page.url().endsWith(`#/compare/${a.id}/${b.id}`), 'the address names them');
+  const table = await text(page, '.lines');
+  for (const words of ['✕ less accurate', '✕ larger', '+8400 (+21 %)', '<b>not</b> in the current side', '× 1.22, 95 %: 1.17 to 1.29', '✓ smaller', '△ not comparable']) assert.ok(table.includes(words), words);
+  assert.doesNotMatch(table, /inconclusive/);
+  assert.match(await text(page, '.fronts'), /avsm nodes=4 left the front/);
+};
+
+states['a file that is no result'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  await page.goto(`${url}#/compare/${job.id}`);
+  await page.waitForSelector('.side select');
+  // Dropped, with all its digits.
+  await page.locator('.side').nth(1).evaluate((side) => {
+    const data = new DataTransfer();
+    data.items.add(new File(['{"seed": 12345678901234567891}'], 'mine.json'));
+    side.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
+  });
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'this is no result');
+  assert.equal(mock.comparedText, `{"baseline": {"job":"${job.id}"}, "current": {"result": {"seed": 12345678901234567891}}}`);
 };
 
 states['no such job'] = async ({page, url}) => {

@@ -54,6 +54,12 @@ export function logAxis(name, values, kind) {
   return {zero, signals: {[`${name}_low`]: low, [`${name}_high`]: high, [`${name}_ticks`]: ticks, [`${name}_labels`]: labels}};
 }
 
+// Where a value stands on a log axis: 0 at its lower end, 1 at its upper one.
+export function logPlace(name, signals, value) {
+  const low = signals[`${name}_low`], high = signals[`${name}_high`];
+  return Math.max(0, Math.min(1, Math.log(value / low) / Math.log(high / low)));
+}
+
 // A linear axis with about n ticks at round numbers.
 export function linearAxis(name, low, high, n = 6, writeTick = (v) => significant(v, 4)) {
   if (!(high > low)) { high = low + 1e-9 + Math.abs(low) * 0.01; low -= 1e-9 + Math.abs(low) * 0.01; }

@@ -36,6 +36,11 @@ export function lineSample(index, number) {
     svg('path', {d: 'M0,4H30', 'stroke-dasharray': dashOf(number).join(' ')}));
 }
 
+// A stretch of a line across a plot.
+export function levelSample(dash) {
+  return svg('svg', {viewBox: '0 0 30 8', class: 'line-sample', 'aria-hidden': 'true'}, svg('path', {d: 'M0,4H30', 'stroke-dasharray': dash.join(' ')}));
+}
+
 export function dashOf(number) {
   return dashes[number % dashes.length];
 }

@@ -42,8 +42,8 @@ function tooltipOver(box) {
   };
 }
 
-// name: a key of specs.js. update({signals, data, description}) draws it anew; theme() is asked for signals that are
-// colours whenever the theme changes. onPick(datum) is told of clicks on marks named "points".
+// name: a key of specs.js. update({signals, data, description}) draws it anew; data may be a function of the width and
+// height in pixels. theme() is asked for signals that are colours whenever the theme changes. onPick(datum) is told of clicks on marks named "points".
 export function plot(name, {onPick, theme = () => ({}), label, signal}) {
   const canvas = h('div', {class: 'plot-canvas'});
   const box = h('div', {class: 'tooltip', hidden: true});
@@ -52,7 +52,8 @@ export function plot(name, {onPick, theme = () => ({}), label, signal}) {
 
   function apply() {
     for (const [key, value] of Object.entries({...state.signals, ...theme()})) view.signal(key, value);
-    for (const [key, rows] of Object.entries(state.data))
+    const data = typeof state.data === 'function' ? state.data(view.width(), view.height()) : state.data;
+    for (const [key, rows] of Object.entries(data))
       view.change(key, changeset().remove(() => true).insert(rows.map((row) => ({...row}))));
     if (state.description) element.setAttribute('aria-label', state.description);
     view.runAsync();
@@ -74,8 +75,11 @@ export function plot(name, {onPick, theme = () => ({}), label, signal}) {
     const room = Math.floor(element.clientWidth) - 76;
     if (room < 80 || room === width) return;
     width = room;
-    if (view) view.width(width).runAsync();
-    else build();
+    if (!view) build();
+    else {
+      view.width(width);
+      apply();
+    }
   });
   watcher.observe(element);
   onThemeChange(() => { if (view) build(); }, signal);
@@ -84,7 +88,7 @@ export function plot(name, {onPick, theme = () => ({}), label, signal}) {
   return {
     element, colour,
     update(next) {
-      state = {signals: {...state.signals, ...next.signals}, data: {...state.data, ...next.data}, description: next.description};
+      state = next;
       if (view) apply();
     },
   };

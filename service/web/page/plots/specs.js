@@ -4,7 +4,7 @@
 const ticks = (axis) => ({
   values: {expr: `${axis}_ticks`},
   labelExpr: `${axis}_labels[indexof(${axis}_ticks, datum.value)]`,
-  labelOverlap: 'greedy',
+  labelOverlap: 'greedy', labelSeparation: 6,
 });
 const params = (values) => Object.entries(values).map(([name, value]) => ({name, value}));
 const asIs = (field) => ({field, type: 'nominal', scale: null, legend: null});
@@ -20,19 +20,16 @@ function axis(name, type, extra = {}) {
 const range = (name, low, high) => ({[`${name}_low`]: low, [`${name}_high`]: high, [`${name}_ticks`]: [low, high], [`${name}_labels`]: ['', '']});
 const ink = {expr: 'ink'}, muted = {expr: 'muted'}, paper = {expr: 'paper'};
 
-// Cost against error. points: {n, key, x, low, high, y, colour, shape, chosen, tip}; front: {x, y}, from left to right;
-// levels: {y, text}.
+// Cost against error. points: {n, key, x, low, high, y, colour, shape, chosen, tip}, and dx and dy of the number's middle;
+// front: {x, y}, from left to right; levels: {y, dash}, explained below the plot.
 const trade = {
   width: 520, height: 320,
   params: params({...range('x', 1, 10), ...range('y', 0.01, 1), ink: '#000', muted: '#666', paper: '#fff'}),
   layer: [
     {
       data: {name: 'levels'},
-      encoding: {y: {field: 'y', ...axis('y', 'log')}},
-      layer: [
-        {mark: {type: 'rule', strokeDash: [2, 4], color: muted}},
-        {mark: {type: 'text', align: 'left', dx: 4, dy: -5, fontSize: 10.5, fill: muted, x: 0}, encoding: {text: {field: 'text'}}},
-      ],
+      mark: {type: 'rule', color: muted},
+      encoding: {y: {field: 'y', ...axis('y', 'log')}, strokeDash: asIs('dash')},
     },
     {
       data: {name: 'front'},
@@ -57,7 +54,7 @@ const trade = {
           encoding: {fill: asIs('colour'), shape: asIs('shape'), tooltip: {field: 'tip'}, description: {field: 'tip'}},
         },
         {
-          mark: {type: 'text', dx: 9, dy: -9, fontSize: 11, fontWeight: 600, fill: ink, aria: false, align: 'left'},
+          mark: {type: 'text', dx: {expr: 'datum.dx'}, dy: {expr: 'datum.dy'}, fontSize: 11, fontWeight: 600, fill: ink, aria: false},
           encoding: {text: {field: 'n'}},
         },
       ],

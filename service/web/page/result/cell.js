@@ -4,12 +4,11 @@ import {bytes, count, plural, significant} from '../format.js';
 import {linearAxis} from '../plots/axes.js';
 import {glyph} from '../plots/palette.js';
 import {plot} from '../plots/plot.js';
-import {fileOf, picturesOf, rerunOf, titleOf} from './model.js';
+import {factorOf, mapLegend, maps} from './legend.js';
+import {fileOf, picturesOf, rerunOf, titleOf, worstPixelOf} from './model.js';
 import {verdictMark} from './table.js';
 
-const kinds = [
-  ['shaded', 'Shaded'], ['shadow', 'Shadow: average visibility'], ['difference', 'Difference to the reference, × 4'], ['heat', '|error| of the shadow'],  // from 0 to images.heat_top
-];
+const kinds = [['shaded', 'Shaded'], ['shadow', 'Shadow: average visibility'], ['difference', 'Difference to the reference'], ['heat', '|error| of the shadow']];
 
 function pictureStrip(source, images, cell, signal) {
   const pictures = picturesOf(images, cell);
@@ -20,8 +19,9 @@ function pictureStrip(source, images, cell, signal) {
     image.style.aspectRatio = images.resolution.join(' / ');
     source.picture(fileOf(pictures, kind), signal).then((url) => { image.src = url; }, () => { image.alt += ' (not available)'; });
     const error = pictures[kind === 'heat' ? 'shadow' : kind];
-    return h('figure', {}, image, h('figcaption', {}, kind === 'heat' ? `${text}, 0 to ${significant(images.heat_top)}` : text,
-      (kind === 'shaded' || kind === 'shadow') && error && h('small', {}, ` RMS ${significant(error.rms, 2)}, FLIP ${significant(error.flip_mean, 2)}`)));
+    return h('figure', {}, image, h('figcaption', {}, kind === 'difference' ? `${text}, × ${factorOf(images)}` : text,
+      (kind === 'shaded' || kind === 'shadow') && error && h('small', {}, ` RMS ${significant(error.rms, 2)}, FLIP ${significant(error.flip_mean, 2)}`)),
+    kind in maps && mapLegend(kind, images));
   }));
 }
 
@@ -63,12 +63,12 @@ function histogramOf(cell, series, signal) {
     h('p', {class: 'note'}, `${count(nodes.total)} nodes in ${plural(nodes.cells, 'cell')}: mean ${significant(nodes.mean)}, at most ${count(nodes.max)}.`));
 }
 
-function facts(cell) {
+function facts(cell, map) {
   const rows = Object.entries(cell.parameters ?? {});
   const more = [
     ['bytes', `${bytes(cell.bytes)} (${count(cell.bytes)})`], ['peak of the build', bytes(cell.working_bytes)],
     ['version', String(cell.version)],
-    cell.curve_error?.worst_cell && ['largest curve error', `${significant(cell.curve_error.max)} at pixel ${cell.curve_error.worst_cell.join(', ')}`],
+    cell.curve_error?.worst_cell && ['largest curve error', `${significant(cell.curve_error.max)} at pixel ${worstPixelOf(cell, map).join(', ')}`],
     cell.lookup_error && ['mean signed error', significant(cell.lookup_error.signed_mean, 2)],
   ].filter(Boolean);
   const list = (entries) => h('dl', {class: 'facts'}, entries.map(([k, v]) => h('div', {}, h('dt', {}, k), h('dd', {}, v))));
@@ -89,7 +89,7 @@ export function cellView({source, result, images, group, cell, index, series, si
     pictureStrip(source, images, cell, signal),
     h('div', {class: 'pair'},
       h('div', {}, h('h4', {}, 'Nodes'), histogramOf(cell, series, signal)),
-      h('div', {}, facts(cell))),
+      h('div', {}, facts(cell, group.light.map))),
     h('h4', {}, 'Run it again, alone'),
     command(rerunOf(result, group, cell)),
     h('p', {class: 'note'}, 'with the scenario as ', h('button', {type: 'button', class: 'link', onclick: scenario}, `${result.name}.json`), '.'));

@@ -2,12 +2,9 @@
 import 'img-comparison-slider';
 import {choice, h, setText, svg} from '../dom.js';
 import {significant} from '../format.js';
+import {mapLegend, maps} from './legend.js';
 import {fileOf, picturesOf, titleOf} from './model.js';
 
-const maps = {
-  heat: {text: '|error| of the shadow', top: (images) => images.heat_top},
-  difference: {text: 'difference of the shaded pictures', top: () => 0.25},  // drawn times four
-};
 const furthest = 32;
 
 // One transform for every image in `frames`.
@@ -75,13 +72,6 @@ function dragAndWheel(element, view) {
   });
 }
 
-function legend(map, images) {
-  const top = maps[map].top(images);
-  return h('div', {class: 'legend', role: 'img', 'aria-label': `Legend: from 0 to ${significant(top)}${map === 'heat' ? ' and above' : ''}`},
-    h('div', {class: `ramp ramp-${map}`}),
-    h('div', {class: 'ramp-labels'}, h('span', {}, '0'), h('span', {}, significant(top / 2)), h('span', {}, `≥ ${significant(top)}`)));
-}
-
 // update(index of the cell).
 export function compareView({source, images, cells, signal}) {
   const [width, height] = images.resolution;
@@ -116,7 +106,7 @@ export function compareView({source, images, cells, signal}) {
     slider.setAttribute('aria-label', `Share of the reference shown, against ${titleOf(cell)}`);
     setText(mapName, maps[map].text);
     mapFrame.setAttribute('aria-label', `${maps[map].text}, ${titleOf(cell)}; plus and minus zoom, arrows move`);
-    legendPlace.replaceChildren(legend(map, images));
+    legendPlace.replaceChildren(mapLegend(map, images));
     show(left, images.reference.files.find((name) => name.endsWith(`${kind}.png`)), `reference, ${kind}`);
     show(right, fileOf(pictures, kind), `${titleOf(cell)}, ${kind}`);
     show(mapFrame, fileOf(pictures, map), '');

@@ -4,7 +4,9 @@ import {plural, significant} from '../format.js';
 import {linearAxis} from '../plots/axes.js';
 import {dashOf, lineSample, lookOf, onThemeChange} from '../plots/palette.js';
 import {plot} from '../plots/plot.js';
-import {titleOf} from './model.js';
+import {throughLegend} from './legend.js';
+import {lightMapOf, titleOf, worstPixelOf} from './model.js';
+import {pixelGrid} from './pixels.js';
 
 const hoverPause = 60;  // milliseconds
 const surveySide = 24;  // pixels across that a survey asks for
@@ -16,56 +18,19 @@ function verticesOf(curve, {z, v}, low, high, look) {
     .map(([depth, value], order) => ({curve, order, z: depth, v: value, ...look}));
 }
 
-// A grid of the map's pixels: what was asked for is painted by how much light comes through.
-function pixelGrid(width, height, ask, choose) {
-  const canvas = h('canvas', {width, height, tabindex: '0', role: 'img',
-    'aria-label': `The light's map, ${width} by ${height} pixels: arrow keys choose a pixel; x and y can also be entered below`});
-  const marker = h('div', {class: 'marker', hidden: true});
-  const element = h('div', {class: 'grid'}, canvas, marker);
-  element.style.aspectRatio = `${width} / ${height}`;
-  const paint = canvas.getContext('2d');
-  let at = [Math.floor(width / 2), Math.floor(height / 2)];
-  const pixel = (event) => {
-    const box = canvas.getBoundingClientRect();
-    const clamp = (v, n) => Math.max(0, Math.min(n - 1, Math.floor(v * n)));
-    return [clamp((event.clientX - box.left) / box.width, width), clamp((event.clientY - box.top) / box.height, height)];
-  };
-  const mark = (x, y) => {
-    at = [x, y];
-    marker.hidden = false;
-    marker.style.left = `${100 * x / width}%`;
-    marker.style.top = `${100 * y / height}%`;
-    marker.style.width = `${100 / width}%`;
-    marker.style.height = `${100 / height}%`;
-  };
-  canvas.addEventListener('pointermove', (event) => ask(...pixel(event)));
-  canvas.addEventListener('click', (event) => choose(...pixel(event)));
-  canvas.addEventListener('keydown', (event) => {
-    const step = event.shiftKey ? 8 : 1;
-    const move = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step]}[event.key];
-    if (!move) return;
-    event.preventDefault();
-    choose(Math.max(0, Math.min(width - 1, at[0] + move[0])), Math.max(0, Math.min(height - 1, at[1] + move[1])));
-  });
-  return {
-    element, mark,
-    fill(x, y, w, h_, through) {
-      const level = Math.round(30 + 215 * Math.max(0, Math.min(1, through)));
-      paint.fillStyle = `rgb(${level} ${level} ${Math.min(255, level + 8)})`;
-      paint.fillRect(x, y, w, h_);
-    },
-  };
-}
-
 // One channel of a function; of a coloured map they may have depths of their own.
 function channelOf(curve, channel) {
   return {z: curve.channels_z?.[channel] ?? curve.z, v: curve.channels?.[channel] ?? curve.v};
 }
 
-// The light that all of the pixel lets through, as a mean of its channels.
+// The light that all of the pixel lets through, a value a channel.
 function through({exact}) {
-  const all = exact.channels ?? [exact.v];
-  return all.reduce((sum, v) => sum + (v.length ? v.at(-1) : 1), 0) / all.length;
+  return (exact.channels ?? [exact.v]).map((v) => (v.length ? v.at(-1) : 1));
+}
+
+function spoken(answer) {
+  const mean = through(answer).reduce((sum, v, _, all) => sum + v / all.length, 0);
+  return `Pixel ${answer.x}, ${answer.y}: ${significant(100 * mean, 2)} % of the light gets through`;
 }
 
 // The newest question wins: one is under way at a time.
@@ -107,11 +72,12 @@ function legendTable(answer, series, hidden, toggle) {
           h('input', {type: 'checkbox', checked: !hidden.has(c.title), 'aria-label': `Show ${c.title}`, onchange: () => toggle(c.title)})))));
 }
 
-// For a source that can be asked for curves (a running server).
-export function curvesView({source, group, series, signal}) {
+// For a source that can be asked for curves (a running server). images: of this variant, or nothing.
+export function curvesView({source, result, images, group, series, signal}) {
   const {width, height} = group.light.map;
+  const picture = lightMapOf(images, group);
   const drawing = plot('curves', {label: 'Visibility functions', signal});
-  const legend = h('div', {class: 'scroll'}), heading = h('p', {class: 'axis-title', 'aria-live': 'polite'}, '↑ visibility');
+  const legend = h('div', {class: 'scroll'}), heading = h('p', {class: 'axis-title curve-title'}, '↑ visibility');
   const problem = h('p', {class: 'note problem', role: 'alert'});
   const asked = questions(source, group, signal);
   const hidden = new Set();
@@ -153,7 +119,7 @@ export function curvesView({source, group, series, signal}) {
         grid.mark(x, y);
         grid.fill(x, y, 1, 1, through(answer));
         draw();
-        if (speak) announce(drawing.element.getAttribute('aria-label'));
+        if (speak) announce(spoken(answer));
       },
       failed(error) { problem.textContent = error.message; },
     });
@@ -162,15 +128,16 @@ export function curvesView({source, group, series, signal}) {
   const channels = choice('Channel', ['red', 'green', 'blue'].map((text, value) => ({value, text})), 0, (v) => { channel = Number(v); draw(); });
   channels.hidden = true;
   const hover = (x, y) => { clearTimeout(timer); timer = setTimeout(() => show(x, y, false), hoverPause); };
-  const grid = pixelGrid(width, height, hover, (x, y) => show(x, y, true));
+  const up = !result.scenario?.scene?.deep_image;  // whose rows are the image's
+  const grid = pixelGrid({name: `Map of light ${group.light.light}`, width, height, up, ask: hover, choose: (x, y) => show(x, y, true)});
   const field = (label, most) => h('input', {type: 'number', min: '0', max: String(most - 1), step: '1', value: String(Math.floor(most / 2)), 'aria-label': label});
   const xInput = field('x', width), yInput = field('y', height);
   const entered = (event) => {
     event.preventDefault();
     if (xInput.reportValidity() && yInput.reportValidity()) show(Number(xInput.value), Number(yInput.value), true);
   };
-  const worst = group.cells.map((cell, i) => ({cell, text: `${i + 1}  ${titleOf(cell)}`, at: cell.curve_error?.worst_cell}))
-    .filter((w) => w.at && w.at[0] < width && w.at[1] < height && w.cell.curve_error.max > 0);
+  const worst = group.cells.map((cell, i) => ({cell, text: `${i + 1}  ${titleOf(cell)}`, at: worstPixelOf(cell, group.light.map)}))
+    .filter((w) => w.at && w.cell.curve_error.max > 0);
 
   async function survey() {
     if (surveying) { surveying = false; return; }
@@ -191,19 +158,25 @@ export function curvesView({source, group, series, signal}) {
   }
   const surveyButton = h('button', {type: 'button', class: 'quiet', title: 'Asks for pixels all over the map', onclick: survey}, 'Survey');
 
+  surveyButton.hidden = picture !== null;
+  if (picture) source.picture(picture, signal).then(grid.show, () => { surveyButton.hidden = false; });
+
   onThemeChange(() => { if (shown) draw(); }, signal);
   signal.addEventListener('abort', () => clearTimeout(timer), {once: true});
-  const start = worst[0]?.at ?? [Math.floor(width / 2), Math.floor(height / 2)];
-  show(...start, false);
+  // Where a function a pixel is off, more than one ray of it tells why.
+  const start = worst.find((w) => w.cell.nodes?.cells === width * height) ?? worst[0];
+  show(...start?.at ?? [Math.floor(width / 2), Math.floor(height / 2)], false);
 
   return h('section', {class: 'panel', id: 'curves', 'aria-labelledby': 'curves-title'},
     h('div', {class: 'panel-head'}, h('h2', {id: 'curves-title'}, 'Visibility functions'),
       h('div', {class: 'choices'}, channels, worst.length > 0 && choice('Worst pixel of', [{value: '', text: '…'}, ...worst.map((w, i) => ({value: i, text: w.text}))], '',
         (i) => { if (i !== '') show(...worst[i].at, true); }))),
     h('div', {class: 'pixels'},
-      h('figure', {}, h('figcaption', {class: 'axis-title'}, `map of light ${group.light.light}, ${width} × ${height}`), grid.element,
+      h('figure', {}, h('figcaption', {class: 'axis-title'}, `map of light ${group.light.light}${up ? ', as the light sees it' : ''}: ${width} × ${height} pixels, (0, 0) at the ${up ? 'lower' : 'upper'} left`),
+        grid.element, throughLegend(),
         h('form', {class: 'pixel-entry', onsubmit: entered},
           h('label', {}, 'x ', xInput), h('label', {}, 'y ', yInput), h('button', {type: 'submit', class: 'quiet'}, 'Show'), surveyButton),
-        h('p', {class: 'note'}, 'Point at a pixel, or enter one. Pixels seen are painted by the light that comes through.'), problem),
-      h('figure', {}, heading, drawing.element, h('p', {class: 'axis-title'}, 'depth from the light →'), legend)));
+        h('p', {class: 'note'}, picture ? 'Point at a pixel, move to it with the arrow keys, or enter it.'
+          : 'There is no picture of this map: pixels are painted as they are asked for. Point at one, move to it with the arrow keys, or enter it; Survey asks all over the map.'), problem),
+      h('figure', {}, heading, drawing.element, h('p', {class: 'axis-title'}, 'depth from the light, as the scene measures length →'), legend)));
 }

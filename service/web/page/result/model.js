@@ -93,6 +93,20 @@ export function fileOf(pictures, kind) {
   return pictures?.files?.find((name) => name.endsWith(`.${kind}.png`)) ?? null;
 }
 
+// The picture of a light's map, as images.json names it.
+export function lightMapOf(images, group) {
+  const light = images?.lights?.[group.lightIndex];
+  return light?.light === group.light.light ? fileOf(light, 'through') : null;
+}
+
+// The pixel of the largest curve error, which is told as a cell: where each sample has a function, cells are samples.
+export function worstPixelOf(cell, map) {
+  const at = cell.curve_error?.worst_cell;
+  if (!at) return null;
+  const samples = cell.nodes?.cells === map.width * map.height * map.samples_per_pixel;
+  return samples ? [Math.floor(at[0] / map.samples_x), Math.floor(at[1] / map.samples_y)] : at;
+}
+
 // Pictures are of one variant alone.
 export function imagesAreOf(images, group) {
   const settings = images?.settings ?? {};

@@ -19,12 +19,15 @@ const columns = [
   {text: 'lookup', unit: 'max', of: (c) => significant(c.lookup_error?.max, 2)},
 ];
 
-const verdicts = {kept: '✓', degraded: '△', failed: '✕'};
+const verdicts = {
+  kept: '✓', degraded: '△', failed: '✕',
+  faster: '✓', smaller: '✓', more_accurate: '✓', slower: '✕', larger: '✕', less_accurate: '✕', missing: '✕', not_comparable: '△',  // of two results
+};
 
 export function verdictMark(cell) {
   const verdict = cell.verdict ?? cell.status;
   return h('span', {class: `verdict verdict-${verdict}`},
-    h('span', {'aria-hidden': 'true'}, verdicts[verdict] ?? '·'), ` ${verdict}`);
+    h('span', {'aria-hidden': 'true'}, verdicts[verdict] ?? '·'), ` ${verdict.replaceAll('_', ' ')}`);
 }
 
 function fronts(cell) {

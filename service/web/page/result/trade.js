@@ -2,8 +2,9 @@
 import {choice, h, setText} from '../dom.js';
 import {significant} from '../format.js';
 import {plot} from '../plots/plot.js';
-import {logAxis, write} from '../plots/axes.js';
-import {lookOf} from '../plots/palette.js';
+import {logAxis, logPlace, write} from '../plots/axes.js';
+import {placeLabels} from '../plots/labels.js';
+import {levelSample, lookOf} from '../plots/palette.js';
 import {errors, frontOf, size, speeds, titleOf} from './model.js';
 
 function interval(measure, m) {
@@ -36,9 +37,24 @@ function pointsOf(cells, series, cost, error, chosen) {
 function levelsOf(light, error, low, high) {
   const reference = light.reference ?? {};
   const all = error.id === 'lookup.rms'
-    ? [[reference.spread_over_seeds?.rms, 'spread of the rays over seeds'], [reference.standard_error?.rms, 'standard error of the truth']]
-    : error.id === 'curve.max' ? [[reference.noise_tolerance, '0.5/√N']] : [];
-  return all.filter(([y]) => y > low && y < high).map(([y, text]) => ({y, text: `${text} ${significant(y, 2)}`}));
+    ? [[reference.spread_over_seeds?.rms, 'spread of the rays over seeds', [2, 4]], [reference.standard_error?.rms, 'standard error of the truth', [8, 4]]]
+    : error.id === 'curve.max' ? [[reference.noise_tolerance, 'noise of the rays, 0.5/√N', [2, 4]]] : [];
+  return all.filter(([y]) => y > low && y < high).map(([y, text, dash]) => ({y, dash, text: `${text}: ${significant(y, 2)}`}));
+}
+
+const radius = {chosen: 13, other: 8};  // pixels that a point takes
+
+// The points with the places of their numbers, for a plot of that size.
+function withLabels({points, front, levels}, x, y, width, height) {
+  const across = (v) => width * logPlace('x', x.signals, v), down = (v) => height * (1 - logPlace('y', y.signals, v));
+  const lines = [
+    ...points.map((p) => [across(p.low), down(p.y), across(p.high), down(p.y)]),
+    ...levels.map((l) => [0, down(l.y), width, down(l.y)]),
+    ...front.slice(1).flatMap((p, i) => [[across(front[i].x), down(front[i].y), across(p.x), down(front[i].y)], [across(p.x), down(front[i].y), across(p.x), down(p.y)]]),
+  ];
+  const placed = placeLabels({lines, width, height,
+    points: points.map((p) => ({x: across(p.x), y: down(p.y), text: p.n, radius: p.chosen ? radius.chosen : radius.other}))});
+  return points.map((p, i) => ({...p, ...placed[i]}));
 }
 
 function tradePlot(title, pick, signal) {
@@ -46,10 +62,10 @@ function tradePlot(title, pick, signal) {
     onPick: pick, label: title, signal,
     theme: () => ({ink: drawing.colour('ink'), muted: drawing.colour('muted'), paper: drawing.colour('panel')}),
   });
-  const caption = h('p', {class: 'axis-title'}), note = h('p', {class: 'note'});
+  const caption = h('p', {class: 'axis-title'}), note = h('p', {class: 'note'}), levelKey = h('ul', {class: 'levels'});
   const yTitle = h('p', {class: 'axis-title'});
   const element = h('figure', {class: 'trade'},
-    h('figcaption', {}, h('h3', {}, title), yTitle), drawing.element, caption, note);
+    h('figcaption', {}, h('h3', {}, title), yTitle), drawing.element, caption, levelKey, note);
 
   function update({cells, light, series, cost, error, chosen}) {
     const {points, missing} = pointsOf(cells, series, cost, error, chosen);
@@ -67,9 +83,11 @@ function tradePlot(title, pick, signal) {
       points.length ? `On the front: ${names}.` : 'Nothing can be drawn for these measures.',
       x.zero || y.zero ? 'Zeros stand at the edge marked 0.' : '', missing.length ? `Not drawn: ${missing.join(', ')}.` : '',
     ].filter(Boolean).join(' '));
+    const levels = levelsOf(light, error, y.signals.y_low, y.signals.y_high);
+    levelKey.replaceChildren(...levels.map((l) => h('li', {}, levelSample(l.dash), ` ${l.text}`)));
     drawing.update({
       signals: {...x.signals, ...y.signals},
-      data: {points: placed, front, levels: levelsOf(light, error, y.signals.y_low, y.signals.y_high)},
+      data: (width, height) => ({points: withLabels({points: placed, front, levels}, x, y, width, height), front, levels}),
       description: `${title}: ${cost.text} against ${error.text}, log axes, ${points.length} points. The table below has the numbers.`,
     });
   }

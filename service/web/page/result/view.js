@@ -50,7 +50,7 @@ function bestOf(cells) {
 }
 
 // What of a result belongs to one variant and light; `chosen` is told of the cell that is shown.
-function groupView({source, result, images, group, series, signal}) {
+function groupView({source, result, images, imagesFault, group, series, signal}) {
   const theseImages = imagesAreOf(images, group) ? images : null;
   const drawn = theseImages && group.cells.findIndex((cell) => picturesOf(theseImages, cell));
   let chosen = bestOf(group.cells);
@@ -86,11 +86,13 @@ function groupView({source, result, images, group, series, signal}) {
     h('section', {class: 'panel', 'aria-labelledby': 'table-title'}, h('h2', {id: 'table-title'}, 'All figures'), tablePlace),
     cellPlace,
     compare?.element ?? h('section', {class: 'panel quiet-panel'}, h('p', {class: 'note'},
-      images ? 'Pictures were made of another variant.' : 'There are no pictures of this result.')),
-    source.curves ? curvesView({source, group, series, signal}) : null);
+      images ? 'Pictures were made of another variant.'
+        : imagesFault ? ['Pictures could not be made: ', imagesFault.where && h('code', {}, imagesFault.where), ` ${imagesFault.message}.`] : 'There are no pictures of this result.')),
+    source.curves ? curvesView({source, result, images: theseImages, group, series, signal}) : null);
 }
 
-export function resultView({source, result, images, signal}) {
+// imagesFault: why there are no pictures, as {where, message}, where that is known.
+export function resultView({source, result, images, imagesFault, signal}) {
   const groups = groupsOf(result), series = seriesOf(result);
   const place = h('div');
   let shown = null, current = groups[0];
@@ -99,7 +101,7 @@ export function resultView({source, result, images, signal}) {
     shown?.abort();
     shown = new AbortController();
     current = group;
-    place.replaceChildren(groupView({source, result, images, group, series, signal: shown.signal}));
+    place.replaceChildren(groupView({source, result, images, imagesFault, group, series, signal: shown.signal}));
   }
   signal.addEventListener('abort', () => shown?.abort(), {once: true});
   if (!groups.length) return h('p', {class: 'note'}, 'This result holds no lights.');

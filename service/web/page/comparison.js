@@ -1,0 +1,118 @@
+// One result held against another: two are chosen, of jobs or of files, and every measure gets a verdict.
+import {get, post} from './api.js';
+import {announce, choice, h, setText} from './dom.js';
+import {moment, significant} from './format.js';
+import {verdictMark} from './result/table.js';
+
+const sides = [['baseline', 'Baseline'], ['current', 'Current']];
+const settled = new Set(['same', 'inconclusive']);  // verdicts that ask for no look
+
+async function finishedJobs(ids, signal) {
+  const {jobs} = await get('/v1/jobs?state=succeeded&limit=100', signal);
+  const missing = ids.filter((id) => id && !jobs.some((job) => job.id === id));
+  return [...jobs, ...await Promise.all(missing.map((id) => get(`/v1/jobs/${encodeURIComponent(id)}`, signal)))];
+}
+
+const words = (verdict) => verdict.replaceAll('_', ' ');
+
+function changeOf({time, reason}) {
+  const ratio = time && `× ${significant(time.ratio)}, 95 %: ${significant(time.interval95[0])} to ${significant(time.interval95[1])}`;
+  return [ratio, reason].filter(Boolean).join('; ');
+}
+
+function lineTable(lines) {
+  const heads = [['Cell'], ['Measure'], ['Verdict'], ['Baseline', 'number'], ['Current', 'number'], ['Change']];
+  const number = (value, unit) => h('td', {class: 'number'}, significant(value, 5), value !== null && unit && h('small', {}, ` ${unit}`));
+  return h('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Table of verdicts'},
+    h('table', {class: 'cells lines'}, h('caption', {class: 'hidden'}, 'Every measure of every technique, what needs a look first'),
+      h('thead', {}, h('tr', {}, heads.map(([text, kind]) => h('th', {scope: 'col', class: kind}, text)))),
+      h('tbody', {}, lines.map((line) => h('tr', {}, h('th', {scope: 'row'}, line.title), h('td', {}, line.measure || 'all'), h('td', {}, verdictMark(line)),
+        number(line.baseline, line.unit), number(line.current, line.unit), h('td', {class: 'change'}, changeOf(line)))))));
+}
+
+// Without the exit code of the command line.
+function outcomeOf(answer) {
+  return answer.outcome.replace(/^exit code \d+: /, '');
+}
+
+function answerView(answer) {
+  const place = h('div'), counts = Object.entries(answer.counts), outcome = outcomeOf(answer);
+  const differ = answer.lines.filter((line) => !settled.has(line.verdict));
+  const show = (wanted) => {
+    const lines = wanted === 'all' ? answer.lines : wanted === 'differ' ? differ : answer.lines.filter((line) => line.verdict === wanted);
+    place.replaceChildren(lines.length ? lineTable(lines) : h('p', {class: 'empty'}, 'No measure differs beyond its tolerance.'));
+  };
+  show('differ');
+  return h('section', {class: 'panel', 'aria-labelledby': 'verdicts-title'},
+    h('div', {class: 'panel-head'}, h('h2', {id: 'verdicts-title'}, 'Verdicts'),
+      choice('Show', [{value: 'differ', text: `what differs (${differ.length})`}, {value: 'all', text: `all (${answer.lines.length})`},
+        ...counts.map(([verdict, n]) => ({value: verdict, text: `${words(verdict)} (${n})`}))], 'differ', show)),
+    h('p', {class: `outcome ${answer.exit_code ? 'bad-title' : 'good'}`}, `${outcome[0].toUpperCase()}${outcome.slice(1)}.`),
+    h('p', {}, `${counts.map(([verdict, n]) => `${n} ${words(verdict)}`).join(', ')}.`),
+    h('p', {class: 'note'}, [answer.method, answer.sensitivity].filter(Boolean).join('; ')),
+    answer.notes.map((note) => h('p', {class: 'note'}, note)),
+    answer.fronts.length > 0 && [h('h4', {}, 'Fronts'), h('ul', {class: 'fronts'}, answer.fronts.map((front) => h('li', {}, front.text)))],
+    place);
+}
+
+// One of the two: a job, or a file that is chosen or dropped. changed({job}) or changed({name, text}).
+function sidePicker(label, jobs, id, changed, failed) {
+  const said = h('p', {class: 'note'});
+  const take = async (file) => {
+    const text = await file.text();
+    try {
+      JSON.parse(text);
+    } catch {
+      return failed(`${file.name} is no JSON.`);
+    }
+    setText(said, `From the file ${file.name}.`);
+    select.value = '';
+    return changed({name: file.name, text});
+  };
+  const file = h('input', {type: 'file', accept: '.json,application/json', 'aria-label': `${label}: result.json of a run`, onchange: () => { if (file.files[0]) take(file.files[0]); }});
+  const job = choice('Job', [{value: '', text: '…'}, ...jobs.map((j) => ({value: j.id, text: `${j.name}, ${moment(j.created)}, ${j.id}`}))], id ?? '', (value) => {
+    setText(said, '');
+    file.value = '';
+    changed(value ? {job: value} : null);
+  });
+  const select = job.querySelector('select');
+  return h('fieldset', {class: 'side', ondragover: (event) => event.preventDefault(), ondrop: (event) => {
+    event.preventDefault();
+    if (event.dataTransfer.files[0]) take(event.dataTransfer.files[0]);
+  }}, h('legend', {}, label), job, h('label', {class: 'choice'}, h('span', {}, 'or a result.json'), file), said);
+}
+
+// ids: of the jobs to begin with, [baseline, current]; either may be absent.
+export function comparisonView({ids, signal}) {
+  const problem = h('p', {class: 'problem', role: 'alert'}), place = h('div'), pickers = h('div', {class: 'pair'});
+  const chosen = {baseline: ids[0] ? {job: ids[0]} : null, current: ids[1] ? {job: ids[1]} : null};
+  let turn = 0;
+  const failed = (text) => { place.replaceChildren(); setText(problem, text); };
+
+  async function draw() {
+    const mine = ++turn;
+    setText(problem, '');
+    if (!chosen.baseline || !chosen.current) return place.replaceChildren(h('p', {class: 'empty'}, 'Choose two results: jobs that have succeeded, or files that are dropped here.'));
+    // The text of a file goes as it is: parsed and written again, long numbers would lose digits.
+    const parts = sides.map(([side]) => `"${side}": ${chosen[side].job ? JSON.stringify({job: chosen[side].job}) : `{"result": ${chosen[side].text}}`}`);
+    try {
+      const answer = await post('/v1/compare', `{${parts.join(', ')}}`, {}, signal);
+      if (mine !== turn) return;
+      place.replaceChildren(answerView(answer));
+      announce(outcomeOf(answer));
+    } catch (error) {
+      if (!signal.aborted && mine === turn) failed(error.message);
+    }
+  }
+  function pick(side, what) {
+    chosen[side] = what;
+    history.replaceState(null, '', ['#/compare', ...sides.map(([s]) => encodeURIComponent(chosen[s]?.job ?? ''))].join('/').replace(/\/+$/, ''));
+    draw();
+  }
+  finishedJobs(ids, signal).then((jobs) => pickers.replaceChildren(...sides.map(([side, label], i) => sidePicker(label, jobs, ids[i], (what) => pick(side, what), failed))),
+    (error) => { if (!signal.aborted) setText(problem, error.message); });
+  draw();
+  return h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Compare two results')),
+    h('p', {class: 'purpose'}, 'Bytes, nodes, errors and promises are judged by tolerance on any machine. Times of two single runs decide nothing: shadowbench ab judges those.'),
+    h('section', {class: 'panel', 'aria-label': 'The two results'}, pickers), problem, place);
+}
