@@ -1,6 +1,7 @@
 // The scenario document before it becomes a Scenario: changes from outside, checks, sweeps.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
@@ -36,6 +37,10 @@ struct Variant {
 // one for each combination of its values, in place; any others make one variant for each of their combinations, the
 // alphabetically last pointer changing fastest. Every variant has passed check_document. Throws Error{bad_input}.
 std::vector<Variant> expand(const nlohmann::json& document);
+
+// The document with the values of one combination of its sweeps, counted from 0 as expand() does; sweeps over a
+// technique's parameters stay. Throws Error{bad_input}, and Error{usage} for a combination that is not there.
+nlohmann::json select_variant(const nlohmann::json& document, std::size_t index);
 
 // Keeps the techniques of these types; none given: all. Throws Error{usage} for a type that the variant does not have.
 void keep_only(Variant& variant, std::span<const std::string> types);

@@ -42,6 +42,9 @@ void check_schema(const nlohmann::json& document, const nlohmann::json& schema);
 // Throws Error: bad_input (pointer), no_such_file, io. An empty scene, or one whose files hold nothing, is bad input.
 Scenario load_scenario(const nlohmann::json& document, const SearchPath& path);
 
+// The names of the lights that load_scenario makes of a valid document.
+std::vector<std::string> light_names(const nlohmann::json& document);
+
 // Refuses rays that would march through the scene's volumes for days. load_scenario asks it; whoever gives a loaded
 // scene other settings asks again. Throws Error{bad_input}.
 void check_marching(const Scenario& scenario);

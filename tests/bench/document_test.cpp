@@ -169,6 +169,21 @@ TEST(Expand, refuses_more_variants_than_anyone_waits_for) {
     error_of([&] { expand(document); }, ErrorCode::bad_input, "/sweeps/~1receivers~1seed");
 }
 
+TEST(SelectVariant, is_the_one_that_expand_counts) {
+    json document = small_document();
+    document["sweeps"] = {
+        {"/rays/samples_per_pixel", {4, 9, 16}}, {"/rays/seed", {1, 2}}, {"/techniques/1/nodes", {4, 8}}};
+    const std::vector<Variant> variants = expand(document);
+    ASSERT_EQ(variants.size(), 6u);
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+        const std::vector<Variant> one = expand(select_variant(document, i));
+        ASSERT_EQ(one.size(), 1u);
+        EXPECT_EQ(*one[0].document, *variants[i].document) << i;
+    }
+    error_of([&] { select_variant(document, 6); }, ErrorCode::usage, "variant=6");
+    EXPECT_EQ(select_variant(small_document(), 0), small_document());
+}
+
 TEST(KeepOnly, keeps_techniques_with_their_places) {
     Variant variant = expand(small_document())[0];
     const std::vector<std::string> types{"avsm"};
