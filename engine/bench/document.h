@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "base/error.h"
 #include "bench/result.h"
 
 namespace shadowbench::bench {
@@ -25,6 +26,10 @@ nlohmann::json full_schema();
 // Checks a document: schema, then each technique's parameters by its own declaration. `technique_where` names the
 // techniques in messages; empty: by their place in this document. Throws Error{bad_input}, place: JSON pointer.
 void check_document(const nlohmann::json& document, std::span<const std::string> technique_where = {});
+
+// All that can be said against a document that `first` was thrown for: it, then what else the schema and the
+// techniques' declarations say; 32 faults at most.
+std::vector<base::Error> all_faults(const nlohmann::json& document, const base::Error& first);
 
 // One scenario of a document with sweeps.
 struct Variant {

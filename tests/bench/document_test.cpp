@@ -107,6 +107,21 @@ TEST(CheckDocument, names_the_techniques_there_are) {
     EXPECT_NE(message.find("uncompressed"), std::string::npos) << message;
 }
 
+TEST(AllFaults, begin_with_the_one_that_was_thrown) {
+    json document = small_document();
+    document["rays"]["samples_per_pixel"] = "many";
+    document["techniques"] = {{{"type", "deep"}, {"tolerance", -1}, {"kernal", 1}}, {{"type", "dep"}}, 3};
+    const base::Error first(ErrorCode::bad_input, "/lights/0/direction", "has no length");
+    std::vector<std::string> where;
+    for (const base::Error& fault : all_faults(document, first)) where.push_back(fault.where());
+    EXPECT_EQ(where[0], "/lights/0/direction");
+    std::sort(where.begin(), where.end());
+    EXPECT_EQ(where, (std::vector<std::string>{"/lights/0/direction", "/rays/samples_per_pixel", "/techniques/0/kernal",
+                                               "/techniques/0/tolerance", "/techniques/1/type", "/techniques/2"}));
+    EXPECT_EQ(all_faults(json::array(), {ErrorCode::bad_input, "/", "expected object, got array of 0 items"}).size(),
+              1u);
+}
+
 TEST(FullSchema, knows_every_parameter) {
     json document = small_document();
     EXPECT_NO_THROW(scene::check_schema(document, full_schema()));
