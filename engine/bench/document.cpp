@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -49,6 +50,25 @@ json technique_choices() {
     return choices;
 }
 
+constexpr std::size_t most_faults = 32;  // that are told at a time
+
+// What its own declaration says against a technique; nothing where there is no such technique to ask.
+std::vector<Error> technique_faults(const json& technique, const std::string& where) {
+    std::vector<Error> faults;
+    if (!technique.is_object() || !technique.contains("type") || !technique["type"].is_string()) return faults;
+    try {
+        const techniques::Technique& row = techniques::find(technique["type"].get<std::string>(), where + "/type");
+        for (const auto& [key, value] : technique.items()) try {
+                techniques::read_parameters(row.parameters, {{key, value}}, where);
+            } catch (const Error& error) {
+                faults.push_back(error);
+            }
+    } catch (const Error& error) {
+        faults.push_back(error);
+    }
+    return faults;
+}
+
 }  // namespace
 
 void set_value(json& document, const std::string& assignment) {
@@ -94,6 +114,20 @@ void check_document(const json& document, std::span<const std::string> technique
         techniques::read_parameters(row.parameters, parameters, where);
     }
     scene::check_schema(document, full_schema());
+}
+
+std::vector<base::Error> all_faults(const json& document, const Error& first) {
+    std::vector<Error> all{first};
+    const auto add = [&all](const Error& fault) {
+        const bool told = std::string_view(fault.what()) == all[0].what();
+        if (!told && all.size() < most_faults) all.push_back(fault);
+    };
+    for (const Error& fault : scene::schema_faults(document, scene::scenario_schema(), most_faults)) add(fault);
+    const auto techniques = document.find("techniques");
+    if (techniques == document.end() || !techniques->is_array()) return all;
+    for (std::size_t i = 0; i < techniques->size(); ++i)
+        for (const Error& fault : technique_faults((*techniques)[i], fmt::format("/techniques/{}", i))) add(fault);
+    return all;
 }
 
 void keep_only(Variant& variant, std::span<const std::string> types) {

@@ -1,6 +1,7 @@
 // The scenario document before it becomes a Scenario: changes from outside, checks, sweeps.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "base/error.h"
 #include "bench/result.h"
 
 namespace shadowbench::bench {
@@ -25,6 +27,10 @@ nlohmann::json full_schema();
 // techniques in messages; empty: by their place in this document. Throws Error{bad_input}, place: JSON pointer.
 void check_document(const nlohmann::json& document, std::span<const std::string> technique_where = {});
 
+// All that can be said against a document that `first` was thrown for: it, then what else the schema and the
+// techniques' declarations say; 32 faults at most.
+std::vector<base::Error> all_faults(const nlohmann::json& document, const base::Error& first);
+
 // One scenario of a document with sweeps.
 struct Variant {
     std::shared_ptr<const nlohmann::json> document;  // without sweeps
@@ -36,6 +42,10 @@ struct Variant {
 // one for each combination of its values, in place; any others make one variant for each of their combinations, the
 // alphabetically last pointer changing fastest. Every variant has passed check_document. Throws Error{bad_input}.
 std::vector<Variant> expand(const nlohmann::json& document);
+
+// The document with the values of one combination of its sweeps, counted from 0 as expand() does; sweeps over a
+// technique's parameters stay. Throws Error{bad_input}, and Error{usage} for a combination that is not there.
+nlohmann::json select_variant(const nlohmann::json& document, std::size_t index);
 
 // Keeps the techniques of these types; none given: all. Throws Error{usage} for a type that the variant does not have.
 void keep_only(Variant& variant, std::span<const std::string> types);

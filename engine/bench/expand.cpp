@@ -70,12 +70,15 @@ struct Choice {
     std::vector<const json*> values;  // one a sweep
 };
 
+[[noreturn]] void refuse_many(const Sweep& sweep, std::size_t limit) {
+    throw Error(ErrorCode::bad_input, sweep.where, fmt::format("the sweeps combine to more than {}", limit));
+}
+
 // All combinations of the sweeps' values, the last sweep changing fastest.
 std::vector<Choice> combine(const json& document, const std::vector<Sweep>& sweeps, std::size_t limit) {
     std::vector<Choice> choices{{document, {}}};
     for (const Sweep& sweep : sweeps) {
-        if (choices.size() * sweep.values->size() > limit)
-            throw Error(ErrorCode::bad_input, sweep.where, fmt::format("the sweeps combine to more than {}", limit));
+        if (choices.size() * sweep.values->size() > limit) refuse_many(sweep, limit);
         std::vector<Choice> next;
         for (const Choice& choice : choices)
             for (const json& value : *sweep.values) {
@@ -101,38 +104,65 @@ void expand_techniques(Variant& variant, const json& document, const std::vector
     variant.document = std::make_shared<const json>(std::move(result));
 }
 
-}  // namespace
-
-std::vector<Variant> expand(const json& document) {
-    scene::check_schema(document, scene::scenario_schema());
-    json plain = document;
-    plain.erase("sweeps");
-
-    const std::size_t techniques = document.at("techniques").size();
+// A document without its sweeps, and these: by technique, and all others.
+struct Swept {
+    json plain;
     std::vector<Sweep> outer;
-    std::vector<std::vector<Sweep>> inner(techniques);
+    std::vector<std::vector<Sweep>> inner;
+};
+
+Swept sort_sweeps(const json& document) {
+    scene::check_schema(document, scene::scenario_schema());
+    const std::size_t techniques = document.at("techniques").size();
+    Swept swept{document, {}, std::vector<std::vector<Sweep>>(techniques)};
+    swept.plain.erase("sweeps");
     for (const Sweep& sweep : read_sweeps(document)) {
         const int technique = technique_of(sweep.pointer, techniques);
         if (technique < 0)
-            outer.push_back(sweep);
+            swept.outer.push_back(sweep);
         else
-            inner[static_cast<std::size_t>(technique)].push_back(sweep);
+            swept.inner[static_cast<std::size_t>(technique)].push_back(sweep);
     }
     // A sweep over the techniques themselves would move what the other sweeps point at.
-    for (const Sweep& sweep : outer)
+    for (const Sweep& sweep : swept.outer)
         if (sweep.text.rfind("/techniques", 0) == 0)
             throw Error(ErrorCode::bad_input, sweep.where, "sweeps reach a technique's parameters only");
+    return swept;
+}
 
+}  // namespace
+
+std::vector<Variant> expand(const json& document) {
+    const Swept swept = sort_sweeps(document);
     std::vector<Variant> variants;
-    for (const Choice& choice : combine(plain, outer, max_variants)) {
+    for (const Choice& choice : combine(swept.plain, swept.outer, max_variants)) {
         Variant variant;
-        for (std::size_t i = 0; i < outer.size(); ++i)
-            variant.settings.push_back({outer[i].text, choice.values[i]->dump()});
-        expand_techniques(variant, choice.document, inner);
+        for (std::size_t i = 0; i < swept.outer.size(); ++i)
+            variant.settings.push_back({swept.outer[i].text, choice.values[i]->dump()});
+        expand_techniques(variant, choice.document, swept.inner);
         check_document(*variant.document, variant.technique_where);
         variants.push_back(std::move(variant));
     }
     return variants;
+}
+
+json select_variant(const json& document, std::size_t index) {
+    Swept swept = sort_sweeps(document);
+    std::size_t count = 1;
+    for (const Sweep& sweep : swept.outer) {
+        count *= sweep.values->size();
+        if (count > max_variants) refuse_many(sweep, max_variants);
+    }
+    if (index >= count)
+        throw Error(ErrorCode::usage, fmt::format("variant={}", index),
+                    fmt::format("the scenario has {} variant{}, counted from 0", count, count == 1 ? "" : "s"));
+    for (const Sweep& sweep : swept.outer) {
+        count /= sweep.values->size();
+        put(swept.plain, sweep, sweep.values->at(index / count % sweep.values->size()));
+    }
+    for (const std::vector<Sweep>& inner : swept.inner)
+        for (const Sweep& sweep : inner) swept.plain["sweeps"][sweep.text] = *sweep.values;
+    return std::move(swept.plain);
 }
 
 }  // namespace shadowbench::bench

@@ -35,23 +35,29 @@ RaySource::Watch stage(const ProgressCallback& progress, const char* name, const
 
 }  // namespace
 
-std::size_t find_light(const scene::Scenario& scenario, const std::string& name) {
+std::vector<std::string> names_of(const std::vector<scene::Light>& lights) {
+    std::vector<std::string> names;
+    for (const scene::Light& light : lights) names.push_back(light.name);
+    return names;
+}
+
+std::size_t find_light(const std::vector<std::string>& names, const std::string& name, const std::string& asked) {
     if (name.empty()) return 0;
-    std::string names;
-    for (std::size_t i = 0; i < scenario.lights.size(); ++i) {
-        if (scenario.lights[i].name == name) return i;
-        names += fmt::format("{}{} {}", i > 0 ? ", " : "", i, scenario.lights[i].name);
+    std::string list;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i] == name) return i;
+        list += fmt::format("{}{} {}", i > 0 ? ", " : "", i, names[i]);
     }
     std::size_t index = 0;
     const auto [rest, fault] = std::from_chars(name.data(), name.data() + name.size(), index);
-    if (fault == std::errc() && rest == name.data() + name.size() && index < scenario.lights.size()) return index;
-    throw Error(ErrorCode::usage, "--light " + name, "there is no such light; there are: " + names);
+    if (fault == std::errc() && rest == name.data() + name.size() && index < names.size()) return index;
+    throw Error(ErrorCode::usage, asked + name, "there is no such light; there are: " + list);
 }
 
 OneLight::OneLight(const nlohmann::json& document, const RunOptions& options, const std::string& light)
     : options_(options), loader_(options.data) {
     scenario_ = &loader_.load(only_variant(document));
-    const std::size_t index = find_light(*scenario_, light);
+    const std::size_t index = find_light(names_of(scenario_->lights), light, "--light ");
     light_ = &scenario_->lights[index];
     where_ = scenario_->scene.deep_image ? "/scene/deep_image" : fmt::format("/lights/{}", index);
     view_ = rays::make_light_view(*light_, scenario_->scene, scenario_->rays.resolution, where_);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -19,8 +20,11 @@
 
 namespace shadowbench::bench {
 
-// The number of a light by its name, or by its number from 0 on; empty: the first. Throws Error{usage}.
-std::size_t find_light(const scene::Scenario& scenario, const std::string& name);
+std::vector<std::string> names_of(const std::vector<scene::Light>& lights);
+
+// The number of a light by its name, or by its number from 0 on; empty: the first. Throws Error{usage}, whose place is
+// `asked` and the name: "--light moon".
+std::size_t find_light(const std::vector<std::string>& names, const std::string& name, const std::string& asked);
 
 class OneLight {
 public:

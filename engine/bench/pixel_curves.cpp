@@ -26,17 +26,14 @@ using curves::Curve;
 using rays::LightRays;
 using techniques::Cells;
 
-constexpr double linearisation = 1e-4;  // of media's exponentials, in the exact functions
-constexpr int even_depths = 128;        // that functions which are not piecewise linear are also sampled at
+constexpr double linearisation = 1e-4;         // of media's exponentials, in the exact functions
+constexpr int even_depths = 128;               // that functions which are not piecewise linear are also sampled at
+constexpr const char* asked_light = "light=";  // as the service is asked
 
 Variant take_variant(const nlohmann::json& document, const RunOptions& options, std::size_t index) {
-    std::vector<Variant> variants = expand(document);
-    if (index >= variants.size())
-        throw Error(ErrorCode::usage, fmt::format("--variant {}", index),
-                    fmt::format("the scenario has {} variant{}, counted from 0", variants.size(),
-                                variants.size() == 1 ? "" : "s"));
-    keep_only(variants[index], options.only);
-    return std::move(variants[index]);
+    std::vector<Variant> variants = expand(select_variant(document, index));
+    keep_only(variants[0], options.only);
+    return std::move(variants[0]);
 }
 
 // A tile as the maps of one apron are built from it, and its channels.
@@ -92,7 +89,7 @@ struct PixelProbe::State {
           variant(take_variant(document, told, index)),
           loader(told.data),
           scenario(loader.load(variant)),
-          light(scenario.lights[find_light(scenario, light_name)]) {
+          light(scenario.lights[find_light(names_of(scenario.lights), light_name, asked_light)]) {
         const std::string where =
             scenario.scene.deep_image ? "/scene/deep_image" : fmt::format("/lights/{}", &light - &scenario.lights[0]);
         view = rays::make_light_view(light, scenario.scene, scenario.rays.resolution, where);
@@ -207,6 +204,10 @@ struct PixelProbe::State {
         return out;
     }
 };
+
+void check_light(const nlohmann::json& document, const std::string& light, std::size_t variant) {
+    find_light(scene::light_names(select_variant(document, variant)), light, asked_light);
+}
 
 PixelProbe::PixelProbe(const nlohmann::json& document, const RunOptions& options, const std::string& light,
                        std::size_t variant)

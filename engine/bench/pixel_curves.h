@@ -36,6 +36,10 @@ struct PixelCurves {
     std::vector<TechniqueCurve> curves;
 };
 
+// Throws Error{usage} where a light or variant, as PixelProbe is asked for them, is not there: "light=moon",
+// "variant=3". Loads nothing.
+void check_light(const nlohmann::json& document, const std::string& light, std::size_t variant);
+
 class PixelProbe {
 public:
     // `light` as in OneLight; `variant` counts the combinations of the scenario's sweeps. Throws what run() throws of

@@ -10,6 +10,9 @@
 
 namespace shadowbench::scene {
 
+// Its own, or one made of its type and number.
+std::string light_name(const nlohmann::json& from, std::size_t index);
+
 // A directional light without "target" is given the middle of `casters`.
 Light load_light(const nlohmann::json& from, std::size_t index, const Box3d& casters, const std::string& where);
 

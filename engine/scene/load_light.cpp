@@ -32,11 +32,16 @@ void load_spot(const json& from, const std::string& where, Light& light) {
 
 }  // namespace
 
+std::string light_name(const json& from, std::size_t index) {
+    std::string name = fmt::format("{}_{}", from["type"].get<std::string>(), index);
+    read(from, "name", name);
+    return name;
+}
+
 Light load_light(const json& from, std::size_t index, const Box3d& casters, const std::string& where) {
     Light light;
     const std::string type = from["type"].get<std::string>();
-    light.name = fmt::format("{}_{}", type, index);
-    read(from, "name", light.name);
+    light.name = light_name(from, index);
     read(from, "colour", light.colour);
     read(from, "up", light.up);
     if (type == "spot")

@@ -96,9 +96,11 @@ std::vector<Light> load_lights(const json& list, const Box3d& casters) {
     return lights;
 }
 
+constexpr const char* deep_image_name = "deep_image";
+
 Light deep_image_light() {
     Light light;
-    light.name = "deep_image";
+    light.name = deep_image_name;
     light.type = LightType::deep_image;
     light.direction = Vec3d(0, 0, 1);
     return light;
@@ -190,6 +192,13 @@ std::vector<TechniqueRequest> load_techniques(const json& list) {
 }
 
 }  // namespace
+
+std::vector<std::string> light_names(const json& document) {
+    if (document["scene"].contains("deep_image")) return {deep_image_name};
+    std::vector<std::string> names;
+    for (const json& light : section(document, "lights")) names.push_back(light_name(light, names.size()));
+    return names;
+}
 
 void check_marching(const Scenario& scenario) {
     const RaySettings& rays = scenario.rays;

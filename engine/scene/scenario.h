@@ -1,6 +1,7 @@
 // Scenario JSON -> Scenario. The format is scenario.schema.json beside this file (draft-07), which also documents it.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <initializer_list>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "base/error.h"
 #include "scene/scene.h"
 
 namespace shadowbench::scene {
@@ -34,13 +36,19 @@ nlohmann::json parse_json(const std::string& text, const std::string& origin);
 // The schema as committed, without the parameters of techniques (bench adds those from the registry).
 const nlohmann::json& scenario_schema();
 
-// Checks `document` against a draft-07 schema. Throws Error{bad_input} with the JSON pointer of the first fault; "/"
-// when the document is not even an object.
+// What a draft-07 schema says against `document`, `most` faults of it: each an Error{bad_input} with the JSON pointer
+// of its place; "/" when the document is not even an object.
+std::vector<base::Error> schema_faults(const nlohmann::json& document, const nlohmann::json& schema, std::size_t most);
+
+// Throws the first of them.
 void check_schema(const nlohmann::json& document, const nlohmann::json& schema);
 
 // Checks the document against the schema, reads its files, makes its procedural objects and returns the values.
 // Throws Error: bad_input (pointer), no_such_file, io. An empty scene, or one whose files hold nothing, is bad input.
 Scenario load_scenario(const nlohmann::json& document, const SearchPath& path);
+
+// The names of the lights that load_scenario makes of a valid document.
+std::vector<std::string> light_names(const nlohmann::json& document);
 
 // Refuses rays that would march through the scene's volumes for days. load_scenario asks it; whoever gives a loaded
 // scene other settings asks again. Throws Error{bad_input}.

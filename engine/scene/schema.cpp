@@ -9,6 +9,8 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,6 +60,39 @@ std::shared_ptr<const valijson::Schema> parsed(const nlohmann::json& schema) {
     return result;
 }
 
+// "<root>", "[lights]", "[0]" -> "lights", "0".
+std::vector<std::string> path_of(const valijson::ValidationResults::Error& error) {
+    std::vector<std::string> path;
+    for (std::size_t i = 1; i < error.context.size(); ++i)
+        path.push_back(error.context[i].substr(1, error.context[i].size() - 2));
+    return path;
+}
+
+std::string pointer_of(const std::vector<std::string>& path) {
+    nlohmann::json::json_pointer pointer;
+    for (const std::string& step : path) pointer /= step;
+    return pointer.to_string();
+}
+
+// Each fault once, though the validator names it again for every schema around it.
+class Faults {
+public:
+    bool any_within(const std::string& pointer) const { return around_.contains(pointer); }
+
+    void add(const SchemaFault& fault) {
+        if (!told_.emplace(fault.pointer, fault.message).second) return;
+        list.push_back(fault);
+        std::string at = fault.pointer;
+        while (around_.insert(at).second && !at.empty()) at.erase(at.rfind('/'));
+    }
+
+    std::vector<SchemaFault> list;
+
+private:
+    std::set<std::pair<std::string, std::string>> told_;
+    std::set<std::string> around_;  // pointers of all values that have a fault within
+};
+
 }  // namespace
 
 const nlohmann::json& scenario_schema() {
@@ -65,26 +100,43 @@ const nlohmann::json& scenario_schema() {
     return schema;
 }
 
-void check_schema(const nlohmann::json& document, const nlohmann::json& schema) {
-    refuse_large_integers(document, nlohmann::json::json_pointer());
+std::vector<base::Error> schema_faults(const nlohmann::json& document, const nlohmann::json& schema, std::size_t most) {
+    try {
+        refuse_large_integers(document, nlohmann::json::json_pointer());
+    } catch (const base::Error& error) {
+        return {error};
+    }
     const std::shared_ptr<const valijson::Schema> rules = parsed(schema);
     const valijson::adapters::NlohmannJsonAdapter target(document);
     valijson::Validator validator;
     // Results collect every fault; a valid document, the common case, does not pay for them.
-    if (validator.validate(*rules, target, nullptr)) return;
+    if (validator.validate(*rules, target, nullptr)) return {};
 
     valijson::ValidationResults results;
     validator.validate(*rules, target, &results);
-    valijson::ValidationResults::Error first;
-    std::vector<std::string> path;
-    if (results.popError(first))
-        // "<root>", "[lights]", "[0]": the innermost value comes first.
-        for (std::size_t i = 1; i < first.context.size(); ++i)
-            path.push_back(first.context[i].substr(1, first.context[i].size() - 2));
-    const SchemaFault fault = explain_fault(document, schema, path, first.description);
-    // The pointer of a whole document is empty; a message that begins with nothing reads as if its place were unknown.
-    const bool whole = fault.pointer.empty() && !document.is_object();
-    throw base::Error(base::ErrorCode::bad_input, whole ? "/" : fault.pointer, fault.message);
+    Faults faults;
+    for (const auto& error : results) {  // the innermost value comes first
+        if (faults.list.size() >= most) break;
+        const std::vector<std::string> path = path_of(error);
+        const std::string pointer = pointer_of(path);
+        std::vector<SchemaFault> found = explain_faults(document, schema, path, most);
+        if (found.empty() && !faults.any_within(pointer)) found.push_back({pointer, error.description});
+        for (const SchemaFault& fault : found) faults.add(fault);
+    }
+    std::vector<base::Error> errors;
+    for (const SchemaFault& fault : faults.list) {
+        if (errors.size() == most) break;
+        // The pointer of a whole document is empty; a message that begins with nothing reads as if its place were
+        // unknown.
+        const bool whole = fault.pointer.empty() && !document.is_object();
+        errors.emplace_back(base::ErrorCode::bad_input, whole ? "/" : fault.pointer, fault.message);
+    }
+    return errors;
+}
+
+void check_schema(const nlohmann::json& document, const nlohmann::json& schema) {
+    const std::vector<base::Error> faults = schema_faults(document, schema, 1);
+    if (!faults.empty()) throw faults.front();
 }
 
 }  // namespace shadowbench::scene

@@ -75,13 +75,15 @@ std::string names_of(const json& properties) {
     return names;
 }
 
-// A key that the schema does not have; its own pointer tells where it stands.
-std::optional<SchemaFault> unknown_key(const json& schema, const json& value, const json::json_pointer& at) {
-    if (!value.is_object() || schema.value("additionalProperties", json(true)) != json(false)) return std::nullopt;
+// Keys that the schema does not have; their own pointers tell where they stand.
+void unknown_keys(const json& schema, const json& value, const json::json_pointer& at, std::size_t most,
+                  std::vector<SchemaFault>& out) {
+    if (!value.is_object() || schema.value("additionalProperties", json(true)) != json(false)) return;
     const json properties = schema.value("properties", json::object());
     const json patterns = schema.value("patternProperties", json::object());
     for (const auto& [key, unused] : value.items()) {
         if (properties.contains(key) || matches_any(key, patterns)) continue;
+        if (out.size() >= most) return;
         std::vector<std::string> names;
         for (const auto& [name, also_unused] : properties.items()) names.push_back(name);
         std::string message = fmt::format("unknown key \"{}\"", shorten(key));
@@ -89,13 +91,12 @@ std::optional<SchemaFault> unknown_key(const json& schema, const json& value, co
             message += fmt::format(", perhaps \"{}\"", near);
         if (!properties.empty()) message += "; the keys here are: " + names_of(properties);
         if (!patterns.empty()) message += "; keys here match: " + names_of(patterns);
-        return SchemaFault{(at / key).to_string(), message};
+        out.push_back({(at / key).to_string(), message});
     }
-    return std::nullopt;
 }
 
-std::optional<std::string> missing_key(const json& schema, const json& value) {
-    if (!value.is_object() || !schema.contains("required")) return std::nullopt;
+void missing_keys(const json& schema, const json& value, const json::json_pointer& at, std::vector<SchemaFault>& out) {
+    if (!value.is_object() || !schema.contains("required")) return;
     for (const json& name : schema["required"]) {
         const std::string key = name.get<std::string>();
         if (value.contains(key)) continue;
@@ -106,9 +107,8 @@ std::optional<std::string> missing_key(const json& schema, const json& value) {
             if (property.contains("description"))
                 message += fmt::format(" ({})", property["description"].get<std::string>());
         }
-        return message;
+        out.push_back({at.to_string(), message});
     }
-    return std::nullopt;
 }
 
 bool in_range(const json& schema, double value) {
@@ -154,8 +154,8 @@ std::optional<std::string> wrong_value(const json& schema, const json& value) {
 
 }  // namespace
 
-SchemaFault explain_fault(const json& document, const json& schema, const std::vector<std::string>& path,
-                          const std::string& fallback) {
+std::vector<SchemaFault> explain_faults(const json& document, const json& schema, const std::vector<std::string>& path,
+                                        std::size_t most) {
     const Applicable applicable(schema);
     const json* value = &document;
     json::json_pointer at;
@@ -168,16 +168,16 @@ SchemaFault explain_fault(const json& document, const json& schema, const std::v
         schemas = applicable.below(schemas, step, *value, in_array);
     }
     for (const json* part : schemas)
-        if (const auto message = wrong_value(*part, *value)) return {at.to_string(), *message};
-    for (const json* part : schemas)
-        if (const auto fault = unknown_key(*part, *value, at)) return *fault;
-    for (const json* part : schemas)
-        if (const auto message = missing_key(*part, *value)) return {at.to_string(), *message};
+        if (const auto message = wrong_value(*part, *value)) return {{at.to_string(), *message}};
+    std::vector<SchemaFault> faults;
+    for (const json* part : schemas) unknown_keys(*part, *value, at, most, faults);
+    for (const json* part : schemas) missing_keys(*part, *value, at, faults);
+    if (!faults.empty()) return faults;
     for (const json* part : schemas)
         for (const char* alternatives : {"anyOf", "oneOf"})
             if (part->contains(alternatives))
-                return {at.to_string(), fmt::format("expected {}, got {}", describe(*part), show(*value))};
-    return {at.to_string(), fallback};
+                return {{at.to_string(), fmt::format("expected {}, got {}", describe(*part), show(*value))}};
+    return {};
 }
 
 }  // namespace shadowbench::scene

@@ -2,6 +2,10 @@
 #include <charconv>
 #include <optional>
 
+#include <nlohmann/json.hpp>
+
+#include "bench/pixel_curves.h"
+#include "scene/scenario.h"
 #include "service/api/problem.h"
 #include "service/api/routes.h"
 
@@ -39,6 +43,7 @@ ApiResponse job_curves(Context& context, const Call& call) {
     response.body = context.curves.curves(question, [&] {
         std::optional<std::string> scenario = context.jobs.scenario(question.job);
         if (!scenario) throw base::Error(base::ErrorCode::usage, "", "the job is gone");
+        bench::check_light(scene::parse_json(*scenario, "scenario"), question.light, question.variant);
         return *scenario;
     });
     return response;

@@ -18,13 +18,14 @@ constexpr std::size_t lights = 2, kept = 1024;
 CurveCache::CurveCache(StartHelper start, std::vector<std::string> arguments, double seconds)
     : start_(std::move(start)), arguments_(std::move(arguments)), seconds_(seconds), answers_(kept), workers_(lights) {}
 
-std::shared_ptr<CurveCache::Worker> CurveCache::worker_for(const CurveQuestion& question, std::string& key) {
-    key = fmt::format("{} {} {}", question.job, question.variant, question.light);
+std::shared_ptr<CurveCache::Worker> CurveCache::worker_for(const std::string& key) {
     const std::scoped_lock lock(mutex_);
     if (const auto* known = workers_.find(key)) return *known;
-    auto fresh = std::make_shared<Worker>();
-    workers_.put(key, fresh);
-    return fresh;
+    std::erase_if(fresh_, [](const auto& one) { return one.second.expired(); });
+    std::weak_ptr<Worker>& place = fresh_[key];
+    std::shared_ptr<Worker> worker = place.lock();
+    if (!worker) place = worker = std::make_shared<Worker>();
+    return worker;
 }
 
 std::string CurveCache::curves(const CurveQuestion& question, const std::function<std::string()>& scenario) {
@@ -34,12 +35,13 @@ std::string CurveCache::curves(const CurveQuestion& question, const std::functio
         const std::scoped_lock lock(mutex_);
         if (const std::string* known = answers_.find(place)) return *known;
     }
-    std::string key;
-    const std::shared_ptr<Worker> worker = worker_for(question, key);
+    const std::string key = fmt::format("{} {} {}", question.job, question.variant, question.light);
+    const std::shared_ptr<Worker> worker = worker_for(key);
     const std::unique_lock one_at_a_time(worker->mutex, std::chrono::duration<double>(seconds_));
     if (!one_at_a_time) throw base::Error(base::ErrorCode::io, "helper process", "too many are at work");
     std::string line = fmt::format("{} {}", question.x, question.y);
-    if (!worker->helper) {
+    const bool first = !worker->helper;
+    if (first) {
         std::vector<std::string> arguments = arguments_;
         arguments.push_back("--variant=" + std::to_string(question.variant));
         if (!question.light.empty()) arguments.push_back("--light=" + question.light);
@@ -53,9 +55,15 @@ std::string CurveCache::curves(const CurveQuestion& question, const std::functio
         worker->helper.reset();  // it is gone, or in the middle of something
         throw;
     }
-    take_answer(answer);
+    try {
+        take_answer(answer);
+    } catch (const base::Error&) {
+        if (first) worker->helper.reset();
+        throw;
+    }
     const std::scoped_lock lock(mutex_);
     answers_.put(place, answer);
+    if (first) workers_.put(key, worker);
     return answer;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -27,7 +28,8 @@ public:
     // `arguments` come before those of the light.
     CurveCache(StartHelper start, std::vector<std::string> arguments, double seconds);
 
-    // JSON of bench::PixelCurves. `scenario`, the job's on one line, is asked for only when it is needed. Throws Error.
+    // JSON of bench::PixelCurves. `scenario`, the job's on one line, is asked for only when it is needed, and before a
+    // helper is started: what it throws is thrown. A helper stays once its first answer was good. Throws Error.
     std::string curves(const CurveQuestion& question, const std::function<std::string()>& scenario);
 
 private:
@@ -35,7 +37,7 @@ private:
         std::timed_mutex mutex;
         std::unique_ptr<Helper> helper;
     };
-    std::shared_ptr<Worker> worker_for(const CurveQuestion& question, std::string& key);
+    std::shared_ptr<Worker> worker_for(const std::string& key);
 
     StartHelper start_;
     std::vector<std::string> arguments_;
@@ -43,6 +45,7 @@ private:
     std::mutex mutex_;
     Lru<std::string> answers_;
     Lru<std::shared_ptr<Worker>> workers_;
+    std::map<std::string, std::weak_ptr<Worker>> fresh_;  // that have not answered yet, held by who asks
 };
 
 }  // namespace shadowbench::service

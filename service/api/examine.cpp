@@ -11,14 +11,17 @@ namespace {
 
 constexpr std::size_t at_a_time = 2, kept = 256;
 
+base::Error error_of(const nlohmann::json& error) {
+    return {static_cast<base::ErrorCode>(error.value("code", 70)), error.value("where", ""),
+            error.value("message", "")};
+}
+
 }  // namespace
 
 nlohmann::json take_answer(const std::string& line) {
     nlohmann::json answer = nlohmann::json::parse(line, nullptr, false);
     if (!answer.is_object()) throw base::Error(base::ErrorCode::internal, "helper process", "its answer is no JSON");
-    if (const auto error = answer.find("error"); error != answer.end())
-        throw base::Error(static_cast<base::ErrorCode>(error->value("code", 70)), error->value("where", ""),
-                          error->value("message", ""));
+    if (const auto error = answer.find("error"); error != answer.end()) throw error_of(*error);
     return answer;
 }
 
@@ -43,7 +46,7 @@ Examiner::Examiner(StartHelper start, std::vector<std::string> arguments, double
       slots_(at_a_time),
       answers_(kept) {}
 
-nlohmann::json Examiner::examine(const std::string& scenario) {
+std::variant<nlohmann::json, std::vector<base::Error>> Examiner::examine(const std::string& scenario) {
     {
         const std::scoped_lock lock(mutex_);
         if (const std::string* known = answers_.find(scenario)) return take_answer(*known);
@@ -51,6 +54,11 @@ nlohmann::json Examiner::examine(const std::string& scenario) {
     const Slots::Slot slot = slots_.take(seconds_);
     const std::string line = start_(arguments_)->ask(scenario, seconds_);
     nlohmann::json answer = take_answer(line);
+    if (const auto faults = answer.find("faults"); faults != answer.end()) {
+        std::vector<base::Error> wrong;
+        for (const nlohmann::json& fault : *faults) wrong.push_back(error_of(fault));
+        return wrong;
+    }
     const std::scoped_lock lock(mutex_);
     answers_.put(scenario, line);
     return answer;

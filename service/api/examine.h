@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <mutex>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "base/error.h"
 #include "service/api/helper.h"
 #include "service/api/lru.h"
 
@@ -46,8 +48,8 @@ class Examiner {
 public:
     Examiner(StartHelper start, std::vector<std::string> arguments, double seconds);
 
-    // As helper_side.h's examine_lines says. `scenario` is JSON on one line. Throws Error.
-    nlohmann::json examine(const std::string& scenario);
+    // What helper_side.h's examine_lines says of a scenario, JSON on one line: facts, or faults. Throws Error.
+    std::variant<nlohmann::json, std::vector<base::Error>> examine(const std::string& scenario);
 
 private:
     StartHelper start_;

@@ -86,7 +86,7 @@ private:
 [[noreturn]] void become(const Pipe& in, const Pipe& out, std::size_t memory, char* const* argv) {
     ::dup2(in.read, 0);
     ::dup2(out.write, 1);
-    ::close_range(3, ~0u, 0);
+    ::close_range(3, ~0u, CLOSE_RANGE_CLOEXEC);  // at exec: the program's name may be one of them
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit none{0, 0}, bytes{memory, memory};
     ::setrlimit(RLIMIT_CORE, &none);

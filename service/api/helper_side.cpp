@@ -5,6 +5,7 @@
 #include <memory>
 #include <new>
 #include <ostream>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -33,12 +34,14 @@ std::string without_folders(std::string text, const std::vector<fs::path>& data)
     return text;
 }
 
+json to_json(const Error& error, const std::vector<fs::path>& data) {
+    return {{"code", static_cast<int>(error.code())},
+            {"where", without_folders(error.where(), data)},
+            {"message", without_folders(error.message(), data)}};
+}
+
 std::string fault(const Error& error, const std::vector<fs::path>& data) {
-    const json value = {{"error",
-                         {{"code", static_cast<int>(error.code())},
-                          {"where", without_folders(error.where(), data)},
-                          {"message", without_folders(error.message(), data)}}}};
-    return value.dump();
+    return json{{"error", to_json(error, data)}}.dump();
 }
 
 template <class Answer>
@@ -65,25 +68,35 @@ std::uint64_t seed_of(const json& document) {
     return document.value(json::json_pointer("/rays/seed"), std::uint64_t{1});
 }
 
-std::string examine(const std::string& line, const std::vector<fs::path>& data) {
-    const json document = scene::parse_json(line, "scenario");
+json facts_of(const json& document, const std::vector<fs::path>& data) {
     const bench::Validated v = bench::validate(document, options_for(data));
     json notes = json::array();
     for (const std::string& light : v.blind)
         notes.push_back(fmt::format("light {} sees nothing that casts a shadow", light));
-    const json value = {{"name", v.name},
-                        {"seed", seed_of(document)},
-                        {"hash", bench::hash_text(document.dump())},
-                        {"variants", v.variants},
-                        {"lights", v.lights},
-                        {"techniques", v.techniques},
-                        {"notes", notes},
-                        {"estimate",
-                         {{"seconds", v.seconds},
-                          {"bytes", v.least_bytes},
-                          {"resolution", v.largest_side},
-                          {"samples_per_pixel", v.most_samples}}}};
-    return value.dump();
+    return {{"name", v.name},
+            {"seed", seed_of(document)},
+            {"hash", bench::hash_text(document.dump())},
+            {"variants", v.variants},
+            {"lights", v.lights},
+            {"techniques", v.techniques},
+            {"notes", notes},
+            {"estimate",
+             {{"seconds", v.seconds},
+              {"bytes", v.least_bytes},
+              {"resolution", v.largest_side},
+              {"samples_per_pixel", v.most_samples}}}};
+}
+
+std::string examine(const std::string& line, const std::vector<fs::path>& data) {
+    const json document = scene::parse_json(line, "scenario");
+    try {
+        return facts_of(document, data).dump();
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::bad_input) throw;
+        json faults = json::array();
+        for (const Error& one : bench::all_faults(document, error)) faults.push_back(to_json(one, data));
+        return json{{"faults", std::move(faults)}}.dump();
+    }
 }
 
 }  // namespace

@@ -9,7 +9,8 @@
 
 namespace shadowbench::service {
 
-// Each line a scenario: {"name", "seed", "hash", "variants", "lights", "techniques", "notes", "estimate"}.
+// Each line a scenario: {"name", "seed", "hash", "variants", "lights", "techniques", "notes", "estimate"}; of one that
+// is wrong {"faults": [{"code", "where", "message"}, ...]}.
 void examine_lines(const std::vector<std::filesystem::path>& data, std::istream& in, std::ostream& out);
 
 // The first line a scenario, without an answer of its own, each further one "X Y": bench::PixelCurves of that pixel.

@@ -1,5 +1,6 @@
 #include "service/api/problem.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace shadowbench::service {
@@ -90,10 +91,7 @@ ApiResponse problem_of(const base::Error& error) {
     switch (error.code()) {
         case base::ErrorCode::bad_input:
         case base::ErrorCode::no_such_file:
-            // "/" stands for the document, whose pointer is empty.
-            if (error.where() == "/") return problem(422, error.message(), {{"", error.message()}});
-            if (error.where().starts_with('/')) return problem(422, error.what(), {{error.where(), error.message()}});
-            return problem(422, error.what());
+            return problem_of(std::vector<base::Error>{error});
         case base::ErrorCode::usage:
             return problem(400, error.what());
         case base::ErrorCode::io: {
@@ -105,6 +103,21 @@ ApiResponse problem_of(const base::Error& error) {
             break;
     }
     return problem(500, "A fault of this program.");
+}
+
+ApiResponse problem_of(const std::vector<base::Error>& faults) {
+    std::string detail;
+    std::vector<ProblemPart> parts;
+    for (const base::Error& fault : faults) {
+        const bool whole = fault.where() == "/";  // the document, whose pointer is empty
+        if (detail.empty()) detail = whole ? fault.message() : fault.what();
+        if (whole || fault.where().empty())
+            parts.push_back({"", fault.message()});
+        else if (fault.where().starts_with('/'))
+            parts.push_back({fault.where(), fault.message()});
+    }
+    if (faults.size() > 1) detail += fmt::format(" (the first of {} faults)", faults.size());
+    return problem(422, detail, parts);
 }
 
 ApiResponse json_answer(int status, const nlohmann::json& value) {

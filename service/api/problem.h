@@ -23,6 +23,8 @@ ApiResponse problem(int status, const std::string& detail, const std::vector<Pro
 // What the engine says of an input, for strangers: 422 with the pointer of its place; 400 for usage; 500 or 503, and
 // nothing of the cause, for faults of this side.
 ApiResponse problem_of(const base::Error& error);
+// Of several at once, all of inputs.
+ApiResponse problem_of(const std::vector<base::Error>& faults);
 
 ApiResponse json_answer(int status, const nlohmann::json& value);
 ApiResponse json_answer(int status, const nlohmann::ordered_json& value);

@@ -11,7 +11,7 @@ constexpr const char* json = "application/json";
 
 constexpr Route table[] = {
     {"POST", "/v1/jobs", json, true, post_job},
-    {"GET", "/v1/jobs", json, false, list_jobs},
+    {"GET", "/v1/jobs", json, false, list_jobs, {"state", "limit", "cursor"}},
     {"GET", "/v1/jobs/{id}", json, false, get_job},
     {"DELETE", "/v1/jobs/{id}", "", false, delete_job},
     {"GET", "/v1/jobs/{id}/events", "text/event-stream", false, job_events},
@@ -21,7 +21,7 @@ constexpr Route table[] = {
     {"GET", "/v1/jobs/{id}/result.csv", "text/csv", false, job_csv},
     {"GET", "/v1/jobs/{id}/artifacts/{name...}", "", false, job_artifact},
     {"GET", "/v1/jobs/{id}/report", "text/html", false, job_report},
-    {"GET", "/v1/jobs/{id}/curves", json, false, job_curves},
+    {"GET", "/v1/jobs/{id}/curves", json, false, job_curves, {"light", "variant", "x", "y"}},
     {"POST", "/v1/compare", json, true, compare},
     {"POST", "/v1/validate", json, true, validate_scenario},
     {"GET", "/v1/techniques", json, false, list_techniques},

@@ -1,6 +1,7 @@
 // The one list of what the API answers to. openapi.json documents the same list; a test holds them together.
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -24,6 +25,7 @@ struct Route {
     const char* type;     // what it answers with when all goes well; "": of many types
     bool takes_body;      // of JSON
     ApiResponse (*answer)(Context& context, const Call& call);
+    std::array<const char*, 4> query = {};  // the parameters it knows, then null
 };
 
 std::span<const Route> routes();

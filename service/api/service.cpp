@@ -30,6 +30,22 @@ ApiResponse not_allowed(const std::string& allowed) {
     return response;
 }
 
+std::optional<ApiResponse> refuse_query(const ApiRequest& request, const Route& route) {
+    for (const Field& given : request.query) {
+        std::string known;
+        bool found = false;
+        for (const char* name : route.query) {
+            if (!name) break;
+            known += (known.empty() ? "" : ", ") + std::string(name);
+            found = found || given.name == name;
+        }
+        if (!found)
+            return problem(400, "There is no parameter \"" + given.name + "\" here; " +
+                                    (known.empty() ? "this request takes none." : "there are: " + known + "."));
+    }
+    return {};
+}
+
 std::optional<ApiResponse> refuse_body(const ApiRequest& request, const Route& route) {
     if (!request.has_body) return {};
     if (!route.takes_body) return problem(400, "This request takes no body.");
@@ -49,6 +65,7 @@ std::optional<ApiResponse> refuse_request(const ApiRequest& request, const Route
     if (!route) return problem(404, "There is nothing here; /openapi.json tells what there is.");
     if (route->type[0] != '\0' && !accepts(request, route->type))
         return problem(406, std::string("What is here is of the type ") + route->type + ".");
+    if (auto no = refuse_query(request, *route)) return no;
     return refuse_body(request, *route);
 }
 

@@ -72,10 +72,12 @@ std::variant<PostedScenario, ApiResponse> read_posted(const std::string& body) {
 }
 
 std::variant<json, ApiResponse> examine_posted(Context& context, const PostedScenario& posted) {
-    json examined = context.examiner.examine(posted.text);
-    const json& estimate = examined.at("estimate");
+    auto examined = context.examiner.examine(posted.text);
+    if (const auto* faults = std::get_if<std::vector<base::Error>>(&examined)) return problem_of(*faults);
+    json& facts = std::get<json>(examined);
+    const json& estimate = facts.at("estimate");
     const std::vector<ProblemPart> over = over_limits(estimate, context.options.limits);
-    if (over.empty()) return examined;
+    if (over.empty()) return std::move(facts);
     return problem(422, "The scenario costs more than this server gives: " + over[0].detail + ".", over,
                    {{"estimate", estimate}});
 }

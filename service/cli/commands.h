@@ -69,7 +69,8 @@ bool render_command(const RenderArguments& arguments, std::ostream& out, std::os
 // One light's map, or its light rays, as a file.
 void export_command(const ExportArguments& arguments, std::ostream& out, std::ostream& err);
 void inspect_command(const std::string& file, std::ostream& out);
-void validate_command(const ScenarioArguments& arguments, std::ostream& out);
+// All faults but the last, which is thrown, go to `err`, a line each.
+void validate_command(const ScenarioArguments& arguments, std::ostream& out, std::ostream& err);
 void list_techniques(std::ostream& out);
 void list_scenarios(std::ostream& out);
 void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, std::ostream& err);

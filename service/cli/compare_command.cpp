@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <ostream>
 
 #include "base/error.h"
@@ -6,20 +5,10 @@
 #include "service/cli/child.h"
 #include "service/cli/gate_commands.h"
 #include "service/cli/interleave.h"
+#include "service/cli/this_program.h"
 #include "service/cli/verdict_report.h"
 
 namespace shadowbench::service {
-namespace {
-
-// The program that runs, for what has to be run again with it.
-std::string this_program() {
-    std::error_code failed;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
-    if (failed) throw base::Error(base::ErrorCode::usage, "--binary-b", "this program cannot be found; name it");
-    return program.string();
-}
-
-}  // namespace
 
 int compare_command(const CompareArguments& arguments, std::ostream& out, std::ostream& err) {
     const compare::Options options = verdict_options(arguments);

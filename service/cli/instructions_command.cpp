@@ -15,6 +15,7 @@
 #include "service/cli/callgrind_counts.h"
 #include "service/cli/child.h"
 #include "service/cli/kernel_commands.h"
+#include "service/cli/this_program.h"
 
 namespace shadowbench::service {
 namespace {
@@ -97,9 +98,7 @@ void print(const json& kernels, std::ostream& out) {
 }  // namespace
 
 std::string kernel_program(const std::string& told) {
-    std::error_code failed;
-    const std::string program =
-        told.empty() ? (fs::read_symlink("/proc/self/exe", failed).parent_path() / "kernels").string() : told;
+    const std::string program = told.empty() ? (fs::path(this_program()).parent_path() / "kernels").string() : told;
     check_program(program);
     return program;
 }

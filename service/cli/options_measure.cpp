@@ -108,8 +108,8 @@ void add_validate(CLI::App& app, Commands& commands) {
     CLI::App* validate = app.add_subcommand("validate", "Check a scenario and its files without running it");
     add_scenario_options(*validate, *arguments);
     add_only_option(*validate, *arguments);
-    commands.push_back({validate, [arguments](std::ostream& out, std::ostream&) {
-                            validate_command(*arguments, out);
+    commands.push_back({validate, [arguments](std::ostream& out, std::ostream& err) {
+                            validate_command(*arguments, out, err);
                             return 0;
                         }});
 }

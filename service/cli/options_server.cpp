@@ -75,7 +75,9 @@ void add_submit(CLI::App& app, Commands& commands) {
     submit->add_option("--token-file", arguments->token_file, "File of the token that the server asks for");
     submit->add_option("--set", arguments->set, "path=value: change one value of the scenario, as for run")
         ->allow_extra_args(false);
-    submit->add_flag("--wait", arguments->wait, "Wait for the result; exit codes as of run");
+    submit->add_flag(
+        "--wait", arguments->wait,
+        "Wait for the result; exit codes as of run; a server that does not answer is tried again for 60 s");
     submit->add_flag("--fresh", arguments->fresh, "Run it even if there is a result of the same scenario");
     submit->add_flag("--no-pictures", arguments->no_pictures, "Measure alone, render nothing");
     commands.push_back({submit, [arguments](std::ostream& out, std::ostream& err) {

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/pending_file.h"
+#include "bench/document.h"
 #include "bench/report.h"
 #include "bench/report_verdicts.h"
 #include "bench/run.h"
@@ -106,6 +107,18 @@ fs::path verdicts_file(const RunArguments& arguments, bool several) {
     return fs::path(arguments.out.empty() ? standard_folder : arguments.out) / "verdicts.md";
 }
 
+// All faults of a document, not the first alone.
+bench::Validated check(const Job& job, std::ostream& err) {
+    try {
+        return bench::validate(*job.document, job.options);
+    } catch (const base::Error& error) {
+        if (error.code() != base::ErrorCode::bad_input) throw;
+        const std::vector<base::Error> faults = bench::all_faults(*job.document, error);
+        for (std::size_t i = 0; i + 1 < faults.size(); ++i) err << fmt::format("shadowbench: {}\n", faults[i].what());
+        throw faults.back();
+    }
+}
+
 }  // namespace
 
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
@@ -154,9 +167,9 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
     return kept;
 }
 
-void validate_command(const ScenarioArguments& arguments, std::ostream& out) {
+void validate_command(const ScenarioArguments& arguments, std::ostream& out, std::ostream& err) {
     const Job job = read_job(arguments);
-    const bench::Validated validated = bench::validate(*job.document, job.options);
+    const bench::Validated validated = check(job, err);
     out << fmt::format("OK {}: {} variant{} of {} light{} and {} technique{}\n", validated.name, validated.variants,
                        validated.variants == 1 ? "" : "s", validated.lights, validated.lights == 1 ? "" : "s",
                        validated.techniques, validated.techniques == 1 ? "" : "s");

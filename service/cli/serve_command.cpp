@@ -16,6 +16,7 @@
 #include "service/api/service.h"
 #include "service/cli/scenario_files.h"
 #include "service/cli/server_commands.h"
+#include "service/cli/this_program.h"
 #include "service/http/server.h"
 #include "service/jobs/jobs.h"
 
@@ -38,13 +39,6 @@ std::vector<fs::path> folders_of(const std::vector<std::string>& names) {
         folders.push_back(fs::absolute(name));
     }
     return folders;
-}
-
-std::string this_program() {
-    std::error_code fault;
-    const fs::path program = fs::read_symlink("/proc/self/exe", fault);
-    if (fault) throw Error(ErrorCode::io, "/proc/self/exe", "cannot tell where this program is");
-    return program.string();
 }
 
 // Signals that end the server. They are taken from all threads before there are any, and waited for by one.
@@ -122,7 +116,8 @@ std::string read_token(const std::string& file) {
 void serve_command(const ServeArguments& arguments, std::ostream& out) {
     const StopSignals signals;
     std::signal(SIGPIPE, SIG_IGN);  // a client or a child that went
-    const std::string program = this_program();
+    const HeldProgram held;
+    const std::string program = held.path();
     const HttpOptions http = http_options(arguments);
     const ServiceOptions options = service_options(arguments, program);
     std::vector<std::string> data;

@@ -24,6 +24,7 @@ using base::ErrorCode;
 using json = nlohmann::ordered_json;
 
 constexpr std::chrono::milliseconds between_looks{500};
+constexpr std::chrono::seconds patience{60};  // with a server that does not answer
 
 ErrorCode code_of(int status) {
     switch (status) {
@@ -52,6 +53,8 @@ json take(const Reply& reply, int status, const std::string& server) {
     if (value.is_object() && value.contains("errors") && !value["errors"].empty()) {
         where = value["errors"][0].value("pointer", where);
         message = value["errors"][0].value("detail", message);
+        if (const std::size_t more = value["errors"].size() - 1; more > 0)
+            message += fmt::format(" (and {} more; \"shadowbench validate\" tells all)", more);
     }
     throw Error(code_of(reply.status), where, message);
 }
@@ -77,6 +80,25 @@ void show(const json& job, ProgressBar& bar) {
     bar.show({progress.at("place"), stage.c_str(), progress.at("done"), progress.at("total")});
 }
 
+// The answer of a server that may be away for a while, as one that is started anew.
+Reply get_patiently(Client& client, const std::string& path, const std::string& server, std::ostream& err) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    for (bool told = false;; told = true) {
+        std::string why = "it is busy or stopping";
+        try {
+            Reply reply = client.get(path);
+            if (reply.status != 503 || std::chrono::steady_clock::now() > end) return reply;
+        } catch (const Error& error) {
+            if (std::chrono::steady_clock::now() > end) throw;
+            why = error.message();
+        }
+        if (!told)
+            err << fmt::format("shadowbench: {}: {}; trying again for {} s\n", server, why, patience.count())
+                << std::flush;
+        std::this_thread::sleep_for(between_looks);
+    }
+}
+
 json wait_for(Client& client, json job, const std::string& server, std::ostream& err) {
     const std::string self = job.at("links").at("self");
     std::unique_ptr<ProgressBar> bar;
@@ -84,7 +106,7 @@ json wait_for(Client& client, json job, const std::string& server, std::ostream&
     while (job.at("state") == "queued" || job.at("state") == "running") {
         if (bar) show(job, *bar);
         std::this_thread::sleep_for(between_looks);
-        job = take(client.get(self), 200, server);
+        job = take(get_patiently(client, self, server, err), 200, server);
     }
     return job;
 }
@@ -113,7 +135,8 @@ bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::os
     }
     job = wait_for(client, std::move(job), server, err);
     refuse_failed(job);
-    const bench::Result result = bench::from_json(take(client.get(self + "/result"), 200, server));
+    const bench::Result result =
+        bench::from_json(take(get_patiently(client, self + "/result", server, err), 200, server));
     out << bench::to_table(result) << fmt::format("result: {}{}/result\n", server, self);
     return !bench::any_failed(result);
 }

@@ -62,7 +62,7 @@ void write_text(const char* file, std::string_view text) {
     for (const int usual : {SIGPIPE, SIGINT, SIGTERM, SIGHUP}) ::signal(usual, SIG_DFL);
     const int nothing = ::open("/dev/null", O_RDONLY);
     if (nothing < 0 || ::dup2(nothing, 0) < 0 || ::dup2(out, 1) < 0 || ::dup2(err, 2) < 0) ::_exit(not_started);
-    ::close_range(3, ~0u, 0);  // connections of clients among them
+    ::close_range(3, ~0u, CLOSE_RANGE_CLOEXEC);  // connections of clients among them
     write_text("/proc/self/oom_score_adj", "1000");
     ::execv(arguments[0], arguments);
     ::_exit(not_started);

@@ -146,9 +146,31 @@ TEST_F(CurvesApi, SaysWhatIsWrongWithAQuestion) {
     for (const char* query : {"", "x=1", "y=1", "x=one&y=1", "x=1&y=1.5", "x=1&y=1&variant=a"})
         refused(request("GET", at(id, query)), 400, "");
     refused(request("GET", at(id, "x=8&y=0")), 400, "(7, 7)");
-    refused(request("GET", at(id, "light=moon&x=0&y=0")), 400, "no such light");
-    refused(request("GET", at(id, "x=0&y=0&variant=3")), 400, "1 variant");
+    refused(request("GET", at(id, "light=moon&x=0&y=0")), 400, "light=moon: there is no such light");
+    refused(request("GET", at(id, "x=0&y=0&variant=3")), 400, "variant=3: the scenario has 1 variant");
     json(request("GET", at(id, "x=0&y=0")), 200);
+}
+
+TEST_F(CurvesApi, StartsNoHelperForALightThatIsNotThere) {
+    const std::string id = submit();
+    const int before = helpers_;
+    for (const char* query : {"light=moon&x=0&y=0", "light=1&x=0&y=0", "variant=1&x=0&y=0"})
+        refused(request("GET", at(id, query)), 400, "");
+    EXPECT_EQ(helpers_, before);
+}
+
+// A question that cannot be answered pushes no helper out that answers others.
+TEST_F(CurvesApi, KeepsHelpersThatAnsweredAlone) {
+    const std::string id = submit(), other = submit();
+    const int before = helpers_;
+    json(request("GET", at(id, "light=sun&x=0&y=0")), 200);
+    json(request("GET", at(id, "light=0&x=0&y=0")), 200);
+    EXPECT_EQ(helpers_, before + 2);
+    for (int i = 0; i < 2; ++i) refused(request("GET", at(other, "x=8&y=0")), 400, "(7, 7)");
+    EXPECT_EQ(helpers_, before + 4) << "and is not kept itself";
+    json(request("GET", at(id, "light=sun&x=1&y=0")), 200);
+    json(request("GET", at(id, "light=0&x=1&y=0")), 200);
+    EXPECT_EQ(helpers_, before + 4);
 }
 
 // A helper that dies is started anew for the next question.

@@ -1,4 +1,5 @@
 #include <fstream>
+#include <set>
 
 #include "api/fixture.h"
 #include "bench/document.h"
@@ -50,9 +51,27 @@ TEST_F(JobsApi, PointsAtWhatIsWrongInAScenario) {
     scenario["techniques"][1]["tolerance"] = 0.1;
     EXPECT_EQ(refused(post("/v1/jobs", scenario.dump()), 422, "")["errors"][0]["pointer"], "/techniques/1/tolerance");
     EXPECT_EQ(refused(post("/v1/jobs", "[]"), 422, "")["errors"][0]["pointer"], "");
+    EXPECT_EQ(refused(post("/v1/jobs", "{}"), 422, "")["errors"].size(), 3u) << "each key that is missing";
     const nlohmann::json wrapped = {{"scenario", scenario}};
     EXPECT_EQ(refused(post("/v1/jobs", wrapped.dump()), 422, "")["errors"][0]["pointer"], "/techniques/1/tolerance");
     EXPECT_EQ(jobs_->count(JobState::queued), 0u);
+}
+
+TEST_F(JobsApi, TellsAllFaultsAtOnce) {
+    nlohmann::json scenario = tiny_scenario();
+    scenario["rays"]["resolution"] = "large";
+    scenario["lights"][0]["color"] = 1;
+    scenario["scene"]["objects"][0]["radius"] = -1;
+    scenario["techniques"][0]["tolerance"] = 2;
+    for (const char* place : {"/v1/jobs", "/v1/validate"}) {
+        const nlohmann::json problem = refused(post(place, scenario.dump()), 422, "the first of 4 faults");
+        std::set<std::string> pointers;
+        for (const nlohmann::json& error : problem["errors"]) pointers.insert(error["pointer"]);
+        EXPECT_EQ(pointers, (std::set<std::string>{"/rays/resolution", "/lights/0/color", "/scene/objects/0/radius",
+                                                   "/techniques/0/tolerance"}));
+    }
+    for (int i = 0; i < 100; ++i) scenario["lights"].push_back(i);
+    EXPECT_EQ(refused(post("/v1/validate", scenario.dump()), 422, "")["errors"].size(), 32u);
 }
 
 TEST_F(JobsApi, RefusesWhatIsNoJson) {

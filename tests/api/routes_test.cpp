@@ -52,6 +52,25 @@ TEST(OpenApi, SaysWhatTheRoutesSay) {
     }
 }
 
+std::set<std::string> documented_query(const nlohmann::json& operation) {
+    std::set<std::string> names;
+    for (const nlohmann::json& parameter : operation.value("parameters", nlohmann::json::array()))
+        if (parameter.value("in", "") == "query") names.insert(parameter["name"]);
+    return names;
+}
+
+TEST(OpenApi, HasEveryQueryParameterAndNoOther) {
+    const nlohmann::json document = nlohmann::json::parse(openapi_text());
+    for (const Route& route : routes()) {
+        std::string method = route.method;
+        for (char& c : method) c = static_cast<char>(std::tolower(c));
+        std::set<std::string> known;
+        for (const char* name : route.query)
+            if (name) known.insert(name);
+        EXPECT_EQ(documented_query(document["paths"][documented_path(route.pattern)][method]), known) << route.pattern;
+    }
+}
+
 TEST(OpenApi, RefersToWhatItHas) {
     const nlohmann::json document = nlohmann::json::parse(openapi_text());
     const std::function<void(const nlohmann::json&)> walk = [&](const nlohmann::json& part) {
@@ -70,6 +89,19 @@ TEST_F(RoutesApi, SayWhatIsNotThere) {
          {"/v2/jobs", "/v1", "/v1/jobs/", "/v1/jobs/a/b", "/v1/jobs/a/events/x", "/index.html", "/v1//jobs"})
         EXPECT_EQ(answer(request("GET", target)).status, 404) << target;
     EXPECT_EQ(answer(request("GET", "/assets/none.js")).status, 404);
+}
+
+TEST_F(RoutesApi, RefuseParametersThatTheyDoNotKnow) {
+    for (const Route& route : routes()) {
+        std::string target = route.pattern;
+        for (const char* name : {"{id}", "{name...}"})
+            if (const std::size_t at = target.find(name); at != std::string::npos)
+                target.replace(at, std::string(name).size(), "a");
+        refused(request(route.method, target + "?lite=1"), 400, "no parameter \"lite\"");
+        EXPECT_TRUE(service_->refuse(request(route.method, target + "?lite=1"))) << "known from its head alone";
+    }
+    refused(request("GET", "/v1/jobs?limit=1&status=queued"), 400, "there are: state, limit, cursor");
+    refused(request("GET", "/v1/techniques?x=1"), 400, "takes none");
 }
 
 TEST_F(RoutesApi, SayWhichMethodsTheyTake) {

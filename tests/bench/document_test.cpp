@@ -107,6 +107,21 @@ TEST(CheckDocument, names_the_techniques_there_are) {
     EXPECT_NE(message.find("uncompressed"), std::string::npos) << message;
 }
 
+TEST(AllFaults, begin_with_the_one_that_was_thrown) {
+    json document = small_document();
+    document["rays"]["samples_per_pixel"] = "many";
+    document["techniques"] = {{{"type", "deep"}, {"tolerance", -1}, {"kernal", 1}}, {{"type", "dep"}}, 3};
+    const base::Error first(ErrorCode::bad_input, "/lights/0/direction", "has no length");
+    std::vector<std::string> where;
+    for (const base::Error& fault : all_faults(document, first)) where.push_back(fault.where());
+    EXPECT_EQ(where[0], "/lights/0/direction");
+    std::sort(where.begin(), where.end());
+    EXPECT_EQ(where, (std::vector<std::string>{"/lights/0/direction", "/rays/samples_per_pixel", "/techniques/0/kernal",
+                                               "/techniques/0/tolerance", "/techniques/1/type", "/techniques/2"}));
+    EXPECT_EQ(all_faults(json::array(), {ErrorCode::bad_input, "/", "expected object, got array of 0 items"}).size(),
+              1u);
+}
+
 TEST(FullSchema, knows_every_parameter) {
     json document = small_document();
     EXPECT_NO_THROW(scene::check_schema(document, full_schema()));
@@ -167,6 +182,21 @@ TEST(Expand, refuses_more_variants_than_anyone_waits_for) {
     for (int i = 0; i < 100; ++i) many.push_back(i);
     document["sweeps"] = {{"/rays/seed", many}, {"/receivers/seed", many}};
     error_of([&] { expand(document); }, ErrorCode::bad_input, "/sweeps/~1receivers~1seed");
+}
+
+TEST(SelectVariant, is_the_one_that_expand_counts) {
+    json document = small_document();
+    document["sweeps"] = {
+        {"/rays/samples_per_pixel", {4, 9, 16}}, {"/rays/seed", {1, 2}}, {"/techniques/1/nodes", {4, 8}}};
+    const std::vector<Variant> variants = expand(document);
+    ASSERT_EQ(variants.size(), 6u);
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+        const std::vector<Variant> one = expand(select_variant(document, i));
+        ASSERT_EQ(one.size(), 1u);
+        EXPECT_EQ(*one[0].document, *variants[i].document) << i;
+    }
+    error_of([&] { select_variant(document, 6); }, ErrorCode::usage, "variant=6");
+    EXPECT_EQ(select_variant(small_document(), 0), small_document());
 }
 
 TEST(KeepOnly, keeps_techniques_with_their_places) {

@@ -178,8 +178,12 @@ TEST(PixelCurves, refuse_places_lights_and_variants_that_are_not_there) {
     refused([&] { probe.at(0, -1); }, "(0, -1)");
     refused([&] { probe.at(48, 0); }, "(48, 0)");
     refused([&] { probe.at(0, 48); }, "(0, 48)");
-    refused([&] { PixelProbe(document, {}, "moon", 0); }, "--light moon");
-    refused([&] { PixelProbe(document, {}, "", 1); }, "--variant 1");
+    refused([&] { PixelProbe(document, {}, "moon", 0); }, "light=moon");
+    refused([&] { PixelProbe(document, {}, "", 1); }, "variant=1");
+    refused([&] { check_light(document, "moon", 0); }, "light=moon");
+    refused([&] { check_light(document, "1", 0); }, "light=1");
+    refused([&] { check_light(document, "", 1); }, "variant=1");
+    for (const char* light : {"", "0", "sun"}) EXPECT_NO_THROW(check_light(document, light, 0)) << light;
     document["sweeps"] = {{"/rays/samples_per_pixel", {4, 9}}};
     EXPECT_EQ(PixelProbe(document, {}, "", 1).at(0, 0).rays, 9);
 }

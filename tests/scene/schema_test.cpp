@@ -113,6 +113,39 @@ TEST(CheckSchema, MessageOfALongValueIsOneShortLine) {
     EXPECT_THAT(error.message(), Not(HasSubstr("\n")));
 }
 
+std::vector<std::string> places(const std::vector<base::Error>& faults) {
+    std::vector<std::string> where;
+    for (const base::Error& fault : faults) where.push_back(fault.where());
+    return where;
+}
+
+TEST(SchemaFaults, TellEachFaultOnce) {
+    json document = minimal();
+    EXPECT_TRUE(schema_faults(document, scenario_schema(), 32).empty());
+    document["ray"] = 1;
+    document["rays"] = {{"resolution", 0}, {"seed", "x"}};
+    document["lights"][0]["color"] = 1;
+    document["lights"].push_back({{"type", "directional"}, {"direction", {0, "down", nullptr}}});
+    document["scene"]["objects"].push_back({{"type", "sphere"}});
+    document.erase("name");
+    const std::vector<base::Error> faults = schema_faults(document, scenario_schema(), 32);
+    EXPECT_THAT(places(faults),
+                testing::UnorderedElementsAre("", "/ray", "/rays/resolution", "/rays/seed", "/lights/0/color",
+                                              "/lights/1/direction/1", "/lights/1/direction/2", "/scene/objects/1",
+                                              "/scene/objects/1"));
+    EXPECT_STREQ(faults[0].what(), test::error_of([&] { check_schema(document, scenario_schema()); }).what());
+}
+
+TEST(SchemaFaults, AreNoMoreThanAskedFor) {
+    json document = minimal();
+    for (int i = 0; i < 100'000; ++i) document["unknown" + std::to_string(i)] = 1;
+    EXPECT_EQ(schema_faults(document, scenario_schema(), 32).size(), 32u);
+    document = minimal();
+    document["scene"]["objects"] = json::array();
+    for (int i = 0; i < 1000; ++i) document["scene"]["objects"].push_back(i);
+    EXPECT_EQ(schema_faults(document, scenario_schema(), 5).size(), 5u);
+}
+
 TEST(CheckSchema, NamesTheFormsOfAnAlternative) {
     const json schema = json::parse(R"({"properties": {"tolerance":
         {"anyOf": [{"type": "number", "minimum": 0, "maximum": 1}, {"enum": ["noise"]}]}}})");

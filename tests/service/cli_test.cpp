@@ -160,6 +160,16 @@ TEST_F(Cli, refuses_what_exceeds_the_memory_limit_before_it_works) {
     EXPECT_FALSE(fs::exists(path("out")));
 }
 
+TEST_F(Cli, validate_tells_all_faults_a_line_each) {
+    const Outcome outcome = cli({"validate", path("tiny.json"), "--set", "rays.resolution=0", "--set",
+                                 "timing.lookups=many", "--set", "/techniques/0/tolerance=2"});
+    EXPECT_EQ(outcome.code, 65);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 3) << outcome.err;
+    for (const char* place : {"/rays/resolution", "/timing/lookups", "/techniques/0/tolerance"})
+        EXPECT_NE(outcome.err.find(std::string("shadowbench: ") + place), std::string::npos) << outcome.err;
+}
+
 TEST_F(Cli, validates_without_running) {
     const Outcome outcome = cli({"validate", path("tiny.json")});
     EXPECT_EQ(outcome.code, 0) << outcome.err;

@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "service/http/client.h"
 #include "service/run_cli.h"
 
 namespace shadowbench::service {
@@ -61,8 +62,8 @@ protected:
 
     // The program itself, as a process, until it has written its port.
     void serve(std::vector<std::string> more = {}) {
-        std::vector<std::string> words{SHADOWBENCH_PROGRAM, "serve",   "--port",      "0",       "--port-file",
-                                       path("port"),        "--state", path("state"), "--grace", "0"};
+        std::vector<std::string> words{program_,     "serve",   "--port",      port_,     "--port-file",
+                                       path("port"), "--state", path("state"), "--grace", "0"};
         words.insert(words.end(), more.begin(), more.end());
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());
@@ -96,6 +97,7 @@ protected:
     const fs::path folder_ =
         fs::path(testing::TempDir()) / (std::string("shadowbench_serve_") + std::to_string(::getpid()) + "_" +
                                         testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::string program_ = SHADOWBENCH_PROGRAM, port_ = "0";
     pid_t server_ = 0;
     std::string url_;
 };
@@ -120,6 +122,44 @@ TEST_F(ServerCommands, SubmitPrintsTheTableThatRunPrints) {
     EXPECT_NE(submitted.out.find("    uncompressed "), std::string::npos) << submitted.out;
     EXPECT_NE(submitted.out.find("result: " + url_ + "/v1/jobs/j-"), std::string::npos) << submitted.out;
     EXPECT_EQ(stop(), 0);
+}
+
+TEST_F(ServerCommands, JobsAndHelpersAreRunByTheProgramThatServes) {
+    program_ = path("program");
+    fs::copy_file(SHADOWBENCH_PROGRAM, program_);
+    serve();
+    const std::string next = write("next", "#!/bin/sh\nexit 70\n");
+    fs::permissions(next, fs::perms::owner_all);
+    fs::rename(next, program_);
+    const std::vector<std::string> submit{"submit", path("tiny.json"), "--server", url_, "--wait", "--fresh"};
+    const Outcome replaced = cli(submit);
+    EXPECT_EQ(replaced.code, 0) << replaced.err;
+    fs::remove(program_);
+    const Outcome removed = cli(submit);
+    EXPECT_EQ(removed.code, 0) << removed.err;
+}
+
+TEST_F(ServerCommands, SubmitWaitsForAServerThatIsStartedAnew) {
+    serve();
+    Outcome submitted;
+    std::thread waiting([&, server = url_] {
+        // Long enough to be cut off.
+        submitted = cli({"submit", path("tiny.json"), "--server", server, "--wait", "--no-pictures", "--set",
+                         "timing.repetitions=200", "--set", "timing.lookups=100000"});
+    });
+    Client client(url_, "");
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+    while (client.get("/v1/jobs").body.find("\"running\"") == std::string::npos &&
+           std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(stop(), 0);
+    std::this_thread::sleep_for(std::chrono::seconds(1));  // for a look at a server that is not there
+    port_ = url_.substr(url_.rfind(':') + 1);
+    serve();
+    waiting.join();
+    EXPECT_EQ(submitted.code, 0) << submitted.err;
+    EXPECT_NE(submitted.err.find("trying again for 60 s"), std::string::npos) << submitted.err;
+    EXPECT_NE(submitted.out.find("    uncompressed "), std::string::npos) << submitted.out;
 }
 
 TEST_F(ServerCommands, SubmitTellsTheJobAndDoesNotWait) {
