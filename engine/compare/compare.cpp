@@ -237,63 +237,6 @@ void Judge::suites(const Pair& pair) {
 
 }  // namespace
 
-const char* to_string(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::same:
-            return "same";
-        case Verdict::faster:
-            return "faster";
-        case Verdict::slower:
-            return "slower";
-        case Verdict::smaller:
-            return "smaller";
-        case Verdict::larger:
-            return "larger";
-        case Verdict::more_accurate:
-            return "more accurate";
-        case Verdict::less_accurate:
-            return "less accurate";
-        case Verdict::inconclusive:
-            return "inconclusive";
-        case Verdict::not_comparable:
-            return "not comparable";
-        case Verdict::missing:
-            return "missing";
-        case Verdict::extra:
-            return "extra";
-    }
-    return "";
-}
-
-std::string title_of(const Line& line) {
-    std::string title = line.suite;
-    for (const std::string* part : {&line.group, &line.cell})
-        if (!part->empty()) title += " / " + *part;
-    return title;
-}
-
-int code_of(const Line& line, const Options& options) {
-    switch (line.verdict) {
-        case Verdict::larger:
-        case Verdict::less_accurate:
-            return 2;
-        case Verdict::slower:
-            return 1;
-        case Verdict::missing:
-            return options.allow_missing ? 0 : 2;
-        case Verdict::not_comparable:
-            return options.allow_missing || line.time ? 0 : 2;
-        default:
-            return 0;
-    }
-}
-
-int exit_code(const Comparison& comparison) {
-    int code = 0;
-    for (const Line& line : comparison.lines) code = std::max(code, code_of(line, comparison.options));
-    return code;
-}
-
 Comparison compare(const Measured& baseline, const Measured& current, const Options& options) {
     Comparison comparison;
     comparison.options = options;
@@ -308,43 +251,6 @@ Comparison compare(const Measured& baseline, const Measured& current, const Opti
     for (const Pair& pair : match(baseline.suites, current.suites)) judge.suites(pair);
     apply_holm(comparison);
     return comparison;
-}
-
-std::vector<Line> suspicious(const Comparison& comparison) {
-    std::vector<Line> lines;
-    for (const Line& line : comparison.lines)
-        if (line.suspicious && !line.rerun.source.empty()) lines.push_back(line);
-    return lines;
-}
-
-void confirm(Comparison& first, const Comparison& again) {
-    for (Line& line : first.lines) {
-        if (!line.suspicious) continue;
-        const auto fresh = std::find_if(again.lines.begin(), again.lines.end(), [&](const Line& other) {
-            return other.suite == line.suite && other.group == line.group && other.cell == line.cell &&
-                   other.measure == line.measure && other.ratio > 0.0;
-        });
-        if (fresh == again.lines.end()) {
-            line.reason += (line.reason.empty() ? "" : "; ") + std::string("it was not run again");
-            continue;
-        }
-        if (again.enough > fresh->processes) {
-            line.reason += fmt::format("{}{} fresh {} cannot confirm it: it takes {}", line.reason.empty() ? "" : "; ",
-                                       fresh->processes, again.interleaved ? "pairs" : "processes", again.enough);
-            continue;
-        }
-        const std::string what = fmt::format("{} fresh {}: x{:.3f} [{:.3f}, {:.3f}], x{:.3f} at first",
-                                             fresh->processes, again.interleaved ? "pairs" : "processes", fresh->ratio,
-                                             fresh->interval.low, fresh->interval.high, line.ratio);
-        const bool confirmed = fresh->verdict == Verdict::slower;
-        const Rerun rerun = line.rerun;
-        line = *fresh;
-        line.rerun = rerun;
-        line.verdict = confirmed ? Verdict::slower : Verdict::inconclusive;
-        line.suspicious = confirmed;
-        line.fresh = true;
-        line.reason = (confirmed ? "confirmed by " : "looked slower, not confirmed by ") + what;
-    }
 }
 
 }  // namespace shadowbench::compare

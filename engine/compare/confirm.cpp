@@ -1,0 +1,46 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "compare/compare.h"
+
+namespace shadowbench::compare {
+
+std::vector<Line> suspicious(const Comparison& comparison) {
+    std::vector<Line> lines;
+    for (const Line& line : comparison.lines)
+        if (line.suspicious && !line.rerun.source.empty()) lines.push_back(line);
+    return lines;
+}
+
+void confirm(Comparison& first, const Comparison& again) {
+    for (Line& line : first.lines) {
+        if (!line.suspicious) continue;
+        const auto fresh = std::find_if(again.lines.begin(), again.lines.end(), [&](const Line& other) {
+            return other.suite == line.suite && other.group == line.group && other.cell == line.cell &&
+                   other.measure == line.measure && other.ratio > 0.0;
+        });
+        if (fresh == again.lines.end()) {
+            line.reason += (line.reason.empty() ? "" : "; ") + std::string("it was not run again");
+            continue;
+        }
+        if (again.enough > fresh->processes) {
+            line.reason += fmt::format("{}{} fresh {} cannot confirm it: it takes {}", line.reason.empty() ? "" : "; ",
+                                       fresh->processes, again.interleaved ? "pairs" : "processes", again.enough);
+            continue;
+        }
+        const std::string what = fmt::format("{} fresh {}: x{:.3f} [{:.3f}, {:.3f}], x{:.3f} at first",
+                                             fresh->processes, again.interleaved ? "pairs" : "processes", fresh->ratio,
+                                             fresh->interval.low, fresh->interval.high, line.ratio);
+        const bool confirmed = fresh->verdict == Verdict::slower;
+        const Rerun rerun = line.rerun;
+        line = *fresh;
+        line.rerun = rerun;
+        line.verdict = confirmed ? Verdict::slower : Verdict::inconclusive;
+        line.suspicious = confirmed;
+        line.fresh = true;
+        line.reason = (confirmed ? "confirmed by " : "looked slower, not confirmed by ") + what;
+    }
+}
+
+}  // namespace shadowbench::compare
