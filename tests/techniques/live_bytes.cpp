@@ -21,6 +21,14 @@ void* allocate(std::size_t size, std::size_t alignment) {
     return block;
 }
 
+void* allocate_or_null(std::size_t size) noexcept {
+    try {
+        return allocate(size, 16);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
 void release(void* block) noexcept {
     if (!block) return;
     live -= malloc_usable_size(block);
@@ -34,6 +42,13 @@ void* operator new(std::size_t size) {
 }
 void* operator new[](std::size_t size) {
     return allocate(size, 16);
+}
+// The library's own would do, but not the one that the address sanitizer brings: its blocks would be freed here.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    return allocate_or_null(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+    return allocate_or_null(size);
 }
 void* operator new(std::size_t size, std::align_val_t a) {
     return allocate(size, static_cast<std::size_t>(a));
