@@ -228,7 +228,7 @@ void Judge::suites(const Pair& pair) {
         const bool left_out =
             !only.empty() && (" " + only + " ").find(" " + cell.rerun.only + " ") == std::string::npos;
         add(line_of(pair, &cell, Verdict::missing,
-                    left_out ? "no such cell now: that run was limited to --only " + only : "no such cell now"));
+                    left_out ? "no such cell now: that run was limited to " + only : "no such cell now"));
     }
     for (const Cell& cell : pair.current->cells)
         if (!all[{cell.group, cell.name}].baseline) add(line_of(pair, &cell, Verdict::extra, "no such cell before"));

@@ -62,8 +62,7 @@ std::string method(const Comparison& comparison) {
         "{} times judged: {}; the whole 95 % bootstrap interval has to lie beyond, and the test against that effect to "
         "hold after Holm's correction over all times: any false alarm in at most 5 % of comparisons{}",
         comparison.judged_times, of,
-        comparison.interleaved ? ""
-                               : ", as far as the machine's state was the same for both blocks (ab, or --confirm)");
+        comparison.interleaved ? "" : ", as far as the machine's state was the same for both blocks");
     if (comparison.enough > 0)
         text += fmt::format(". Too few to call a time slower, however slow: of so many times that takes {} {}",
                             comparison.enough, comparison.interleaved ? "pairs" : "processes a side");
@@ -112,8 +111,7 @@ std::string outcome_text(const Comparison& comparison) {
     bool worse = false;
     for (const Line& line : comparison.lines)
         worse = worse || line.verdict == Verdict::larger || line.verdict == Verdict::less_accurate;
-    return worse ? "exit code 2: larger or less accurate"
-                 : "exit code 2: missing or not comparable (--allow-missing passes over it)";
+    return worse ? "exit code 2: larger or less accurate" : "exit code 2: missing or not comparable";
 }
 
 bool is_news(const Line& line) {

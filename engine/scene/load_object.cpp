@@ -175,7 +175,13 @@ Object load_object(const json& from, std::size_t index, const SearchPath& path, 
     read(from, "motion", object.motion);
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& each) { return each.type == type; });
     if (row == rows.end()) refuse(where + "/type", fmt::format("no object has type \"{}\"", type));
-    object.shape = row->load(from, path, where);
+    try {
+        object.shape = row->load(from, path, where);
+    } catch (const base::Error& error) {
+        if (error.where().starts_with("/scene/")) throw;
+        // A fault of its file: the scenario's place first, then the file's.
+        throw base::Error(error.code(), from.contains("file") ? where + "/file" : where, error.what());
+    }
     const std::string empty = std::visit([](const auto& shape) { return std::string(emptiness(shape)); }, object.shape);
     if (!empty.empty()) refuse(where, empty);
     return object;

@@ -79,7 +79,12 @@ Scene load_scene(const json& from, const SearchPath& path) {
         return scene;
     }
     const std::string where = "/scene/deep_image/file";
-    scene.deep_image = read_deep_image(find_file(path, from["deep_image"]["file"].get<std::string>(), where));
+    const std::filesystem::path file = find_file(path, from["deep_image"]["file"].get<std::string>(), where);
+    try {
+        scene.deep_image = read_deep_image(file);
+    } catch (const base::Error& error) {
+        throw base::Error(error.code(), where, error.what());
+    }
     if (scene.deep_image->z_front.empty()) refuse(where, "the deep image has no samples");
     return scene;
 }

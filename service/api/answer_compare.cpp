@@ -42,6 +42,10 @@ ApiResponse compare(Context& context, const Call& call) {
     }
     const json body = json::parse(call.request.body);
     if (!body.is_object()) return problem(422, "The body must be an object.", {{"", "must be an object"}});
+    for (const auto& [key, value] : body.items())
+        if (key != "baseline" && key != "current")
+            return problem(422, "There is no \"" + key + "\" here; there are: baseline, current.",
+                           {{(json::json_pointer() / key).to_string(), "unknown key"}});
     auto baseline = read_side(context, body, "baseline"), current = read_side(context, body, "current");
     for (auto* side : {&baseline, &current})
         if (auto* no = std::get_if<ApiResponse>(side)) return std::move(*no);

@@ -154,7 +154,11 @@ ApiResponse job_report(Context& context, const Call& call) {
                          "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; "
                          "style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'; "
                          "frame-ancestors 'self'"}};
-    response.body = report_html(document, result->parent_path() / "images");
+    try {
+        response.body = report_html(document, result->parent_path() / "images");
+    } catch (const base::Error&) {  // whose place is for nobody outside
+        return problem(500, "The pictures of this job cannot be read.");
+    }
     return response;
 }
 

@@ -11,12 +11,17 @@
 namespace shadowbench::service {
 namespace {
 
-constexpr std::size_t lights = 2, kept = 1024;
+constexpr std::size_t at_a_time = 2, lights = 2, kept = 1024;
 
 }  // namespace
 
-CurveCache::CurveCache(StartHelper start, std::vector<std::string> arguments, double seconds)
-    : start_(std::move(start)), arguments_(std::move(arguments)), seconds_(seconds), answers_(kept), workers_(lights) {}
+CurveCache::CurveCache(StartHelper start, std::vector<std::string> arguments, double seconds, std::size_t waiting)
+    : start_(std::move(start)),
+      arguments_(std::move(arguments)),
+      seconds_(seconds),
+      slots_(at_a_time, waiting),
+      answers_(kept),
+      workers_(lights) {}
 
 std::shared_ptr<CurveCache::Worker> CurveCache::worker_for(const std::string& key) {
     const std::scoped_lock lock(mutex_);
@@ -35,10 +40,11 @@ std::string CurveCache::curves(const CurveQuestion& question, const std::functio
         const std::scoped_lock lock(mutex_);
         if (const std::string* known = answers_.find(place)) return *known;
     }
+    const Slots::Slot slot = slots_.take(seconds_);
     const std::string key = fmt::format("{} {} {}", question.job, question.variant, question.light);
     const std::shared_ptr<Worker> worker = worker_for(key);
     const std::unique_lock one_at_a_time(worker->mutex, std::chrono::duration<double>(seconds_));
-    if (!one_at_a_time) throw base::Error(base::ErrorCode::io, "helper process", "too many are at work");
+    if (!one_at_a_time) throw Busy{};
     std::string line = fmt::format("{} {}", question.x, question.y);
     const bool first = !worker->helper;
     if (first) {

@@ -13,6 +13,7 @@
 #include "service/api/examine.h"
 #include "service/api/helper.h"
 #include "service/api/lru.h"
+#include "service/api/slots.h"
 
 namespace shadowbench::service {
 
@@ -25,11 +26,11 @@ struct CurveQuestion {
 // Thread-safe.
 class CurveCache {
 public:
-    // `arguments` come before those of the light.
-    CurveCache(StartHelper start, std::vector<std::string> arguments, double seconds);
+    // `arguments` come before those of the light; `waiting`: how many may wait for their turn.
+    CurveCache(StartHelper start, std::vector<std::string> arguments, double seconds, std::size_t waiting);
 
     // JSON of bench::PixelCurves. `scenario`, the job's on one line, is asked for only when it is needed, and before a
-    // helper is started: what it throws is thrown. A helper stays once its first answer was good. Throws Error.
+    // helper is started: what it throws is thrown. A helper stays once its first answer was good. Throws Error, Busy.
     std::string curves(const CurveQuestion& question, const std::function<std::string()>& scenario);
 
 private:
@@ -42,6 +43,7 @@ private:
     StartHelper start_;
     std::vector<std::string> arguments_;
     double seconds_;
+    Slots slots_;
     std::mutex mutex_;
     Lru<std::string> answers_;
     Lru<std::shared_ptr<Worker>> workers_;

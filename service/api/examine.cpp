@@ -1,7 +1,5 @@
 #include "service/api/examine.h"
 
-#include <chrono>
-
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -25,25 +23,11 @@ nlohmann::json take_answer(const std::string& line) {
     return answer;
 }
 
-Slots::Slot Slots::take(double seconds) {
-    std::unique_lock lock(mutex_);
-    if (!freed_.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return free_ > 0; }))
-        throw base::Error(base::ErrorCode::io, "helper process", "too many are at work");
-    --free_;
-    return Slot(*this);
-}
-
-void Slots::give_back() {
-    const std::scoped_lock lock(mutex_);
-    ++free_;
-    freed_.notify_one();
-}
-
-Examiner::Examiner(StartHelper start, std::vector<std::string> arguments, double seconds)
+Examiner::Examiner(StartHelper start, std::vector<std::string> arguments, double seconds, std::size_t waiting)
     : start_(std::move(start)),
       arguments_(std::move(arguments)),
       seconds_(seconds),
-      slots_(at_a_time),
+      slots_(at_a_time, waiting),
       answers_(kept) {}
 
 std::variant<nlohmann::json, std::vector<base::Error>> Examiner::examine(const std::string& scenario) {

@@ -83,11 +83,12 @@ private:
 };
 
 // Between fork and exec: calls that are safe there alone.
-[[noreturn]] void become(const Pipe& in, const Pipe& out, std::size_t memory, char* const* argv) {
+[[noreturn]] void become(const Pipe& in, const Pipe& out, std::size_t memory, char* const* argv, pid_t parent) {
     ::dup2(in.read, 0);
     ::dup2(out.write, 1);
     ::close_range(3, ~0u, CLOSE_RANGE_CLOEXEC);  // at exec: the program's name may be one of them
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(127);  // it died before it could be watched
     const rlimit none{0, 0}, bytes{memory, memory};
     ::setrlimit(RLIMIT_CORE, &none);
     if (limit_memory) ::setrlimit(RLIMIT_AS, &bytes);
@@ -107,9 +108,10 @@ public:
         for (std::string& word : words) argv.push_back(word.data());
         argv.push_back(nullptr);
         Pipe in, out;
+        const pid_t parent = ::getpid();
         child_ = ::fork();
         if (child_ < 0) fail("fork");
-        if (child_ == 0) become(in, out, memory, argv.data());
+        if (child_ == 0) become(in, out, memory, argv.data(), parent);
         to_ = Pipe::take(in.write);
         from_ = Pipe::take(out.read);
         for (const int end : {to_, from_}) ::fcntl(end, F_SETFL, O_NONBLOCK);

@@ -50,6 +50,8 @@ const char* title_of(int status) {
             return "Unsupported Media Type";
         case 416:
             return "Range Not Satisfiable";
+        case 417:
+            return "Expectation Failed";
         case 421:
             return "Misdirected Request";
         case 422:

@@ -1,6 +1,7 @@
 #include "service/api/service.h"
 
 #include <chrono>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -31,7 +32,10 @@ ApiResponse not_allowed(const std::string& allowed) {
 }
 
 std::optional<ApiResponse> refuse_query(const ApiRequest& request, const Route& route) {
+    std::set<std::string> seen;
     for (const Field& given : request.query) {
+        if (!seen.insert(given.name).second)
+            return problem(400, "The parameter \"" + given.name + "\" is given twice.");
         std::string known;
         bool found = false;
         for (const char* name : route.query) {
@@ -74,6 +78,10 @@ ApiResponse answer(Context& context, const ApiRequest& request, const Route& rou
         return route.answer(context, {request, parameters});
     } catch (const base::Error& error) {
         return problem_of(error);
+    } catch (const Busy&) {
+        ApiResponse response = problem(503, "Too many requests of this kind are at work.");
+        response.headers.push_back({"Retry-After", "2"});
+        return response;
     } catch (const std::exception&) {  // its text is for nobody outside
         return problem(500, "A fault of this program.");
     }
@@ -88,8 +96,8 @@ struct Service::State : Context {
 Context::Context(Jobs& the_jobs, const ServiceOptions& the_options)
     : jobs(the_jobs),
       options(the_options),
-      examiner(options.start_helper, helper_arguments("examine", options), options.helper_seconds),
-      curves(options.start_helper, helper_arguments("curves", options), options.helper_seconds),
+      examiner(options.start_helper, helper_arguments("examine", options), options.helper_seconds, options.waiting),
+      curves(options.start_helper, helper_arguments("curves", options), options.helper_seconds, options.waiting),
       scenarios(read_scenarios(options.scenarios)) {}
 
 Service::Service(Jobs& jobs, ServiceOptions options) : state_(std::make_unique<State>(jobs, std::move(options))) {}

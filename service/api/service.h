@@ -29,6 +29,7 @@ struct ServiceOptions {
     CostLimits limits;
     StartHelper start_helper;        // of subcommands of this program
     double helper_seconds = 20.0;    // that one answer of a helper may take
+    std::size_t waiting = 8;         // requests of one kind that may wait for a helper: fewer than there are threads
     std::size_t event_streams = 64;  // clients that may follow events at a time
 };
 

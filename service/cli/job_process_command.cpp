@@ -115,8 +115,8 @@ bool job_process_command(const JobProcessArguments& arguments, std::ostream& out
     } catch (const std::bad_alloc&) {
         tell({ErrorCode::internal, "", "out of memory; a smaller map or fewer samples may help"});
         throw;
-    } catch (const std::exception& error) {
-        tell({ErrorCode::internal, "", std::string("internal fault: ") + error.what()});
+    } catch (const std::exception&) {  // its text goes to this process's log, not to clients
+        tell({ErrorCode::internal, "", "internal fault"});
         throw;
     }
 }

@@ -84,6 +84,7 @@ ServiceOptions service_options(const ServeArguments& arguments, const std::strin
     options.limits.samples_per_pixel = arguments.samples;
     options.limits.bytes = arguments.job_memory * gib;
     options.limits.seconds = arguments.estimate_seconds;
+    options.waiting = std::max<std::size_t>(1, arguments.workers / 4);
     options.event_streams = arguments.event_clients;
     options.start_helper = [program](const std::vector<std::string>& words) {
         return start_process(program, words, static_cast<std::size_t>(helper_memory * gib));

@@ -1,6 +1,8 @@
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <ostream>
+#include <random>
 #include <thread>
 
 #include <fmt/format.h>
@@ -80,14 +82,15 @@ void show(const json& job, ProgressBar& bar) {
     bar.show({progress.at("place"), stage.c_str(), progress.at("done"), progress.at("total")});
 }
 
-// The answer of a server that may be away for a while, as one that is started anew.
-Reply get_patiently(Client& client, const std::string& path, const std::string& server, std::ostream& err) {
+// The answer of a server that may be away or busy for a while, as one that is started anew or whose queue is full.
+Reply patiently(const std::function<Reply()>& ask, const std::string& server, std::ostream& err) {
     const auto end = std::chrono::steady_clock::now() + patience;
     for (bool told = false;; told = true) {
         std::string why = "it is busy or stopping";
         try {
-            Reply reply = client.get(path);
-            if (reply.status != 503 || std::chrono::steady_clock::now() > end) return reply;
+            Reply reply = ask();
+            const bool later = reply.status == 503 || reply.status == 429;
+            if (!later || std::chrono::steady_clock::now() > end) return reply;
         } catch (const Error& error) {
             if (std::chrono::steady_clock::now() > end) throw;
             why = error.message();
@@ -106,9 +109,17 @@ json wait_for(Client& client, json job, const std::string& server, std::ostream&
     while (job.at("state") == "queued" || job.at("state") == "running") {
         if (bar) show(job, *bar);
         std::this_thread::sleep_for(between_looks);
-        job = take(get_patiently(client, self, server, err), 200, server);
+        job = take(patiently([&] { return client.get(self); }, server, err), 200, server);
     }
     return job;
+}
+
+// With it the server takes a request once, however often it is sent.
+std::string new_key() {
+    std::random_device random;
+    std::string key = "submit";
+    for (int i = 0; i < 4; ++i) key += fmt::format("-{:08x}", random());
+    return key;
 }
 
 // What `run` would have thrown.
@@ -126,7 +137,9 @@ void refuse_failed(const json& job) {
 bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::ostream& err) {
     const std::string body = request_body(arguments), server = without_slash(arguments.server);
     Client client(server, arguments.token_file.empty() ? "" : read_token(arguments.token_file));
-    json job = take(client.post_json("/v1/jobs", body, {}), 202, server);
+    const std::string key = new_key();
+    const auto post = [&] { return client.post_json("/v1/jobs", body, {{"Idempotency-Key", key}}); };
+    json job = take(arguments.wait ? patiently(post, server, err) : post(), 202, server);
     const std::string self = job.at("links").at("self");
     if (!arguments.wait) {
         out << fmt::format("{} {}: {}{}\n", job.at("id").get<std::string>(), job.at("state").get<std::string>(), server,
@@ -136,7 +149,7 @@ bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::os
     job = wait_for(client, std::move(job), server, err);
     refuse_failed(job);
     const bench::Result result =
-        bench::from_json(take(get_patiently(client, self + "/result", server, err), 200, server));
+        bench::from_json(take(patiently([&] { return client.get(self + "/result"); }, server, err), 200, server));
     out << bench::to_table(result) << fmt::format("result: {}{}/result\n", server, self);
     return !bench::any_failed(result);
 }

@@ -123,9 +123,18 @@ TEST_F(FilesApi, ReportsAreDocumentsWithoutRightsHere) {
     EXPECT_EQ(policy.find("allow-same-origin"), std::string::npos);
 }
 
+TEST_F(FilesApi, ReportsOfBrokenPicturesDoNotSayWhereTheyLie) {
+    const std::filesystem::path images = jobs_->artifact(id, "result.json")->parent_path() / "images";
+    std::filesystem::create_directories(images);
+    std::ofstream(images / "images.json") << "{";
+    const nlohmann::json problem = refused(request("GET", at("/report")), 500, "pictures");
+    EXPECT_EQ(problem.dump().find(folder_.string()), std::string::npos) << problem;
+}
+
 TEST_F(FilesApi, ComparesOnlyWhatIsThere) {
     const std::string result = body_of(get("/result"));
     refused(post("/v1/compare", "{}"), 422, "job");
+    EXPECT_EQ(refused(post("/v1/compare", R"({"base": {}})"), 422, "no \"base\"")["errors"][0]["pointer"], "/base");
     EXPECT_EQ(refused(post("/v1/compare", R"({"baseline": {"job": "j-9"}, "current": {"result": {}}})"), 422,
                       "no such job")["errors"][0]["pointer"],
               "/baseline");

@@ -69,7 +69,7 @@ TEST(HelperProcess, OfThisProgramExaminesAScenario) {
 TEST(HelperProcess, OfThisProgramGivesCurves) {
     CurveCache cache(
         [](const std::vector<std::string>& arguments) { return start_process(SHADOWBENCH_PROGRAM, arguments, enough); },
-        {"curves"}, 120);
+        {"curves"}, 120, 8);
     const auto scenario = [] { return tiny_scenario().dump(); };
     const nlohmann::json curves = take_answer(cache.curves({"j-1", "", 0, 4, 4}, scenario));
     EXPECT_EQ(curves["light"], "sun") << "the first";
@@ -93,7 +93,7 @@ TEST(Lru, ForgetsWhatWasNotAskedForLongest) {
 }
 
 TEST(Slots, AreSoManyAtATime) {
-    Slots slots(2);
+    Slots slots(2, 8);
     std::atomic<int> at_work = 0, most = 0, done = 0;
     std::vector<std::thread> threads;
     for (int i = 0; i < 8; ++i)
@@ -110,7 +110,30 @@ TEST(Slots, AreSoManyAtATime) {
     EXPECT_EQ(done, 8);
     EXPECT_LE(most, 2);
     const Slots::Slot one = slots.take(60), two = slots.take(60);
-    EXPECT_EQ(code_of([&] { slots.take(0.01); }), ErrorCode::io);
+    EXPECT_THROW(slots.take(0.01), Busy);
+}
+
+// Else requests that wait for slow helpers would hold every thread of the server.
+TEST(Slots, OnlySoManyWait) {
+    Slots slots(1, 1);
+    std::unique_ptr<Slots::Slot> held(new Slots::Slot(slots.take(60)));
+    std::atomic<int> turned_away = 0, had_a_turn = 0;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 3; ++i)
+        threads.emplace_back([&] {
+            try {
+                const Slots::Slot slot = slots.take(600);
+                ++had_a_turn;
+            } catch (const Busy&) {
+                ++turned_away;
+            }
+        });
+    while (turned_away < 2) std::this_thread::yield();  // whoever comes first waits
+    EXPECT_EQ(had_a_turn, 0);
+    held.reset();
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(turned_away, 2);
+    EXPECT_EQ(had_a_turn, 1);
 }
 
 struct CurvesApi : ApiTest {
@@ -184,7 +207,7 @@ TEST_F(CurvesApi, OutlivesAHelperThatDies) {
             ++started;
             return std::make_unique<Dying>();
         },
-        {"curves"}, 1.0);
+        {"curves"}, 1.0, 8);
     for (int i = 0; i < 3; ++i)
         EXPECT_EQ(code_of([&] {
                       cache.curves({"j-1", "sun", 0, 1, 1}, [] { return std::string("{}"); });

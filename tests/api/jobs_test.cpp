@@ -102,6 +102,7 @@ TEST_F(JobsApi, DoesNotTellWhereBrokenFilesAre) {
     nlohmann::json scenario = tiny_scenario();
     scenario["scene"]["objects"] = json::array({{{"type", "mesh"}, {"file", "broken.ply"}}});
     const nlohmann::json problem = refused(post("/v1/jobs", scenario.dump()), 422, "broken.ply");
+    EXPECT_EQ(problem["errors"][0]["pointer"], "/scene/objects/0/file");
     EXPECT_EQ(problem.dump().find(folder_.string()), std::string::npos) << problem;
 }
 

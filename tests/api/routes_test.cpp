@@ -102,6 +102,7 @@ TEST_F(RoutesApi, RefuseParametersThatTheyDoNotKnow) {
     }
     refused(request("GET", "/v1/jobs?limit=1&status=queued"), 400, "there are: state, limit, cursor");
     refused(request("GET", "/v1/techniques?x=1"), 400, "takes none");
+    refused(request("GET", "/v1/jobs?state=queued&state=failed"), 400, "given twice");
 }
 
 TEST_F(RoutesApi, SayWhichMethodsTheyTake) {

@@ -53,7 +53,7 @@ TEST(Compare, MissingCellsFailAndExtraOnesAreTold) {
     Comparison comparison = compare(side({made_result()}), side({fewer}), options);
     EXPECT_EQ(exit_code(comparison), 2);
     EXPECT_EQ(line(comparison, "uncompressed", "").verdict, Verdict::missing);
-    EXPECT_NE(line(comparison, "uncompressed", "").reason.find("--only deep"), std::string::npos);
+    EXPECT_NE(line(comparison, "uncompressed", "").reason.find("limited to deep"), std::string::npos);
     fewer["only"] = {"deep", "uncompressed"};
     EXPECT_EQ(line(compare(side({made_result()}), side({fewer}), {}), "uncompressed", "").reason, "no such cell now");
     options.allow_missing = true;

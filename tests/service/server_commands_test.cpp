@@ -18,6 +18,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include "base/error.h"
 #include "service/http/client.h"
 #include "service/run_cli.h"
@@ -160,6 +162,24 @@ TEST_F(ServerCommands, SubmitWaitsForAServerThatIsStartedAnew) {
     EXPECT_EQ(submitted.code, 0) << submitted.err;
     EXPECT_NE(submitted.err.find("trying again for 60 s"), std::string::npos) << submitted.err;
     EXPECT_NE(submitted.out.find("    uncompressed "), std::string::npos) << submitted.out;
+}
+
+// Not even its first word needs a server yet, and is heard once.
+TEST_F(ServerCommands, SubmitWaitsForAServerThatIsNotThereYet) {
+    serve();
+    EXPECT_EQ(stop(), 0);
+    Outcome submitted;
+    std::thread waiting([&, server = url_] {
+        submitted = cli({"submit", path("tiny.json"), "--server", server, "--wait", "--no-pictures"});
+    });
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    port_ = url_.substr(url_.rfind(':') + 1);
+    serve();
+    waiting.join();
+    EXPECT_EQ(submitted.code, 0) << submitted.err;
+    EXPECT_NE(submitted.err.find("trying again for 60 s"), std::string::npos) << submitted.err;
+    const auto jobs = nlohmann::json::parse(Client(url_, "").get("/v1/jobs").body);
+    EXPECT_EQ(jobs.at("jobs").size(), 1u);
 }
 
 TEST_F(ServerCommands, SubmitTellsTheJobAndDoesNotWait) {

@@ -20,11 +20,20 @@ function edit(scenario) {
   go('#/');
 }
 
+// An address typed by hand may hold a % that begins nothing.
+function decoded(part) {
+  try {
+    return decodeURIComponent(part);
+  } catch {
+    return part;
+  }
+}
+
 function route(event) {
   shown?.abort();
   shown = new AbortController();
   const {signal} = shown;
-  const [, page = '', ...ids] = location.hash.split('/').map(decodeURIComponent);
+  const [, page = '', ...ids] = location.hash.split('/').map(decoded);
   document.title = 'shadowbench';
   const view = page === 'jobs' && ids[0] ? jobView({id: ids[0], signal, edit})
     : page === 'jobs' ? jobsView({signal}) : page === 'compare' ? comparisonView({ids, signal}) : submitView({draft, signal, go});
