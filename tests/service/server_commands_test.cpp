@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -143,25 +144,28 @@ TEST_F(ServerCommands, JobsAndHelpersAreRunByTheProgramThatServes) {
 
 TEST_F(ServerCommands, SubmitWaitsForAServerThatIsStartedAnew) {
     serve();
-    Outcome submitted;
-    std::thread waiting([&, server = url_] {
-        // Long enough to be cut off.
-        submitted = cli({"submit", path("tiny.json"), "--server", server, "--wait", "--no-pictures", "--set",
-                         "timing.repetitions=200", "--set", "timing.lookups=100000"});
-    });
-    Client client(url_, "");
+    // Long enough to be cut off.
+    const std::string command = std::string(SHADOWBENCH_PROGRAM) + " submit " + path("tiny.json") + " --server " +
+                                url_ +
+                                " --wait --no-pictures --set timing.repetitions=200 --set timing.lookups=100000 >" +
+                                path("out") + " 2>" + path("err");
+    int code = -1;
+    std::thread waiting([&] { code = std::system(command.c_str()); });
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-    while (client.get("/v1/jobs").body.find("\"running\"") == std::string::npos &&
-           std::chrono::steady_clock::now() < end)
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const auto wait_until = [&](const auto& condition) {
+        while (!condition() && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    };
+    Client client(url_, "");
+    wait_until([&] { return client.get("/v1/jobs").body.find("\"running\"") != std::string::npos; });
     EXPECT_EQ(stop(), 0);
-    std::this_thread::sleep_for(std::chrono::seconds(1));  // for a look at a server that is not there
+    wait_until([&] { return read(path("err")).find("trying again for 60 s") != std::string::npos; });
     port_ = url_.substr(url_.rfind(':') + 1);
     serve();
     waiting.join();
-    EXPECT_EQ(submitted.code, 0) << submitted.err;
-    EXPECT_NE(submitted.err.find("trying again for 60 s"), std::string::npos) << submitted.err;
-    EXPECT_NE(submitted.out.find("    uncompressed "), std::string::npos) << submitted.out;
+    EXPECT_EQ(code, 0) << read(path("err"));
+    EXPECT_NE(read(path("err")).find("trying again for 60 s"), std::string::npos);
+    EXPECT_NE(read(path("out")).find("    uncompressed "), std::string::npos);
 }
 
 // Not even its first word needs a server yet, and is heard once.
