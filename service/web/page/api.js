@@ -39,7 +39,7 @@ async function answer(path, options = {}) {
     const response = await send(path, options);
     if (response.ok) return response;
     if (response.status === 401 && askToken) {
-      asking ??= askToken().finally(() => { asking = null; });
+      asking ??= askToken(hasToken()).finally(() => { asking = null; });
       sessionStorage.setItem(tokenKey, await asking);
       continue;
     }

@@ -47,14 +47,15 @@ function route(event) {
   }
 }
 
-// A form for the token of a server that asks for one.
-onTokenNeeded(() => new Promise((resolve) => {
+// A form for the token of a server that asks for one. `refused`: one was sent.
+onTokenNeeded((refused) => new Promise((resolve) => {
   const field = h('input', {type: 'password', autocomplete: 'off', required: true, id: 'token'});
   const dialog = h('dialog', {'aria-labelledby': 'token-title'}, h('form', {method: 'dialog', onsubmit: (event) => {
     event.preventDefault();
     dialog.remove();
     resolve(field.value.trim());
   }}, h('h2', {id: 'token-title'}, 'This server asks for a token'),
+  refused && h('p', {class: 'problem', role: 'alert'}, 'The server refused that token.'),
   h('p', {class: 'note'}, 'It is kept in this tab alone.'), h('label', {for: 'token'}, 'Token'), field,
   h('button', {type: 'submit', class: 'primary'}, 'Use it')));
   dialog.addEventListener('cancel', (event) => event.preventDefault());

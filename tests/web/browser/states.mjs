@@ -197,6 +197,7 @@ states['a server that asks for a token'] = async ({page, url, mock}) => {
   await page.fill('#token', 'wrong');
   await page.click('dialog button');
   await page.waitForFunction(() => document.querySelector('#token')?.value === '');
+  await page.waitForSelector('dialog >> text=The server refused that token.');
   await assertContrast(page);
   await page.fill('#token', 'let me in');
   await page.click('dialog button');
