@@ -178,7 +178,7 @@ Object load_object(const json& from, std::size_t index, const SearchPath& path, 
     try {
         object.shape = row->load(from, path, where);
     } catch (const base::Error& error) {
-        if (error.where().starts_with("/scene/")) throw;
+        if (error.where().starts_with(where)) throw;
         // A fault of its file: the scenario's place first, then the file's.
         throw base::Error(error.code(), from.contains("file") ? where + "/file" : where, error.what());
     }

@@ -42,6 +42,8 @@ protected:
         const pid_t ab = ::fork();
         if (ab == 0) {
             ::setenv("TMPDIR", path("tmp").c_str(), 1);
+            // Whoever runs the tests may ignore some, as nohup does.
+            for (const int signal : {SIGHUP, SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
             if (without_hangup) ::signal(SIGHUP, SIG_IGN);
             ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), 2);
             const std::string build = path("build");
