@@ -47,7 +47,23 @@ json technique_choices() {
     for (const techniques::Technique& row : techniques::all())
         choices.push_back({{"if", {{"properties", {{"type", {{"const", row.id}}}}}}},
                            {"then", techniques::parameter_schema(row.id, row.parameters)}});
+    choices.push_back({{"if", {{"properties", {{"type", {{"const", every_technique}}}}}}},
+                       {"then", techniques::parameter_schema(every_technique, {})}});
     return choices;
+}
+
+// Throws what is wrong with the parameters of a technique, an object whose "type" is a text.
+void check_technique(const json& technique, const std::string& where) {
+    const std::string type = technique.at("type").get<std::string>();
+    if (type != every_technique) {
+        techniques::read_parameters(techniques::find(type, where + "/type").parameters, technique, where);
+        return;
+    }
+    for (const auto& [key, value] : technique.items())
+        if (key != "type")
+            throw Error(ErrorCode::bad_input, where + "/" + key,
+                        "\"*\" takes no parameters: it stands for techniques with their defaults. List the technique "
+                        "that this parameter is for beside it");
 }
 
 constexpr std::size_t most_faults = 32;  // that are told at a time
@@ -56,16 +72,19 @@ constexpr std::size_t most_faults = 32;  // that are told at a time
 std::vector<Error> technique_faults(const json& technique, const std::string& where) {
     std::vector<Error> faults;
     if (!technique.is_object() || !technique.contains("type") || !technique["type"].is_string()) return faults;
-    try {
-        const techniques::Technique& row = techniques::find(technique["type"].get<std::string>(), where + "/type");
-        for (const auto& [key, value] : technique.items()) try {
-                techniques::read_parameters(row.parameters, {{key, value}}, where);
-            } catch (const Error& error) {
-                faults.push_back(error);
-            }
-    } catch (const Error& error) {
-        faults.push_back(error);
-    }
+    const auto check = [&](const json& part) {
+        try {
+            check_technique(part, where);
+            return true;
+        } catch (const Error& error) {
+            faults.push_back(error);
+            return false;
+        }
+    };
+    const json& type = technique["type"];
+    if (!check({{"type", type}})) return faults;
+    for (const auto& [key, value] : technique.items())
+        if (key != "type") check({{"type", type}, {key, value}});
     return faults;
 }
 
@@ -108,10 +127,7 @@ void check_document(const json& document, std::span<const std::string> technique
     const json& items = document.at("techniques");
     for (std::size_t i = 0; i < items.size(); ++i) {
         const std::string where = technique_where.empty() ? fmt::format("/techniques/{}", i) : technique_where[i];
-        json parameters = items[i];
-        const techniques::Technique& row = techniques::find(parameters.at("type").get<std::string>(), where + "/type");
-        parameters.erase("type");
-        techniques::read_parameters(row.parameters, parameters, where);
+        check_technique(items[i], where);
     }
     scene::check_schema(document, full_schema());
 }

@@ -23,6 +23,9 @@ void set_value(nlohmann::json& document, const std::string& assignment);
 // The committed schema with the techniques' parameters, from the registry.
 nlohmann::json full_schema();
 
+// The type of a technique that stands for every other one, {"type": "*"}: see expand().
+inline constexpr const char* every_technique = "*";
+
 // Checks a document: schema, then each technique's parameters by its own declaration. `technique_where` names the
 // techniques in messages; empty: by their place in this document. Throws Error{bad_input}, place: JSON pointer.
 void check_document(const nlohmann::json& document, std::span<const std::string> technique_where = {});
@@ -40,7 +43,13 @@ struct Variant {
 
 // Replaces "sweeps": {pointer: [values]} by what it stands for. Pointers into /techniques/<i>/ turn that technique into
 // one for each combination of its values, in place; any others make one variant for each of their combinations, the
-// alphabetically last pointer changing fastest. Every variant has passed check_document. Throws Error{bad_input}.
+// alphabetically last pointer changing fastest.
+//
+// {"type": "*"} among the techniques becomes, in place and in the order of the registry, every technique that the list
+// does not name elsewhere, each with its defaults; those that trace the scene are left out where there is none but a
+// deep_image. It takes no parameters and stands once.
+//
+// Every variant has passed check_document. Throws Error{bad_input}.
 std::vector<Variant> expand(const nlohmann::json& document);
 
 // The document with the values of one combination of its sweeps, counted from 0 as expand() does; sweeps over a

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "bench/document.h"
 #include "bench/pointer.h"
 #include "scene/scenario.h"
+#include "techniques/technique.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -91,14 +93,50 @@ std::vector<Choice> combine(const json& document, const std::vector<Sweep>& swee
     return choices;
 }
 
-// Replaces each swept technique by one for each combination of its values.
+bool is_every(const json& technique) {
+    return technique.at("type") == every_technique;
+}
+
+// What "*" stands for in this document.
+json every_other_technique(const json& document) {
+    const json& listed = document.at("techniques");
+    json others = json::array();
+    for (const techniques::Technique& row : techniques::all()) {
+        const bool named =
+            std::any_of(listed.begin(), listed.end(), [&](const json& t) { return t.at("type") == row.id; });
+        const bool served = !row.traits.traces || !document.at("scene").contains("deep_image");
+        if (!named && served) others.push_back({{"type", row.id}});
+    }
+    return others;
+}
+
+// Throws where "*" stands twice.
+void check_every(const json& techniques) {
+    bool found = false;
+    for (std::size_t i = 0; i < techniques.size(); ++i) {
+        if (!is_every(techniques[i])) continue;
+        if (found)
+            throw Error(ErrorCode::bad_input, fmt::format("/techniques/{}/type", i),
+                        "\"*\" stands for all other techniques already: list it once");
+        found = true;
+    }
+}
+
+// Replaces each swept technique by one for each combination of its values, and "*" by what it stands for.
 void expand_techniques(Variant& variant, const json& document, const std::vector<std::vector<Sweep>>& sweeps) {
     json expanded = json::array();
-    for (std::size_t i = 0; i < sweeps.size(); ++i)
+    check_every(document.at("techniques"));
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+        const std::string where = fmt::format("/techniques/{}", i);
         for (Choice& choice : combine(document, sweeps[i], max_techniques)) {
-            expanded.push_back(std::move(choice.document.at("techniques").at(i)));
-            variant.technique_where.push_back(fmt::format("/techniques/{}", i));
+            json& technique = choice.document.at("techniques").at(i);
+            const bool every = is_every(technique) && technique.size() == 1;  // else it is refused with its place
+            for (json& one : every ? every_other_technique(document) : json::array({technique})) {
+                expanded.push_back(std::move(one));
+                variant.technique_where.push_back(where);
+            }
         }
+    }
     json result = document;
     result["techniques"] = std::move(expanded);
     variant.document = std::make_shared<const json>(std::move(result));

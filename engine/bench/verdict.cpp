@@ -38,6 +38,8 @@ std::string faults(const Cell& cell) {
 std::string cause(const Cell& cell) {
     if (cell.outside_promise) return "made for opaque scenes, and this one lets light through";
     if (!cell.curve) return "stores no function, and promises no bound on the noise of its answers";
+    if (cell.promises.approximate)
+        return fmt::format("approximates, by up to {:.2g} even behind all that casts shadows", cell.promises.leak);
     if (!cell.promises.localised) return "exact only before and behind all that casts shadows";
     return fmt::format("promises no bound on its error (at most {} node{} a function here)", cell.nodes.max,
                        cell.nodes.max == 1 ? "" : "s");

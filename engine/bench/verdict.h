@@ -17,7 +17,8 @@ namespace shadowbench::bench {
 // RMS, since the largest of thousands of answers by random rays is several standard deviations from the truth.
 // A bound is promised for the scenes that the technique is made for: none where it takes every crossing as opaque and
 // this scene lets light through. One that is exact only before and behind all that casts shadows (Promises::localised
-// false) is held to that and fails where it is not; between, it promises nothing, so its error decides.
+// false) is held to that and fails where it is not; between, it promises nothing, so its error decides. So it is of one
+// that approximates (Promises::approximate), whose ends are held to Promises::leak.
 enum class Verdict { kept, degraded, failed };
 
 struct Judgement {

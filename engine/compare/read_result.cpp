@@ -81,6 +81,7 @@ json technique_of(const json& scenario, const Field& cell) {
     try {
         technique = scenario.at(json::json_pointer(where));
         if (!technique.is_object()) return nullptr;
+        if (technique.value("type", "") == "*") return {{"type", cell.at("technique").text()}};  // its defaults
         if (const auto sweeps = scenario.find("sweeps"); sweeps != scenario.end() && sweeps->is_object())
             for (const auto& [pointer, values] : sweeps->items())
                 if (pointer.rfind(where + "/", 0) == 0) {

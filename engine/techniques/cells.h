@@ -48,8 +48,18 @@ inline const Parameter cells_parameter{
     0,
     "sample",
     {"sample", "centre"}};
+// The same for functions that can be averaged over rays.
+inline const Parameter averaged_cells_parameter{
+    .name = "cells",
+    .kind = ParameterKind::choice,
+    .doc =
+        "one stored function a pixel, of all its rays; one a sample (the map is as much larger); or one a pixel, of "
+        "the ray in the middle of the pixel",
+    .standard_word = "pixel",
+    .words = {"pixel", "sample", "centre"}};
 inline Cells read_cells(const ParameterValues& values) {
-    return values.word("cells") == "sample" ? Cells::sample : Cells::centre;
+    const std::string& word = values.word("cells");
+    return word == "sample" ? Cells::sample : word == "pixel" ? Cells::pixel : Cells::centre;
 }
 
 // Calls visit(cell index in the grid, ray number in the tile) for every cell that a tile fills, by rows.

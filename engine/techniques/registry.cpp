@@ -1,31 +1,20 @@
+// The registry: made from rows.inc, which has a line a technique.
 #include <string>
 
 #include "base/error.h"
-#include "techniques/avsm/avsm.h"
-#include "techniques/deep/deep.h"
-#include "techniques/depth/depth.h"
-#include "techniques/fourier/fourier.h"
-#include "techniques/opacity/opacity.h"
-#include "techniques/multi_depth/multi_depth.h"
-#include "techniques/ray_traced/ray_traced.h"
 #include "techniques/technique.h"
-#include "techniques/uncompressed/uncompressed.h"
-#include "techniques/volume_deep/volume_deep.h"
 
 namespace shadowbench::techniques {
 
+#define ROW(name) Technique name();
+#include "techniques/rows.inc"
+#undef ROW
+
 std::span<const Technique> all() {
     static const Technique rows[] = {
-        shadow_map(),    // Williams 1978
-        pcf(),           // Reeves, Salesin, Cook 1987
-        deep(),          // Lokovic, Veach 2000
-        multi_depth(),   // Pagot, Comba, Oliveira 2004
-        volume_deep(),   // Deep Shadow Maps from Volumetric Data
-        avsm(),          // Salvi et al. 2010
-        opacity(),       // Kim, Neumann 2001
-        fourier(),       // Jansen, Bavoil 2010
-        uncompressed(),  // the truth of the rays
-        ray_traced(),    // no map
+#define ROW(name) name(),
+#include "techniques/rows.inc"
+#undef ROW
     };
     return rows;
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -130,34 +131,86 @@ struct Promises {
     bool unit_range = true;    // stays in [0, 1]
     bool opaque_only = false;  // takes every crossing as opaque: errors are promised for opaque scenes alone
     bool localised = true;     // a lone surface or slab is felt at its own depths; else only before and behind all
-    double leak = 0.0;         // what may be left behind something opaque
+    bool approximate = false;  // fits or bounds the function, as variance maps do: see `leak`
+    bool early = false;        // may be dark before the first surface, as moments that overestimate are
+    // What may be left behind something opaque. Of an approximate technique: how far an answer behind everything may
+    // lie from the truth, whatever stands there.
+    double leak = 0.0;
 };
 
+// A parameter set to a value of its own.
+struct ParameterSetting {
+    const char* name;
+    ParameterValues::Value value;
+};
+
+// These values with some of them set otherwise. The settings are of the row that the values are of.
+inline ParameterValues with(ParameterValues values, std::span<const ParameterSetting> settings) {
+    for (const ParameterSetting& setting : settings) values.values[setting.name] = setting.value;
+    return values;
+}
+
+// What generic code has to know of a technique beside its promises, so that it never asks for its name. The tests of
+// every row say what they make of each.
+struct Traits {
+    bool traces = false;            // asks the scene: Map::begin refuses to begin without a Tracer; nothing is stored
+    bool draws_samples = false;     // a lookup's samples depend on the digits of its query: answers do not compare
+    bool beyond_footprint = false;  // a lookup also samples outside of its footprint, however narrow that is
+    bool filters = true;            // a lookup as wide as a pixel weighs all rays of the pixel alike, by `whole_pixel`
+
+    double segment_rounding = 0.0;  // share of what lies behind it by which each segment may round
+    double lookup_rounding = 0.0;   // by which a lookup of one cell may differ from the stored function
+
+    // Parameters that are lengths added to stored depths; each is at least the one before it.
+    std::vector<const char*> biases = {};
+    // With these (and no bias) a lookup of width 0 answers the stored function of its cell.
+    std::vector<ParameterSetting> pointwise = {};
+    // With these an answer does not depend on the order of hits at one depth, but for rounding.
+    std::vector<ParameterSetting> order_free = {};
+    // With these a lookup as wide as a pixel, in its middle, is over the rays of the pixel and no others.
+    std::vector<ParameterSetting> whole_pixel = {};
+};
+
+inline double no_bound(const ParameterValues&, const rays::MapLayout&) {
+    return std::numeric_limits<double>::infinity();
+}
+inline std::size_t no_bytes(const ParameterValues&, const rays::MapLayout&) {
+    return 0;
+}
+// For Technique::create.
+template <class Made>
+std::unique_ptr<Map> create_map(const ParameterValues& values) {
+    return std::make_unique<Made>(values);
+}
+
+// A row is written with named fields; what is not named has its default.
 struct Technique {
-    const char* id;
-    const char* title;
-    const char* paper;
-    int version;  // grows when the same rays give other answers or bytes
-    Promises promises;
-    std::span<const Parameter> parameters;
-    std::unique_ptr<Map> (*create)(const ParameterValues& values);
+    const char* id = "";
+    const char* title = "";
+    const char* paper = "";
+    int version = 1;  // grows when the same rays give other answers or bytes
+    Promises promises = {};
+    std::span<const Parameter> parameters = {};
+    std::unique_ptr<Map> (*create)(const ParameterValues& values) = nullptr;
     // Largest curve error (see metrics) that these values promise for a map of this layout; infinity: none.
-    double (*error_bound)(const ParameterValues& values, const rays::MapLayout& layout);
+    double (*error_bound)(const ParameterValues& values, const rays::MapLayout& layout) = no_bound;
     // A finished map of given functions instead of rays: function i is pixel (i, 0) of a map one pixel high.
     // Null when the technique cannot take any piecewise-linear function.
-    std::unique_ptr<Map> (*from_curves)(const ParameterValues& values, std::span<const curves::Curve> functions);
+    std::unique_ptr<Map> (*from_curves)(const ParameterValues& values,
+                                        std::span<const curves::Curve> functions) = nullptr;
     // What the finished map of this layout surely holds, in bytes: for refusing what cannot fit before work starts.
-    std::size_t (*least_bytes)(const ParameterValues& values, const rays::MapLayout& layout);
+    std::size_t (*least_bytes)(const ParameterValues& values, const rays::MapLayout& layout) = no_bytes;
     bool coloured = false;  // one map holds all channels of a coloured scene
     // What these values promise, of rows whose promises depend on them; `promises` is then what the defaults promise.
     Promises (*promises_of)(const ParameterValues& values) = nullptr;
+    Traits traits = {};
 };
 
 inline Promises promises(const Technique& row, const ParameterValues& values) {
     return row.promises_of ? row.promises_of(values) : row.promises;
 }
 
-// The registry: one row a technique, in the order of the papers.
+// The registry: one row a technique, in the order of rows.inc.
 std::span<const Technique> all();
 
 // Throws Error{bad_input} that lists the names there are.

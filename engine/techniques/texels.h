@@ -91,6 +91,27 @@ struct Texels {
         }
     }
 
+    // visibility[i]: evaluate(means, prepare(z)) of the weighted means of the first `count` floats over the texels of
+    // queries[i]'s filter, as doubles: of what can be averaged before it is evaluated.
+    template <int count, class Prepare, class Evaluate>
+    void lookup_means(std::span<const Query> queries, std::span<float> visibility, const Prepare& prepare,
+                      const Evaluate& evaluate) const {
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            double means[count] = {}, weights = 0.0;
+            for_each(queries[i], [&](std::size_t cell, float weight) {
+                const float* texel = at(cell);
+                for (int k = 0; k < count; ++k) means[k] += static_cast<double>(weight) * texel[k];
+                weights += weight;
+            });
+            if (weights == 0.0) {  // outside the map
+                visibility[i] = 1.0f;
+                continue;
+            }
+            for (double& mean : means) mean /= weights;
+            visibility[i] = evaluate(means, prepare(queries[i].z));
+        }
+    }
+
     // Calls visit(cell, weight) for the texels of a query's filter; for none outside the map.
     template <class Visit>
     void for_each(const Query& q, const Visit& visit) const {

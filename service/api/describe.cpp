@@ -61,7 +61,9 @@ json describe(const techniques::Technique& row) {
              {{"monotone", row.promises.monotone},
               {"unit_range", row.promises.unit_range},
               {"opaque_only", row.promises.opaque_only},
-              {"localised", row.promises.localised}}},
+              {"localised", row.promises.localised},
+              {"approximate", row.promises.approximate},
+              {"early", row.promises.early}}},
             {"parameters", std::move(parameters)}};
 }
 

@@ -38,8 +38,12 @@ std::string promises_of(const techniques::Promises& promises) {
     add(promises.monotone, "never rises with depth");
     add(promises.unit_range, "stays in [0, 1]");
     add(promises.opaque_only, "for opaque scenes only");
-    add(!promises.localised, "exact only before and behind all that casts shadows");
-    if (promises.leak > 0.0) add(true, fmt::format("leaves up to {:.2g} behind what is opaque", promises.leak).c_str());
+    add(promises.early, "may be dark before the first surface");
+    add(!promises.localised && !promises.approximate, "exact only before and behind all that casts shadows");
+    if (promises.approximate)
+        add(true, fmt::format("approximates, by up to {:.2g} behind all that casts shadows", promises.leak).c_str());
+    else if (promises.leak > 0.0)
+        add(true, fmt::format("leaves up to {:.2g} behind what is opaque", promises.leak).c_str());
     return text;
 }
 

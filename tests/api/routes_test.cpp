@@ -152,6 +152,8 @@ TEST_F(RoutesApi, DescribeEveryTechnique) {
         const techniques::Technique& row = techniques::all()[i];
         EXPECT_EQ(list[i]["id"], row.id);
         EXPECT_EQ(list[i]["promises"]["opaque_only"], row.promises.opaque_only);
+        EXPECT_EQ(list[i]["promises"]["approximate"], row.promises.approximate);
+        EXPECT_EQ(list[i]["promises"]["early"], row.promises.early);
         ASSERT_EQ(list[i]["parameters"].size(), row.parameters.size());
         // Its own defaults are within what it says of its parameters.
         for (const nlohmann::json& parameter : list[i]["parameters"]) {

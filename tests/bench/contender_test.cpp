@@ -124,6 +124,22 @@ TEST_F(Contenders, that_promise_the_ends_alone_fail_where_those_are_wrong) {
     EXPECT_EQ(with({}).status, CellStatus::failed) << "a function that is lit everywhere";
 }
 
+TEST_F(Contenders, that_may_be_dark_early_are_held_to_what_is_behind) {
+    const auto with = [&](techniques::Promises promises, float behind) {
+        return judge({.function = {{1.0f, 0.9f}, {1.0f, 0.4f}, {3.0f, 0.4f}, {3.0f, behind}},
+                      .lookup = 0.4f,
+                      .promises = promises});
+    };
+    EXPECT_EQ(with({.localised = false, .approximate = true, .early = true, .leak = 0.1}, 0.09f).status,
+              CellStatus::ok);
+    EXPECT_EQ(with({.localised = false, .approximate = true, .early = true, .leak = 0.1}, 0.11f).status,
+              CellStatus::failed);
+    EXPECT_EQ(with({.approximate = true, .early = true, .leak = 0.1}, 0.11f).status, CellStatus::failed)
+        << "what approximates is held to its ends, localised or not";
+    EXPECT_EQ(with({.localised = false, .approximate = true, .leak = 0.1}, 0.09f).status, CellStatus::failed)
+        << "dark before the first surface";
+}
+
 TEST_F(Contenders, that_are_not_lit_where_nothing_casts_a_shadow_fail) {
     std::vector<Contender> contenders(2);
     contenders[0].cell.lookup = LookupErrors{};

@@ -8,6 +8,7 @@
 
 #include "bench/errors.h"
 #include "scene/scenario.h"
+#include "techniques/technique.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -182,6 +183,101 @@ TEST(Expand, refuses_more_variants_than_anyone_waits_for) {
     for (int i = 0; i < 100; ++i) many.push_back(i);
     document["sweeps"] = {{"/rays/seed", many}, {"/receivers/seed", many}};
     error_of([&] { expand(document); }, ErrorCode::bad_input, "/sweeps/~1receivers~1seed");
+}
+
+std::vector<std::string> types_of(const Variant& variant) {
+    std::vector<std::string> types;
+    for (const json& technique : (*variant.document)["techniques"]) types.push_back(technique["type"]);
+    return types;
+}
+
+std::vector<std::string> types_of_all_rows() {
+    std::vector<std::string> types;
+    for (const techniques::Technique& row : techniques::all()) types.emplace_back(row.id);
+    return types;
+}
+
+TEST(Expand, puts_every_technique_with_its_defaults_in_the_place_of_the_star) {
+    json document = small_document();
+    document["techniques"] = {{{"type", "*"}}};
+    const std::vector<Variant> variants = expand(document);
+    ASSERT_EQ(variants.size(), 1u);
+    EXPECT_EQ(types_of(variants[0]), types_of_all_rows());
+    for (const json& technique : (*variants[0].document)["techniques"]) EXPECT_EQ(technique.size(), 1u) << technique;
+    EXPECT_EQ(variants[0].technique_where, std::vector<std::string>(techniques::all().size(), "/techniques/0"));
+}
+
+TEST(Expand, keeps_the_settings_that_are_listed_beside_the_star) {
+    json document = small_document();
+    const json deep = {{"type", "deep"}, {"tolerance", 0.5}}, plain = {{"type", "avsm"}},
+               few = {{"type", "avsm"}, {"nodes", 2}};
+    document["techniques"] = {deep, {{"type", "*"}}, plain, few};
+    document["sweeps"] = {{"/techniques/3/nodes", {2, 4}}};
+    const Variant variant = expand(document).at(0);
+    std::vector<std::string> expected = types_of_all_rows();
+    std::erase(expected, "deep");
+    std::erase(expected, "avsm");
+    expected.insert(expected.begin(), "deep");
+    for (int i = 0; i < 3; ++i) expected.push_back("avsm");
+    EXPECT_EQ(types_of(variant), expected) << "what is named elsewhere is not doubled";
+    const json& techniques = (*variant.document)["techniques"];
+    EXPECT_EQ(techniques[0], deep);
+    EXPECT_EQ(techniques[expected.size() - 3], plain);
+    EXPECT_EQ(techniques[expected.size() - 1], (json{{"type", "avsm"}, {"nodes", 4}}));
+    EXPECT_EQ(variant.technique_where.front(), "/techniques/0");
+    EXPECT_EQ(variant.technique_where[1], "/techniques/1");
+    EXPECT_EQ(variant.technique_where.back(), "/techniques/3");
+}
+
+TEST(Expand, makes_nothing_of_a_star_beside_every_technique) {
+    json document = small_document();
+    document["techniques"] = {{{"type", "*"}}};
+    for (const std::string& type : types_of_all_rows()) document["techniques"].push_back({{"type", type}});
+    EXPECT_EQ(types_of(expand(document).at(0)), types_of_all_rows());
+}
+
+TEST(Expand, leaves_out_of_the_star_what_traces_where_there_is_no_scene) {
+    json document = small_document();
+    document["techniques"] = {{{"type", "*"}}};
+    document["scene"] = {{"deep_image", {{"file", "a.exr"}}}};
+    document.erase("lights");
+    std::vector<std::string> expected;
+    for (const techniques::Technique& row : techniques::all())
+        if (!row.traits.traces) expected.emplace_back(row.id);
+    EXPECT_LT(expected.size(), techniques::all().size());
+    EXPECT_EQ(types_of(expand(document).at(0)), expected);
+}
+
+TEST(Expand, refuses_a_star_with_parameters_or_twice) {
+    json document = small_document();
+    document["techniques"] = {{{"type", "avsm"}}, {{"type", "*"}, {"nodes", 4}}};
+    const std::string message = error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
+    EXPECT_NE(message.find("takes no parameters"), std::string::npos) << message;
+    error_of([&] { check_document(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
+    EXPECT_EQ(all_faults(document, {ErrorCode::bad_input, "/rays", "x"}).at(1).where(), "/techniques/1/nodes");
+    document["techniques"] = {{{"type", "*"}}, {{"type", "avsm"}}, {{"type", "*"}}};
+    error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/2/type");
+    document["techniques"] = {{{"type", "avsm"}}, {{"type", "*"}}};
+    document["sweeps"] = {{"/techniques/1/nodes", {4, 8}}};
+    error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
+}
+
+TEST(CheckDocument, takes_the_star) {
+    json document = small_document();
+    document["techniques"].push_back({{"type", "*"}});
+    EXPECT_NO_THROW(check_document(document));
+    EXPECT_EQ(all_faults(document, {ErrorCode::bad_input, "/rays", "x"}).size(), 1u);
+    document["techniques"][2]["nodes"] = 4;
+    EXPECT_THROW(scene::check_schema(document, full_schema()), base::Error);
+}
+
+TEST(KeepOnly, knows_what_the_star_stands_for) {
+    json document = small_document();
+    document["techniques"] = {{{"type", "*"}}};
+    Variant variant = expand(document)[0];
+    const std::vector<std::string> types{"pcf"};
+    keep_only(variant, types);
+    EXPECT_EQ((*variant.document)["techniques"], json::array({{{"type", "pcf"}}}));
 }
 
 TEST(SelectVariant, is_the_one_that_expand_counts) {

@@ -67,7 +67,7 @@ void HardCase::expect_of_techniques(const Queries& queries, const Answers& expec
         ASSERT_TRUE(contender.ok()) << name << ": " << contender.cell.reason;
         const std::vector<float> answers = lookup_all(contender.maps, {queries});
         const bool bounded = std::isfinite(contender.cell.error_bound) && !contender.cell.outside_promise;
-        if (contender.cell.technique == "ray_traced")
+        if (contender.row->traits.traces)
             compare(name, answers, queries, expected, slack);
         else if (bounded)
             compare(name, answers, queries, expected, contender.cell.error_bound + slack);

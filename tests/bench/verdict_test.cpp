@@ -74,6 +74,12 @@ TEST(Verdict, names_what_is_promised_before_and_behind_alone) {
     expect(series, Verdict::degraded, "exact only before and behind");
 }
 
+TEST(Verdict, names_an_approximation) {
+    Cell moments = cell(0.4, infinity);
+    moments.promises = {.localised = false, .approximate = true, .leak = 1.0 / 9.0};
+    expect(moments, Verdict::degraded, "approximates, by up to 0.11 even behind all");
+}
+
 TEST(Verdict, of_a_technique_that_stores_nothing_goes_by_the_rms_of_its_lookups) {
     Cell traced = cell(0.0, infinity);
     traced.curve.reset();

@@ -83,6 +83,16 @@ TEST_F(Read, ACellOfASweepRunsAlone) {
     EXPECT_EQ(command_of(other.suites[0].cells[0].rerun), "shadowbench run made --only deep");
 }
 
+// "*" stands for techniques with their defaults: one of them runs alone by its name.
+TEST_F(Read, ACellOfTheStarRunsAlone) {
+    json result = made_result();
+    result["scenario"]["techniques"][0] = {{"type", "*"}};
+    Measured measured;
+    ASSERT_TRUE(add(measured, result, ""));
+    EXPECT_EQ(command_of(measured.suites[0].cells[0].rerun),
+              "shadowbench run made --set 'techniques=[{\"type\":\"deep\"}]'");
+}
+
 TEST_F(Read, KernelsAreCells) {
     const Measured measured = read(write("kernels.json", made_kernels().dump()));
     ASSERT_EQ(measured.suites.size(), 1u);

@@ -21,7 +21,12 @@ inline bool few_variants(const nlohmann::json& document) {
         for (const nlohmann::json& values : *sweeps)
             if (!count(values)) return false;
     const auto techniques = document.find("techniques");
-    return techniques == document.end() || count(*techniques);
+    if (techniques == document.end()) return true;
+    if (techniques->is_array() && std::any_of(techniques->begin(), techniques->end(), [](const nlohmann::json& one) {
+            return one.is_object() && one.value("type", nlohmann::json()) == "*";  // stands for a dozen
+        }))
+        variants *= 12;
+    return count(*techniques);
 }
 
 }  // namespace shadowbench::fuzz

@@ -6,6 +6,7 @@
 #include "curves/norms.h"
 #include "curves/sweep.h"
 #include "techniques/built.h"
+#include "techniques/hand_rays.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -94,6 +95,27 @@ TEST(Deep, ATentIsNeverNarrowerThanAPixel) {
         build(deep(), scene, rays::testing::directional(), rays::testing::rays(16, 4), R"({"kernel": "tent"})");
     for (const float width : {0.01f, 0.5f, 0.9f})
         for (const float x : {8.0f, 8.2f, 8.5f}) EXPECT_NEAR(b.lookup(x, 8.0f, 5.0f, width), 0.25f, 1e-6f) << width;
+}
+
+// Their parts of a pixel's light add up without rounding.
+TEST(Deep, TheOrderOfRaysThatMeetSurfacesAloneChangesNoDigit) {
+    base::Random random(3);
+    for (int i = 0; i < 200; ++i) {
+        testing::HandRays given{1, 1, 9, {}};
+        for (int r = 0; r < 9; ++r) {
+            given.rays.emplace_back();
+            for (std::size_t s = random.below(5); s > 0; --s) {
+                const auto z = static_cast<float>(1 + random.below(6));
+                given.rays.back().push_back({z, z, 0.1f * static_cast<float>(random.below(10))});
+            }
+        }
+        const ParameterValues values = read_parameters(deep().parameters, {{"tolerance", 0.0131}}, "");
+        const testing::HandMap one = testing::make_map(deep(), values, given);
+        for (std::size_t k = given.rays.size(); k > 1; --k) std::swap(given.rays[k - 1], given.rays[random.below(k)]);
+        const testing::HandMap two = testing::make_map(deep(), values, given);
+        for (float z = 0.5f; z < 8.0f; z += 0.5f)
+            EXPECT_EQ(one({0.5f, 0.5f, z, 1.0f}), two({0.5f, 0.5f, z, 1.0f})) << i << " at " << z;
+    }
 }
 
 TEST(Deep, EmptyPixelsCostOnlyTheirOffset) {

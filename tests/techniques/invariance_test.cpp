@@ -10,7 +10,6 @@ namespace {
 
 using testing::HandMap;
 using testing::HandRays;
-using testing::is;
 using testing::Segment;
 using testing::Segments;
 
@@ -45,13 +44,11 @@ void keep_above_faint(Segments& ray) {
 
 // Multiplying every depth by a power of two changes no digit of anything but depths, so long as neither they nor their
 // products with values are denormal: what opaque media leave below 1e-28 may differ in digits that it does not have.
-// Not so for pcf and ray_traced, which draw their samples by the digits of a query's depth; nor for a bias, which is a
-// length too.
+// Not so for rows that draw their samples by the digits of a query's depth; nor for a bias, which is a length too.
 TEST_P(Invariance, TheUnitOfDepthChangesNothing) {
-    if (is(row(), "pcf") || is(row(), "ray_traced")) return;
+    if (row().traits.draws_samples || row().traits.traces) return;
     std::vector<ParameterValues> settings = testing::variants(row());
-    for (ParameterValues& values : settings)
-        if (values.values.count("bias")) values.values["bias"] = 0.0;
+    for (ParameterValues& values : settings) values = testing::unbiased(row(), values);
     rc::detail::checkGTest([&] {
         HandRays given = *testing::any_rays({.hostile = false});
         for (Segments& ray : given.rays) keep_above_faint(ray);
@@ -96,24 +93,19 @@ void shuffle(std::vector<Value>& values, base::Random& random) {
     for (std::size_t k = values.size(); k > 1; --k) std::swap(values[k - 1], values[random.below(k)]);
 }
 
-// Rows whose answers are means over the rays of a pixel, or products over the hits of a ray, up to rounding. An avsm
-// drops nodes hit after hit, so that the order counts as soon as one is dropped: it is asked with room for all.
+// With room for all that a ray brings, where the row says which settings those are: what drops something, hit after
+// hit, depends on their order.
 std::vector<ParameterValues> roomy(const Technique& row) {
     std::vector<ParameterValues> found;
-    for (ParameterValues values : testing::variants(row)) {
-        if (is(row, "avsm")) {
-            if (values.word("order") != "sorted") continue;
-            values.values["nodes"] = 64.0;
-        }
-        if (is(row, "deep")) values.values["tolerance"] = 0.0131;  // at which no two values meet
-        found.push_back(values);
-    }
+    for (const ParameterValues& values : testing::variants(row)) found.push_back(with(values, row.traits.order_free));
     return found;
 }
 
+constexpr double rounding = 1e-6;
+
 // The contract leaves open in which order hits that begin and end at one depth come.
 TEST_P(Invariance, TheOrderOfHitsAtOneDepthChangesNothing) {
-    if (is(row(), "ray_traced")) return;
+    if (row().traits.traces) return;
     const std::vector<ParameterValues> settings = roomy(row());
     rc::detail::checkGTest([&] {
         const auto draws = *testing::any_draws();
@@ -126,19 +118,16 @@ TEST_P(Invariance, TheOrderOfHitsAtOneDepthChangesNothing) {
         const HandMap one = make_map(row(), values, given);
         base::Random random(static_cast<std::uint64_t>(*rc::gen::inRange(0, 1000)));
         for (Segments& ray : given.rays) shuffle(ray, random);
-        check_alike(one, make_map(row(), values, given), queries, is(row(), "avsm") ? 1e-5 : 1e-6);
+        const double slack = rounding + 2.0 * row().traits.segment_rounding * static_cast<double>(few.size());
+        check_alike(one, make_map(row(), values, given), queries, slack);
     });
 }
 
 // Over whole pixels, whose every ray weighs the same.
 TEST_P(Invariance, TheOrderOfTheRaysOfAPixelChangesNoMean) {
-    if (is(row(), "shadow_map") || is(row(), "pcf") || is(row(), "multi_depth") || is(row(), "ray_traced")) return;
+    if (!row().traits.filters || row().traits.traces) return;
     std::vector<ParameterValues> settings = roomy(row());
-    std::erase_if(settings, [&](const ParameterValues& values) {
-        if (is(row(), "deep")) return values.word("filter") != "box" || values.number("radius") != 0.5;
-        const bool centre = values.values.count("cells") && values.word("cells") == "centre";
-        return centre || values.word("filter") != "footprint";
-    });
+    for (ParameterValues& values : settings) values = with(values, row().traits.whole_pixel);
     rc::detail::checkGTest([&] {
         const bool media = *rc::gen::arbitrary<bool>();
         HandRays given = *testing::any_rays({.media = media, .hostile = false});
@@ -155,10 +144,11 @@ TEST_P(Invariance, TheOrderOfTheRaysOfAPixelChangesNoMean) {
             shuffle(pixel, random);
             std::copy(pixel.begin(), pixel.end(), given.rays.begin() + first);
         }
-        // Surfaces add up exactly in a deep map. Sums of media are rounded otherwise in another order, and compression
-        // may then choose others of the functions within its tolerance.
-        const double slack = !is(row(), "deep") ? 1e-6 : media ? 2 * values.number("tolerance") + 1e-6 : 0.0;
-        check_alike(one, make_map(row(), values, given), queries, slack);
+        // Sums of media are rounded otherwise in another order, and what compresses within a bound may then choose
+        // others of the functions within it.
+        const double bound = row().error_bound(values, one.layout);
+        const bool compresses = media && std::isfinite(bound) && bound > rounding;
+        check_alike(one, make_map(row(), values, given), queries, compresses ? 2.0 * bound + rounding : rounding);
     });
 }
 

@@ -13,26 +13,9 @@ namespace {
 using testing::HandMap;
 using testing::HandRays;
 
-// Settings under which a lookup of width 0 reads one cell and adds nothing of its own.
 std::vector<ParameterValues> pointwise(const Technique& row) {
     std::vector<ParameterValues> found = testing::variants(row);
-    for (ParameterValues& values : found) {
-        const auto set = [&](const char* name, const ParameterValues::Value& value) {
-            if (values.values.count(name)) values.values[name] = value;
-        };
-        for (const char* bias : {"bias", "bias0", "bias1"}) set(bias, 0.0);
-        if (testing::is(row, "deep")) {
-            set("mip", std::string("none"));
-            set("kernel", std::string("box"));
-        } else {
-            set("filter", std::string("point"));
-        }
-        if (testing::is(row, "multi_depth")) set("kernel", 1.0);
-        if (testing::is(row, "pcf")) {
-            set("region", std::string("query"));
-            set("min_size", 0.0);
-        }
-    }
+    for (ParameterValues& values : found) values = testing::pointwise(row, values);
     return found;
 }
 
@@ -63,12 +46,11 @@ void check_cell(const HandMap& made, const std::vector<float>& depths, int x, in
 class LookupProperties : public ::testing::TestWithParam<const Technique*> {
 protected:
     const Technique& row() const { return *GetParam(); }
-    // One minus a count over their number, where the function holds a count over their number.
-    float slack() const { return testing::is(row(), "multi_depth") ? 1e-7f : 0.0f; }
+    float slack() const { return static_cast<float>(row().traits.lookup_rounding); }
 };
 
 TEST_P(LookupProperties, AnswerAsTheStoredFunction) {
-    if (testing::is(row(), "ray_traced")) return;  // stores none
+    if (row().traits.traces) return;  // stores none
     const std::vector<ParameterValues> settings = pointwise(row());
     rc::detail::checkGTest([&] {
         HandRays given = *testing::any_rays();
@@ -114,7 +96,7 @@ TEST_P(LookupProperties, AnswerAsTheStoredFunctionOfGivenFunctions) {
 
 // Whatever the filters and the rays are, near and far from the map.
 TEST_P(LookupProperties, AnswersStayInTheirRange) {
-    if (testing::is(row(), "ray_traced")) return;  // sees a scene, not these rays
+    if (row().traits.traces) return;  // sees a scene, not these rays
     const std::vector<ParameterValues> settings = testing::variants(row());
     rc::detail::checkGTest([&] {
         HandRays given = *testing::any_rays();

@@ -34,7 +34,11 @@ inline std::vector<ParameterValues> variants(const Technique& row) {
             for (const double number : {p.min, p.max}) {
                 found.push_back(these);
                 found.back().values[p.name] = number;
-                if (p.name == std::string("bias0")) found.back().values["bias1"] = number;  // never less than bias0
+                bool behind = false;  // biases are never less than the one before
+                for (const char* bias : row.traits.biases) {
+                    behind = behind || p.name == std::string_view(bias);
+                    if (behind) found.back().values[bias] = number;
+                }
             }
         }
     return found;
@@ -47,8 +51,20 @@ inline double least_answer(const Technique& row, const ParameterValues& values, 
     return promises(row, values).unit_range || !std::isfinite(bound) ? 0.0 : -2.0 * bound;
 }
 
-inline bool is(const Technique& row, std::string_view id) {
-    return row.id == id;
+// Adds nothing to depths.
+inline ParameterValues unbiased(const Technique& row, ParameterValues values) {
+    for (const char* bias : row.traits.biases) values.values[bias] = 0.0;
+    return values;
+}
+
+// What is added to stored depths, at most.
+inline double bias_of(const Technique& row, const ParameterValues& values) {
+    return row.traits.biases.empty() ? 0.0 : values.number(row.traits.biases.back());
+}
+
+// Settings under which a lookup of width 0 answers the stored function of its cell.
+inline ParameterValues pointwise(const Technique& row, const ParameterValues& values) {
+    return with(unbiased(row, values), row.traits.pointwise);
 }
 
 inline std::string text_of(const Technique& row, const ParameterValues& values) {

@@ -1,33 +1,26 @@
-#include "techniques/avsm/avsm.h"
-
+// Adaptive volumetric shadow maps: Salvi, Vidimce, Lauritzen, Lefohn, Adaptive Volumetric Shadow Maps, 2010.
 #include "base/error.h"
 #include "techniques/avsm/order.h"
 #include "techniques/avsm/stream.h"
 #include "techniques/avsm/texel.h"
-#include "techniques/texels.h"
+#include "techniques/texel_map.h"
 
 namespace shadowbench::techniques {
 namespace {
 
 const Parameter parameters[] = {
     {"nodes", ParameterKind::integer, "nodes a texel", 8, 2, 64},
-    {"order",
-     ParameterKind::choice,
-     "in which a ray's segments are inserted: by depth, as they were submitted, or at random",
-     0,
-     0,
-     0,
-     "sorted",
-     {"sorted", "captured", "shuffled"}},
+    {.name = "order",
+     .kind = ParameterKind::choice,
+     .doc = "in which a ray's segments are inserted: by depth, as they were submitted, or at random",
+     .standard_word = "sorted",
+     .words = {"sorted", "captured", "shuffled"}},
     {"seed", ParameterKind::integer, "of the random order", 1, 0, 1e9},
-    {"sampling",
-     ParameterKind::choice,
-     "between two nodes transmittance is linear, or falls exponentially",
-     0,
-     0,
-     0,
-     "linear",
-     {"linear", "exponential"}},
+    {.name = "sampling",
+     .kind = ParameterKind::choice,
+     .doc = "between two nodes transmittance is linear, or falls exponentially",
+     .standard_word = "linear",
+     .words = {"linear", "exponential"}},
     filter_parameter,
     cells_parameter,
 };
@@ -43,15 +36,16 @@ Sampling read_sampling(const ParameterValues& values) {
 
 // A texel is 2 * nodes floats: depths, then values. Each is made by streaming its ray's segments through one curve of a
 // fixed size and written once: besides the map, nothing grows with the scene.
-class Avsm final : public Map {
+class Avsm final : public TexelMap<Avsm> {
 public:
     explicit Avsm(const ParameterValues& values)
-        : texels_(values),
+        : TexelMap(values),
           nodes_(values.integer("nodes")),
           order_(read_order(values)),
           seed_(static_cast<std::uint64_t>(values.integer("seed"))),
           sampling_(read_sampling(values)),
           evaluate_(texel_evaluator(nodes_, sampling_)) {}
+    static int floats_a_texel(const ParameterValues& values) { return 2 * values.integer("nodes"); }
 
     Avsm(const ParameterValues& values, std::span<const curves::Curve> functions) : Avsm(values) {
         texels_.kind = Cells::centre;
@@ -59,73 +53,52 @@ public:
         for (const curves::Curve& f : functions)
             if (!f.empty()) far_plane = std::max(far_plane, f.back().z);
         far_plane = std::nextafter(far_plane, std::numeric_limits<float>::infinity());
-        layout_.width = static_cast<int>(functions.size());
-        layout_.z_max = far_plane;
-        texels_.allocate(layout_, 2 * nodes_);
+        rays::MapLayout layout;
+        layout.width = static_cast<int>(functions.size());
+        layout.z_max = far_plane;
+        allocate(layout);
         with_stream([&](auto& stream) {
             for (std::size_t f = 0; f < functions.size(); ++f) {
                 stream.clear(far_plane);
                 for (const curves::Vertex& v : functions[f]) stream.append(v.z, v.value);
-                store(stream, f);
+                store(stream, texels_.at(f));
             }
         });
     }
 
     RayNeeds needs() const override { return {.submission = order_ == Order::captured}; }
 
-    void begin(const BuildInput& input) override {
-        layout_ = input.layout;
-        texels_.allocate(layout_, 2 * nodes_);
-    }
-
     void add(const rays::LightRays& rays) override {
         if (order_ == Order::captured && rays.submission.size() != rays.segments())
             throw base::Error(base::ErrorCode::internal, "/techniques",
                               "avsm: the light rays do not tell the order of their segments");
         with_stream([&](auto& stream) {
-            for_each_cell(layout_, texels_.grid, texels_.kind, rays, [&](std::size_t cell, std::size_t ray) {
-                if (rays.begin[ray] == rays.begin[ray + 1]) {
-                    store_empty(cell);
-                    return;
-                }
+            for_each_texel(rays, [&](float* texel, std::size_t cell, std::size_t ray) {
+                if (rays.begin[ray] == rays.begin[ray + 1]) return store_empty(texel);
                 stream.clear(layout_.z_max);
                 for_each_segment(rays, ray, cell, [&](std::uint32_t s) {
                     stream.insert(rays.z_front[s], rays.back(s), rays.transmittance[s]);
                 });
-                store(stream, cell);
+                store(stream, texel);
             });
         });
     }
-    void finish() override {}
 
-    void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
-        texels_.lookup(
-            queries, visibility, [](float z) { return z; },
-            [&](const float* texel, float z) { return evaluate_(texel, nodes_, z); });
+    float prepare(float z) const { return z; }
+    float evaluate(const float* texel, float z) const { return evaluate_(texel, nodes_, z); }
+    // Nodes but those that repeat the one at the far plane.
+    int nodes_of(const float* t) const {
+        int n = nodes_;
+        while (n > 1 && t[n - 2] == t[n - 1] && t[nodes_ + n - 2] == t[nodes_ + n - 1]) --n;
+        return n == 1 ? 0 : n;
     }
-    void touched(const Query& query, std::vector<const void*>& lines) const override {
-        const std::size_t before = lines.size();
-        texels_.for_each(query, [&](std::size_t cell, float) { touch_lines(texels_.at(cell), 8 * nodes_, lines); });
-        keep_unique(lines, before);
-    }
-
-    std::size_t bytes() const override { return texels_.bytes(); }
-    std::size_t working_bytes() const override { return bytes(); }
-    NodeStats nodes() const override {
-        NodeStats stats;
-        for (std::size_t cell = 0; cell < texels_.grid.count(); ++cell) stats.add(used(cell));
-        return stats;
-    }
-    Cells cells() const override { return texels_.kind; }
     void stored(int x, int y, int, std::span<const float> depths, curves::Curve& out) const override {
-        const std::size_t cell = texels_.grid.index(x, y);
-        const float* t = texels_.at(cell);
-        const std::uint32_t n = used(cell);
+        const float* t = texels_.at(texels_.grid.index(x, y));
+        const int n = nodes_of(t);
         out.clear();
-        if (n < 2) return;
         const bool sampled = sampling_ == Sampling::exponential;
         std::size_t k = 0;
-        for (std::uint32_t i = 0; i < n; ++i) {
+        for (int i = 0; i < n; ++i) {
             for (; k < depths.size() && depths[k] <= t[i]; ++k)
                 if (sampled && i > 0 && depths[k] < t[i]) out.push_back({depths[k], evaluate_(t, nodes_, depths[k])});
             out.push_back({t[i], t[nodes_ + i]});
@@ -147,16 +120,14 @@ private:
         }
     }
 
-    void store_empty(std::size_t cell) {
-        float* t = texels_.at(cell);
+    void store_empty(float* t) const {
         std::fill_n(t, nodes_, layout_.z_max);
         std::fill_n(t + nodes_, nodes_, 1.0f);
     }
 
     // Nodes not needed stand at the far plane with the last value.
     template <class Stream>
-    void store(const Stream& stream, std::size_t cell) {
-        float* t = texels_.at(cell);
+    void store(const Stream& stream, float* t) const {
         int i = 0;
         stream.for_each([&](float depth, float value) {
             t[i] = depth;
@@ -193,40 +164,29 @@ private:
             run.template operator()<64>();
     }
 
-    // Nodes but those that repeat the one at the far plane; an empty texel has 0.
-    std::uint32_t used(std::size_t cell) const {
-        const float* t = texels_.at(cell);
-        int n = nodes_;
-        while (n > 1 && t[n - 2] == t[n - 1] && t[nodes_ + n - 2] == t[nodes_ + n - 1]) --n;
-        return n == 1 ? 0 : static_cast<std::uint32_t>(n);
-    }
-
-    Texels texels_;
     int nodes_;
     Order order_;
     std::uint64_t seed_;
     Sampling sampling_;
     TexelEvaluator evaluate_;
-    rays::MapLayout layout_;
 };
 
 }  // namespace
 
 Technique avsm() {
-    return {"avsm",
-            "adaptive volumetric shadow map: a fixed number of nodes a texel",
-            "Salvi et al. 2010",
-            2,
-            {},
-            parameters,
-            [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Avsm>(values); },
-            [](const ParameterValues&, const rays::MapLayout&) { return std::numeric_limits<double>::infinity(); },
-            [](const ParameterValues& values, std::span<const curves::Curve> functions) -> std::unique_ptr<Map> {
-                return std::make_unique<Avsm>(values, functions);
-            },
-            [](const ParameterValues& values, const rays::MapLayout& layout) {
-                return Texels::bytes(values, layout, 2 * values.integer("nodes"));
-            }};
+    Traits traits = texel_traits();
+    traits.segment_rounding = 0x1p-24;                           // see stream.h
+    traits.order_free = {{"order", "sorted"}, {"nodes", 64.0}};  // once a node is dropped, the order counts
+    return {.id = "avsm",
+            .title = "adaptive volumetric shadow map: a fixed number of nodes a texel",
+            .paper = "Salvi et al. 2010",
+            .version = 2,
+            .parameters = parameters,
+            .create = create_map<Avsm>,
+            .from_curves = [](const ParameterValues& values, std::span<const curves::Curve> functions)
+                -> std::unique_ptr<Map> { return std::make_unique<Avsm>(values, functions); },
+            .least_bytes = Avsm::least_bytes,
+            .traits = traits};
 }
 
 }  // namespace shadowbench::techniques

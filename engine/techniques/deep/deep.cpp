@@ -163,26 +163,30 @@ std::span<const DeepLevel> levels(const Map& map) {
 }
 
 Technique deep() {
-    return {"deep",
-            "deep shadow map: visibility functions compressed within a tolerance",
-            "Lokovic, Veach 2000",
-            3,
-            {},
-            parameters,
-            [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Deep>(values); },
-            [](const ParameterValues& values, const rays::MapLayout& layout) {
-                const double tolerance = tolerance_of(values, layout.samples());
-                return layout.media ? std::max(tolerance, linearisation_of(tolerance)) : tolerance;
-            },
-            [](const ParameterValues& values, std::span<const curves::Curve> functions) -> std::unique_ptr<Map> {
-                return std::make_unique<Deep>(values, functions);
-            },
-            least_bytes,
-            true,
-            [](const ParameterValues& values) -> Promises {
+    return {.id = "deep",
+            .title = "deep shadow map: visibility functions compressed within a tolerance",
+            .paper = "Lokovic, Veach 2000",
+            .version = 3,
+            .parameters = parameters,
+            .create = create_map<Deep>,
+            .error_bound =
+                [](const ParameterValues& values, const rays::MapLayout& layout) {
+                    const double tolerance = tolerance_of(values, layout.samples());
+                    return layout.media ? std::max(tolerance, linearisation_of(tolerance)) : tolerance;
+                },
+            .from_curves = [](const ParameterValues& values, std::span<const curves::Curve> functions)
+                -> std::unique_ptr<Map> { return std::make_unique<Deep>(values, functions); },
+            .least_bytes = least_bytes,
+            .coloured = true,
+            .promises_of = [](const ParameterValues& values) -> Promises {
                 const bool bounded = !is_published(values);
                 return {.monotone = bounded, .unit_range = bounded};
-            }};
+            },
+            // Values that are twice the tolerance apart are joined or not as they are rounded, and that depends on the
+            // order of their sums: no two products of round numbers are twice this apart.
+            .traits = {.pointwise = {{"mip", "none"}, {"kernel", "box"}},
+                       .order_free = {{"tolerance", 0.0131}},
+                       .whole_pixel = {{"filter", "box"}, {"radius", 0.5}}}};
 }
 
 }  // namespace shadowbench::techniques

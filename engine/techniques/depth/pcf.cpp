@@ -1,10 +1,10 @@
+// Percentage closer filtering: Reeves, Salesin, Cook, Rendering Antialiased Shadows with Depth Maps, 1987.
 #include <bit>
 #include <type_traits>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "techniques/depth/depth.h"
 #include "techniques/depth/pcf_samples.h"
 #include "techniques/depth_map.h"
 
@@ -234,20 +234,23 @@ private:
 }  // namespace
 
 Technique pcf() {
-    return {"pcf",
-            "percentage closer filtering of a depth map",
-            "Reeves, Salesin, Cook 1987",
-            2,
-            {.opaque_only = true},
-            parameters,
-            [](const ParameterValues& values) -> std::unique_ptr<Map> {
-                return std::make_unique<PercentageCloser>(values);
-            },
-            [](const ParameterValues&, const rays::MapLayout&) { return 0.0; },
-            nullptr,
-            [](const ParameterValues& values, const rays::MapLayout& layout) {
-                return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)), 1);
-            }};
+    return {.id = "pcf",
+            .title = "percentage closer filtering of a depth map",
+            .paper = "Reeves, Salesin, Cook 1987",
+            .version = 2,
+            .promises = {.opaque_only = true},
+            .parameters = parameters,
+            .create = create_map<PercentageCloser>,
+            .error_bound = [](const ParameterValues&, const rays::MapLayout&) { return 0.0; },
+            .least_bytes =
+                [](const ParameterValues& values, const rays::MapLayout& layout) {
+                    return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)), 1);
+                },
+            .traits = {.draws_samples = true,
+                       .beyond_footprint = true,
+                       .filters = false,
+                       .biases = {"bias0", "bias1"},
+                       .pointwise = {{"region", "query"}, {"min_size", 0.0}}}};
 }
 
 }  // namespace shadowbench::techniques

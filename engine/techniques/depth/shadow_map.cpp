@@ -1,4 +1,4 @@
-#include "techniques/depth/depth.h"
+// The plain shadow map: Williams, Casting Curved Shadows on Curved Surfaces, 1978.
 #include "techniques/depth_map.h"
 
 namespace shadowbench::techniques {
@@ -53,18 +53,19 @@ private:
 }  // namespace
 
 Technique shadow_map() {
-    return {"shadow_map",
-            "z-buffer shadow map, nearest cell",
-            "Williams 1978",
-            1,
-            {.opaque_only = true},
-            parameters,
-            [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<ShadowMap>(values); },
-            [](const ParameterValues&, const rays::MapLayout&) { return 0.0; },
-            nullptr,
-            [](const ParameterValues& values, const rays::MapLayout& layout) {
-                return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)), 1);
-            }};
+    return {.id = "shadow_map",
+            .title = "z-buffer shadow map, nearest cell",
+            .paper = "Williams 1978",
+            .version = 1,
+            .promises = {.opaque_only = true},
+            .parameters = parameters,
+            .create = create_map<ShadowMap>,
+            .error_bound = [](const ParameterValues&, const rays::MapLayout&) { return 0.0; },
+            .least_bytes =
+                [](const ParameterValues& values, const rays::MapLayout& layout) {
+                    return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)), 1);
+                },
+            .traits = {.filters = false, .biases = {"bias"}}};
 }
 
 }  // namespace shadowbench::techniques

@@ -1,5 +1,4 @@
-#include "techniques/multi_depth/multi_depth.h"
-
+// Several depths a cell and a test with several outcomes: Pagot, Comba, Oliveira, Multiple-Depth Shadow Maps, 2004.
 #include <limits>
 #include <utility>
 
@@ -180,22 +179,30 @@ private:
 
 Technique multi_depth() {
     return {
-        "multi_depth",
-        "several depths a cell, and a shadow test with as many steps",
-        "Pagot, Comba, Oliveira 2004",
-        1,
-        {.opaque_only = true},
-        parameters,
-        [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<MultiDepth>(values); },
+        .id = "multi_depth",
+        .title = "several depths a cell, and a shadow test with as many steps",
+        .paper = "Pagot, Comba, Oliveira 2004",
+        .version = 1,
+        .promises = {.opaque_only = true},
+        .parameters = parameters,
+        .create = create_map<MultiDepth>,
         // With more depths than its own a cell stands for its neighbours too: no bound on the error against its ray.
-        [](const ParameterValues& values, const rays::MapLayout&) {
-            const bool own = values.integer("n") == 1 || values.integer("q") == 1;
-            return own ? 0.0 : std::numeric_limits<double>::infinity();
-        },
-        nullptr,
-        [](const ParameterValues& values, const rays::MapLayout& layout) {
-            return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)), values.integer("n"));
-        }};
+        .error_bound =
+            [](const ParameterValues& values, const rays::MapLayout& layout) {
+                const bool own = values.integer("n") == 1 || values.integer("q") == 1;
+                return own ? 0.0 : no_bound(values, layout);
+            },
+        .least_bytes =
+            [](const ParameterValues& values, const rays::MapLayout& layout) {
+                return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)),
+                                         values.integer("n"));
+            },
+        // A lookup answers one minus a count over its number, where the function holds the rest of the count over it.
+        .traits = {.beyond_footprint = true,
+                   .filters = false,
+                   .lookup_rounding = 1e-7,
+                   .biases = {"bias"},
+                   .pointwise = {{"kernel", 1.0}}}};
 }
 
 }  // namespace shadowbench::techniques

@@ -1,9 +1,8 @@
-#include "techniques/opacity/opacity.h"
-
+// Opacity shadow maps: Kim and Neumann, Opacity Shadow Maps, 2001, as Salvi et al. 2010 compare them.
 #include <array>
 
 #include "techniques/slices.h"
-#include "techniques/texels.h"
+#include "techniques/texel_map.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -12,14 +11,11 @@ constexpr int most_slices = 256;
 
 const Parameter parameters[] = {
     {"slices", ParameterKind::integer, "depths at which a texel holds the optical depth so far", 32, 1, most_slices},
-    {"bounds",
-     ParameterKind::choice,
-     "between which depths the slices stand: those of all that casts shadows in the map, or of each texel alone",
-     0,
-     0,
-     0,
-     "map",
-     {"map", "texel"}},
+    {.name = "bounds",
+     .kind = ParameterKind::choice,
+     .doc = "between which depths the slices stand: those of all that casts shadows in the map, or of each texel alone",
+     .standard_word = "map",
+     .words = {"map", "texel"}},
     {"opaque_depth", ParameterKind::number,
      "largest optical depth of one segment, and that of something opaque; ln 256 makes it black in 8 bits", 5.545, 1,
      80},
@@ -31,24 +27,25 @@ const Parameter parameters[] = {
 // first interval there is nothing. Texels with bounds of their own hold two floats more, behind the slices: where the
 // intervals begin, and how many there are in a unit of depth.
 // Between slices the optical depth is linear, as published, and so the extinction constant.
-class Opacity final : public Map {
+class Opacity final : public TexelMap<Opacity> {
 public:
     explicit Opacity(const ParameterValues& values)
-        : texels_(values),
+        : TexelMap(values),
           count_(values.integer("slices")),
-          own_bounds_(values.word("bounds") == "texel"),
+          own_bounds_(has_own_bounds(values)),
           opaque_depth_(values.number("opaque_depth")) {}
+    static int floats_a_texel(const ParameterValues& values) {
+        return values.integer("slices") + (has_own_bounds(values) ? 2 : 0);
+    }
 
     void begin(const BuildInput& input) override {
-        layout_ = input.layout;
+        TexelMap::begin(input);
         slices_ = Slices(layout_.z_min, layout_.z_max, count_);
-        texels_.allocate(layout_, floats_a_texel(count_, own_bounds_));
     }
 
     void add(const rays::LightRays& rays) override {
         std::array<double, most_slices> parts;
-        for_each_cell(layout_, texels_.grid, texels_.kind, rays, [&](std::size_t cell, std::size_t ray) {
-            float* texel = texels_.at(cell);
+        for_each_texel(rays, [&](float* texel, std::size_t, std::size_t ray) {
             std::fill_n(parts.begin(), count_, 0.0);
             const Slices slices = own_bounds_ ? bounds_of(rays, ray) : slices_;
             slices.spread_ray(rays, ray, opaque_depth_, [&](int i, double part) { parts[i] += part; });
@@ -59,18 +56,16 @@ public:
             texel[count_ + 1] = slices.scale;
         });
     }
-    void finish() override {}
 
+    // Where all texels have the same slices, the place among them is the same for all texels of a lookup.
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
-        if (own_bounds_)
-            texels_.lookup(
-                queries, visibility, [](float z) { return z; },
-                [&](const float* texel, float z) { return evaluate(texel, slices_of(texel).place(z)); });
-        else
-            texels_.lookup(
-                queries, visibility, [&](float z) { return slices_.place(z); },
-                [&](const float* texel, float place) { return evaluate(texel, place); });
+        if (own_bounds_) return TexelMap::lookup(queries, visibility);
+        texels_.lookup(
+            queries, visibility, [&](float z) { return slices_.place(z); },
+            [&](const float* texel, float place) { return evaluate_at(texel, place); });
     }
+    float prepare(float z) const { return z; }
+    float evaluate(const float* texel, float z) const { return evaluate_at(texel, slices_of(texel).place(z)); }
 
     void touched(const Query& q, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();
@@ -84,31 +79,18 @@ public:
         keep_unique(lines, before);
     }
 
-    std::size_t bytes() const override { return texels_.bytes(); }
-    std::size_t working_bytes() const override { return bytes(); }
-    NodeStats nodes() const override {
-        NodeStats stats;
-        for (std::size_t cell = 0; cell < texels_.grid.count(); ++cell) stats.add(is_empty(cell) ? 0 : count_);
-        return stats;
-    }
-    Cells cells() const override { return texels_.kind; }
-    void stored(int x, int y, int, std::span<const float> depths, curves::Curve& out) const override {
-        out.clear();
-        const std::size_t cell = texels_.grid.index(x, y);
-        if (is_empty(cell)) return;
-        const float* texel = texels_.at(cell);
+    int nodes_of(const float* texel) const { return texel[count_ - 1] == 0.0f ? 0 : count_; }
+    static constexpr int most_own_depths = most_slices + 1;
+    int own_depths(const float* texel, float* out) const {
         const Slices slices = slices_of(texel);
-        std::array<float, most_slices + 1> own;
-        for (int i = 0; i < count_; ++i) own[i] = slices.depth(i);
-        own[count_] = slices.behind();
-        sample_function(
-            {own.data(), own.data() + count_ + 1}, depths, [&](float z) { return evaluate(texel, slices.place(z)); },
-            out);
+        for (int i = 0; i < count_; ++i) out[i] = slices.depth(i);
+        out[count_] = slices.behind();
+        return count_ + 1;
     }
-
-    static int floats_a_texel(int slices, bool own_bounds) { return slices + (own_bounds ? 2 : 0); }
 
 private:
+    static bool has_own_bounds(const ParameterValues& values) { return values.word("bounds") == "texel"; }
+
     Slices slices_of(const float* texel) const {
         if (!own_bounds_) return slices_;
         Slices slices;
@@ -130,20 +112,16 @@ private:
         return {low, std::nextafter(high, std::numeric_limits<float>::infinity()), count_};
     }
 
-    float evaluate(const float* texel, float place) const {
+    float evaluate_at(const float* texel, float place) const {
         const int i = std::min(static_cast<int>(place), count_ - 1);
         const float before = i > 0 ? texel[i - 1] : 0.0f, behind = texel[i];
         const float depth = before + (place - static_cast<float>(i)) * (behind - before);
         return std::exp(-std::min(depth, behind));
     }
 
-    bool is_empty(std::size_t cell) const { return texels_.at(cell)[count_ - 1] == 0.0f; }
-
-    Texels texels_;
     int count_;
     bool own_bounds_;
     double opaque_depth_;
-    rays::MapLayout layout_;
     Slices slices_;
 };
 
@@ -154,22 +132,16 @@ Promises promised(const ParameterValues& values) {
 }  // namespace
 
 Technique opacity() {
-    return {"opacity",
-            "opacity shadow map: optical depth at uniform slices",
-            "Kim, Neumann 2001",
-            2,
-            {.localised = false, .leak = std::exp(-5.545)},
-            parameters,
-            [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Opacity>(values); },
-            [](const ParameterValues&, const rays::MapLayout&) { return std::numeric_limits<double>::infinity(); },
-            nullptr,
-            [](const ParameterValues& values, const rays::MapLayout& layout) {
-                return Texels::bytes(
-                    values, layout,
-                    Opacity::floats_a_texel(values.integer("slices"), values.word("bounds") == "texel"));
-            },
-            false,
-            promised};
+    return {.id = "opacity",
+            .title = "opacity shadow map: optical depth at uniform slices",
+            .paper = "Kim, Neumann 2001",
+            .version = 2,
+            .promises = {.localised = false, .leak = std::exp(-5.545)},
+            .parameters = parameters,
+            .create = create_map<Opacity>,
+            .least_bytes = Opacity::least_bytes,
+            .promises_of = promised,
+            .traits = texel_traits()};
 }
 
 }  // namespace shadowbench::techniques

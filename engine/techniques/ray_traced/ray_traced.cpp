@@ -1,5 +1,4 @@
-#include "techniques/ray_traced/ray_traced.h"
-
+// No map: shadow rays through the scene for every lookup. The cost and quality without any of the techniques.
 #include <algorithm>
 #include <bit>
 
@@ -88,16 +87,13 @@ private:
 }  // namespace
 
 Technique ray_traced() {
-    return {"ray_traced",
-            "shadow rays through the scene, no map",
-            "none: the cost of doing without",
-            2,
-            {},
-            parameters,
-            [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<RayTraced>(values); },
-            [](const ParameterValues&, const rays::MapLayout&) { return std::numeric_limits<double>::infinity(); },
-            nullptr,
-            [](const ParameterValues&, const rays::MapLayout&) { return std::size_t{0}; }};
+    return {.id = "ray_traced",
+            .title = "shadow rays through the scene, no map",
+            .paper = "none: the cost of doing without",
+            .version = 2,
+            .parameters = parameters,
+            .create = create_map<RayTraced>,
+            .traits = {.traces = true, .draws_samples = true, .filters = false}};
 }
 
 }  // namespace shadowbench::techniques

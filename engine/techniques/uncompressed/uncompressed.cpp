@@ -1,5 +1,4 @@
-#include "techniques/uncompressed/uncompressed.h"
-
+// Every captured segment, kept and evaluated exactly: the reference of Salvi et al. 2010, and the truth of the rays.
 #include <algorithm>
 #include <cmath>
 
@@ -227,19 +226,18 @@ private:
 }  // namespace
 
 Technique uncompressed() {
-    return {
-        "uncompressed",
-        "every segment of every ray, evaluated exactly",
-        "Salvi et al. 2010 (reference)",
-        2,
-        {},
-        parameters,
-        [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Uncompressed>(values); },
-        [](const ParameterValues&, const rays::MapLayout&) { return 1e-6; },
-        nullptr,
-        [](const ParameterValues&, const rays::MapLayout& layout) {
-            return make_cells(layout, Cells::sample).count() * sizeof(std::uint32_t);
-        }};
+    return {.id = "uncompressed",
+            .title = "every segment of every ray, evaluated exactly",
+            .paper = "Salvi et al. 2010 (reference)",
+            .version = 2,
+            .parameters = parameters,
+            .create = create_map<Uncompressed>,
+            .error_bound = [](const ParameterValues&, const rays::MapLayout&) { return 1e-6; },
+            .least_bytes =
+                [](const ParameterValues&, const rays::MapLayout& layout) {
+                    return make_cells(layout, Cells::sample).count() * sizeof(std::uint32_t);
+                },
+            .traits = {.pointwise = {{"filter", "point"}}, .whole_pixel = {{"filter", "footprint"}}}};
 }
 
 }  // namespace shadowbench::techniques

@@ -144,7 +144,7 @@ void technique(std::string_view bytes) {
         const std::vector<Curve> functions = read_some(bytes);
         if (functions.empty()) return;
         if (row.from_curves) expect_sound(row, values, *row.from_curves(values, functions), functions);
-        if (row.id != std::string_view("ray_traced")) build_from_rays(row, values, functions);
+        if (!row.traits.traces) build_from_rays(row, values, functions);
     });
 }
 

@@ -1,9 +1,12 @@
 // All kernels, run as their users run them: once each, for their counters and not for their times.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "kernels/exact.h"
 #include "kernels/kernel.h"
@@ -50,7 +53,10 @@ TEST(Kernels, BuildAndLookUpEveryTechniqueOfTheRegistry) {
 std::set<std::string> counters_of(const std::string& name) {
     std::set<std::string> counters{"real_time", "cpu_time"};
     if (!starts_with(name, "reference/")) counters.insert({"bytes", "nodes"});
-    const bool traced = name.find("/ray_traced/") != std::string::npos;
+    const auto& rows = techniques::all();
+    const bool traced = std::any_of(rows.begin(), rows.end(), [&](const techniques::Technique& row) {
+        return row.traits.traces && name.find(fmt::format("/{}/", row.id)) != std::string::npos;
+    });
     if (starts_with(name, "lookup/")) counters.insert("ns_per_lookup");
     if (starts_with(name, "lookup/") && !traced) counters.insert({"lookup_error", "error", "floor_ratio"});
     if (starts_with(name, "build/") && !traced) counters.insert({"error", "ns_per_vertex", "floor_ratio"});

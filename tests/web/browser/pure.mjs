@@ -137,3 +137,9 @@ test('the command of a cell says what was swept, in quotes that a shell takes', 
     "shadowbench run 'it'\\''s.json' --set 'sweeps={}' --set 'techniques=[{\"type\":\"avsm\",\"compression\":\"area\",\"nodes\":8}]' --set /rays/samples_per_pixel=4");
   assert.equal(quoted('a b'), "'a b'");
 });
+
+test('the command of a cell that "*" stands for names its technique', () => {
+  const result = {name: 'all', scenario: {techniques: [{type: '*'}]}};
+  const cell = {technique: 'avsm', where: '/techniques/0', parameters: {nodes: 8}};
+  assert.equal(rerunOf(result, {settings: []}, cell), `shadowbench run all.json --set 'techniques=[{"type":"avsm"}]'`);
+});

@@ -66,6 +66,7 @@ function valueAt(document, pointer) {
 // The technique as the scenario would say it: what was written, and what sweeps set.
 function techniqueOf(result, cell) {
   const written = valueAt(result.scenario, cell.where ?? '') ?? {type: cell.technique};
+  if (written.type === '*') return {type: cell.technique};  // one of many, with its defaults
   const swept = Object.keys(result.scenario?.sweeps ?? {}).filter((p) => p.startsWith(`${cell.where}/`))
     .map((p) => p.slice(cell.where.length + 1)).filter((key) => key in (cell.parameters ?? {}));
   return {...written, ...Object.fromEntries(swept.map((key) => [key, cell.parameters[key]]))};
