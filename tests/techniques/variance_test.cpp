@@ -27,7 +27,8 @@ HandMap pixel_of(const std::vector<Segments>& rays, const nlohmann::json& parame
     rays::MapLayout layout = testing::layout_of(given);
     layout.z_min = 0.0f;
     layout.z_max = last;
-    return make_map(variance(), read_parameters(variance().parameters, parameters, ""), light_rays(given), layout);
+    return testing::make_map(variance(), read_parameters(variance().parameters, parameters, ""), light_rays(given),
+                             layout);
 }
 
 float ask(const HandMap& map, float z) {
@@ -77,7 +78,7 @@ TEST(Variance, OfAHalfCoveredFootprintIsExactBehindEverything) {
 TEST(Variance, BleedsLightBetweenAnOccluderAndTheFarEnd) {
     const HandMap map = pixel_of({wall(4), {}});
     EXPECT_EQ(ask(map, 5.0f), 1.0f);
-    EXPECT_EQ(ask(map, last), chebyshev(0.5 * place(4) + 0.5, 0.5 * place(4) * place(4) + 0.5, last));
+    EXPECT_NEAR(ask(map, last), chebyshev(0.5 * place(4) + 0.5, 0.5 * place(4) * place(4) + 0.5, last), 1e-6);
 }
 
 // Answers averaged over texels would be the truth here: it is the moments that are averaged.
@@ -87,8 +88,8 @@ TEST(Variance, FiltersMomentsOverTheFootprint) {
     layout.z_min = 0.0f;
     layout.z_max = last;
     const auto built = [&](const char* filter) {
-        return make_map(variance(), read_parameters(variance().parameters, {{"filter", filter}}, ""), light_rays(given),
-                        layout);
+        return testing::make_map(variance(), read_parameters(variance().parameters, {{"filter", filter}}, ""),
+                                 light_rays(given), layout);
     };
     const HandMap footprint = built("footprint"), bilinear = built("bilinear"), point = built("point");
     const auto expected = [](double p, double z) {  // p of the map at depth 3
@@ -119,13 +120,13 @@ TEST(Variance, HasTheLeastVarianceBehindALoneWall) {
         EXPECT_EQ(ask(map, 4.0f), 1.0f);
         for (const float beyond : {0.01f, 0.1f, 1.0f, 10.0f}) {
             const double t = beyond / last;
-            EXPECT_NEAR(ask(map, 4.0f + beyond), least / (least + t * t), least < 1e-5 ? 0.05 : 1e-3);
+            EXPECT_NEAR(ask(map, 4.0f + beyond), least / (least + t * t), 1e-3);
         }
     }
 }
 
-// E(c) = -1 + integral of V, and E(c^2) = 1 + 2 integral of c V, over c from -1 to 1, V the transmittance: by the
-// midpoint rule, between the ends of segments, in double.
+// E(c) = -1 + integral of V, and E(c^2) = 1 + 2 integral of c V, over c from -1 to 1, V the transmittance: by Gauss's
+// rule of three points in every panel between the ends of segments, in double.
 void integrate(const OneRay& ray, const Segments& segments, double& first, double& second) {
     std::vector<double> ends{0.0, last};
     for (const testing::Segment& s : segments) ends.insert(ends.end(), {s.front, s.back});
@@ -133,15 +134,17 @@ void integrate(const OneRay& ray, const Segments& segments, double& first, doubl
     const double through = ray.exact(2 * last);
     first = -1.0 + through;  // from 0 to 1 V is what passes everything
     second = 1.0 + through;
-    constexpr int panels = 400;
+    constexpr int panels = 100;
+    const double off = std::sqrt(0.15);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         const double length = (ends[i + 1] - ends[i]) / last / panels;
-        for (int k = 0; k < panels; ++k) {
-            const double c = place(ends[i]) + (k + 0.5) * length;
-            const double v = ray.exact((c + 1.0) * last);
-            first += v * length;
-            second += 2.0 * c * v * length;
-        }
+        for (int k = 0; k < panels; ++k)
+            for (const auto& [at, weight] : {std::pair{0.5 - off, 5.0 / 18}, {0.5, 8.0 / 18}, {0.5 + off, 5.0 / 18}}) {
+                const double c = place(ends[i]) + (k + at) * length;
+                const double v = weight * length * ray.exact((c + 1.0) * last);
+                first += v;
+                second += 2.0 * c * v;
+            }
     }
 }
 
@@ -158,8 +161,10 @@ TEST(Variance, HoldsTheMomentsOfTheLightThatIsTaken) {
         const OneRay ray("variance", "{}", cases[i], 0, last);
         double first, second;
         integrate(ray, cases[i], first, second);
+        // Each moment is rounded to a float, by up to 2^-25: what the variance loses by it.
+        const double allowed = 1e-6 + 0x1p-23 / std::max(second - first * first, 1e-6);
         for (float z = 0.125f; z < 18.0f; z += 0.25f)
-            EXPECT_NEAR(ray(z), chebyshev(first, second, z), 2e-5) << "case " << i << " at " << z;
+            EXPECT_NEAR(ray(z), chebyshev(first, second, z), allowed) << "case " << i << " at " << z;
     }
 }
 
@@ -172,7 +177,7 @@ TEST(Variance, IsNeverDarkerThanTheTruthAndKeepsItsLeak) {
             if (seed % 3 == 0) rays[0] = wall(static_cast<float>(seed % 16));
             if (seed % 5 == 0) rays[3] = wall(0.0f);
             const HandMap map = pixel_of(rays, {{"min_variance", least}});
-            const rays::LightRays given = light_rays({1, 1, 4, rays});
+            const rays::LightRays given = testing::light_rays({1, 1, 4, rays});
             const auto truth = [&](double z) {
                 double sum = 0.0;
                 for (std::size_t r = 0; r < 4; ++r) sum += rays::transmittance(given, r, 0, z);
