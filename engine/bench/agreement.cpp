@@ -89,7 +89,7 @@ ChosenRay choose(const LightRays& tile, const MapLayout& layout, const rays::Lig
     return {&tile, ray, ray_at(view, place.x, place.y, rays::sample_time(layout, i, j))};
 }
 
-void compare(const std::vector<ChosenRay>& chosen, const rays::Tracer& tracer, Agreement& agreement) {
+void compare(const std::vector<ChosenRay>& chosen, const rays::Tracer& tracer, results::Agreement& agreement) {
     std::vector<rays::TracedSegment> segments;
     for (const ChosenRay& one : chosen) {
         trace(tracer, one.traced, segments);
@@ -112,7 +112,7 @@ double rate_of_tracer(const std::vector<ChosenRay>& chosen, const rays::Tracer& 
 
 }  // namespace
 
-Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& layout, const rays::LightView& view,
+results::Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& layout, const rays::LightView& view,
                               const rays::Tracer& tracer, std::size_t max_rays) {
     const base::ThreadLimit one_thread(1);
     std::vector<LightRays> tiles;
@@ -134,7 +134,7 @@ Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& lay
         for (std::size_t ray = 0; ray < tile.rays(); ++ray, ++at)
             if (at % step == 0) chosen.push_back(choose(tile, layout, view, ray));
 
-    Agreement agreement;
+    results::Agreement agreement;
     compare(chosen, tracer, agreement);
     agreement.times.capture_rays_per_second = static_cast<double>(rays) / seconds;
     agreement.times.tracer_rays_per_second = rate_of_tracer(chosen, tracer);  // after compare() has warmed it up

@@ -10,7 +10,7 @@
 #include "bench/maps.h"
 #include "bench/ray_source.h"
 #include "bench/reference.h"
-#include "bench/result.h"
+#include "results/result.h"
 
 namespace shadowbench::bench {
 
@@ -18,10 +18,11 @@ struct Contender {
     const techniques::Technique* row = nullptr;
     techniques::ParameterValues values;
     techniques::RayNeeds needs;
-    Cell cell;
+    techniques::Promises promises;  // of these values; known once built
+    results::Cell cell;
     Maps maps;  // finished once warmed up; none when the cell failed
 
-    bool ok() const { return cell.status == CellStatus::ok; }
+    bool ok() const { return cell.status == results::CellStatus::ok; }
 };
 
 // From the request of a scenario. Throws what read_parameters throws, with `where` as its place.

@@ -11,7 +11,7 @@
 
 #include "bench/maps.h"
 #include "bench/ray_source.h"
-#include "bench/result.h"
+#include "results/result.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::bench {
@@ -26,7 +26,7 @@ struct CheckedMap {
 };
 
 struct CurveVerdict {
-    std::optional<CurveErrors> errors;  // nothing when the technique stores no function
+    std::optional<results::CurveErrors> errors;  // nothing when the technique stores no function
     std::string broken;                 // the first promise that is broken; empty: none
 };
 

@@ -8,7 +8,7 @@
 
 #include "bench/memory.h"
 #include "bench/progress.h"
-#include "bench/result.h"
+#include "results/result.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::bench {
@@ -22,7 +22,7 @@ struct RunOptions {
 
 // Expands the document, and captures, checks and times every variant, light and technique.
 // Throws Error: bad_input, no_such_file, io, or usage for `only`. Whether a technique failed stands in its cell.
-Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress);
+results::Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress);
 
 struct Validated {
     std::string name;

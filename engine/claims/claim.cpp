@@ -11,7 +11,7 @@ Value exactly(double value) {
     return {value, value, value};
 }
 
-Value of(const bench::Sample& sample) {
+Value of(const results::Sample& sample) {
     return {sample.median, sample.interval.low, sample.interval.high};
 }
 

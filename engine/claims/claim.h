@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/result.h"
+#include "results/result.h"
 
 namespace shadowbench::claims {
 
@@ -20,7 +20,7 @@ struct Value {
     double value = 0.0, low = 0.0, high = 0.0;
 };
 Value exactly(double value);
-Value of(const bench::Sample& sample);
+Value of(const results::Sample& sample);
 Value operator/(const Value& a, const Value& b);  // both above 0; the widest interval that theirs allow
 Value operator+(const Value& a, const Value& b);
 Value operator-(const Value& a, const Value& b);

@@ -11,8 +11,8 @@
 namespace shadowbench::claims {
 namespace {
 
-using bench::Cell;
-using bench::LightResult;
+using results::Cell;
+using results::LightResult;
 
 constexpr const char* hair_ball = "lokovic2000_hairball";
 
@@ -37,15 +37,15 @@ std::string bytes_text(double bytes) {
 // pixel of the smaller maps.
 void figure_6(const Context& context) {
     PaperReport& report = *context.report;
-    const bench::Result small = context.run(
+    const results::Result small = context.run(
         hair_ball,
         {"rays.resolution=512", "rays.samples_per_pixel=1", "rays.pattern=regular", set_techniques(pcf(16, "centre"))},
         {"rays.resolution=128"});
-    const bench::Result large = context.run(hair_ball,
+    const results::Result large = context.run(hair_ball,
                                             {"rays.resolution=4096", "rays.samples_per_pixel=1", "rays.pattern=regular",
                                              "receivers.filter_width=8", set_techniques(pcf(400, "centre"))},
                                             {"rays.resolution=1024"});
-    const bench::Result deep = context.run(hair_ball,
+    const results::Result deep = context.run(hair_ball,
                                            {"rays.resolution=512", "rays.samples_per_pixel=256", "timing.repetitions=7",
                                             set_techniques(tent + std::string(R"(,{"type":"deep"})"))},
                                            {"rays.resolution=128"});
@@ -61,7 +61,7 @@ void figure_6(const Context& context) {
                               fmt::format("{:.3g}", cell.lookup->norms.rms),
                               fmt::format("{:.3g}", cell.lookup->norms.max)});
     };
-    const auto map = [](const bench::Result& result) { return light_of(result).layout; };
+    const auto map = [](const results::Result& result) { return light_of(result).layout; };
     add(fmt::format("depth map {}, 16 samples", map(small).width), coarse);
     add(fmt::format("depth map {}, 400 samples", map(large).width), fine);
     add(fmt::format("deep map {}, {} samples a pixel", map(deep).width, map(deep).samples()), stored);
@@ -111,7 +111,7 @@ struct Row {
 };
 
 Row measure_row(const Context& context, int samples) {
-    const bench::Result result = context.run(hair_ball,
+    const results::Result result = context.run(hair_ball,
                                              {fmt::format("rays.samples_per_pixel={}", samples),
                                               set_techniques(tent + std::string(",") + pcf(samples, "sample"))},
                                              {"rays.resolution=96"});
@@ -209,7 +209,7 @@ void figures_7_and_8(const Context& context) {
 void figure_9(const Context& context) {
     PaperReport& report = *context.report;
     const std::vector<int> widths{1, 2, 4, 8, 16, 32};
-    const bench::Result result = context.run(
+    const results::Result result = context.run(
         hair_ball,
         {"rays.samples_per_pixel=64", "reference.samples_per_pixel=64", "reference.queries=512",
          fmt::format(R"(sweeps={{"/receivers/filter_width":[{}]}})", fmt::join(widths, ",")),
@@ -281,10 +281,10 @@ void figure_9(const Context& context) {
 void section_5_2(const Context& context) {
     PaperReport& report = *context.report;
     const std::string deep = set_techniques(R"({"type":"deep"})");
-    const bench::Result grey = context.run(hair_ball, {deep}, {"rays.resolution=128"});
-    const bench::Result colour =
+    const results::Result grey = context.run(hair_ball, {deep}, {"rays.resolution=128"});
+    const results::Result colour =
         context.run(hair_ball, {"/scene/objects/0/opacity=[0.9,0.6,0.35]", deep}, {"rays.resolution=128"});
-    const bench::Result one = context.run(hair_ball, {"/scene/objects/0/opacity=0.6", deep}, {"rays.resolution=128"});
+    const results::Result one = context.run(hair_ball, {"/scene/objects/0/opacity=0.6", deep}, {"rays.resolution=128"});
     const Cell &three = cell_of(light_of(colour), "deep"), &single = cell_of(light_of(one), "deep");
     const Value size = exactly(static_cast<double>(three.bytes) / static_cast<double>(single.bytes));
     report.claims.push_back({"section 5.2",
@@ -305,8 +305,8 @@ void section_5_2(const Context& context) {
 
 void figure_12(const Context& context) {
     PaperReport& report = *context.report;
-    const bench::Result moving = context.run("lokovic2000_motion", {}, {"rays.resolution=96"});
-    const bench::Result still =
+    const results::Result moving = context.run("lokovic2000_motion", {}, {"rays.resolution=96"});
+    const results::Result still =
         context.run("lokovic2000_motion", {"/scene/objects/0/motion=[0,0,0]"}, {"rays.resolution=96"});
     const Cell &a = cell_of(light_of(moving), "deep"), &b = cell_of(light_of(still), "deep");
     const Value cost = time_of(a) / time_of(b);

@@ -12,8 +12,8 @@
 namespace shadowbench::claims {
 namespace {
 
-using bench::Cell;
-using bench::LightResult;
+using results::Cell;
+using results::LightResult;
 
 // How many answers lookups give, at 400,000 places and depths of a map of 128 x 128 random depths.
 int outcomes_of(int side, int n) {
@@ -114,10 +114,10 @@ void measure_pagot(const Context& context) {
         "against the exact visibility.",
         context.quick ? 256 : 512);
     table_1(context);
-    const bench::Result flat = context.run("pagot2004_flat", {}, {"rays.resolution=256"});
+    const results::Result flat = context.run("pagot2004_flat", {}, {"rays.resolution=256"});
     compare(light_of(flat), "section 5, figure 6", 3, 2, 3, *context.report);
     compare(light_of(flat), "section 5, figure 6", 3, 3, 4, *context.report);
-    const bench::Result curved = context.run("pagot2004_curved", {}, {"rays.resolution=256"});
+    const results::Result curved = context.run("pagot2004_curved", {}, {"rays.resolution=256"});
     compare(light_of(curved), "section 5, figure 7", 2, 3, 4, *context.report);
     compare(light_of(curved), "section 5, figure 7", 3, 3, 4, *context.report);
     crossing(light_of(flat), *context.report);

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/write_result.h"
+#include "results/write_result.h"
 #include "claims/report.h"
 
 namespace shadowbench::claims {
@@ -60,14 +60,14 @@ std::string to_json(std::span<const PaperReport> reports, const Conditions& cond
 
 void write_reports(const std::filesystem::path& folder, const std::string& name, std::span<const PaperReport> reports,
                    const Conditions& conditions) {
-    std::vector<bench::NewFile> files{{folder / (name + ".md"), to_markdown(reports, conditions)},
+    std::vector<base::NewFile> files{{folder / (name + ".md"), to_markdown(reports, conditions)},
                                       {folder / (name + ".json"), to_json(reports, conditions)}};
     for (const PaperReport& report : reports)
         for (const Plot& plot : report.plots) files.push_back({folder / "plots" / (plot.name + ".svg"), to_svg(plot)});
     for (const PaperReport& report : reports)
         for (const Sheet& sheet : report.sheets)
             files.push_back({folder / "pictures" / (sheet.name + ".png"), sheet.png});
-    bench::write_files(files);
+    base::write_files(files);
 }
 
 }  // namespace shadowbench::claims

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/markdown.h"
+#include "base/markdown.h"
 #include "claims/report.h"
 
 namespace shadowbench::claims {
@@ -29,10 +29,10 @@ void add_paper(std::string& out, const PaperReport& report) {
     std::vector<std::vector<std::string>> rows;
     for (const Claim& claim : report.claims)
         rows.push_back({claim.place, claim.says, claim.measured, text_of(claim.verdict), claim.why});
-    out += bench::markdown_table({"where", "the paper says", "measured here", "verdict", "why"}, rows);
+    out += base::markdown_table({"where", "the paper says", "measured here", "verdict", "why"}, rows);
     for (const Table& table : report.tables) {
         out += fmt::format("### {}\n\n", table.title);
-        out += bench::markdown_table(table.header, table.rows);
+        out += base::markdown_table(table.header, table.rows);
     }
     for (const Plot& plot : report.plots) out += fmt::format("![{}](plots/{}.svg)\n\n", plot.title, plot.name);
     for (const Sheet& sheet : report.sheets)

@@ -13,8 +13,8 @@
 namespace shadowbench::claims {
 namespace {
 
-using bench::Cell;
-using bench::LightResult;
+using results::Cell;
+using results::LightResult;
 
 // A column of table 1: their milliseconds on a Radeon 5870 (lookup, compression) and their megabytes (of the map).
 struct Column {
@@ -152,7 +152,7 @@ void quality(const LightResult& light, PaperReport& report) {
 
 // The same smoke in its own depth range, and with one puff far behind it.
 void depth_range(const Context& context, const LightResult& near) {
-    const bench::Result result = context.run("salvi2010_depth", {}, {"rays.resolution=128"});
+    const results::Result result = context.run("salvi2010_depth", {}, {"rays.resolution=128"});
     const LightResult& far = light_of(result);
     const auto growth = [&](const char* technique, const std::vector<std::string>& parameters) {
         return cell_of(far, technique, parameters).curve->norms.rms /
@@ -176,7 +176,7 @@ void depth_range(const Context& context, const LightResult& near) {
 
 // Hair in smoke: steps and slopes, spread over a large depth.
 void figure_5(const Context& context) {
-    const bench::Result result = context.run("salvi2010_hair", {}, {"rays.resolution=128"});
+    const results::Result result = context.run("salvi2010_hair", {}, {"rays.resolution=128"});
     const LightResult& light = light_of(result);
     const auto rms = [&](const char* technique) { return cell_of(light, technique).curve->norms.rms; };
     const double nodes = rms("avsm"), slices = rms("opacity"), terms = rms("fourier");
@@ -231,7 +231,7 @@ void measure_salvi(const Context& context) {
         "(Radeon 5870): times stand as ratios to AVSM with 8 nodes. Lookups are bilinear over four texels. The scene "
         "with "
         "smoke and hair and the game level of the paper are not public.";
-    const bench::Result result = context.run("salvi2010_smoke", {}, {"rays.resolution=128"});
+    const results::Result result = context.run("salvi2010_smoke", {}, {"rays.resolution=128"});
     const LightResult& light = light_of(result);
     table_1(light, *context.report);
     memory(light, *context.report);

@@ -32,7 +32,7 @@ Sheet picture_sheet(const Context& context, const std::string& name, const std::
     for (const render::TechniquePictures& one : rendering.techniques) {
         const std::string label =
             one.cell.parameters.empty() ? one.cell.technique : one.cell.technique + " " + one.cell.parameters;
-        if (one.cell.status == bench::CellStatus::failed) {
+        if (one.cell.status == results::CellStatus::failed) {
             sheet.caption += fmt::format("; {} failed ({})", label, one.cell.reason);
             continue;
         }

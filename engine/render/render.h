@@ -9,7 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "bench/progress.h"
-#include "bench/result.h"
+#include "results/result.h"
 #include "bench/run.h"
 #include "render/light_map.h"
 #include "render/shading_points.h"
@@ -30,7 +30,7 @@ struct PictureErrors {
 };
 
 struct TechniquePictures {
-    bench::Cell cell;  // of the last light; status and reason of the first that failed
+    results::Cell cell;  // of the last light; status and reason of the first that failed
     Picture picture;   // empty when it failed
     PictureErrors shaded, shadow;
 };
@@ -38,7 +38,7 @@ struct TechniquePictures {
 struct Rendering {
     std::string name;
     std::string hash;                      // of the scenario document as rendered
-    std::vector<bench::Setting> settings;  // what the first values of the sweeps set
+    std::vector<document::Setting> settings;  // what the first values of the sweeps set
     scene::Camera camera;
     bool default_camera = false;
     base::Vec2i size{0, 0};

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
-#include "bench/document.h"
+#include "document/document.h"
 #include "scene/scenario.h"
 #include "service/api/file_answer.h"
 #include "service/api/openapi_text.h"
@@ -102,7 +102,7 @@ ApiResponse list_scenarios(Context& context, const Call& call) {
 }
 
 ApiResponse get_schema(Context&, const Call& call) {
-    return text_answer(call.request, "application/json", bench::full_schema().dump() + "\n");
+    return text_answer(call.request, "application/json", document::full_schema().dump() + "\n");
 }
 
 ApiResponse get_openapi(Context&, const Call& call) {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "bench/document.h"
+#include "document/document.h"
 #include "bench/pixel_curves.h"
 #include "bench/run.h"
 #include "scene/scenario.h"
@@ -75,7 +75,7 @@ json facts_of(const json& document, const std::vector<fs::path>& data) {
         notes.push_back(fmt::format("light {} sees nothing that casts a shadow", light));
     return {{"name", v.name},
             {"seed", seed_of(document)},
-            {"hash", bench::hash_text(document.dump())},
+            {"hash", base::hash_text(document.dump())},
             {"variants", v.variants},
             {"lights", v.lights},
             {"techniques", v.techniques},
@@ -94,7 +94,7 @@ std::string examine(const std::string& line, const std::vector<fs::path>& data) 
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_input) throw;
         json faults = json::array();
-        for (const Error& one : bench::all_faults(document, error)) faults.push_back(to_json(one, data));
+        for (const Error& one : document::all_faults(document, error)) faults.push_back(to_json(one, data));
         return json{{"faults", std::move(faults)}}.dump();
     }
 }

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/error.h"
-#include "bench/build_info.h"
+#include "results/program.h"
 #include "service/cli/child.h"
 #include "service/cli/options.h"
 
@@ -60,7 +60,7 @@ std::string usage_message(const CLI::App& app, int argc, const char* const* argv
 }
 
 int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
-    const bench::BuildInfo build = bench::build_info();
+    const results::Program build = results::this_program();
     CLI::App app("Shadow-map techniques held to one scene, one oracle and one clock.", "shadowbench");
     app.set_version_flag("--version", fmt::format("shadowbench {} ({}, {}, {})", build.version, build.commit,
                                                   build.compiler, build.build_type));

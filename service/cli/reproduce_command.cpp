@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "bench/build_info.h"
-#include "bench/machine.h"
-#include "bench/write_result.h"
+#include "results/program.h"
+#include "results/machine.h"
+#include "results/write_result.h"
 #include "claims/paper.h"
 #include "claims/report.h"
 #include "service/cli/commands.h"
@@ -41,8 +41,8 @@ std::string today() {
 }
 
 claims::Conditions conditions_of(bool quick) {
-    const bench::Machine machine = bench::this_machine();
-    const bench::BuildInfo build = bench::build_info();
+    const results::Machine machine = results::this_machine();
+    const results::Program build = results::this_program();
     return {quick, fmt::format("{}, {} logical cores", machine.cpu, machine.logical_cores),
             fmt::format("shadowbench {} ({}, {}, {})", build.version, build.commit, build.compiler, build.build_type),
             today()};
@@ -61,8 +61,8 @@ void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, s
     const fs::path folder = arguments.out.empty() ? fs::path("results") : fs::path(arguments.out);
     const std::string name =
         (papers.size() > 1 ? "papers" : papers.front()->id) + std::string(arguments.quick ? "_quick" : "");
-    bench::Undo made;
-    bench::make_writable(folder, made);
+    base::Undo made;
+    base::make_writable(folder, made);
 
     claims::Context context;
     context.scenarios = paper_scenarios();

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "bench/write_result.h"
+#include "results/write_result.h"
 #include "compare/report.h"
 
 namespace shadowbench::service {
@@ -69,7 +69,7 @@ int report_verdict(const compare::Comparison& comparison, const VerdictArguments
         {arguments.markdown, compare::to_markdown(comparison)},
         {arguments.junit, compare::to_junit(comparison)},
         {arguments.json, json + "\n"}};
-    std::vector<bench::NewFile> files;
+    std::vector<base::NewFile> files;
     bool printed = false;
     for (const auto& [file, content] : forms) {
         if (file == "-") {
@@ -80,9 +80,9 @@ int report_verdict(const compare::Comparison& comparison, const VerdictArguments
         }
     }
     if (!printed) out << compare::to_text(comparison, arguments.all);
-    bench::write_files(files);
+    base::write_files(files);
     if (!printed)
-        for (const bench::NewFile& file : files) out << fmt::format("written: {}\n", file.path.string());
+        for (const base::NewFile& file : files) out << fmt::format("written: {}\n", file.path.string());
     return compare::exit_code(comparison);
 }
 

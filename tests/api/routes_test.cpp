@@ -8,7 +8,7 @@
 
 #include "api/fixture.h"
 #include "base/error.h"
-#include "bench/document.h"
+#include "document/document.h"
 #include "service/api/openapi_text.h"
 #include "techniques/technique.h"
 
@@ -179,7 +179,7 @@ TEST_F(RoutesApi, GiveScenariosThatAreTaken) {
 }
 
 TEST_F(RoutesApi, GiveTheSchemaAndThisDescription) {
-    EXPECT_EQ(json(request("GET", "/v1/schema"), 200), bench::full_schema());
+    EXPECT_EQ(json(request("GET", "/v1/schema"), 200), document::full_schema());
     EXPECT_EQ(json(request("GET", "/openapi.json"), 200), nlohmann::json::parse(openapi_text()));
     const ApiResponse schema = answer(request("GET", "/v1/schema"));
     EXPECT_EQ(answer(request("GET", "/v1/schema", {{"if-none-match", *schema.header("ETag")}})).status, 304);

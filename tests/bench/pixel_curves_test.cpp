@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/errors.h"
+#include "errors.h"
 #include "bench/functions.h"
 #include "bench/one_light.h"
 #include "rays/capture.h"
@@ -100,7 +100,7 @@ TEST(PixelCurves, are_those_of_the_whole_map) {
     ASSERT_EQ(curves.curves.size(), techniques::all().size());
     for (const TechniqueCurve& one : curves.curves) {
         if (!one.absent.empty()) continue;
-        const Contender whole = light.build(read_any_technique(one.technique), {});
+        const Contender whole = light.build(document::read_any_technique(one.technique), {});
         const std::vector<float> depths = even_depths(curves);
         const int nx = one.cells == techniques::Cells::sample ? 4 : 1;
         std::vector<double> mean(depths.size());

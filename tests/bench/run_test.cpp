@@ -9,10 +9,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/document.h"
-#include "bench/errors.h"
+#include "document/document.h"
+#include "errors.h"
 #include "bench/load.h"
-#include "bench/report.h"
+#include "results/report.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -26,7 +26,7 @@ json quickstart() {
     for (const char* assignment : {"rays.resolution=32", "receivers.resolution=[32,24]", "reference.queries=64",
                                    "reference.samples_per_pixel=16", "timing.repetitions=1", "timing.lookups=256",
                                    "scene.objects.0.strands=200"})
-        set_value(document, assignment);
+        document::set_value(document, assignment);
     return document;
 }
 
@@ -47,7 +47,7 @@ json two_layers() {
 
 nlohmann::ordered_json without_times(const json& document, const RunOptions& options) {
     nlohmann::ordered_json result = to_json(run(document, options, {}));
-    strip_times(result);
+    results::strip_times(result);
     return result;
 }
 
@@ -69,11 +69,11 @@ TEST(Run, gives_the_same_numbers_when_rays_are_captured_anew) {
 }
 
 TEST(Run, checks_all_channels_of_a_coloured_scene_in_one_map_or_three) {
-    const Result result = run(two_layers(), {}, {});
-    const LightResult& light = result.variants[0].lights[0];
+    const results::Result result = run(two_layers(), {}, {});
+    const results::LightResult& light = result.variants[0].lights[0];
     EXPECT_EQ(light.layout.channels, 3);
-    for (const Cell& cell : light.cells) {
-        EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+    for (const results::Cell& cell : light.cells) {
+        EXPECT_EQ(cell.status, results::CellStatus::ok) << cell.reason;
         const bool one_map = techniques::find(cell.technique, "").coloured;
         EXPECT_EQ(cell.curve->cells, (one_map ? 3 : 1) * cell.nodes.cells) << cell.technique;
         EXPECT_LE(cell.curve->norms.max, cell.error_bound + 1e-6) << cell.technique;
@@ -87,7 +87,7 @@ TEST(Run, checks_all_channels_of_a_coloured_scene_in_one_map_or_three) {
 TEST(Run, expands_sweeps_and_says_what_they_set) {
     json document = two_layers();
     document["sweeps"] = {{"/rays/samples_per_pixel", {1, 4}}, {"/techniques/0/tolerance", {0.01, 0.1}}};
-    const Result result = run(document, {}, {});
+    const results::Result result = run(document, {}, {});
     ASSERT_EQ(result.variants.size(), 2u);
     EXPECT_EQ(result.variants[1].settings[0].value, "4");
     ASSERT_EQ(result.variants[1].lights[0].cells.size(), 3u);
@@ -149,13 +149,13 @@ TEST(Run, finds_all_lit_where_the_light_sees_nothing) {
         "timing": {"repetitions": 1, "lookups": 64}
     })");
     for (const techniques::Technique& row : techniques::all()) document["techniques"].push_back({{"type", row.id}});
-    const Result result = run(document, {}, {});
-    for (const LightResult& light : result.variants[0].lights) {
-        EXPECT_TRUE(sees_nothing(light));
+    const results::Result result = run(document, {}, {});
+    for (const results::LightResult& light : result.variants[0].lights) {
+        EXPECT_TRUE(results::sees_nothing(light));
         EXPECT_FALSE(light.translucent);
         EXPECT_EQ(light.reference.error_max, 0.0);
-        for (const Cell& cell : light.cells) {
-            EXPECT_EQ(cell.status, CellStatus::ok) << light.name << " " << cell.technique << ": " << cell.reason;
+        for (const results::Cell& cell : light.cells) {
+            EXPECT_EQ(cell.status, results::CellStatus::ok) << light.name << " " << cell.technique << ": " << cell.reason;
             ASSERT_TRUE(cell.lookup) << cell.technique;
             EXPECT_EQ(cell.lookup->norms.max, 0.0) << light.name << " " << cell.technique;
             EXPECT_EQ(cell.curve ? cell.curve->norms.max : 0.0, 0.0) << light.name << " " << cell.technique;
@@ -173,9 +173,9 @@ TEST(Run, does_not_take_a_medium_for_opaque_where_no_light_leaves_it) {
         {{"type", "particles"}, {"centres", {{0, 0, 0}}}, {"radii", {4}}, {"density", {1e4}}}};
     document["lights"][0]["extent"] = {2, 2};
     document["techniques"] = {{{"type", "shadow_map"}}};
-    const LightResult light = run(document, {}, {}).variants[0].lights[0];
+    const results::LightResult light = run(document, {}, {}).variants[0].lights[0];
     EXPECT_TRUE(light.translucent);
-    EXPECT_EQ(light.cells[0].status, CellStatus::ok) << light.cells[0].reason;
+    EXPECT_EQ(light.cells[0].status, results::CellStatus::ok) << light.cells[0].reason;
     EXPECT_TRUE(light.cells[0].outside_promise);
     EXPECT_GT(light.cells[0].curve->norms.max, 0.9);
 }
@@ -185,7 +185,7 @@ TEST(Run, asks_at_given_points_and_refuses_points_that_are_all_outside_the_map) 
     document["receivers"] = {{"type", "points"},
                              {"positions", {{-0.5, 0.5, 0}, {0.5, 0.5, 0}, {-0.5, 1.5, 0}, {0, 0, 9}}}};
     document["techniques"] = {{{"type", "uncompressed"}}};
-    const LightResult light = run(document, {}, {}).variants[0].lights[0];
+    const results::LightResult light = run(document, {}, {}).variants[0].lights[0];
     EXPECT_EQ(light.receivers, 3u);
     EXPECT_EQ(light.dropped, 1u);
     EXPECT_EQ(light.reference.judged, 3u);
@@ -212,7 +212,7 @@ TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
     json document = two_layers();
     document["scene"] = {{"objects", {{{"type", "mesh"}, {"file", file}}}}};
     document["sweeps"] = {{"/rays/seed", {1, 2}}};
-    const std::vector<Variant> variants = expand(document);
+    const std::vector<document::Variant> variants = document::expand(document);
     ScenarioLoader loader({});
     const base::Vec3d target = loader.load(variants[0]).lights[0].target;
     std::remove(file.c_str());
@@ -225,8 +225,8 @@ TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
 TEST(Run, writes_results_that_read_back_as_they_were) {
     json document = quickstart();
     document["sweeps"] = {{"/rays/samples_per_pixel", {4, 9}}};
-    const Result result = run(document, {}, {});
-    const Result read = from_json(nlohmann::ordered_json::parse(to_json(result).dump()));
+    const results::Result result = run(document, {}, {});
+    const results::Result read = results::from_json(nlohmann::ordered_json::parse(to_json(result).dump()));
     EXPECT_EQ(to_json(read), to_json(result));
     EXPECT_EQ(to_table(read), to_table(result));
 }

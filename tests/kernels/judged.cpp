@@ -49,7 +49,7 @@ struct Judged::State {
         bench::ask_for_needs(contender, layout);
     }
     techniques::BuildInput build_input() const { return {layout, input->view, &tracer}; }
-    const bench::Cell& cell() const { return contender[0].cell; }
+    const results::Cell& cell() const { return contender[0].cell; }
     void check_ok() const { check(contender[0].ok(), cell().reason); }
 };
 
