@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace shadowbench::testing {
+namespace shadowbench::test {
 
 // Runs `action`, which has to throw Error with this code and place; returns its message.
 template <class Action>
@@ -22,4 +22,4 @@ std::string error_of(const Action& action, base::ErrorCode code, const std::stri
     return {};
 }
 
-}  // namespace shadowbench::testing
+}  // namespace shadowbench::test

@@ -6,7 +6,7 @@
 
 namespace shadowbench::compare {
 
-// What result.json holds, schema version 1 (engine/bench/report_json.cpp). Throws Error{bad_input}.
+// What result.json holds (results/report.h), as cells. Throws Error{bad_input}.
 Suite read_result(const results::Field& result, const std::string& origin);
 
 // What a program of Google Benchmark wrote with --benchmark_format=json: one process, its repetitions as samples,

@@ -61,17 +61,13 @@ struct Matrix {
     std::vector<std::vector<std::string>> rows;
 };
 
-Matrix matrix_of(std::span<const ScenarioOutcome> outcomes) {
+Matrix matrix_of(std::span<const ScenarioOutcome> outcomes, std::span<const std::string> techniques) {
     std::vector<std::map<std::string, Worst>> worst;
     for (const ScenarioOutcome& outcome : outcomes) worst.push_back(worst_of_defaults(outcome.result));
     Matrix matrix;
-    // In the order in which the scenarios have them.
-    for (const ScenarioOutcome& outcome : outcomes)
-        for_each_cell(outcome.result, [&](const VariantResult&, const LightResult&, const Cell& cell) {
-            if (cell.parameters.empty() &&
-                std::find(matrix.header.begin(), matrix.header.end(), cell.technique) == matrix.header.end())
-                matrix.header.push_back(cell.technique);
-        });
+    for (const std::string& id : techniques)
+        if (std::any_of(worst.begin(), worst.end(), [&](const auto& each) { return each.contains(id); }))
+            matrix.header.push_back(id);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         std::vector<std::string> line{outcomes[i].result.name};
         for (std::size_t c = 1; c < matrix.header.size(); ++c) {
@@ -147,9 +143,9 @@ std::string light_section(const Result& result, const VariantResult& variant, co
 
 }  // namespace
 
-std::string verdicts_markdown(std::span<const ScenarioOutcome> outcomes) {
+std::string verdicts_markdown(std::span<const ScenarioOutcome> outcomes, std::span<const std::string> techniques) {
     std::string text = "# Verdicts\n\n" + std::string(rule) + counts(outcomes) + "\n";
-    const Matrix matrix = matrix_of(outcomes);
+    const Matrix matrix = matrix_of(outcomes, techniques);
     text +=
         "## Techniques with default parameters\n\nK kept, D degraded, F failed, - not in the scenario, \\* lookups "
         "farther from the truth than the noise tolerance; the worst of a scenario's variants and lights.\n\n";
@@ -166,8 +162,8 @@ std::string verdicts_markdown(std::span<const ScenarioOutcome> outcomes) {
     return text;
 }
 
-std::string verdicts_text(std::span<const ScenarioOutcome> outcomes) {
-    const Matrix matrix = matrix_of(outcomes);
+std::string verdicts_text(std::span<const ScenarioOutcome> outcomes, std::span<const std::string> techniques) {
+    const Matrix matrix = matrix_of(outcomes, techniques);
     base::Table table(matrix.header);
     for (const auto& row : matrix.rows) table.add(row);
     std::string text =

@@ -14,11 +14,13 @@ struct ScenarioOutcome {
     std::string error;  // why it could not; empty: it was
 };
 
+// `techniques`: the ids of the matrix's columns, in their order; those that no scenario has are left out.
+//
 // Markdown: the rule, a matrix of scenarios and techniques with default parameters (the worst of their cells), then a
 // section a scenario with a table a light.
-std::string verdicts_markdown(std::span<const ScenarioOutcome> outcomes);
+std::string verdicts_markdown(std::span<const ScenarioOutcome> outcomes, std::span<const std::string> techniques);
 
 // For people at a terminal: the matrix, the counts, and what failed.
-std::string verdicts_text(std::span<const ScenarioOutcome> outcomes);
+std::string verdicts_text(std::span<const ScenarioOutcome> outcomes, std::span<const std::string> techniques);
 
 }  // namespace shadowbench::results

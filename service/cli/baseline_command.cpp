@@ -42,7 +42,7 @@ bool add_scenario(const fs::path& scenario, int threads, const fs::path& folder,
     nlohmann::json document = *job.document;
     if (document.is_object()) results::make_portable_document(document);
     const results::Result result = bench::run(document, job.options, {});
-    nlohmann::ordered_json portable = bench::to_json(result);
+    nlohmann::ordered_json portable = results::to_json(result);
     results::make_portable_result(portable);
     const fs::path file = folder / (result.name + ".json");
     for (const base::NewFile& other : files)

@@ -94,6 +94,7 @@ bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
         const results::Result result = bench::run(document, options, [&](const bench::Progress& progress) {
             reporter.tell(progress, fraction.measuring(progress));
         });
+        base::write_files({{folder / "table.txt", results::to_table(result)}});
         results::write_result(folder, result);
         kept = !results::any_failed(result);
     }

@@ -154,12 +154,14 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
         results::write_result(one.folder, result);
         made[i].keep();
         kept = kept && !results::any_failed(result);
-        out << bench::to_table(result) << fmt::format("written: {0}/result.json, {0}/result.csv\n", one.folder.string())
+        out << results::to_table(result) << fmt::format("written: {0}/result.json, {0}/result.csv\n", one.folder.string())
             << std::flush;
     }
-    if (several) out << results::verdicts_text(outcomes);
+    std::vector<std::string> columns;
+    for (const techniques::Technique& row : techniques::all()) columns.push_back(row.id);
+    if (several) out << results::verdicts_text(outcomes, columns);
     if (!verdicts.empty()) {
-        base::write_files({{verdicts, results::verdicts_markdown(outcomes)}});
+        base::write_files({{verdicts, results::verdicts_markdown(outcomes, columns)}});
         made_for_verdicts.keep();
         out << fmt::format("written: {}\n", verdicts.string());
     }

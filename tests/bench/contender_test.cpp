@@ -151,8 +151,8 @@ TEST_F(Contenders, that_refuse_the_layout_are_bad_input) {
     contenders[0].row = &fake_technique();
     contenders[0].cell.where = "/techniques/3";
     const techniques::BuildInput input{layout_, half_.view, nullptr};
-    error_of([&] { check_served(contenders, input); }, base::ErrorCode::bad_input, "/techniques/3");
-    error_of([&] { build_all(contenders, source_, input, MemoryLimits{}.all, {}); }, base::ErrorCode::bad_input,
+    test::error_of([&] { check_served(contenders, input); }, base::ErrorCode::bad_input, "/techniques/3");
+    test::error_of([&] { build_all(contenders, source_, input, MemoryLimits{}.all, {}); }, base::ErrorCode::bad_input,
              "/techniques/3");
 }
 

@@ -69,7 +69,7 @@ TEST(MeasureFunctions, tells_how_far_functions_rise_and_leave_their_range) {
 }
 
 TEST(MeasureFunctions, needs_functions) {
-    error_of([] { measure({}, "deep"); }, ErrorCode::bad_input, "");
+    test::error_of([] { measure({}, "deep"); }, ErrorCode::bad_input, "");
 }
 
 TEST(ReadTechnique, reads_names_numbers_and_words) {
@@ -82,7 +82,7 @@ TEST(ReadTechnique, reads_names_numbers_and_words) {
 
 TEST(ReadTechnique, refuses_what_cannot_be) {
     const auto refuses = [](const std::string& text, const std::string& below) {
-        return error_of([&] { document::read_technique(text); }, ErrorCode::usage, "--technique " + text + below);
+        return test::error_of([&] { document::read_technique(text); }, ErrorCode::usage, "--technique " + text + below);
     };
     EXPECT_NE(refuses("shallow", "").find("deep"), std::string::npos) << "lists the techniques";
     refuses("deep:tolerance", "");
@@ -94,7 +94,7 @@ TEST(ReadTechnique, refuses_what_cannot_be) {
 
 TEST(ReadTechnique, refuses_values_that_are_no_finite_numbers_and_names_given_twice) {
     const auto refuses = [](const std::string& text, const std::string& below) {
-        error_of([&] { document::read_any_technique(text); }, ErrorCode::usage, "--technique " + text + below);
+        test::error_of([&] { document::read_any_technique(text); }, ErrorCode::usage, "--technique " + text + below);
     };
     for (const char* value : {"nan", "inf", "1e999", "0x1p-3", "-1e-300", ""})
         refuses(std::string("deep:tolerance=") + value, "/tolerance");

@@ -172,7 +172,7 @@ TEST(PixelCurves, refuse_places_lights_and_variants_that_are_not_there) {
     json document = scene_of(json::array({{{"type", "deep"}}}));
     PixelProbe probe(document, {}, "0", 0);
     const auto refused = [](const auto& action, const std::string& where) {
-        EXPECT_NE(error_of(action, base::ErrorCode::usage, where), "");
+        EXPECT_NE(test::error_of(action, base::ErrorCode::usage, where), "");
     };
     refused([&] { probe.at(-1, 0); }, "(-1, 0)");
     refused([&] { probe.at(0, -1); }, "(0, -1)");

@@ -111,9 +111,9 @@ TEST(Run, refuses_more_memory_than_allowed_before_it_works) {
     document["rays"] = {{"resolution", 4096}, {"samples_per_pixel", 64}};
     RunOptions options;
     options.limits.all = std::size_t{1} << 30;
-    const std::string message = error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/rays");
+    const std::string message = test::error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/rays");
     EXPECT_NE(message.find("GiB"), std::string::npos) << message;
-    error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/rays");
+    test::error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/rays");
 }
 
 TEST(Run, counts_the_maps_and_the_reference_against_the_memory_limit) {
@@ -121,17 +121,17 @@ TEST(Run, counts_the_maps_and_the_reference_against_the_memory_limit) {
     document["rays"] = {{"resolution", 16384}, {"samples_per_pixel", 1}};
     document["techniques"] = {{{"type", "shadow_map"}}};
     document["reference"]["samples_per_pixel"] = 65536;
-    error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
+    test::error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
     document["reference"]["samples_per_pixel"] = 16;
     EXPECT_NO_THROW(validate(document, {}));
     document["techniques"] = {{{"type", "avsm"}, {"nodes", 64}}};
-    error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
+    test::error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
 }
 
 TEST(Run, refuses_a_camera_that_looks_past_the_lights_map) {
     json document = two_layers();
     document["receivers"] = {{"type", "camera"}, {"position", {0, 5, 5}}, {"target", {0, 50, 5}}, {"up", {0, 0, 1}}};
-    error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
+    test::error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
 }
 
 // Every technique, opaque and translucent, with an aperture of its own or none, meets a map without a single segment.
@@ -191,7 +191,7 @@ TEST(Run, asks_at_given_points_and_refuses_points_that_are_all_outside_the_map) 
     EXPECT_EQ(light.reference.judged, 3u);
     EXPECT_LT(light.cells[0].lookup->norms.max, 1e-6) << "no edge is near them";
     document["receivers"]["positions"] = {{0, 0, 9}, {7, 0, 0}};
-    const std::string message = error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
+    const std::string message = test::error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
     EXPECT_NE(message.find("none of the 2 receivers"), std::string::npos) << message;
 }
 
@@ -202,8 +202,8 @@ TEST(Run, refuses_a_technique_that_a_deep_image_cannot_serve) {
         "receivers": {"type": "probes", "count": 100}, "techniques": [{"type": "deep"}, {"type": "ray_traced"}]})");
     RunOptions options;
     options.data = {data};
-    error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/techniques/1");
-    error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/techniques/1");
+    test::error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/techniques/1");
+    test::error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/techniques/1");
 }
 
 TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
@@ -226,7 +226,7 @@ TEST(Run, writes_results_that_read_back_as_they_were) {
     json document = quickstart();
     document["sweeps"] = {{"/rays/samples_per_pixel", {4, 9}}};
     const results::Result result = run(document, {}, {});
-    const results::Result read = results::from_json(nlohmann::ordered_json::parse(to_json(result).dump()));
+    const results::Result read = results::from_json(json::parse(to_json(result).dump()), "");
     EXPECT_EQ(to_json(read), to_json(result));
     EXPECT_EQ(to_table(read), to_table(result));
 }

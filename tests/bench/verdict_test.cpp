@@ -9,13 +9,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Rays of 16 samples a pixel: a noise tolerance of 0.125.
-results::LightResult light() {
-    results::LightResult result;
-    result.segments = 1;
-    result.reference.noise_tolerance = 0.125;
-    return result;
-}
+constexpr double noise_tolerance = 0.125;  // of 16 rays a pixel
 
 results::Cell cell(double curve_max, double bound) {
     results::Cell made;
@@ -23,17 +17,18 @@ results::Cell cell(double curve_max, double bound) {
     made.curve = results::CurveErrors{};
     made.curve->norms = {curve_max, 0.01, 0.005, 0.02};
     made.lookup = results::LookupErrors{{0.5, 0.2, 0.1, 0.4}, 0.0};
-    made.nodes.add(8);
+    made.nodes = {1, 8, 8, {}};
     return made;
 }
 
-void expect(const results::Cell& judged, results::Verdict verdict, const std::string& says) {
-    const Judgement judgement = judge(judged, light());
-    EXPECT_STREQ(to_string(judgement.verdict), to_string(verdict)) << judgement.why;
-    EXPECT_NE(judgement.why.find(says), std::string::npos) << judgement.why;
+void expect(results::Cell judged, results::Verdict verdict, const std::string& says,
+            const techniques::Promises& promises = {}) {
+    judge(judged, promises, noise_tolerance);
+    EXPECT_STREQ(to_string(judged.verdict), to_string(verdict)) << judged.verdict_why;
+    EXPECT_NE(judged.verdict_why.find(says), std::string::npos) << judged.verdict_why;
 }
 
-TEST(results::Verdict, of_a_broken_promise_is_failed_whatever_the_figures) {
+TEST(Verdict, of_a_broken_promise_is_failed_whatever_the_figures) {
     results::Cell broken = cell(0.0, 0.5);
     broken.status = results::CellStatus::failed;
     broken.reason = "cell (3, 4): the value rises";
@@ -41,18 +36,18 @@ TEST(results::Verdict, of_a_broken_promise_is_failed_whatever_the_figures) {
 }
 
 // The check has held it to the bound: a loose promise, well above the noise, is kept all the same.
-TEST(results::Verdict, of_a_bound_that_held_is_kept) {
+TEST(Verdict, of_a_bound_that_held_is_kept) {
     expect(cell(0.3, 0.4), results::Verdict::kept, "curve error 0.3, promised 0.4");
     expect(cell(0.0, 0.0), results::Verdict::kept, "promised 0");
 }
 
-TEST(results::Verdict, without_a_bound_goes_by_the_noise_tolerance) {
+TEST(Verdict, without_a_bound_goes_by_the_noise_tolerance) {
     expect(cell(0.125, infinity), results::Verdict::kept, "within the noise tolerance 0.125");
     expect(cell(0.1251, infinity), results::Verdict::degraded, "at most 8 nodes");
     expect(cell(0.1251, infinity), results::Verdict::degraded, "curve error 0.125, noise tolerance 0.125");
 }
 
-TEST(results::Verdict, of_an_opaque_technique_in_a_translucent_scene_does_not_rest_on_its_bound) {
+TEST(Verdict, of_an_opaque_technique_in_a_translucent_scene_does_not_rest_on_its_bound) {
     results::Cell opaque = cell(0.4, 0.0);
     opaque.outside_promise = true;
     expect(opaque, results::Verdict::degraded, "made for opaque scenes");
@@ -60,21 +55,20 @@ TEST(results::Verdict, of_an_opaque_technique_in_a_translucent_scene_does_not_re
     expect(opaque, results::Verdict::kept, "within the noise tolerance");
 }
 
-TEST(results::Verdict, tells_the_rise_and_the_fall_of_what_promises_neither) {
+TEST(Verdict, tells_the_rise_and_the_fall_of_what_promises_neither) {
     results::Cell published = cell(0.3, 0.4);
-    published.promises = {.monotone = false, .unit_range = false};
     published.curve->rise = 0.25;
     published.curve->lowest = -0.125;
-    expect(published, results::Verdict::kept, "promised 0.4; rises by up to 0.25; falls to -0.125");
+    expect(published, results::Verdict::kept, "promised 0.4; rises by up to 0.25; falls to -0.125",
+           {.monotone = false, .unit_range = false});
 }
 
-TEST(results::Verdict, names_what_is_promised_before_and_behind_alone) {
+TEST(Verdict, names_what_is_promised_before_and_behind_alone) {
     results::Cell series = cell(0.4, infinity);
-    series.promises.localised = false;
-    expect(series, results::Verdict::degraded, "exact only before and behind");
+    expect(series, results::Verdict::degraded, "exact only before and behind", {.localised = false});
 }
 
-TEST(results::Verdict, of_a_technique_that_stores_nothing_goes_by_the_rms_of_its_lookups) {
+TEST(Verdict, of_a_technique_that_stores_nothing_goes_by_the_rms_of_its_lookups) {
     results::Cell traced = cell(0.0, infinity);
     traced.curve.reset();
     expect(traced, results::Verdict::degraded, "lookup error rms 0.2");

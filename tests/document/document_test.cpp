@@ -48,7 +48,7 @@ TEST(SetValue, takes_what_is_no_finite_number_as_a_string_that_the_schema_refuse
             set_value(document, std::string(path) + "=" + value);
             std::string where = std::string("/") + path;
             std::replace(where.begin(), where.end(), '.', '/');
-            error_of([&] { expand(document); }, ErrorCode::bad_input, where);
+            test::error_of([&] { expand(document); }, ErrorCode::bad_input, where);
         }
 }
 
@@ -57,16 +57,16 @@ TEST(SetValue, holds_nested_values_to_the_rules_of_documents) {
     set_value(document, "lights.0.direction=[0, -2, 0]");
     EXPECT_EQ(document["lights"][0]["direction"], json({0, -2, 0}));
     const std::string deep(100000, '[');  // copied recursively, it would overflow the stack
-    error_of([&] { set_value(document, "name=" + deep); }, ErrorCode::bad_input, "--set name:1:65");
-    error_of([&] { set_value(document, R"(rays={"seed": 1, "seed": 2})"); }, ErrorCode::bad_input, "--set rays:1:13");
+    test::error_of([&] { set_value(document, "name=" + deep); }, ErrorCode::bad_input, "--set name:1:65");
+    test::error_of([&] { set_value(document, R"(rays={"seed": 1, "seed": 2})"); }, ErrorCode::bad_input, "--set rays:1:13");
 }
 
 TEST(SetValue, refuses_an_index_that_fits_no_integer) {
     json document = small_document();
     const std::string assignment = "lights.99999999999999999999999.direction=1";
-    error_of([&] { set_value(document, assignment); }, ErrorCode::usage, "--set " + assignment);
+    test::error_of([&] { set_value(document, assignment); }, ErrorCode::usage, "--set " + assignment);
     document["sweeps"] = {{"/lights/99999999999999999999999/direction", {1, 2}}};
-    error_of([&] { expand(document); }, ErrorCode::bad_input, "/sweeps/~1lights~199999999999999999999999~1direction");
+    test::error_of([&] { expand(document); }, ErrorCode::bad_input, "/sweeps/~1lights~199999999999999999999999~1direction");
 }
 
 TEST(SetValue, adds_a_part_that_the_document_leaves_out) {
@@ -88,7 +88,7 @@ TEST(SetValue, drops_a_sweep_over_the_same_value) {
 TEST(SetValue, refuses_a_path_that_leads_nowhere) {
     json document = small_document();
     for (const char* assignment : {"rayz.samples=3", "techniques.7.tolerance=1", "rays.resolution.x=4", "name"})
-        error_of([&] { set_value(document, assignment); }, ErrorCode::usage, std::string("--set ") + assignment);
+        test::error_of([&] { set_value(document, assignment); }, ErrorCode::usage, std::string("--set ") + assignment);
     EXPECT_EQ(document, small_document());
 }
 
@@ -96,14 +96,14 @@ TEST(CheckDocument, names_the_place_of_a_misspelt_parameter) {
     json document = small_document();
     document["techniques"][1]["tolerence"] = 0.1;
     const std::string message =
-        error_of([&] { check_document(document); }, ErrorCode::bad_input, "/techniques/1/tolerence");
+        test::error_of([&] { check_document(document); }, ErrorCode::bad_input, "/techniques/1/tolerence");
     EXPECT_NE(message.find("nodes"), std::string::npos) << "lists the parameters there are: " << message;
 }
 
 TEST(CheckDocument, names_the_techniques_there_are) {
     json document = small_document();
     document["techniques"][0] = {{"type", "shallow"}};
-    const std::string message = error_of([&] { check_document(document); }, ErrorCode::bad_input, "/techniques/0/type");
+    const std::string message = test::error_of([&] { check_document(document); }, ErrorCode::bad_input, "/techniques/0/type");
     EXPECT_NE(message.find("uncompressed"), std::string::npos) << message;
 }
 
@@ -165,14 +165,14 @@ TEST(Expand, leaves_a_document_without_sweeps_as_it_is) {
 TEST(Expand, refuses_a_swept_value_out_of_range_at_the_original_place) {
     json document = small_document();
     document["sweeps"] = {{"/techniques/0/tolerance", {0.1, 0.2}}, {"/techniques/1/nodes", {4, 800}}};
-    error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
+    test::error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
 }
 
 TEST(Expand, refuses_pointers_to_nothing) {
     for (const char* pointer : {"/rayz/seed", "/techniques/9/nodes", "/rays/resolution/width"}) {
         json document = small_document();
         document["sweeps"] = {{pointer, {1, 2}}};
-        error_of([&] { expand(document); }, ErrorCode::bad_input,
+        test::error_of([&] { expand(document); }, ErrorCode::bad_input,
                  (json::json_pointer("/sweeps") / pointer).to_string());
     }
 }
@@ -181,7 +181,7 @@ TEST(Expand, refuses_more_variants_than_anyone_waits_for) {
     json document = small_document(), many = json::array();
     for (int i = 0; i < 100; ++i) many.push_back(i);
     document["sweeps"] = {{"/rays/seed", many}, {"/receivers/seed", many}};
-    error_of([&] { expand(document); }, ErrorCode::bad_input, "/sweeps/~1receivers~1seed");
+    test::error_of([&] { expand(document); }, ErrorCode::bad_input, "/sweeps/~1receivers~1seed");
 }
 
 TEST(SelectVariant, is_the_one_that_expand_counts) {
@@ -195,7 +195,7 @@ TEST(SelectVariant, is_the_one_that_expand_counts) {
         ASSERT_EQ(one.size(), 1u);
         EXPECT_EQ(*one[0].document, *variants[i].document) << i;
     }
-    error_of([&] { select_variant(document, 6); }, ErrorCode::usage, "variant=6");
+    test::error_of([&] { select_variant(document, 6); }, ErrorCode::usage, "variant=6");
     EXPECT_EQ(select_variant(small_document(), 0), small_document());
 }
 
@@ -210,13 +210,8 @@ TEST(KeepOnly, keeps_techniques_with_their_places) {
 TEST(KeepOnly, refuses_a_technique_that_is_not_there) {
     Variant variant = expand(small_document())[0];
     const std::vector<std::string> types{"pcf"};
-    const std::string message = error_of([&] { keep_only(variant, types); }, ErrorCode::usage, "--only pcf");
+    const std::string message = test::error_of([&] { keep_only(variant, types); }, ErrorCode::usage, "--only pcf");
     EXPECT_NE(message.find("deep avsm"), std::string::npos) << message;
-}
-
-TEST(HashText, is_fnv1a) {
-    EXPECT_EQ(hash_text(""), "cbf29ce484222325");
-    EXPECT_EQ(hash_text("a"), "af63dc4c8601ec8c");
 }
 
 }  // namespace

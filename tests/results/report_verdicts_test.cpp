@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -10,8 +11,13 @@
 namespace shadowbench::results {
 namespace {
 
+const std::vector<std::string> columns{"shadow_map", "deep", "avsm"};
+
+// As bench judges them: by the bound, or by a noise tolerance of 0.125.
 Cell cell(const std::string& technique, const std::string& parameters, double curve_max, double bound) {
     Cell made;
+    made.verdict = std::isfinite(bound) || curve_max <= 0.125 ? Verdict::kept : Verdict::degraded;
+    made.verdict_why = "curve error";
     made.technique = technique;
     made.parameters = parameters;
     made.error_bound = bound;
@@ -41,6 +47,8 @@ std::vector<ScenarioOutcome> three() {
     Cell failed = cell("deep", "tolerance=0.5", 0.9, 0.5);
     failed.status = CellStatus::failed;
     failed.reason = "the |value| rises";
+    failed.verdict = Verdict::failed;
+    failed.verdict_why = failed.reason;
     outcomes[0].result.variants = {
         {{},
          {light("key", {cell("avsm", "", 0.01, infinity), cell("deep", "", 0.01, 0.02)}),
@@ -62,8 +70,8 @@ std::string line_with(const std::string& text, const std::string& part) {
 }
 
 TEST(VerdictsMarkdown, shows_the_worst_of_the_default_techniques_in_its_matrix) {
-    const std::string text = verdicts_markdown(three());
-    EXPECT_EQ(line_with(text, "| scenario"), "| scenario | deep | avsm |") << "as the registry orders them";
+    const std::string text = verdicts_markdown(three(), columns);
+    EXPECT_EQ(line_with(text, "| scenario"), "| scenario | deep | avsm |") << "in the order asked for; what no scenario has is left out";
     EXPECT_EQ(line_with(text, "| first"), "| first | K | D |");
     EXPECT_EQ(line_with(text, "| second"), "| second | K* | - |") << "lookups farther from the truth than the noise";
     EXPECT_EQ(line_with(text, "| third"), "| third | not run | not run |");
@@ -72,7 +80,7 @@ TEST(VerdictsMarkdown, shows_the_worst_of_the_default_techniques_in_its_matrix) 
 }
 
 TEST(VerdictsMarkdown, has_a_section_a_scenario_and_a_row_a_cell) {
-    const std::string text = verdicts_markdown(three());
+    const std::string text = verdicts_markdown(three(), columns);
     EXPECT_NE(text.find("## first\n\nWhat breaks | here.\n\nlight key\n\n"), std::string::npos) << text;
     EXPECT_NE(text.find("## second\n\n/rays/seed = 2\n\n"), std::string::npos) << text;
     EXPECT_NE(text.find("The light sees nothing that casts a shadow"), std::string::npos) << text;
@@ -94,12 +102,12 @@ TEST(VerdictsMarkdown, does_not_depend_on_the_clock_and_the_machine) {
                 for (Cell& one : each.cells) one.times = CellTimes{};
             }
     }
-    EXPECT_EQ(verdicts_markdown(three()), verdicts_markdown(other));
-    EXPECT_EQ(verdicts_text(three()), verdicts_text(other));
+    EXPECT_EQ(verdicts_markdown(three(), columns), verdicts_markdown(other));
+    EXPECT_EQ(verdicts_text(three(), columns), verdicts_text(other));
 }
 
 TEST(VerdictsText, names_what_failed_and_what_could_not_be_run) {
-    const std::string text = verdicts_text(three());
+    const std::string text = verdicts_text(three(), columns);
     EXPECT_NE(text.find("failed: first (light fill), deep tolerance=0.5: the |value| rises\n"), std::string::npos)
         << text;
     EXPECT_NE(text.find("could not be run: third: /receivers: none is inside\n"), std::string::npos) << text;

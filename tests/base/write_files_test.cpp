@@ -1,4 +1,4 @@
-#include "results/write_result.h"
+#include "base/write_files.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,10 @@
 
 #include "errors.h"
 
-namespace shadowbench::results {
+namespace shadowbench::base {
 namespace {
 
 namespace fs = std::filesystem;
-using base::ErrorCode;
 
 class WriteFiles : public ::testing::Test {
 protected:
@@ -42,14 +41,14 @@ TEST_F(WriteFiles, makes_folders_and_replaces_what_was_there) {
 TEST_F(WriteFiles, leaves_nothing_behind_when_one_of_them_cannot_be_written) {
     write_files({{folder_ / "one", "old"}, {folder_ / "file", ""}});
     const fs::path below = folder_ / "file/two";
-    EXPECT_THROW(write_files({{folder_ / "one", "new"}, {folder_ / "made/three", "x"}, {below, "x"}}), base::Error);
+    EXPECT_THROW(write_files({{folder_ / "one", "new"}, {folder_ / "made/three", "x"}, {below, "x"}}), Error);
     EXPECT_EQ(read(folder_ / "one"), "old");
     EXPECT_EQ(entries(), 2u);
 }
 
 TEST_F(WriteFiles, refuses_a_folder_in_a_files_place_before_replacing_others) {
     write_files({{folder_ / "one", "old"}, {folder_ / "two/inside", ""}});
-    error_of(
+    test::error_of(
         [&] {
             write_files({{folder_ / "one", "new"}, {folder_ / "two", "x"}});
         },
@@ -60,8 +59,8 @@ TEST_F(WriteFiles, refuses_a_folder_in_a_files_place_before_replacing_others) {
 TEST_F(WriteFiles, tells_beforehand_that_a_folder_cannot_be_made) {
     write_files({{folder_ / "file", ""}});
     Undo undo;
-    error_of([&] { make_writable(folder_ / "file/sub", undo); }, ErrorCode::io, (folder_ / "file/sub").string());
-    EXPECT_THROW(make_writable("/proc", undo), base::Error) << "which is there, and takes no files even of root";
+    test::error_of([&] { make_writable(folder_ / "file/sub", undo); }, ErrorCode::io, (folder_ / "file/sub").string());
+    EXPECT_THROW(make_writable("/proc", undo), Error) << "which is there, and takes no files even of root";
     EXPECT_EQ(entries(), 1u);
 }
 
@@ -79,4 +78,4 @@ TEST_F(WriteFiles, makes_the_folder_beforehand_and_takes_it_away_unless_kept) {
 }
 
 }  // namespace
-}  // namespace shadowbench::results
+}  // namespace shadowbench::base
