@@ -112,8 +112,8 @@ double rate_of_tracer(const std::vector<ChosenRay>& chosen, const rays::Tracer& 
 
 }  // namespace
 
-results::Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& layout, const rays::LightView& view,
-                              const rays::Tracer& tracer, std::size_t max_rays) {
+results::Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& layout,
+                                       const rays::LightView& view, const rays::Tracer& tracer, std::size_t max_rays) {
     const base::ThreadLimit one_thread(1);
     std::vector<LightRays> tiles;
     std::size_t rays = 0;

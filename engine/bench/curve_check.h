@@ -27,7 +27,7 @@ struct CheckedMap {
 
 struct CurveVerdict {
     std::optional<results::CurveErrors> errors;  // nothing when the technique stores no function
-    std::string broken;                 // the first promise that is broken; empty: none
+    std::string broken;                          // the first promise that is broken; empty: none
 };
 
 // Checks all maps in one pass over the light rays, tiles in parallel. Of maps with more than `max_cells` cells an even

@@ -185,8 +185,9 @@ std::vector<FunctionResult> measure_functions(std::span<const Curve> functions,
     }
     time_all(functions, techniques, repetitions, timed);
     for (Timed& one : timed)
-        results[one.index].times = FunctionTimes{results::summarise(std::move(one.build)), results::summarise(std::move(one.random)),
-                                                 results::summarise(std::move(one.coherent))};
+        results[one.index].times =
+            FunctionTimes{results::summarise(std::move(one.build)), results::summarise(std::move(one.random)),
+                          results::summarise(std::move(one.coherent))};
     return results;
 }
 

@@ -10,9 +10,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "results/result.h"
 #include "curves/curve.h"
 #include "document/technique_choice.h"
+#include "results/result.h"
 
 namespace shadowbench::bench {
 

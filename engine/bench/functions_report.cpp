@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/functions.h"
 #include "base/table.h"
+#include "bench/functions.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -44,8 +44,8 @@ nlohmann::ordered_json to_json(const FunctionResult& result) {
 
 std::string to_table(std::span<const FunctionResult> results) {
     base::Table table({"technique", "functions", "vertices in", "nodes out", "bytes", "curve err max", "rms",
-                 "over tolerance", "rises by", "leaves [0,1] by", "broken", "ns/vertex", "random ns", "coherent ns",
-                 "status"});
+                       "over tolerance", "rises by", "leaves [0,1] by", "broken", "ns/vertex", "random ns",
+                       "coherent ns", "status"});
     for (const FunctionResult& r : results) {
         const auto time = [&](const results::Sample FunctionTimes::*sample) {
             return r.times ? fmt::format("{:.2f}", ((*r.times).*sample).median) : std::string("-");

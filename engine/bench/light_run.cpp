@@ -60,8 +60,9 @@ Truth find_truth(const LightJob& job, const rays::LightView& view, std::span<con
                                 stage(job, "reference"));
 }
 
-results::ReferenceReport report_reference(const LightJob& job, const rays::LightView& view, const rays::MapLayout& layout,
-                                 std::span<const Query> judged, const Truth& truth) {
+results::ReferenceReport report_reference(const LightJob& job, const rays::LightView& view,
+                                          const rays::MapLayout& layout, std::span<const Query> judged,
+                                          const Truth& truth) {
     results::ReferenceReport report;
     const metrics::ErrorNorms error = metrics::error_norms(truth.standard_error);
     report.judged = judged.size();
@@ -138,8 +139,8 @@ QuerySet judged_queries(const LightJob& job, const QuerySet& set) {
 results::LightResult describe(const LightJob& job, const rays::MapLayout& layout, const QuerySet& set) {
     results::LightResult result;
     result.name = light_of(job).name;
-    result.layout = {layout.width,    layout.height,   layout.samples_x, layout.samples_y, layout.jittered,
-                     layout.seed,     layout.channels, layout.media,     layout.z_min,     layout.z_max};
+    result.layout = {layout.width, layout.height,   layout.samples_x, layout.samples_y, layout.jittered,
+                     layout.seed,  layout.channels, layout.media,     layout.z_min,     layout.z_max};
     result.deep_image = job.scenario.scene.deep_image.has_value();
     result.receivers = set.queries.size();
     result.dropped = set.dropped;

@@ -20,7 +20,8 @@ document::Variant only_variant(const nlohmann::json& document) {
     std::vector<document::Variant> variants = document::expand(document);
     if (variants.size() == 1) return std::move(variants[0]);
     std::string swept;
-    for (const document::Setting& setting : variants[0].settings) swept += (swept.empty() ? "" : ", ") + setting.pointer;
+    for (const document::Setting& setting : variants[0].settings)
+        swept += (swept.empty() ? "" : ", ") + setting.pointer;
     throw Error(ErrorCode::usage, "--set",
                 fmt::format("the scenario sweeps over {}; set one value of each, as in --set {}=...", swept,
                             variants[0].settings[0].pointer));

@@ -55,8 +55,8 @@ private:
     ScenarioLoader loader_;
     const scene::Scenario* scenario_ = nullptr;
     const scene::Light* light_ = nullptr;
-    std::size_t index_ = 0;  // of the light
-    PreparedLight prepared_;  // for no technique
+    std::size_t index_ = 0;                  // of the light
+    PreparedLight prepared_;                 // for no technique
     std::unique_ptr<rays::Tracer> casters_;  // null for a deep image
 };
 

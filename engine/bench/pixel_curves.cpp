@@ -10,12 +10,12 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "bench/contender.h"
-#include "document/document.h"
 #include "bench/load.h"
 #include "bench/one_light.h"
 #include "bench/prepared_light.h"
 #include "curves/norms.h"
 #include "curves/sweep.h"
+#include "document/document.h"
 #include "rays/capture.h"
 
 namespace shadowbench::bench {
@@ -92,8 +92,8 @@ struct PixelProbe::State {
           scenario(loader.load(variant)),
           light(scenario.lights[find_light(names_of(scenario.lights), light_name, asked_light)]) {
         contenders = make_contenders(scenario, variant);
-        PreparedLight prepared = prepare_light(scenario, static_cast<std::size_t>(&light - &scenario.lights[0]),
-                                               contenders, options.limits);
+        PreparedLight prepared =
+            prepare_light(scenario, static_cast<std::size_t>(&light - &scenario.lights[0]), contenders, options.limits);
         view = prepared.view;
         layout = prepared.layout;
         if (!scenario.scene.objects.empty()) casters = std::make_unique<rays::Tracer>(scenario.scene, true);

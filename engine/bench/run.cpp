@@ -17,8 +17,8 @@
 #include "bench/queries.h"
 #include "document/document.h"
 #include "rays/capture.h"
-#include "results/program.h"
 #include "results/machine.h"
+#include "results/program.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -101,8 +101,8 @@ results::Result run(const nlohmann::json& document, const RunOptions& options, c
                 };
             std::vector<Contender> fresh;
             for (const Contender& c : contenders) fresh.push_back({c.row, c.values, c.needs, {}, c.cell, {}});
-            out.lights.push_back(run_light({scenario, l, shared.casters.get(), shared.seen, options.limits, watch},
-                                           std::move(fresh)));
+            out.lights.push_back(
+                run_light({scenario, l, shared.casters.get(), shared.seen, options.limits, watch}, std::move(fresh)));
         }
     }
     result.times.seconds = stopwatch.seconds();

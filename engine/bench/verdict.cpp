@@ -56,8 +56,8 @@ void judge(Cell& cell, const Promises& promises, double noise) {
         cell.verdict_why = cell.reason;
     } else if (cell.curve && std::isfinite(cell.error_bound) && !cell.outside_promise) {
         cell.verdict = Verdict::kept;
-        cell.verdict_why = fmt::format("curve error {:.3g}, promised {:.3g}{}", cell.curve->norms.max,
-                                       cell.error_bound, faults(cell, promises));
+        cell.verdict_why = fmt::format("curve error {:.3g}, promised {:.3g}{}", cell.curve->norms.max, cell.error_bound,
+                                       faults(cell, promises));
     } else if (far.error <= noise) {
         cell.verdict = Verdict::kept;
         cell.verdict_why =

@@ -41,14 +41,16 @@ void figure_6(const Context& context) {
         hair_ball,
         {"rays.resolution=512", "rays.samples_per_pixel=1", "rays.pattern=regular", set_techniques(pcf(16, "centre"))},
         {"rays.resolution=128"});
-    const results::Result large = context.run(hair_ball,
-                                            {"rays.resolution=4096", "rays.samples_per_pixel=1", "rays.pattern=regular",
-                                             "receivers.filter_width=8", set_techniques(pcf(400, "centre"))},
-                                            {"rays.resolution=1024"});
-    const results::Result deep = context.run(hair_ball,
-                                           {"rays.resolution=512", "rays.samples_per_pixel=256", "timing.repetitions=7",
-                                            set_techniques(tent + std::string(R"(,{"type":"deep"})"))},
-                                           {"rays.resolution=128"});
+    const results::Result large =
+        context.run(hair_ball,
+                    {"rays.resolution=4096", "rays.samples_per_pixel=1", "rays.pattern=regular",
+                     "receivers.filter_width=8", set_techniques(pcf(400, "centre"))},
+                    {"rays.resolution=1024"});
+    const results::Result deep =
+        context.run(hair_ball,
+                    {"rays.resolution=512", "rays.samples_per_pixel=256", "timing.repetitions=7",
+                     set_techniques(tent + std::string(R"(,{"type":"deep"})"))},
+                    {"rays.resolution=128"});
     const Cell& coarse = cell_of(light_of(small), "pcf");
     const Cell& fine = cell_of(light_of(large), "pcf");
     const Cell& stored = cell_of(light_of(deep), "deep", {"kernel=tent"});
@@ -112,9 +114,9 @@ struct Row {
 
 Row measure_row(const Context& context, int samples) {
     const results::Result result = context.run(hair_ball,
-                                             {fmt::format("rays.samples_per_pixel={}", samples),
-                                              set_techniques(tent + std::string(",") + pcf(samples, "sample"))},
-                                             {"rays.resolution=96"});
+                                               {fmt::format("rays.samples_per_pixel={}", samples),
+                                                set_techniques(tent + std::string(",") + pcf(samples, "sample"))},
+                                               {"rays.resolution=96"});
     const LightResult& light = light_of(result);
     const Cell &deep = cell_of(light, "deep"), &depth = cell_of(light, "pcf");
     const double capture_ms = 1e3 * static_cast<double>(light.rays) / light.agreement->times.capture_rays_per_second;

@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "base/read_text.h"
 #include "bench/clock.h"
-#include "document/document.h"
 #include "bench/run.h"
+#include "document/document.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -60,7 +60,7 @@ json Context::document(const std::string& name, const std::vector<std::string>& 
 }
 
 results::Result Context::run(const std::string& name, const std::vector<std::string>& set,
-                           const std::vector<std::string>& smaller) const {
+                             const std::vector<std::string>& smaller) const {
     json changed = document(name, set);
     if (quick)
         for (const std::string& assignment : smaller) document::set_value(changed, assignment);
@@ -80,7 +80,7 @@ const results::LightResult& light_of(const results::Result& result, const std::v
 }
 
 const results::Cell& cell_of(const results::LightResult& light, const std::string& technique,
-                           const std::vector<std::string>& parameters) {
+                             const std::vector<std::string>& parameters) {
     for (const results::Cell& cell : light.cells) {
         if (cell.technique != technique || !has_all(json::parse(cell.parameters_json), parameters)) continue;
         if (cell.status == results::CellStatus::failed) throw Error(ErrorCode::internal, technique, cell.reason);

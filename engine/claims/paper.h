@@ -9,8 +9,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "bench/progress.h"
-#include "results/result.h"
 #include "claims/claim.h"
+#include "results/result.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::claims {
@@ -29,7 +29,7 @@ struct Context {
 
     // Runs scenarios/papers/<name>.json with these changes ("path=value"), and with `smaller` too when quick.
     results::Result run(const std::string& name, const std::vector<std::string>& set,
-                      const std::vector<std::string>& smaller) const;
+                        const std::vector<std::string>& smaller) const;
 };
 
 // The one light of the one variant whose settings begin with these values ("pointer=value"); the first light when there
@@ -39,7 +39,7 @@ const results::LightResult& light_of(const results::Result& result, const std::v
 // The cell of a technique whose parameters have these values ("nodes=8"). Throws Error{internal} where there is none,
 // or when it failed: its reason.
 const results::Cell& cell_of(const results::LightResult& light, const std::string& technique,
-                           const std::vector<std::string>& parameters = {});
+                             const std::vector<std::string>& parameters = {});
 
 // Nanoseconds of a lookup in image order.
 Value time_of(const results::Cell& cell);

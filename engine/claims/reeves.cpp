@@ -7,11 +7,11 @@
 
 #include "base/parallel.h"
 #include "bench/clock.h"
-#include "document/document.h"
 #include "bench/load.h"
 #include "claims/hand_made.h"
 #include "claims/paper.h"
 #include "claims/sheet.h"
+#include "document/document.h"
 #include "rays/tracer.h"
 #include "render/shading_points.h"
 
@@ -210,10 +210,10 @@ void figure_10(const Context& context) {
     std::vector<double> errors;
     for (const int resolution : {256, 512, 1024}) {
         const results::Result result = context.run("reeves1987_sphere",
-                                                 {fmt::format("rays.resolution={}", resolution),
-                                                  fmt::format("receivers.filter_width={}", 4.0 * resolution / 1024.0),
-                                                  R"(techniques=[{"type":"pcf","num_samples":16,"res_factor":1}])"},
-                                                 {});
+                                                   {fmt::format("rays.resolution={}", resolution),
+                                                    fmt::format("receivers.filter_width={}", 4.0 * resolution / 1024.0),
+                                                    R"(techniques=[{"type":"pcf","num_samples":16,"res_factor":1}])"},
+                                                   {});
         errors.push_back(rms_of(cell_of(light_of(result), "pcf")));
     }
     context.report->claims.push_back(

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "results/write_result.h"
 #include "claims/report.h"
+#include "results/write_result.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -61,7 +61,7 @@ std::string to_json(std::span<const PaperReport> reports, const Conditions& cond
 void write_reports(const std::filesystem::path& folder, const std::string& name, std::span<const PaperReport> reports,
                    const Conditions& conditions) {
     std::vector<base::NewFile> files{{folder / (name + ".md"), to_markdown(reports, conditions)},
-                                      {folder / (name + ".json"), to_json(reports, conditions)}};
+                                     {folder / (name + ".json"), to_json(reports, conditions)}};
     for (const PaperReport& report : reports)
         for (const Plot& plot : report.plots) files.push_back({folder / "plots" / (plot.name + ".svg"), to_svg(plot)});
     for (const PaperReport& report : reports)

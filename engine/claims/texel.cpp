@@ -7,11 +7,11 @@
 
 #include "base/error.h"
 #include "bench/contender.h"
-#include "document/document.h"
 #include "bench/load.h"
 #include "bench/prepared_light.h"
 #include "curves/norms.h"
 #include "curves/sweep.h"
+#include "document/document.h"
 #include "rays/capture.h"
 #include "rays/light_view.h"
 

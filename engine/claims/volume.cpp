@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
-#include "document/document.h"
 #include "claims/paper.h"
 #include "claims/sheet.h"
 #include "claims/texel.h"
+#include "document/document.h"
 
 namespace shadowbench::claims {
 namespace {

@@ -58,7 +58,8 @@ void add_time(Cell& cell, const results::Field& run) {
     if (!run.has(time)) return;
     const std::string& unit = run.at("time_unit").text();
     if (cell.timed.empty()) cell.timed.push_back({"time", unit, {{}}});
-    if (cell.timed[0].unit != unit) results::refuse(run.where + "/time_unit", "repetitions of one kernel have different units");
+    if (cell.timed[0].unit != unit)
+        results::refuse(run.where + "/time_unit", "repetitions of one kernel have different units");
     cell.timed[0].processes[0].raw.push_back(time_of(run.at(time)));
 }
 

@@ -1,8 +1,8 @@
 // The two kinds of files. Internal to read.cpp.
 #pragma once
 
-#include "results/fields.h"
 #include "compare/measured.h"
+#include "results/fields.h"
 
 namespace shadowbench::compare {
 

@@ -7,12 +7,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "results/program.h"
-#include "results/write_result.h"
 #include "metrics/flip.h"
 #include "render/heat_map.h"
 #include "render/image_file.h"
 #include "render/shading.h"
+#include "results/program.h"
+#include "results/write_result.h"
 
 namespace shadowbench::render {
 namespace {

@@ -20,10 +20,10 @@ struct Field {
     const nlohmann::json& object() const;
     Field item(std::size_t index) const;  // of array()
     const std::string& text() const;
-    double number() const;            // finite
-    double at_least_zero() const;     // finite
+    double number() const;              // finite
+    double at_least_zero() const;       // finite
     double number_or_infinity() const;  // null: +infinity
-    std::uint64_t count() const;      // a whole number from 0 on
+    std::uint64_t count() const;        // a whole number from 0 on
     bool truth() const;
     bool is_null() const;
 };

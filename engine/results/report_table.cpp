@@ -140,8 +140,9 @@ std::string to_table(const Result& result) {
         for (const LightResult& light : variant.lights) {
             text += capture_lines(light, result.times.threads) + nothing_line(light) + warning_line(light) +
                     reference_line(light);
-            base::Table table({"technique", "build ms", "ns/seg", "image ns", "x floor", "random ns", "x floor", "bytes",
-                         "nodes mean", "max", "curve max", "lookup rms", "p99", "max", "front", "status"});
+            base::Table table({"technique", "build ms", "ns/seg", "image ns", "x floor", "random ns", "x floor",
+                               "bytes", "nodes mean", "max", "curve max", "lookup rms", "p99", "max", "front",
+                               "status"});
             for (const Cell& cell : light.cells) table.add(row_of(cell));
             text += table.text("    ") + share_line(light);
         }

@@ -137,8 +137,8 @@ std::string light_section(const Result& result, const VariantResult& variant, co
     std::vector<std::vector<std::string>> rows;
     for (const Cell& cell : light.cells) rows.push_back(row_of(cell));
     return text + base::markdown_table({"technique", "verdict", "curve max", "lookup rms", "lookup max", "bytes",
-                                  "nodes mean", "nodes max", "why"},
-                                 rows);
+                                        "nodes mean", "nodes max", "why"},
+                                       rows);
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ std::string verdicts_text(std::span<const ScenarioOutcome> outcomes, std::span<c
     for (const ScenarioOutcome& outcome : outcomes) {
         const std::string& name = outcome.result.name;
         for_each_cell(outcome.result, [&](const VariantResult& variant, const LightResult& light, const Cell& cell) {
-                if (cell.verdict != Verdict::failed) return;
+            if (cell.verdict != Verdict::failed) return;
             const std::string place = place_of(outcome.result, variant, light);
             text += fmt::format("failed: {}{}, {}: {}\n", name, place.empty() ? "" : " (" + place + ")", title(cell),
                                 cell.verdict_why);

@@ -75,7 +75,7 @@ struct Cell {
     CellStatus status = CellStatus::ok;
     std::string reason;            // why it failed
     bool outside_promise = false;  // made for opaque scenes alone, and this one is not
-    double error_bound = 0.0;  // the promised largest curve error; infinity: none
+    double error_bound = 0.0;      // the promised largest curve error; infinity: none
     std::size_t bytes = 0, working_bytes = 0;
     NodeCounts nodes;
     std::optional<CurveErrors> curve;
@@ -120,7 +120,7 @@ struct ReferenceReport {
 
 // The light's map and its rays.
 struct MapDescription {
-    int width = 0, height = 0;        // pixels
+    int width = 0, height = 0;         // pixels
     int samples_x = 0, samples_y = 0;  // rays of a pixel
     bool jittered = false;
     std::uint64_t seed = 0;

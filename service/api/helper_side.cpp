@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "document/document.h"
 #include "bench/pixel_curves.h"
 #include "bench/run.h"
+#include "document/document.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::service {

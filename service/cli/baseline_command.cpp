@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "bench/run.h"
 #include "results/portable.h"
 #include "results/report.h"
-#include "bench/run.h"
 #include "results/write_result.h"
 #include "service/cli/child.h"
 #include "service/cli/job.h"

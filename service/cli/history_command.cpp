@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "results/write_result.h"
 #include "compare/history.h"
+#include "results/write_result.h"
 #include "service/cli/gate_commands.h"
 #include "service/web/history_page.h"
 
@@ -19,7 +19,7 @@ void history_command(const HistoryArguments& arguments, std::ostream& out) {
     const std::filesystem::path folder = arguments.out.empty() ? "results/history" : arguments.out;
     const std::filesystem::path numbers = folder / "history.json", page = folder / "history.html";
     base::write_files({{numbers, history.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"},
-                        {page, history_html(nlohmann::json(history))}});
+                       {page, history_html(nlohmann::json(history))}});
     out << compare::history_text(history) << fmt::format("written: {}, {}\n", numbers.string(), page.string());
 }
 

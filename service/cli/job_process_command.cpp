@@ -10,11 +10,11 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "document/document.h"
 #include "bench/run.h"
-#include "results/write_result.h"
+#include "document/document.h"
 #include "render/render.h"
 #include "render/write_pictures.h"
+#include "results/write_result.h"
 #include "scene/scenario.h"
 #include "service/jobs/fraction.h"
 #include "service/jobs/progress_line.h"

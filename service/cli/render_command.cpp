@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "results/write_result.h"
 #include "render/render.h"
 #include "render/write_pictures.h"
+#include "results/write_result.h"
 #include "scene/limits.h"
 #include "service/cli/commands.h"
 #include "service/cli/job.h"

@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "results/program.h"
-#include "results/machine.h"
-#include "results/write_result.h"
 #include "claims/paper.h"
 #include "claims/report.h"
+#include "results/machine.h"
+#include "results/program.h"
+#include "results/write_result.h"
 #include "service/cli/commands.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/scenario_files.h"

@@ -10,10 +10,10 @@
 
 #include "base/error.h"
 #include "base/pending_file.h"
+#include "bench/run.h"
 #include "document/document.h"
 #include "results/report.h"
 #include "results/report_verdicts.h"
-#include "bench/run.h"
 #include "results/write_result.h"
 #include "service/cli/commands.h"
 #include "service/cli/job.h"
@@ -154,8 +154,8 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
         results::write_result(one.folder, result);
         made[i].keep();
         kept = kept && !results::any_failed(result);
-        out << results::to_table(result) << fmt::format("written: {0}/result.json, {0}/result.csv\n", one.folder.string())
-            << std::flush;
+        out << results::to_table(result)
+            << fmt::format("written: {0}/result.json, {0}/result.csv\n", one.folder.string()) << std::flush;
     }
     std::vector<std::string> columns;
     for (const techniques::Technique& row : techniques::all()) columns.push_back(row.id);

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "results/write_result.h"
 #include "compare/report.h"
+#include "results/write_result.h"
 
 namespace shadowbench::service {
 namespace {

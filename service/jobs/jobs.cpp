@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "results/program.h"
 #include "document/document.h"
+#include "results/program.h"
 #include "service/jobs/board.h"
 #include "service/jobs/folders.h"
 #include "service/jobs/worker.h"

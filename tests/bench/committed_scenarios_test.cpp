@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "document/document.h"
 #include "bench/run.h"
+#include "document/document.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -38,7 +38,8 @@ results::LightResult measure(const std::string& name, const std::vector<std::str
 
 void check_promises(const results::LightResult& light) {
     ASSERT_EQ(light.cells.size(), 7u);
-    for (const results::Cell& cell : light.cells) EXPECT_EQ(cell.status, results::CellStatus::ok) << cell.technique << cell.reason;
+    for (const results::Cell& cell : light.cells)
+        EXPECT_EQ(cell.status, results::CellStatus::ok) << cell.technique << cell.reason;
     ASSERT_TRUE(light.agreement);
     EXPECT_LE(light.agreement->other_crossings, 3u);
 

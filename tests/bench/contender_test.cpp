@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "errors.h"
 #include "bench/fake_map.h"
 #include "bench/half_covered.h"
 #include "bench/memory.h"
 #include "curves/sweep.h"
+#include "errors.h"
 #include "rays/scenes.h"
 
 namespace shadowbench::bench {
@@ -153,7 +153,7 @@ TEST_F(Contenders, that_refuse_the_layout_are_bad_input) {
     const techniques::BuildInput input{layout_, half_.view, nullptr};
     test::error_of([&] { check_served(contenders, input); }, base::ErrorCode::bad_input, "/techniques/3");
     test::error_of([&] { build_all(contenders, source_, input, MemoryLimits{}.all, {}); }, base::ErrorCode::bad_input,
-             "/techniques/3");
+                   "/techniques/3");
 }
 
 TEST_F(Contenders, are_judged_alike_when_the_rays_are_captured_anew) {

@@ -8,9 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "errors.h"
 #include "bench/functions.h"
 #include "bench/one_light.h"
+#include "errors.h"
 #include "rays/capture.h"
 
 namespace shadowbench::bench {

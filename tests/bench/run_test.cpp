@@ -9,9 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/load.h"
 #include "document/document.h"
 #include "errors.h"
-#include "bench/load.h"
 #include "results/report.h"
 
 namespace shadowbench::bench {
@@ -155,7 +155,8 @@ TEST(Run, finds_all_lit_where_the_light_sees_nothing) {
         EXPECT_FALSE(light.translucent);
         EXPECT_EQ(light.reference.error_max, 0.0);
         for (const results::Cell& cell : light.cells) {
-            EXPECT_EQ(cell.status, results::CellStatus::ok) << light.name << " " << cell.technique << ": " << cell.reason;
+            EXPECT_EQ(cell.status, results::CellStatus::ok)
+                << light.name << " " << cell.technique << ": " << cell.reason;
             ASSERT_TRUE(cell.lookup) << cell.technique;
             EXPECT_EQ(cell.lookup->norms.max, 0.0) << light.name << " " << cell.technique;
             EXPECT_EQ(cell.curve ? cell.curve->norms.max : 0.0, 0.0) << light.name << " " << cell.technique;

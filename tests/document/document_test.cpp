@@ -58,7 +58,8 @@ TEST(SetValue, holds_nested_values_to_the_rules_of_documents) {
     EXPECT_EQ(document["lights"][0]["direction"], json({0, -2, 0}));
     const std::string deep(100000, '[');  // copied recursively, it would overflow the stack
     test::error_of([&] { set_value(document, "name=" + deep); }, ErrorCode::bad_input, "--set name:1:65");
-    test::error_of([&] { set_value(document, R"(rays={"seed": 1, "seed": 2})"); }, ErrorCode::bad_input, "--set rays:1:13");
+    test::error_of([&] { set_value(document, R"(rays={"seed": 1, "seed": 2})"); }, ErrorCode::bad_input,
+                   "--set rays:1:13");
 }
 
 TEST(SetValue, refuses_an_index_that_fits_no_integer) {
@@ -66,7 +67,8 @@ TEST(SetValue, refuses_an_index_that_fits_no_integer) {
     const std::string assignment = "lights.99999999999999999999999.direction=1";
     test::error_of([&] { set_value(document, assignment); }, ErrorCode::usage, "--set " + assignment);
     document["sweeps"] = {{"/lights/99999999999999999999999/direction", {1, 2}}};
-    test::error_of([&] { expand(document); }, ErrorCode::bad_input, "/sweeps/~1lights~199999999999999999999999~1direction");
+    test::error_of([&] { expand(document); }, ErrorCode::bad_input,
+                   "/sweeps/~1lights~199999999999999999999999~1direction");
 }
 
 TEST(SetValue, adds_a_part_that_the_document_leaves_out) {
@@ -103,7 +105,8 @@ TEST(CheckDocument, names_the_place_of_a_misspelt_parameter) {
 TEST(CheckDocument, names_the_techniques_there_are) {
     json document = small_document();
     document["techniques"][0] = {{"type", "shallow"}};
-    const std::string message = test::error_of([&] { check_document(document); }, ErrorCode::bad_input, "/techniques/0/type");
+    const std::string message =
+        test::error_of([&] { check_document(document); }, ErrorCode::bad_input, "/techniques/0/type");
     EXPECT_NE(message.find("uncompressed"), std::string::npos) << message;
 }
 
@@ -173,7 +176,7 @@ TEST(Expand, refuses_pointers_to_nothing) {
         json document = small_document();
         document["sweeps"] = {{pointer, {1, 2}}};
         test::error_of([&] { expand(document); }, ErrorCode::bad_input,
-                 (json::json_pointer("/sweeps") / pointer).to_string());
+                       (json::json_pointer("/sweeps") / pointer).to_string());
     }
 }
 

@@ -12,12 +12,12 @@
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
-#include "results/program.h"
-#include "results/machine.h"
 #include "kernels/exact.h"
 #include "kernels/inject.h"
 #include "kernels/kernel.h"
 #include "kernels/runner.h"
+#include "results/machine.h"
+#include "results/program.h"
 
 namespace shadowbench::kernels {
 namespace {

@@ -87,8 +87,7 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"document", {"base", "scene", "techniques", "document"}},
         {"results", {"base", "document", "metrics", "results"}},
         {"compare", {"base", "document", "metrics", "results", "compare"}},
-        {"bench",
-         {"base", "scene", "rays", "curves", "techniques", "metrics", "document", "results", "bench"}},
+        {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "document", "results", "bench"}},
         {"render",
          {"base", "scene", "rays", "curves", "techniques", "metrics", "document", "results", "bench", "render"}},
         {"claims",
@@ -103,8 +102,7 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         // The command line also reads and writes deep shadow map files.
         {"service/cli",
          {"base", "scene", "curves", "techniques", "techniques/deep", "document", "results", "compare", "bench",
-          "render", "claims",
-          "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
+          "render", "claims", "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
         {"service", {"service/cli"}},
     };
     for (const Include& include : includes()) {

@@ -71,7 +71,8 @@ std::string line_with(const std::string& text, const std::string& part) {
 
 TEST(VerdictsMarkdown, shows_the_worst_of_the_default_techniques_in_its_matrix) {
     const std::string text = verdicts_markdown(three(), columns);
-    EXPECT_EQ(line_with(text, "| scenario"), "| scenario | deep | avsm |") << "in the order asked for; what no scenario has is left out";
+    EXPECT_EQ(line_with(text, "| scenario"), "| scenario | deep | avsm |")
+        << "in the order asked for; what no scenario has is left out";
     EXPECT_EQ(line_with(text, "| first"), "| first | K | D |");
     EXPECT_EQ(line_with(text, "| second"), "| second | K* | - |") << "lookups farther from the truth than the noise";
     EXPECT_EQ(line_with(text, "| third"), "| third | not run | not run |");

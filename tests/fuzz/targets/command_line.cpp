@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include "document/document.h"
 #include "bench/functions.h"
+#include "document/document.h"
 #include "fuzz/expect.h"
 #include "fuzz/few_variants.h"
 #include "fuzz/target.h"
