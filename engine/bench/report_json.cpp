@@ -4,6 +4,7 @@
 
 #include "bench/build_info.h"
 #include "bench/report.h"
+#include "bench/settled.h"
 #include "bench/verdict.h"
 
 namespace shadowbench::bench {
@@ -153,6 +154,21 @@ json to_json(const LightResult& light) {
             {"cells", std::move(cells)}};
 }
 
+// What the floors say of the machine: whether it was quiet, and where it was not.
+json to_json(const RunTimes& times, const Result& result) {
+    json unsettled = json::array();
+    for (std::size_t v = 0; v < result.variants.size(); ++v)
+        for (const LightResult& light : result.variants[v].lights)
+            if (std::string why = unsettled_text(settling(light)); !why.empty())
+                unsettled.push_back({{"variant", v}, {"light", light.name}, {"why", std::move(why)}});
+    const std::optional<bool> quiet = settled(result);
+    return {{"started", times.started},
+            {"seconds", times.seconds},
+            {"threads", times.threads},
+            {"settled", quiet ? json(*quiet) : json(nullptr)},
+            {"unsettled", std::move(unsettled)}};
+}
+
 json to_json(const VariantResult& variant) {
     json settings = json::object(), lights = json::array();
     for (const Setting& setting : variant.settings) settings[setting.pointer] = json::parse(setting.value);
@@ -178,8 +194,7 @@ nlohmann::ordered_json to_json(const Result& result) {
               {"compiler", build.compiler},
               {"build_type", build.build_type}}},
             {"machine", {{"cpu", result.machine.cpu}, {"logical_cores", result.machine.logical_cores}}},
-            {"times",
-             {{"started", result.times.started}, {"seconds", result.times.seconds}, {"threads", result.times.threads}}},
+            {"times", to_json(result.times, result)},
             {"variants", std::move(variants)}};
 }
 

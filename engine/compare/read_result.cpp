@@ -99,11 +99,47 @@ void add_speed(Suite& suite, const Field& check) {
     if (rate > 0.0) suite.speed.push_back(rate);
 }
 
+// Names of the technique's parameters that the scenario's sweeps set, in the order of the sweeps.
+std::vector<std::string> swept_of(const json& scenario, const std::string& where, const json& parameters) {
+    std::vector<std::string> names;
+    const auto sweeps = scenario.find("sweeps");
+    if (sweeps == scenario.end() || !sweeps->is_object()) return names;
+    for (const auto& [pointer, values] : sweeps->items())
+        if (pointer.rfind(where + "/", 0) == 0)
+            if (std::string name = pointer.substr(where.size() + 1); name != "type" && parameters.contains(name))
+                names.push_back(std::move(name));
+    return names;
+}
+
+// A label names what sweeps set first, then what differs from the defaults. Labels of older results left out a swept
+// value that is the default, and had the others in their places: brought into the form of today, so that a cell has the
+// same name whichever program wrote it.
+std::string name_of(const std::string& technique, const std::string& label, const std::vector<std::string>& swept,
+                    const json& parameters) {
+    std::string name = technique, rest;
+    const auto is_swept = [&](const std::string& word) {
+        return std::any_of(swept.begin(), swept.end(), [&](const std::string& s) { return word.starts_with(s + "="); });
+    };
+    for (const std::string& one : swept) {
+        const json& value = parameters.at(one);
+        name += fmt::format(" {}={}", one,
+                            value.is_number() ? fmt::format("{:g}", value.get<double>()) : value_text(value));
+    }
+    for (std::size_t first = 0; first < label.size();) {
+        const std::size_t space = std::min(label.find(' ', first), label.size());
+        if (const std::string word = label.substr(first, space - first); !is_swept(word)) rest += " " + word;
+        first = space + 1;
+    }
+    return name + rest;
+}
+
 Cell read_cell(const Field& from, const json& scenario, const Field& settings, const std::string& source) {
     Cell cell;
     const std::string& technique = from.at("technique").text();
     const std::string& label = from.at("label").text();
-    cell.name = label.empty() ? technique : technique + " " + label;
+    const json& parameters = from.at("parameters").object();
+    const std::vector<std::string> swept = swept_of(scenario, from.at("where").text(), parameters);
+    cell.name = name_of(technique, label, swept, parameters);
     cell.version = fmt::format("{:g}", from.at("version").number());
     cell.failed = from.at("status").text() != "ok";
     cell.degraded = from.at("verdict").text() == "degraded";
