@@ -52,7 +52,7 @@ JobFolders make_job_folders(const fs::path& state) {
     const JobFolders folders{state / "jobs", state / "work"};
     make_folder(folders.jobs);
     make_folder(folders.work);
-    sync(state);
+    sync(state / ".");  // which may be a link
     return folders;
 }
 

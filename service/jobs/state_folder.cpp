@@ -130,7 +130,7 @@ bool check_ours(const fs::path& folder) {
 }
 
 void sync(const fs::path& place) {
-    const int file = ::open(place.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    const int file = ::open(place.c_str(), O_RDONLY | O_CLOEXEC);
     const bool done = file >= 0 && ::fsync(file) == 0;
     const std::error_code failed(errno, std::generic_category());
     if (file >= 0) ::close(file);
