@@ -88,16 +88,18 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
         {"render", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench", "render"}},
         {"claims", {"base", "scene", "rays", "curves", "techniques", "bench", "render", "claims"}},
+        {"service/process", {"base", "service/process"}},
         {"service/store", {"base", "service/store"}},
-        {"service/jobs", {"base", "bench", "service/store", "service/jobs"}},
+        {"service/jobs", {"base", "bench", "service/process", "service/store", "service/jobs"}},
         {"service/web", {"base", "service/web"}},
         {"service/api",
-         {"base", "scene", "techniques", "bench", "compare", "service/jobs", "service/web", "service/api"}},
+         {"base", "scene", "techniques", "bench", "compare", "service/process", "service/jobs", "service/web",
+          "service/api"}},
         {"service/http", {"base", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files.
         {"service/cli",
          {"base", "scene", "curves", "techniques", "techniques/deep", "compare", "bench", "render", "claims",
-          "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
+          "service/process", "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
         {"service", {"service/cli"}},
     };
     for (const Include& include : includes()) {
