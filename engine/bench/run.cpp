@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -69,6 +70,17 @@ void add_cost(const scene::Scenario& scenario, const rays::LightView& view, std:
     validated.seconds += estimate_seconds(scenario, layout, techniques);
 }
 
+void add_passed_over(const scene::Scenario& scenario, Validated& validated) {
+    for (const scene::Object& object : scenario.scene.objects) {
+        if (object.passed_over.empty()) continue;
+        std::string line = fmt::format("the file of {} holds what is passed over: ", object.name);
+        for (const scene::PassedOver& each : object.passed_over)
+            line += fmt::format("{}{} ({})", &each == object.passed_over.data() ? "" : ", ", each.what, each.count);
+        if (std::count(validated.passed_over.begin(), validated.passed_over.end(), line) == 0)
+            validated.passed_over.push_back(line);
+    }
+}
+
 }  // namespace
 
 Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress) {
@@ -117,6 +129,7 @@ Validated validate(const nlohmann::json& document, const RunOptions& options) {
     for (const Variant& variant : variants_of(document, options)) {
         const scene::Scenario& scenario = loader.load(variant);
         const std::vector<Contender> contenders = make_contenders(scenario, variant);
+        add_passed_over(scenario, validated);
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
             const rays::LightView view = rays::make_light_view(scenario.lights[l], scenario.scene,
                                                                scenario.rays.resolution, pointer_of(scenario, l));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "scene/limits.h"
 #include "scene/scene.h"
@@ -18,8 +19,14 @@ Hair read_tressfx(const std::filesystem::path& file, float radius);
 // `radius` > 0 overrides it.
 Hair read_hair(const std::filesystem::path& file, float radius);
 
-// By extension: .obj or .ply (ASCII and binary). Polygons are split into fans.
-Mesh read_mesh(const std::filesystem::path& file);
+struct MeshFile {
+    Mesh mesh;
+    std::vector<PassedOver> passed_over;
+};
+
+// By extension: .obj or .ply (ASCII and binary, faces and triangle strips). Polygons are split into triangles that
+// cover them once (triangulate.h); one that crosses itself is bad input. A file may hold vertices alone.
+MeshFile read_mesh(const std::filesystem::path& file);
 
 // The alpha channel of an image (its luminance where it has none): PNG, JPEG, TIFF, OpenEXR, DDS or TGA.
 AlphaTexture read_alpha(const std::filesystem::path& file);

@@ -73,6 +73,12 @@ struct Particles {
     std::vector<float> density;  // one a particle, >= 0
 };
 
+// What the reader of a file left out, and how often: {"faces of fewer than 3 corners", 2}.
+struct PassedOver {
+    std::string what;
+    std::uint64_t count = 0;
+};
+
 struct Object {
     std::string name;
     bool casts_shadow = true;
@@ -80,6 +86,7 @@ struct Object {
     Vec3f extinction{1.0f, 1.0f, 1.0f};  // media: extinction per unit of density and of length, each >= 0
     Vec3f motion{0.0f, 0.0f, 0.0f};      // while the shutter is open: at time t in [0, 1) it stands at t * motion
     std::variant<Mesh, Spheres, Hair, GridVolume, Particles> shape;
+    std::vector<PassedOver> passed_over;  // of its file
 };
 
 // Ready-made light rays: one ray a pixel, straight along z, its samples as a deep image holds them.

@@ -73,6 +73,7 @@ json facts_of(const json& document, const std::vector<fs::path>& data) {
     json notes = json::array();
     for (const std::string& light : v.blind)
         notes.push_back(fmt::format("light {} sees nothing that casts a shadow", light));
+    for (const std::string& line : v.passed_over) notes.push_back(line);
     return {{"name", v.name},
             {"seed", seed_of(document)},
             {"hash", bench::hash_text(document.dump())},

@@ -178,6 +178,7 @@ void validate_command(const ScenarioArguments& arguments, std::ostream& out, std
             "note: light {} sees nothing that casts a shadow: no caster is inside its map and behind its "
             "near plane\n",
             light);
+    for (const std::string& line : validated.passed_over) out << fmt::format("note: {}\n", line);
 }
 
 }  // namespace shadowbench::service
