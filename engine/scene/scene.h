@@ -131,15 +131,15 @@ struct Camera {
     double fov = 40.0;  // vertical, degrees
 };
 
-// Where visibility is asked for: what a camera sees (nearest surface a pixel, and points inside media before it), given
-// points, or points spread evenly over the map and the casters' depths.
+// Where visibility is asked for: what a camera sees (one surface a pixel, drawn by how much of it is seen, and points
+// inside the media on the way), given points, or points spread evenly over the map and the casters' depths.
 struct Receivers {
     std::optional<Camera> camera;
     Vec2i resolution{256, 256};  // camera: pixels
     int media_lookups = 8;       // camera: points a view ray spreads over the media it passes
     std::vector<Vec3d> points;   // given, world space; none: there is a camera, or points are spread
     int count = 65536;           // points to spread
-    std::uint64_t seed = 7;
+    std::uint64_t seed = 7;      // of the spread points, and of the draw between a pixel's surfaces
     double filter_width = 1.0;  // map pixels
     double bias = 0.0;          // moves every receiver towards the light, world length, >= 0
 };
