@@ -1,5 +1,6 @@
 #include "scene/choose_grid.h"
 
+#include <algorithm>
 #include <variant>
 #include <vector>
 
@@ -76,10 +77,34 @@ std::size_t choose_grid(const std::filesystem::path& file, std::span<const VdbGr
         chosen = chooser.by_name(*name);
     else
         chosen = chooser.without_key();
-    for (std::size_t i = 0; i < grids.size(); ++i)
-        if (i != chosen && grids[i].unique_name == grids[chosen].unique_name)
-            chooser.refuse(fmt::format("the file is damaged: two grids are both \"{}\"", shown(grids[chosen])));
     return chosen;
+}
+
+// File::findDescriptor: of the grids with the name that it is given, or, where there are none, with that name up to its
+// suffix, it takes the first. Only "name[number]" makes it look at the number too, unless a grid is called just so.
+std::optional<std::string> library_name(std::span<const VdbGridName> grids, std::size_t grid) {
+    const VdbGridName& wanted = grids[grid];
+    for (std::size_t i = 0; i < grids.size(); ++i)
+        if (i != grid && grids[i].unique_name == wanted.unique_name) return std::nullopt;
+    if (wanted.name == wanted.unique_name) {
+        for (std::size_t i = 0; i < grid; ++i)
+            if (grids[i].name == wanted.name) return std::nullopt;
+        return wanted.name;
+    }
+    const std::string number = wanted.unique_name.substr(wanted.name.size() + 1);
+    const bool digits = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+    const std::string asked = fmt::format("{}[{}]", wanted.name, number);
+    const bool taken = std::any_of(grids.begin(), grids.end(), [&](const auto& each) { return each.name == asked; });
+    if (!digits || taken || wanted.name.find_first_of("[]") != std::string::npos) return std::nullopt;
+    return asked;
+}
+
+std::size_t library_parent(std::span<const VdbGridName> grids, const std::string& unique_name) {
+    const std::string name = unique_name.substr(0, unique_name.find(vdb_suffix));
+    std::size_t first = 0;
+    while (first < grids.size() && grids[first].name != name) ++first;
+    const bool found = first < grids.size() && grids[first].unique_name == unique_name && !unique_name.ends_with(']');
+    return found ? first : grids.size();
 }
 
 }  // namespace shadowbench::scene

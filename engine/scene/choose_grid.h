@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,7 +18,7 @@ inline constexpr const char* usual_grid = "density";
 inline constexpr std::string_view vdb_float_tree = "Tree_float_5_4_3";
 
 struct VdbGridName {
-    std::string name, unique_name;  // unique_name: what the library finds it by; the file says whether it is unique
+    std::string name, unique_name;  // unique_name: name, or name, vdb_suffix and a number
     std::string type;               // without "_HalfFloat"
 };
 
@@ -25,8 +26,16 @@ struct VdbGridName {
 std::string shown(const VdbGridName& grid);
 
 // The index of the grid that is meant: see GridChoice. Throws Error{bad_input} with the file as place, and the names of
-// all grids, for a choice that fits none, or several, and for a grid that shares its unique name.
+// all grids, for a choice that fits none, or several.
 std::size_t choose_grid(const std::filesystem::path& file, std::span<const VdbGridName> grids,
                         const GridChoice& choice);
+
+// What File::readGrid (OpenVDB 10) must be asked for to find this grid and no other; nothing
+// where no name is sure to.
+std::optional<std::string> library_name(std::span<const VdbGridName> grids, std::size_t grid);
+
+// The grid in which File::readGrid looks for the tree that others share under this unique name; grids.size(): none, or
+// one that has another name.
+std::size_t library_parent(std::span<const VdbGridName> grids, const std::string& unique_name);
 
 }  // namespace shadowbench::scene

@@ -43,7 +43,7 @@ double check_box(const openvdb::CoordBBox& box, std::uint64_t most_voxels, const
 openvdb::FloatGrid::Ptr read_grid(const std::filesystem::path& file, const VdbGrid& grid) {
     openvdb::io::File vdb(file.string());
     vdb.open(false);
-    const openvdb::FloatGrid::Ptr result = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(grid.unique_name));
+    const openvdb::FloatGrid::Ptr result = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(grid.library_name));
     if (!result) fail(file, fmt::format("the grid \"{}\" is not float", shown(grid)));
     if (result->getGridClass() == openvdb::GRID_LEVEL_SET)
         fail(file, fmt::format("the grid \"{}\" is a level set, not a fog volume", shown(grid)));

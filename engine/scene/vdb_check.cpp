@@ -1,5 +1,5 @@
 // The format as OpenVDB 10 reads and writes it (io/Archive, io/GridDescriptor, io/Compression, tree/*.h), from version
-// 222 (2013) on.
+// 222 (2013) to 224.
 #include "scene/vdb_check.h"
 
 #include <array>
@@ -20,7 +20,7 @@ namespace shadowbench::scene {
 namespace {
 
 constexpr std::int64_t magic = 0x56444220;
-constexpr std::uint32_t first_version = 222;
+constexpr std::uint32_t first_version = 222, last_version = 224;
 constexpr std::uint64_t uuid_bytes = 36;
 constexpr std::uint32_t max_name = 65536;  // bytes
 
@@ -78,7 +78,12 @@ public:
         const std::size_t chosen = choose_grid(file_, names_, choice);
         check_grid(chosen);
         if (!grids_[chosen].parent.empty()) check_grid(parent_of(chosen));
-        VdbGrid result{names_[chosen], {}};
+        const std::optional<std::string> asked = library_name(names_, chosen);
+        if (!asked)
+            reader_.fail(grids_[chosen].begin, fmt::format("the grid \"{}\" has a name by which it cannot be told from "
+                                                           "others: rename it in the program that wrote it",
+                                                           shown(names_[chosen])));
+        VdbGrid result{names_[chosen], *asked, {}};
         for (std::size_t i = 0; i < grids_.size(); ++i)
             if (i != chosen) result.passed_over.push_back(shown(names_[i]));
         return result;
@@ -89,17 +94,14 @@ private:
         reader_.fail(reader_.position(), "the file is cut short or damaged: " + what);
     }
 
-    // Where there is no grid of that very name the library takes one of a similar name, which would not be checked.
     std::size_t parent_of(std::size_t grid) const {
-        std::vector<std::size_t> found;
-        for (std::size_t i = 0; i < grids_.size(); ++i)
-            if (names_[i].unique_name == grids_[grid].parent) found.push_back(i);
-        if (found.size() != 1 || !grids_[found[0]].parent.empty())
+        const std::size_t parent = library_parent(names_, grids_[grid].parent);
+        if (parent == names_.size() || !grids_[parent].parent.empty())
             reader_.fail(grids_[grid].begin,
-                         fmt::format("the file is damaged: the grid \"{}\" shares the tree of another, which is not one "
-                                     "grid of the file with a tree of its own",
+                         fmt::format("the file is damaged: the grid \"{}\" shares the tree of another, and there is no "
+                                     "such grid with a tree of its own",
                                      shown(names_[grid])));
-        return found[0];
+        return parent;
     }
 
     void skip(std::uint64_t bytes, const char* what) {
@@ -148,6 +150,8 @@ private:
     void read_header() {
         if (reader_.value<std::int64_t>("header") != magic) reader_.fail(0, "not an OpenVDB file");
         const auto version = reader_.value<std::uint32_t>("header");
+        if (version > last_version)
+            reader_.fail(8, fmt::format("version {} of the format; up to {} are read", version, last_version));
         if (version < first_version)
             reader_.fail(8, fmt::format("version {} of the format, written before 2013; save it with OpenVDB 1.2 or "
                                         "later",

@@ -11,6 +11,7 @@
 namespace shadowbench::scene {
 
 struct VdbGrid : VdbGridName {
+    std::string library_name;              // for File::readGrid
     std::vector<std::string> passed_over;  // the file's other grids, as people read them
 };
 

@@ -86,8 +86,18 @@ TEST(ReadVdb, TakesAGridByItsNumberAndRefusesANameThatSeveralHave) {
         EXPECT_THAT(error_of([&] { read_vdb(file, several); }).message(),
                     AllOf(HasSubstr("2 grids are called \"density\""), HasSubstr("density[0], velocity, density[1]")));
     EXPECT_THAT(error_of([&] { read_vdb(file, 1); }).message(), HasSubstr("not float"));
-    for (const int number : {-1, 3})
-        EXPECT_THAT(error_of([&] { read_vdb(file, number); }).message(), HasSubstr("no grid number"));
+    // Called as the library would ask for another.
+    openvdb::GridPtrVec grids = several_grids();
+    openvdb::FloatGrid::Ptr fourth = small_grid();
+    fourth->setName("density[1]");
+    fourth->tree().setValue({0, 0, 5}, 70.0f);
+    grids.push_back(fourth);
+    const auto confusing = write(grids);
+    EXPECT_EQ(read_vdb(confusing, 0).density[1], 2.0f);
+    EXPECT_EQ(read_vdb(confusing, 3).density[1], 70.0f);
+    EXPECT_THAT(error_of([&] { read_vdb(confusing, 2); }).message(), HasSubstr("cannot be told from"));
+    for (const int number : {-1, 4})
+        EXPECT_THAT(error_of([&] { read_vdb(confusing, number); }).message(), HasSubstr("no grid number"));
 }
 
 TEST(ReadVdb, TakesTheOnlyGridOfFloatsUnderAnyNameOrNone) {
