@@ -70,17 +70,6 @@ void add_cost(const scene::Scenario& scenario, const rays::LightView& view, std:
     validated.seconds += estimate_seconds(scenario, layout, techniques);
 }
 
-void add_passed_over(const scene::Scenario& scenario, Validated& validated) {
-    for (const scene::Object& object : scenario.scene.objects) {
-        if (object.passed_over.empty()) continue;
-        std::string line = fmt::format("the file of {} holds what is passed over: ", object.name);
-        for (const scene::PassedOver& each : object.passed_over)
-            line += fmt::format("{}{} ({})", &each == object.passed_over.data() ? "" : ", ", each.what, each.count);
-        if (std::count(validated.passed_over.begin(), validated.passed_over.end(), line) == 0)
-            validated.passed_over.push_back(line);
-    }
-}
-
 }  // namespace
 
 Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress) {
@@ -129,7 +118,8 @@ Validated validate(const nlohmann::json& document, const RunOptions& options) {
     for (const Variant& variant : variants_of(document, options)) {
         const scene::Scenario& scenario = loader.load(variant);
         const std::vector<Contender> contenders = make_contenders(scenario, variant);
-        add_passed_over(scenario, validated);
+        for (const std::string& note : scene::read_notes(scenario.scene))
+            if (std::count(validated.notes.begin(), validated.notes.end(), note) == 0) validated.notes.push_back(note);
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
             const rays::LightView view = rays::make_light_view(scenario.lights[l], scenario.scene,
                                                                scenario.rays.resolution, pointer_of(scenario, l));

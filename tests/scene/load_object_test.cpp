@@ -224,7 +224,19 @@ TEST(LoadVolume, ReadsRawValuesIntoTheirBox) {
     EXPECT_EQ(volume.step, 0.5);  // half of the smallest voxel edge
     EXPECT_EQ(std::get<GridVolume>(load(raw + R"(, "step": 0.125})", {folder}).shape).step, 0.125);
     EXPECT_EQ(failure(raw + R"(, "step": 1e-8})", {folder}).where(), "/scene/objects/0/step");
-    EXPECT_EQ(failure(raw + R"(, "grid": "density"})", {folder}).where(), "/scene/objects/0/grid");
+    for (const char* grid : {"\"density\"", "0"})
+        EXPECT_EQ(failure(raw + ", \"grid\": " + grid + "}", {folder}).where(), "/scene/objects/0/grid");
+    EXPECT_TRUE(volume.notes.lines.empty());
+}
+
+TEST(LoadVolume, TakesOrRefusesDensitiesBelow0) {
+    const auto folder = test::write_file("a.raw", bytes_of(0.0f, -1.0f, 2.0f, 3.0f)).parent_path();
+    const std::string raw = R"({"type": "volume", "file": "a.raw", "format": "float32", "size": [4, 1, 1],
+                                "lower": [0, 0, 0], "upper": [8, 1, 1])";
+    for (const char* more : {"}", R"(, "negative": "clamp"})"})
+        EXPECT_EQ(std::get<GridVolume>(load(raw + more, {folder}).shape).notes.lines.size(), 1u);
+    EXPECT_THAT(failure(raw + R"(, "negative": "refuse"})", {folder}).message(), HasSubstr("below 0"));
+    EXPECT_THAT(failure(raw + R"(, "negative": "keep"})", {folder}).message(), HasSubstr("clamp, refuse"));
 }
 
 TEST(LoadVolume, PointsAtWhatIsMissingOrWrong) {
