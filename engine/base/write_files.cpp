@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 #include <system_error>
 
@@ -26,10 +27,12 @@ fs::path temporary_name(const fs::path& path) {
 }
 
 void write_one(const fs::path& path, const std::string& content) {
+    errno = 0;
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     file.close();
-    if (!file) throw Error(ErrorCode::io, path.string(), "cannot write the file");
+    const std::string why = errno ? ": " + std::generic_category().message(errno) : "";
+    if (!file) throw Error(ErrorCode::io, path.string(), "cannot write the file" + why);
 }
 
 }  // namespace

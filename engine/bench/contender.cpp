@@ -98,7 +98,8 @@ void judge(Contender& contender, const Asked& judged, const Truth& truth) {
 
 }  // namespace
 
-Contender make_contender(const scene::TechniqueRequest& request, const std::string& where) {
+Contender make_contender(const scene::TechniqueRequest& request, const std::string& where,
+                         std::span<const std::string> swept) {
     Contender contender;
     contender.row = &techniques::find(request.type, where + "/type");
     contender.values =
@@ -107,7 +108,7 @@ Contender make_contender(const scene::TechniqueRequest& request, const std::stri
     results::Cell& cell = contender.cell;
     cell.technique = contender.row->id;
     cell.version = contender.row->version;
-    cell.parameters = techniques::to_string(contender.values, contender.row->parameters, false);
+    cell.parameters = techniques::to_string(contender.values, contender.row->parameters, swept);
     cell.parameters_json = techniques::to_json(contender.values).dump();
     cell.where = where;
     return contender;

@@ -25,8 +25,10 @@ struct Contender {
     bool ok() const { return cell.status == results::CellStatus::ok; }
 };
 
-// From the request of a scenario. Throws what read_parameters throws, with `where` as its place.
-Contender make_contender(const scene::TechniqueRequest& request, const std::string& where);
+// From the request of a scenario; the cell's label names the `swept` parameters, whatever their values. Throws what
+// read_parameters throws, with `where` as its place.
+Contender make_contender(const scene::TechniqueRequest& request, const std::string& where,
+                         std::span<const std::string> swept = {});
 
 // Makes the layout of the capture ask for what all of them need together.
 void ask_for_needs(std::span<const Contender> contenders, rays::MapLayout& layout);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -116,6 +117,8 @@ Validated validate(const nlohmann::json& document, const RunOptions& options) {
     for (const document::Variant& variant : variants_of(document, options)) {
         const scene::Scenario& scenario = loader.load(variant);
         const std::vector<Contender> contenders = make_contenders(scenario, variant);
+        for (const std::string& note : scene::read_notes(scenario.scene))
+            if (std::count(validated.notes.begin(), validated.notes.end(), note) == 0) validated.notes.push_back(note);
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
             const PreparedLight light = prepare_light(scenario, l, contenders, options.limits);
             const std::string& name = scenario.lights[l].name;

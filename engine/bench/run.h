@@ -28,6 +28,7 @@ struct Validated {
     std::string name;
     std::size_t variants = 0, lights = 0, techniques = 0;  // lights and techniques: of the first variant
     std::vector<std::string> blind;                        // lights that surely see nothing that casts a shadow
+    std::vector<std::string> notes;                        // of the files' readers: see scene::read_notes
     int largest_side = 0, most_samples = 0;                // of the maps: pixels; rays a pixel, the truth's too
     double least_bytes = 0.0;                              // of the variant that needs most
     double seconds = 0.0;                                  // of the whole run, guessed: see estimate.h

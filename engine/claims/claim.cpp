@@ -31,6 +31,26 @@ Value operator*(double factor, const Value& a) {
     return {factor * a.value, factor * a.low, factor * a.high};
 }
 
+const char* to_string(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::holds:
+            return "holds";
+        case Verdict::in_shape:
+            return "holds in shape";
+        case Verdict::fails:
+            return "does not hold here";
+        case Verdict::undecided:
+            return "undecided";
+    }
+    return "";
+}
+
+Claim undecided(Claim claim, const std::string& reason) {
+    claim.verdict = Verdict::undecided;
+    claim.why = fmt::format("Undecided until the experiment is done again: {}. {}", reason, claim.why);
+    return claim;
+}
+
 std::string to_text(const Value& value) {
     if (value.low == value.high) return fmt::format("{:.3g}", value.value);
     return fmt::format("{:.3g} [{:.3g}, {:.3g}]", value.value, value.low, value.high);

@@ -10,10 +10,12 @@
 namespace shadowbench::claims {
 
 enum class Verdict {
-    holds,     // the value is met, or bettered where the paper claims a bound
-    in_shape,  // the direction or the law is the paper's, the value is not
-    fails,     // neither
+    holds,      // the value is met, or bettered where the paper claims a bound
+    in_shape,   // the direction or the law is the paper's, the value is not
+    fails,      // neither
+    undecided,  // measured, but not judged: see undecided()
 };
+const char* to_string(Verdict verdict);  // "holds", "holds in shape", "does not hold here", "undecided"
 
 // A number with the interval that it lies in: of medians (95 % bootstrap), or twice itself where nothing varies.
 struct Value {
@@ -37,6 +39,10 @@ struct Claim {
     std::string why;            // one sentence
     std::vector<Value> values;  // the numbers in `measured`, in their order
 };
+
+// A claim that is measured and gets no verdict until its experiment is done again. `reason`, half a sentence, says why;
+// it stands before the claim's own `why`.
+Claim undecided(Claim claim, const std::string& reason);
 
 // Rows of text under a header.
 struct Table {

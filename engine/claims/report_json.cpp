@@ -9,10 +9,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const char* text_of(Verdict verdict) {
-    return verdict == Verdict::holds ? "holds" : verdict == Verdict::in_shape ? "holds in shape" : "does not hold here";
-}
-
 ordered_json to_object(const Claim& claim) {
     ordered_json values = ordered_json::array();
     for (const Value& v : claim.values) values.push_back({{"value", v.value}, {"low", v.low}, {"high", v.high}});
@@ -20,7 +16,7 @@ ordered_json to_object(const Claim& claim) {
             {"says", claim.says},
             {"measured", claim.measured},
             {"values", values},
-            {"verdict", text_of(claim.verdict)},
+            {"verdict", to_string(claim.verdict)},
             {"why", claim.why}};
 }
 

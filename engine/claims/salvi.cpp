@@ -203,23 +203,22 @@ void curve_figure(const Context& context, const char* scenario, const char* name
               curves.series};
     report.plots.push_back(std::move(plot));
     Table table{fmt::format("{}: largest error of each curve", place), {"curve", "largest error"}, {}};
-    double twelve = -1.0, least_other = 1.0;
+    double twelve = -1.0;
     for (std::size_t i = 0; i < curves.error.size(); ++i) {
         table.rows.push_back({curves.series[i].name, fmt::format("{:.3g}", curves.error[i])});
         if (curves.series[i].name.starts_with("avsm nodes=12")) twelve = curves.error[i];
-        if (curves.series[i].name.starts_with("opacity") || curves.series[i].name.starts_with("fourier"))
-            least_other = std::min(least_other, curves.error[i]);
     }
     if (twelve < 0.0) throw base::Error(base::ErrorCode::internal, scenario, "there is no AVSM of 12 nodes");
     report.tables.push_back(std::move(table));
-    report.claims.push_back({place,
-                             fmt::format("12 nodes fit a curve of {} nodes almost exactly", nodes_there),
-                             fmt::format("largest error {:.3g} on a curve of {} segments", twelve, curves.segments),
-                             twelve < 0.05          ? Verdict::holds
-                             : twelve < least_other ? Verdict::in_shape
-                                                    : Verdict::fails,
-                             "The texel is the one with the most segments that are not all in the dark.",
-                             {exactly(twelve)}});
+    report.claims.push_back(undecided(
+        {place,
+         fmt::format("12 nodes fit a curve of {} nodes almost exactly", nodes_there),
+         fmt::format("largest error {:.3g} on a curve of {} segments", twelve, curves.segments),
+         Verdict::undecided,
+         "The texel is the one with the most segments that are not all in the dark.",
+         {exactly(twelve)}},
+        "half of the claim was judged: the paper also finds the curve of figure 6 closer than slices and terms and "
+        "like a deep map, and 16 nodes close in figure 7"));
 }
 
 }  // namespace

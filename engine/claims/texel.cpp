@@ -73,10 +73,7 @@ TexelCurves busiest_texel(const nlohmann::json& document, const scene::SearchPat
         for (const rays::LightRays& one : tiles) bench::add(maps, one);
         bench::finish(maps);
         bench::stored(maps, result.x, result.y, 0, depths, stored);
-        const std::string parameters = contender.cell.parameters;
-        result.series.push_back(
-            to_series(parameters.empty() ? contender.row->id : fmt::format("{} {}", contender.row->id, parameters),
-                      stored, layout));
+        result.series.push_back(to_series(results::title(contender.cell), stored, layout));
         result.error.push_back(curves::distance(stored, exact, layout.z_min, layout.z_max).max);
     }
     result.series.push_back(to_series(fmt::format("uncompressed ({} segments)", place.segments), exact, layout));

@@ -67,10 +67,46 @@ json technique_of(const json& scenario, const results::Cell& cell) {
     return technique;
 }
 
+// Names of the technique's parameters that the scenario's sweeps set, in the order of the sweeps.
+std::vector<std::string> swept_of(const json& scenario, const std::string& where, const json& parameters) {
+    std::vector<std::string> names;
+    const auto sweeps = scenario.find("sweeps");
+    if (sweeps == scenario.end() || !sweeps->is_object()) return names;
+    for (const auto& [pointer, values] : sweeps->items())
+        if (pointer.rfind(where + "/", 0) == 0)
+            if (std::string name = pointer.substr(where.size() + 1); name != "type" && parameters.contains(name))
+                names.push_back(std::move(name));
+    return names;
+}
+
+// A label names what sweeps set first, then what differs from the defaults. Labels of older results left out a swept
+// value that is the default, and had the others in their places: brought into the form of today, so that a cell has the
+// same name whichever program wrote it.
+std::string name_of(const results::Cell& cell, const json& scenario) {
+    const json parameters = json::parse(cell.parameters_json);
+    const std::vector<std::string> swept = swept_of(scenario, cell.where, parameters);
+    std::string name = cell.technique, rest;
+    const auto is_swept = [&](const std::string& word) {
+        return std::any_of(swept.begin(), swept.end(), [&](const std::string& s) { return word.starts_with(s + "="); });
+    };
+    for (const std::string& one : swept) {
+        const json& value = parameters.at(one);
+        name += fmt::format(" {}={}", one,
+                            value.is_number() ? fmt::format("{:g}", value.get<double>()) : value_text(value.dump()));
+    }
+    const std::string& label = cell.parameters;
+    for (std::size_t first = 0; first < label.size();) {
+        const std::size_t space = std::min(label.find(' ', first), label.size());
+        if (const std::string word = label.substr(first, space - first); !is_swept(word)) rest += " " + word;
+        first = space + 1;
+    }
+    return name + rest;
+}
+
 Cell make_cell(const results::Cell& from, const json& scenario, const std::vector<document::Setting>& settings,
                const std::string& source) {
     Cell cell;
-    cell.name = results::title(from);
+    cell.name = name_of(from, scenario);
     cell.version = fmt::format("{}", from.version);
     cell.failed = from.status == results::CellStatus::failed;
     cell.degraded = from.verdict == results::Verdict::degraded;

@@ -144,15 +144,18 @@ void keep_only(Variant& variant, std::span<const std::string> types) {
 
     json kept = json::array();
     std::vector<std::string> kept_where;
+    std::vector<std::vector<std::string>> kept_swept;
     for (std::size_t i = 0; i < items.size(); ++i) {
         if (std::find(types.begin(), types.end(), items[i].at("type").get<std::string>()) == types.end()) continue;
         kept.push_back(items[i]);
         kept_where.push_back(variant.technique_where[i]);
+        kept_swept.push_back(variant.swept[i]);
     }
     json document = *variant.document;
     document["techniques"] = std::move(kept);
     variant.document = std::make_shared<const json>(std::move(document));
     variant.technique_where = std::move(kept_where);
+    variant.swept = std::move(kept_swept);
 }
 
 }  // namespace shadowbench::document

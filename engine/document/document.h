@@ -36,6 +36,7 @@ struct Variant {
     std::shared_ptr<const nlohmann::json> document;  // without sweeps
     std::vector<Setting> settings;                   // what the sweeps set outside of the techniques
     std::vector<std::string> technique_where;        // JSON pointer into the original document, one a technique
+    std::vector<std::vector<std::string>> swept;     // names of the parameters that sweeps set, one list a technique
 };
 
 // Replaces "sweeps": {pointer: [values]} by what it stands for. Pointers into /techniques/<i>/ turn that technique into

@@ -94,11 +94,16 @@ std::vector<Choice> combine(const json& document, const std::vector<Sweep>& swee
 // Replaces each swept technique by one for each combination of its values.
 void expand_techniques(Variant& variant, const json& document, const std::vector<std::vector<Sweep>>& sweeps) {
     json expanded = json::array();
-    for (std::size_t i = 0; i < sweeps.size(); ++i)
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+        std::vector<std::string> names;
+        for (const Sweep& sweep : sweeps[i])
+            if (sweep.pointer.back() != "type") names.push_back(sweep.pointer.back());
         for (Choice& choice : combine(document, sweeps[i], max_techniques)) {
             expanded.push_back(std::move(choice.document.at("techniques").at(i)));
             variant.technique_where.push_back(fmt::format("/techniques/{}", i));
+            variant.swept.push_back(names);
         }
+    }
     json result = document;
     result["techniques"] = std::move(expanded);
     variant.document = std::make_shared<const json>(std::move(result));

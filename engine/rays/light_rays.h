@@ -45,7 +45,8 @@ struct TileCore {
 TileCore core_of(const MapLayout& layout, int tile);
 
 // When in the shutter, [0, 1), the ray in sample cell (i, j) sees the scene: the rays of a pixel stand one each in
-// samples() equal parts of the shutter, in an order of the pixel's own. 0 unless the layout is moving.
+// samples() equal parts of the shutter, dealt out such that places in the pixel and times are stratified together
+// (shutter.h). 0 unless the layout is moving.
 double sample_time(const MapLayout& layout, int i, int j);
 
 // A tile may be asked for with an apron: then it covers a larger rectangle of pixels, clipped to the map, and `tile`

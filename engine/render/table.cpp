@@ -12,7 +12,7 @@ constexpr const char* legend =
 
 std::vector<std::string> row_of(const TechniquePictures& one) {
     const results::Cell& cell = one.cell;
-    std::vector<std::string> row{cell.technique + (cell.parameters.empty() ? "" : " " + cell.parameters)};
+    std::vector<std::string> row{results::title(cell)};
     const bool ok = cell.status == results::CellStatus::ok;
     for (const PictureErrors* errors : {&one.shaded, &one.shadow})
         for (const double value : {errors->max, errors->rms, errors->flip_mean})

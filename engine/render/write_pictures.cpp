@@ -24,7 +24,7 @@ constexpr int difference_factor = 4;  // of difference_times_four
 constexpr const char* extensions[] = {".exr", ".png"};
 
 std::string file_label(const results::Cell& cell) {
-    std::string label = cell.technique + (cell.parameters.empty() ? "" : " " + cell.parameters);
+    std::string label = results::title(cell);
     for (char& c : label)
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '=' && c != '-') c = '_';
     return label;

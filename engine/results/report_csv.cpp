@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "results/report.h"
+#include "results/settled.h"
 
 namespace shadowbench::results {
 namespace {
@@ -103,6 +104,11 @@ const Column columns[] = {
     {"on_bytes_error_front", [](const Row& r) { return std::string(r.cell.on_bytes_front ? "1" : "0"); }},
     {"verdict", [](const Row& r) { return std::string(to_string(r.cell.verdict)); }},
     {"verdict_why", [](const Row& r) { return r.cell.verdict_why; }},
+    {"settled",
+     [](const Row& r) {
+         const Settling floors = settling(r.light);
+         return std::string(floors.floors == 0 ? "" : floors.settled() ? "1" : "0");
+     }},
 };
 
 // RFC 4180: a field with a comma, a quote or a line break stands in quotes, and its quotes are doubled.

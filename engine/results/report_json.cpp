@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "results/report.h"
+#include "results/settled.h"
 
 namespace shadowbench::results {
 namespace {
@@ -150,6 +151,21 @@ json to_json(const LightResult& light) {
             {"cells", std::move(cells)}};
 }
 
+// What the floors say of the machine: whether it was quiet, and where it was not.
+json to_json(const RunTimes& times, const Result& result) {
+    json unsettled = json::array();
+    for (std::size_t v = 0; v < result.variants.size(); ++v)
+        for (const LightResult& light : result.variants[v].lights)
+            if (std::string why = unsettled_text(settling(light)); !why.empty())
+                unsettled.push_back({{"variant", v}, {"light", light.name}, {"why", std::move(why)}});
+    const std::optional<bool> quiet = settled(result);
+    return {{"started", times.started},
+            {"seconds", times.seconds},
+            {"threads", times.threads},
+            {"settled", quiet ? json(*quiet) : json(nullptr)},
+            {"unsettled", std::move(unsettled)}};
+}
+
 json to_json(const VariantResult& variant) {
     json settings = json::object(), lights = json::array();
     for (const document::Setting& setting : variant.settings) settings[setting.pointer] = json::parse(setting.value);
@@ -174,8 +190,7 @@ nlohmann::ordered_json to_json(const Result& result) {
               {"compiler", result.program.compiler},
               {"build_type", result.program.build_type}}},
             {"machine", {{"cpu", result.machine.cpu}, {"logical_cores", result.machine.logical_cores}}},
-            {"times",
-             {{"started", result.times.started}, {"seconds", result.times.seconds}, {"threads", result.times.threads}}},
+            {"times", to_json(result.times, result)},
             {"variants", std::move(variants)}};
 }
 

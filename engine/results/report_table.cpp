@@ -6,6 +6,7 @@
 
 #include "base/table.h"
 #include "results/report.h"
+#include "results/settled.h"
 
 namespace shadowbench::results {
 namespace {
@@ -118,6 +119,15 @@ std::string share_line(const LightResult& light) {
     return names.empty() ? "" : "    curve max of a share of the cells: " + names + "\n";
 }
 
+// Empty where the machine was quiet, or nothing is known of it.
+std::string unsettled_line(const LightResult& light) {
+    const std::string why = unsettled_text(settling(light));
+    if (why.empty()) return "";
+    return "    UNSETTLED: " + why +
+           ". The machine was busy or changed its pace: times may be off by as much, and front T\n"
+           "    and rankings by time with them. Run it again on a quiet machine.\n";
+}
+
 std::string reference_line(const LightResult& light) {
     const ReferenceReport& r = light.reference;
     std::string text = fmt::format(
@@ -144,7 +154,7 @@ std::string to_table(const Result& result) {
                                "bytes", "nodes mean", "max", "curve max", "lookup rms", "p99", "max", "front",
                                "status"});
             for (const Cell& cell : light.cells) table.add(row_of(cell));
-            text += table.text("    ") + share_line(light);
+            text += table.text("    ") + share_line(light) + unsettled_line(light);
         }
     }
     return text + legend;

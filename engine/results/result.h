@@ -69,7 +69,7 @@ enum class CellStatus { ok, failed };
 struct Cell {
     std::string technique;
     int version = 0;
-    std::string parameters;       // "tolerance=0.02 filter=point": those that differ from the defaults
+    std::string parameters;       // "tolerance=0.02 filter=point": what sweeps set, and what differs from the defaults
     std::string parameters_json;  // all of them
     std::string where;            // JSON pointer into the scenario as written
     CellStatus status = CellStatus::ok;

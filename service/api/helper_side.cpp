@@ -70,7 +70,7 @@ std::uint64_t seed_of(const json& document) {
 
 json facts_of(const json& document, const std::vector<fs::path>& data) {
     const bench::Validated v = bench::validate(document, options_for(data));
-    json notes = json::array();
+    json notes = v.notes;
     for (const std::string& light : v.blind)
         notes.push_back(fmt::format("light {} sees nothing that casts a shadow", light));
     return {{"name", v.name},

@@ -85,8 +85,7 @@ std::string export_map(const ExportArguments& arguments, bool tiled, const bench
     const bench::Contender built = light.build(technique, progress);
     if (techniques::Cells::none == bench::cells(built.maps))
         throw Error(ErrorCode::usage, "--technique " + arguments.technique, "this technique stores no functions");
-    const std::string text =
-        title_of(light, built.cell.technique + (built.cell.parameters.empty() ? "" : " " + built.cell.parameters));
+    const std::string text = title_of(light, results::title(built.cell));
     return tiled ? export_tiled(arguments, built, text) : export_functions(arguments, built, text);
 }
 

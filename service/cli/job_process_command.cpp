@@ -77,6 +77,12 @@ void draw(const nlohmann::json& document, const bench::RunOptions& run, const fs
     }
 }
 
+// Whether a place is of the job's own folder: what fails there is the server's storage.
+bool is_in(const std::string& folder, const std::string& place) {
+    const std::string as_told = Error(ErrorCode::io, folder, "").where();  // as places of errors are written
+    return place == as_told || place.starts_with(as_told + "/");
+}
+
 bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
     const fs::path folder = arguments.folder;
     const nlohmann::json document = scene::parse_json(base::read_text(folder / "scenario.json"), "scenario.json");
@@ -111,7 +117,17 @@ bool job_process_command(const JobProcessArguments& arguments, std::ostream& out
     try {
         return run_job(arguments, out);
     } catch (const Error& error) {
-        tell(error);
+        const bool file_fault = error.code() == ErrorCode::io || error.code() == ErrorCode::no_such_file;
+        if (file_fault && is_in(arguments.folder, error.where()))
+            out << storage_line(error.what()) << '\n' << std::flush;
+        else
+            tell(error);
+        throw;
+    } catch (const fs::filesystem_error& error) {
+        if (is_in(arguments.folder, error.path1().string()))
+            out << storage_line(error.what()) << '\n' << std::flush;
+        else
+            tell({ErrorCode::internal, "", "internal fault"});
         throw;
     } catch (const std::bad_alloc&) {
         tell({ErrorCode::internal, "", "out of memory; a smaller map or fewer samples may help"});

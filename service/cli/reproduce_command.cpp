@@ -48,12 +48,6 @@ claims::Conditions conditions_of(bool quick) {
             today()};
 }
 
-const char* verdict_text(claims::Verdict verdict) {
-    return verdict == claims::Verdict::holds      ? "holds   "
-           : verdict == claims::Verdict::in_shape ? "in shape"
-                                                  : "FAILS   ";
-}
-
 }  // namespace
 
 void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, std::ostream& err) {
@@ -80,7 +74,7 @@ void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, s
         bar.reset();
         out << reports.back().title << "\n";
         for (const claims::Claim& claim : reports.back().claims)
-            out << fmt::format("  {}  {}: {}; here {}\n", verdict_text(claim.verdict), claim.place, claim.says,
+            out << fmt::format("  {:<18}  {}: {}; here {}\n", to_string(claim.verdict), claim.place, claim.says,
                                claim.measured);
         out.flush();
     }

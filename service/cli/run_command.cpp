@@ -175,6 +175,7 @@ void validate_command(const ScenarioArguments& arguments, std::ostream& out, std
     out << fmt::format("OK {}: {} variant{} of {} light{} and {} technique{}\n", validated.name, validated.variants,
                        validated.variants == 1 ? "" : "s", validated.lights, validated.lights == 1 ? "" : "s",
                        validated.techniques, validated.techniques == 1 ? "" : "s");
+    for (const std::string& note : validated.notes) out << "note: " << note << "\n";
     for (const std::string& light : validated.blind)
         out << fmt::format(
             "note: light {} sees nothing that casts a shadow: no caster is inside its map and behind its "

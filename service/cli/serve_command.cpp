@@ -114,7 +114,7 @@ std::string read_token(const std::string& file) {
     return token;
 }
 
-void serve_command(const ServeArguments& arguments, std::ostream& out) {
+void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostream& err) {
     const StopSignals signals;
     std::signal(SIGPIPE, SIG_IGN);  // a client or a child that went
     const HeldProgram held;
@@ -123,7 +123,8 @@ void serve_command(const ServeArguments& arguments, std::ostream& out) {
     const ServiceOptions options = service_options(arguments, program);
     std::vector<std::string> data;
     for (const fs::path& folder : options.data) data.push_back(folder.string());
-    Jobs jobs(arguments.state, program, data, job_limits(arguments));
+    Jobs jobs(arguments.state, program, data, job_limits(arguments),
+              [&](const std::string& line) { err << fmt::format("shadowbench: {}\n", line) << std::flush; });
     Service service(jobs, options);
     HttpServer server(service, options.event_streams, http);
     if (!arguments.port_file.empty()) base::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});

@@ -161,6 +161,19 @@ TEST_F(JobsApi, TakesNothingWhileItStops) {
     EXPECT_EQ(answer(request("GET", "/healthz")).status, 200);
 }
 
+TEST_F(JobsApi, IsNotReadyWhileItsStorageFails) {
+    EXPECT_NE(answer(request("GET", "/metrics")).body.find("shadowbench_storage_failing 0"), std::string::npos);
+    fake::fail_storage(*jobs_, true);
+    const ApiResponse response = answer(request("GET", "/readyz"));
+    EXPECT_EQ(response.status, 503);
+    EXPECT_NE(response.body.find("storage"), std::string::npos) << response.body;
+    EXPECT_TRUE(response.header("Retry-After"));
+    EXPECT_EQ(answer(request("GET", "/healthz")).status, 200);
+    EXPECT_NE(answer(request("GET", "/metrics")).body.find("shadowbench_storage_failing 1"), std::string::npos);
+    fake::fail_storage(*jobs_, false);
+    EXPECT_EQ(answer(request("GET", "/readyz")).status, 200);
+}
+
 TEST_F(JobsApi, ExaminesTheSameScenarioOnce) {
     for (int i = 0; i < 5; ++i) submit();
     EXPECT_EQ(helpers_, 1);

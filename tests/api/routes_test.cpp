@@ -22,6 +22,14 @@ std::string documented_path(std::string pattern) {
     return pattern;
 }
 
+TEST(Routes, AParameterThatAPatternDoesNotHaveIsAFaultOfTheProgram) {
+    const ApiRequest request{};
+    const PathParameters path{{"id", "7"}};
+    const Call call{request, path};
+    EXPECT_EQ(call.parameter("id"), "7");
+    EXPECT_THROW(call.parameter("name"), base::Error);
+}
+
 TEST(OpenApi, HasEveryRouteAndNoOther) {
     const nlohmann::json document = nlohmann::json::parse(openapi_text());
     EXPECT_TRUE(document["openapi"].get<std::string>().starts_with("3.0."));

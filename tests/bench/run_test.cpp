@@ -51,6 +51,32 @@ nlohmann::ordered_json without_times(const json& document, const RunOptions& opt
     return result;
 }
 
+TEST(Run, names_every_value_of_a_sweep_be_it_the_default) {
+    json document = two_layers();
+    document["techniques"] = {{{"type", "avsm"}, {"cells", "centre"}}, {{"type", "deep"}, {"kernel", "tent"}}};
+    document["sweeps"] = {{"/techniques/0/nodes", {4, 8, 16}},
+                          {"/techniques/0/order", {"sorted"}},
+                          {"/techniques/1/tolerance", {"noise", 0.01}}};
+    const results::Result result = run(document, {}, {});
+    const std::vector<std::string> expected{"avsm nodes=4 order=sorted cells=centre",
+                                            "avsm nodes=8 order=sorted cells=centre",
+                                            "avsm nodes=16 order=sorted cells=centre",
+                                            "deep tolerance=noise kernel=tent", "deep tolerance=0.01 kernel=tent"};
+    const std::vector<results::Cell>& cells = result.variants[0].lights[0].cells;
+    const std::string table = to_table(result), csv = results::to_csv(result);
+    const auto written = to_json(result)["variants"][0]["lights"][0]["cells"];
+    ASSERT_EQ(cells.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(results::title(cells[i]), expected[i]);
+        EXPECT_NE(table.find("    " + expected[i] + " "), std::string::npos) << expected[i];
+        EXPECT_NE(csv.find("," + cells[i].parameters + ","), std::string::npos) << expected[i];
+        EXPECT_EQ(written[i]["label"], cells[i].parameters);
+    }
+    RunOptions only;
+    only.only = {"deep"};
+    EXPECT_EQ(results::title(run(document, only, {}).variants[0].lights[0].cells[0]), expected[3]);
+}
+
 TEST(Run, gives_the_same_numbers_on_one_thread_and_on_two) {
     RunOptions one, two;
     one.threads = 1;

@@ -159,6 +159,16 @@ TEST(Expand, puts_a_swept_technique_in_place_once_a_combination) {
     EXPECT_TRUE(variants[0].settings.empty());
 }
 
+TEST(Expand, tells_which_parameters_of_a_technique_sweeps_set) {
+    json document = small_document();
+    document["sweeps"] = {{"/techniques/1/nodes", {4, 8}}, {"/techniques/1/cells", {"sample"}}, {"/rays/seed", {1}}};
+    Variant variant = expand(document)[0];
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(variant.swept, (std::vector<Names>{{}, {"cells", "nodes"}, {"cells", "nodes"}}));
+    keep_only(variant, Names{"avsm"});
+    EXPECT_EQ(variant.swept, (std::vector<Names>{{"cells", "nodes"}, {"cells", "nodes"}}));
+}
+
 TEST(Expand, leaves_a_document_without_sweeps_as_it_is) {
     const std::vector<Variant> variants = expand(small_document());
     ASSERT_EQ(variants.size(), 1u);

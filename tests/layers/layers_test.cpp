@@ -92,17 +92,20 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
          {"base", "scene", "rays", "curves", "techniques", "metrics", "document", "results", "bench", "render"}},
         {"claims",
          {"base", "scene", "rays", "curves", "techniques", "document", "results", "bench", "render", "claims"}},
+        {"service/process", {"base", "service/process"}},
         {"service/store", {"base", "service/store"}},
-        {"service/jobs", {"base", "bench", "results", "service/store", "service/jobs"}},
+        {"service/jobs", {"base", "bench", "results", "service/process", "service/store", "service/jobs"}},
         {"service/web", {"base", "service/web"}},
         {"service/api",
-         {"base", "scene", "techniques", "document", "results", "bench", "compare", "service/jobs", "service/web",
+         {"base", "scene", "techniques", "document", "results", "bench", "compare", "service/process",
+          "service/jobs", "service/web",
           "service/api"}},
         {"service/http", {"base", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files.
         {"service/cli",
          {"base", "scene", "curves", "techniques", "techniques/deep", "document", "results", "compare", "bench",
-          "render", "claims", "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
+          "render", "claims", "service/process", "service/jobs", "service/api", "service/http", "service/web",
+          "service/cli"}},
         {"service", {"service/cli"}},
     };
     for (const Include& include : includes()) {

@@ -176,6 +176,31 @@ TEST_F(Cli, validates_without_running) {
     EXPECT_EQ(outcome.out, "OK tiny: 1 variant of 1 light and 2 techniques\n");
 }
 
+TEST_F(Cli, validate_tells_what_readers_passed_over) {
+    fs::copy_file(fs::path(SHADOWBENCH_SOURCE_DIR) / "tests/cases/zback0.exr", folder_ / "zback0.exr");
+    write("deep.json", R"({"name": "deep", "scene": {"deep_image": {"file": "zback0.exr"}},
+        "receivers": {"type": "probes", "count": 20}, "techniques": [{"type": "deep"}]})");
+    const Outcome outcome = cli({"validate", path("deep.json")});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out,
+              "OK deep: 1 variant of 1 light and 1 technique\n"
+              "note: /scene/deep_image: 64 of 64 samples have their ZBack before Z: taken as surfaces\n");
+}
+
+// A coloured map leaves the program and comes back as a scene of its own, in colour.
+TEST_F(Cli, a_coloured_map_comes_back_in_colour) {
+    ASSERT_EQ(cli({"export", path("tiny.json"), "--set", "scene.objects.0.opacity=[0.2,0.5,0.8]", "--technique",
+                   "uncompressed", "--out", path("map.exr")})
+                  .code,
+              0);
+    write("again.json", R"({"name": "again", "scene": {"deep_image": {"file": "map.exr"}},
+        "receivers": {"type": "probes", "count": 20}, "techniques": [{"type": "deep"}]})");
+    const Outcome again = cli({"export", path("again.json"), "--rays", "--out", path("again.exr")});
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_NE(again.out.find("3 channels"), std::string::npos) << again.out;
+    EXPECT_EQ(cli({"run", path("again.json"), "--out", path("results")}).code, 0);
+}
+
 TEST_F(Cli, counts_what_each_variant_has) {
     const Outcome outcome = cli({"validate", path("tiny.json"), "--set", "sweeps={\"/rays/seed\":[1,2,3]}"});
     EXPECT_EQ(outcome.out, "OK tiny: 3 variants of 1 light and 2 techniques\n") << outcome.err;

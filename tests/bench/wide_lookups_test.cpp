@@ -1,0 +1,71 @@
+// What a wide lookup loses when the rays of each pixel are kept as one function: little against the truth, as long as
+// pixels at the footprint's border weigh what it covers of them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "document/document.h"
+#include "bench/run.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using nlohmann::json;
+
+// Of what the same rays kept one by one err. Both err by the noise of the rays inside the footprint; whole pixels err
+// by up to half a pixel at each side besides, five times as much.
+constexpr double close = 1.5;
+
+struct Errors {
+    double deep, pixels, uncompressed;  // RMS of lookups
+};
+
+// The RMS errors of lossless deep maps, by area and by the paper's whole pixels, and of the rays themselves.
+Errors errors_of(json document, double width) {
+    document["techniques"] = json::parse(R"([{"type": "deep", "tolerance": 0},
+        {"type": "deep", "tolerance": 0, "kernel": "pixels"}, {"type": "uncompressed"}])");
+    for (const char* assignment :
+         {"timing.repetitions=1", "timing.lookups=64", "reference.queries=2048", "reference.spread_seeds=0"})
+        document::set_value(document, assignment);
+    document["receivers"]["filter_width"] = width;
+    const results::LightResult light = run(document, {}, {}).variants.at(0).lights.at(0);
+    const auto rms = [&](std::size_t cell) { return light.cells.at(cell).lookup->norms.rms; };
+    return {rms(0), rms(1), rms(2)};
+}
+
+void expect_close(const json& document) {
+    for (const double width : {4.0, 3.7}) {
+        const Errors rms = errors_of(document, width);
+        EXPECT_LE(rms.deep, close * rms.uncompressed) << "width " << width;
+        EXPECT_GT(rms.pixels, close * rms.uncompressed) << "width " << width << ": the test would see whole pixels";
+        ::testing::Test::RecordProperty(
+            "width_" + std::to_string(width),
+            std::to_string(rms.deep) + " " + std::to_string(rms.pixels) + " " + std::to_string(rms.uncompressed));
+    }
+}
+
+TEST(WideLookups, OfADeepMapOfHairErrAsThoseOfItsRays) {
+    std::ifstream file(std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios" / "quickstart.json");
+    json document = json::parse(file);
+    document::set_value(document, "receivers.resolution=[128,96]");
+    expect_close(document);
+}
+
+TEST(WideLookups, OfADeepMapOfTwoEdgesErrAsThoseOfItsRays) {
+    expect_close(json::parse(R"({
+        "name": "two_edges",
+        "scene": {"objects": [
+            {"type": "quad", "corner": [-2, 1, -2], "edge_u": [0, 0, 4], "edge_v": [2.03, 0, 0], "opacity": 0.5},
+            {"type": "quad", "corner": [-2, 0.5, -2], "edge_u": [0, 0, 2.11], "edge_v": [4, 0, 0], "opacity": 1}]},
+        "lights": [{"type": "directional", "name": "sun", "direction": [0, -1, 0]}],
+        "rays": {"resolution": 16, "samples_per_pixel": 16},
+        "receivers": {"type": "probes", "count": 2048},
+        "reference": {"samples_per_pixel": 1024}
+    })"));
+}
+
+}  // namespace
+}  // namespace shadowbench::bench
