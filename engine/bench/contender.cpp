@@ -110,8 +110,13 @@ Contender make_contender(const scene::TechniqueRequest& request, const std::stri
     cell.version = contender.row->version;
     cell.parameters = techniques::to_string(contender.values, contender.row->parameters, swept);
     cell.parameters_json = techniques::to_json(contender.values).dump();
+    cell.defaults = techniques::to_string(contender.values, contender.row->parameters, false).empty();
     cell.where = where;
     return contender;
+}
+
+Contender unbuilt(const Contender& contender) {
+    return {contender.row, contender.values, contender.needs, {}, contender.cell, {}};
 }
 
 void ask_for_needs(std::span<const Contender> contenders, rays::MapLayout& layout) {

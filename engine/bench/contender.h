@@ -30,6 +30,9 @@ struct Contender {
 Contender make_contender(const scene::TechniqueRequest& request, const std::string& where,
                          std::span<const std::string> swept = {});
 
+// The same technique before anything was built for it: for another light.
+Contender unbuilt(const Contender& contender);
+
 // Makes the layout of the capture ask for what all of them need together.
 void ask_for_needs(std::span<const Contender> contenders, rays::MapLayout& layout);
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "document/document.h"
+#include "document/technique_choice.h"
 #include "rays/capture.h"
 
 namespace shadowbench::bench {

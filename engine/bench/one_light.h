@@ -17,6 +17,7 @@
 #include "bench/progress.h"
 #include "bench/ray_source.h"
 #include "bench/run.h"
+#include "document/technique_choice.h"
 #include "rays/tracer.h"
 
 namespace shadowbench::bench {

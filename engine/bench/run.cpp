@@ -101,7 +101,7 @@ results::Result run(const nlohmann::json& document, const RunOptions& options, c
                     progress({place, stage, done, total});
                 };
             std::vector<Contender> fresh;
-            for (const Contender& c : contenders) fresh.push_back({c.row, c.values, c.needs, {}, c.cell, {}});
+            for (const Contender& c : contenders) fresh.push_back(unbuilt(c));
             out.lights.push_back(
                 run_light({scenario, l, shared.casters.get(), shared.seen, options.limits, watch}, std::move(fresh)));
         }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/write_files.h"
 #include "claims/report.h"
 #include "results/write_result.h"
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/hash_text.h"
 #include "base/parallel.h"
 #include "bench/contender.h"
 #include "bench/load.h"
@@ -225,7 +226,7 @@ Rendering render(const nlohmann::json& document, const RenderOptions& options,
     const Work work{scenario, options, points, casters, progress};
     for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
         std::vector<Contender> fresh;
-        for (const Contender& c : contenders) fresh.push_back({c.row, c.values, c.needs, c.cell, {}});
+        for (const Contender& c : contenders) fresh.push_back(bench::unbuilt(c));
         render_light(work, l, std::move(fresh), result);
     }
     compare_all(result);

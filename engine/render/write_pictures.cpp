@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/write_files.h"
 #include "metrics/flip.h"
 #include "render/heat_map.h"
 #include "render/image_file.h"

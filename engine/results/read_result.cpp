@@ -106,6 +106,7 @@ Cell read_cell(const Field& field) {
     cell.version = small(field.at("version"));
     cell.parameters_json = field.at("parameters").object().dump();
     cell.parameters = field.at("label").text();
+    cell.defaults = flag_or_false(field, "defaults");
     cell.where = field.at("where").text();
     cell.status = field.at("status").text() == "ok" ? CellStatus::ok : CellStatus::failed;
     cell.reason = field.at("reason").text();

@@ -76,6 +76,7 @@ json to_json(const Cell& cell) {
             {"version", cell.version},
             {"parameters", json::parse(cell.parameters_json)},
             {"label", cell.parameters},
+            {"defaults", cell.defaults},
             {"where", cell.where},
             {"status", cell.status == CellStatus::ok ? "ok" : "failed"},
             {"reason", cell.reason},

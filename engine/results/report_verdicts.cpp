@@ -45,19 +45,11 @@ struct Worst {
     bool far = false;  // lookups from the truth
 };
 
-// The label alone does not tell: it names what sweeps set, be it the default.
-bool has_defaults(const Cell& cell) {
-    if (cell.parameters.empty() || cell.parameters_json.empty()) return cell.parameters.empty();
-    const auto& declared = techniques::find(cell.technique, "").parameters;
-    const auto values = techniques::read_parameters(declared, nlohmann::json::parse(cell.parameters_json), cell.where);
-    return techniques::to_string(values, declared, false).empty();
-}
-
 // The worst of each technique with default parameters, over the variants and lights of a scenario.
 std::map<std::string, Worst> worst_of_defaults(const Result& result) {
     std::map<std::string, Worst> worst;
     for_each_cell(result, [&](const VariantResult&, const LightResult& light, const Cell& cell) {
-        if (!has_defaults(cell)) return;
+        if (!cell.defaults) return;
         Worst& here = worst[cell.technique];
         here.verdict = std::max(here.verdict, cell.verdict);
         here.far = here.far || (cell.lookup && !(cell.lookup->norms.rms <= light.reference.noise_tolerance));

@@ -71,6 +71,7 @@ struct Cell {
     int version = 0;
     std::string parameters;       // "tolerance=0.02 filter=point": what sweeps set, and what differs from the defaults
     std::string parameters_json;  // all of them
+    bool defaults = false;        // all have their default values
     std::string where;            // JSON pointer into the scenario as written
     CellStatus status = CellStatus::ok;
     std::string reason;            // why it failed

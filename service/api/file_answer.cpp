@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/hash_text.h"
 #include "document/document.h"
 #include "service/api/accept.h"
 #include "service/api/problem.h"

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/hash_text.h"
 #include "bench/pixel_curves.h"
 #include "bench/run.h"
 #include "document/document.h"

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/write_files.h"
 #include "bench/run.h"
 #include "results/portable.h"
 #include "results/report.h"

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "bench/functions.h"
 #include "curves/functions_file.h"
+#include "document/technique_choice.h"
 #include "service/cli/commands.h"
 
 namespace shadowbench::service {

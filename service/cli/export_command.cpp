@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/pending_file.h"
 #include "bench/one_light.h"
+#include "document/technique_choice.h"
 #include "render/deep_exr.h"
 #include "service/cli/commands.h"
 #include "service/cli/deep_file_text.h"

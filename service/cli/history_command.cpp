@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/write_files.h"
 #include "compare/history.h"
 #include "results/write_result.h"
 #include "service/cli/gate_commands.h"

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/write_files.h"
 #include "results/write_result.h"
 #include "service/cli/callgrind_counts.h"
 #include "service/cli/child.h"

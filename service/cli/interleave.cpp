@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/write_files.h"
 #include "results/write_result.h"
 #include "service/cli/child.h"
 #include "service/cli/progress_bar.h"

@@ -10,10 +10,12 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/write_files.h"
 #include "bench/run.h"
 #include "document/document.h"
 #include "render/render.h"
 #include "render/write_pictures.h"
+#include "results/report.h"
 #include "results/write_result.h"
 #include "scene/scenario.h"
 #include "service/jobs/fraction.h"

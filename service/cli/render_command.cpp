@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/write_files.h"
 #include "render/render.h"
 #include "render/write_pictures.h"
 #include "results/write_result.h"

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/write_files.h"
 #include "results/report.h"
 #include "results/write_result.h"
 #include "service/cli/commands.h"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/write_files.h"
 #include "claims/paper.h"
 #include "claims/report.h"
 #include "results/machine.h"

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/pending_file.h"
+#include "base/write_files.h"
 #include "bench/run.h"
 #include "document/document.h"
 #include "results/report.h"

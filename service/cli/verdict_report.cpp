@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/write_files.h"
 #include "compare/report.h"
 #include "results/write_result.h"
 

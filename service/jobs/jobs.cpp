@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/hash_text.h"
 #include "document/document.h"
 #include "results/program.h"
 #include "service/jobs/board.h"

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "api/fixture.h"
+#include "base/hash_text.h"
 #include "document/document.h"
 
 namespace shadowbench::service {

@@ -14,6 +14,7 @@
 #include "bench/functions.h"
 #include "bench/one_light.h"
 #include "bench/run.h"
+#include "document/technique_choice.h"
 
 namespace shadowbench::bench {
 namespace {

@@ -1,4 +1,5 @@
 #include "bench/functions.h"
+#include "document/technique_choice.h"
 
 #include <gtest/gtest.h>
 

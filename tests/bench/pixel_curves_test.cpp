@@ -11,6 +11,7 @@
 #include "bench/functions.h"
 #include "bench/one_light.h"
 #include "errors.h"
+#include "document/technique_choice.h"
 #include "rays/capture.h"
 
 namespace shadowbench::bench {

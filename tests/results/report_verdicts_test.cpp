@@ -20,6 +20,7 @@ Cell cell(const std::string& technique, const std::string& parameters, double cu
     made.verdict_why = "curve error";
     made.technique = technique;
     made.parameters = parameters;
+    made.defaults = parameters.empty();
     made.error_bound = bound;
     made.curve = CurveErrors{};
     made.curve->norms.max = curve_max;

@@ -2,6 +2,7 @@
 
 #include "bench/functions.h"
 #include "document/document.h"
+#include "document/technique_choice.h"
 #include "fuzz/expect.h"
 #include "fuzz/few_variants.h"
 #include "fuzz/target.h"

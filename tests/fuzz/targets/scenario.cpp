@@ -1,3 +1,4 @@
+#include "document/document.h"
 #include "scene/scenario.h"
 
 #include <nlohmann/json.hpp>
