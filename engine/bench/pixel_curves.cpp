@@ -49,7 +49,7 @@ struct Tile {
 };
 
 Tile capture_tile(const rays::Capture& capture, int index, int apron) {
-    Tile tile{capture.tile(index, {}, apron), {}};
+    Tile tile{capture.tile(index, apron), {}};
     for (int c = 0; c < tile.rays.channels; ++c)
         tile.channels.push_back(tile.rays.channels == 1 ? tile.rays : rays::channel(tile.rays, c));
     return tile;

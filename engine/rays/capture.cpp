@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <variant>
 
 #include "rays/hits.h"
 #include "rays/prepared.h"
@@ -60,6 +61,7 @@ MapLayout make_layout(const scene::Scene& scene, const LightView& view, const sc
         layout.jittered = false;
     } else {
         layout.moving = scene::has_motion(scene);
+        layout.cells = settings.media == scene::Media::cells;
         set_samples(layout, settings.samples_per_pixel);
     }
     int size = 64;
@@ -76,7 +78,7 @@ struct Capture::State {
     std::vector<Prepared> objects;
 
     template <class Sink>
-    void project(LightRays& rays, std::span<const unsigned char> wanted) const {
+    void project(LightRays& rays) const {
         const bool moving = std::any_of(objects.begin(), objects.end(), [&](const Prepared& p) {
             return p.moving && (p.marcher || !p.bins.of(rays.tile).empty());
         });
@@ -84,22 +86,24 @@ struct Capture::State {
         thread_local Sink sink;  // its memory serves tile after tile
         sink.hits.clear();
         if (view.perspective)
-            TileProjection<true, Sink>(view, grid, rays, wanted, sink).project(objects);
+            TileProjection<true, Sink>(view, layout, grid, rays, sink).project(objects);
         else
-            TileProjection<false, Sink>(view, grid, rays, wanted, sink).project(objects);
+            TileProjection<false, Sink>(view, layout, grid, rays, sink).project(objects);
         sort_hits(sink, static_cast<std::size_t>(grid.nx) * grid.ny, layout.submission, rays);
     }
 };
 
-Capture::Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout)
+Capture::Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout, Grids grids)
     : state_(std::make_unique<State>(State{scene, view, layout, {}})) {
-    for (const scene::Object& object : scene.objects)
-        if (object.casts_shadow) state_->objects.push_back(prepare(object, view, layout));
+    for (const scene::Object& object : scene.objects) {
+        const bool left_out = grids == Grids::left_out && std::holds_alternative<scene::GridVolume>(object.shape);
+        if (object.casts_shadow && !left_out) state_->objects.push_back(prepare(object, view, layout));
+    }
 }
 
 Capture::~Capture() = default;
 
-LightRays Capture::tile(int index, std::span<const unsigned char> wanted, int apron) const {
+LightRays Capture::tile(int index, int apron) const {
     const MapLayout& layout = state_->layout;
     LightRays rays;
     rays.tile = index;
@@ -113,9 +117,9 @@ LightRays Capture::tile(int index, std::span<const unsigned char> wanted, int ap
     if (state_->scene.deep_image)
         copy_deep_image(*state_->scene.deep_image, layout.submission, rays);
     else if (layout.media || layout.channels > 1)
-        state_->project<SegmentHits>(rays, wanted);
+        state_->project<SegmentHits>(rays);
     else
-        state_->project<SurfaceHits>(rays, wanted);
+        state_->project<SurfaceHits>(rays);
     return rays;
 }
 

@@ -21,6 +21,7 @@ struct MapLayout {
     int tile_width = 1, tile_height = 1;  // pixels; tiles at the right and top edge may be smaller
     bool moving = false;                  // something that casts shadows moves: each ray has its own time
     int apron = 0;                        // pixels around a tile that may be asked for with it
+    bool cells = false;                   // grid volumes: a segment a voxel cell, else a step
     bool submission = false;              // tiles tell the order in which their segments were found
 
     int samples() const { return samples_x * samples_y; }

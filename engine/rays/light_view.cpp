@@ -204,6 +204,14 @@ Vec3d unproject(const LightView& view, double x, double y, double z) {
     return {(view.lower.x + x * view.pixel.x) * w, (view.lower.y + y * view.pixel.y) * w, z};
 }
 
+LightLine light_line(const LightView& view, double x, double y) {
+    const double px = view.lower.x + x * view.pixel.x, py = view.lower.y + y * view.pixel.y;
+    const Vec3d aside = view.right * px + view.up * py;
+    constexpr double far_before = -1e30;  // of all that is
+    if (!view.perspective) return {view.origin + aside, view.forward, 1.0, std::max(view.z_near, far_before)};
+    return {view.origin, aside + view.forward, std::sqrt(1.0 + px * px + py * py), view.z_near};
+}
+
 double length_per_depth(const LightView& view, double x, double y) {
     if (!view.perspective) return 1.0;
     const double sx = view.lower.x + x * view.pixel.x, sy = view.lower.y + y * view.pixel.y;

@@ -38,9 +38,11 @@ public:
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;
 
-    // Everything between t_min and t_max, sorted by front; crossings at equal depth are all kept.
+    // Everything between t_min and t_max, sorted by front; crossings at equal depth are all kept. Grid volumes have a
+    // segment a voxel cell, or a step where rays that were captured so are checked.
+    enum class Grids { cells, steps };
     void all_segments(const base::Vec3d& origin, const base::Vec3d& direction, double t_min, double t_max,
-                      std::vector<TracedSegment>& out, double time = 0.0) const;
+                      std::vector<TracedSegment>& out, double time = 0.0, Grids grids = Grids::cells) const;
 
     // The surfaces that a ray meets, in order of depth, up to and including the first behind which no channel has
     // anything left; true when there is such a one. Surfaces of opacity 0 are not there. At equal depth all are kept,
@@ -51,8 +53,8 @@ public:
     // Whether the scene has media: all_segments may have segments that are no surfaces.
     bool has_media() const;
 
-    // Exact transmittance per channel of the light ray at map position (x, y) up to depth z (surfaces strictly before).
-    // `scratch` is reused between calls.
+    // Exact transmittance per channel of the light ray at map position (x, y) up to depth z (surfaces strictly before;
+    // grid volumes integrated up to z itself). `scratch` is reused between calls.
     base::Vec3d transmittance(const LightView& view, double x, double y, double z, std::vector<TracedSegment>& scratch,
                               double time = 0.0) const;
 

@@ -64,7 +64,7 @@ struct GridVolume {
     Vec3i size{0, 0, 0};                   // voxels
     std::vector<float> density;            // x fastest, >= 0
     Vec3d lower{0, 0, 0}, upper{0, 0, 0};  // world box; voxel centres are half a voxel inside
-    double step = 0.0;                     // marching step, world length along the ray, > 0
+    double step = 0.0;                     // of Media::steps, world length along the ray, > 0
     ReadNotes notes{};
 };
 
@@ -124,11 +124,14 @@ struct Light {
 };
 
 enum class Pattern { regular, jittered };
+// How grid volumes become segments of light rays: regular steps, or one exact segment a voxel cell.
+enum class Media { steps, cells };
 
 struct RaySettings {
     Vec2i resolution{256, 256};  // map pixels
     int samples_per_pixel = 16;  // laid out as the most square grid of that many cells
     Pattern pattern = Pattern::jittered;
+    Media media = Media::steps;
     std::uint64_t seed = 1;
 };
 

@@ -72,8 +72,7 @@ scene::Object quad_of(const Strip& s, const Vec2d& drift) {
 // Share of the strip in the box [x0, x1] x [y0, y1] of the world and the shutter.
 double coverage(const Strip& s, const Vec2d& low, const Vec2d& high) {
     const auto below = [&](double edge) {  // n . (low + u (high - low)) - speed t < edge
-        return half_space_in_cube({s.n.x * (high.x - low.x), s.n.y * (high.y - low.y), -s.speed},
-                                  edge - s.n.dot(low));
+        return half_space_in_cube({s.n.x * (high.x - low.x), s.n.y * (high.y - low.y), -s.speed}, edge - s.n.dot(low));
     };
     return below(s.high) - below(s.low);
 }
@@ -114,8 +113,8 @@ TEST(MovingTruth, TenThousandTruthsOfAMovingQuadLieAboutTheClosedFormAsTheirStat
                                pixel / resolution + 0.5 + random.uniform(-free, free));
             const Vec2d a = (middle - Vec2d(0.5 * width) - Vec2d(zero.x, zero.y)) / scale,
                         b = (middle + Vec2d(0.5 * width) - Vec2d(zero.x, zero.y)) / scale;
-            const double covered = coverage(s, {std::min(a.x, b.x), std::min(a.y, b.y)},
-                                            {std::max(a.x, b.x), std::max(a.y, b.y)});
+            const double covered =
+                coverage(s, {std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)});
             if (covered < 0.1 || covered > 0.9) continue;  // few rays that differ do not know their own spread
             queries.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y),
                                static_cast<float>(zero.z + 1.0), static_cast<float>(width)});

@@ -13,7 +13,7 @@
 namespace shadowbench::rays {
 namespace {
 
-const int counts[] = {1,  2,  3,  4,  5,  6,   7,   8,   9,   12,   16,   22,   25,
+const int counts[] = {1,  2,  3,  4,  5,  6,   7,   8,   9,    12,   16,   22,  25,
                       32, 37, 60, 64, 97, 100, 111, 256, 1000, 1009, 1024, 4096};
 
 MapLayout layout_of(int samples, std::uint64_t seed, bool jittered) {
