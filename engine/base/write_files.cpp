@@ -64,7 +64,8 @@ void make_writable(const fs::path& folder, Undo& undo) {
     try {
         make_folders(folder, undo);
     } catch (const Error& error) {
-        throw Error(ErrorCode::io, folder.string(), "results cannot go there: " + std::string(error.what()));
+        throw Error(ErrorCode::io, folder.string(),
+                    "results cannot go there; choose another folder: " + std::string(error.what()));
     }
     // Permissions do not tell root everything, nor of file systems that take no files: only trying does.
     Undo attempt;
@@ -73,7 +74,7 @@ void make_writable(const fs::path& folder, Undo& undo) {
     try {
         write_one(file, "");
     } catch (const Error&) {
-        throw Error(ErrorCode::io, folder.string(), "results cannot be written there");
+        throw Error(ErrorCode::io, folder.string(), "results cannot be written there; choose another folder");
     }
 }
 

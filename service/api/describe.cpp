@@ -68,9 +68,11 @@ json describe(const techniques::Technique& row) {
 void read_scenario(const fs::path& file, std::map<std::string, json>& found) {
     try {
         const json document = json::parse(scene::parse_json(base::read_text(file), file.string()).dump());
-        found[document.at("name").get<std::string>()] = {{"name", document.at("name")},
-                                                         {"purpose", document.value("purpose", "")},
-                                                         {"document", json::parse(base::read_text(file))}};
+        // A name stands for its scenario in the first folder that has one, as on the command line.
+        found.try_emplace(document.at("name").get<std::string>(),
+                          json{{"name", document.at("name")},
+                               {"purpose", document.value("purpose", "")},
+                               {"document", json::parse(base::read_text(file))}});
     } catch (const std::exception&) {  // one broken file does not hide the others
     }
 }

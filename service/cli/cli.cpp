@@ -38,7 +38,8 @@ constexpr const char* examples = R"(Examples:
   shadowbench serve --data ~/volumes --port 8080
   shadowbench submit quickstart --server http://127.0.0.1:8080 --wait
   shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
-SCENARIO is a file, or the name of one in ./scenarios or in the folders of $SHADOWBENCH_SCENARIOS; for run also a folder.
+SCENARIO is a file, or the name of one in ./scenarios, in the folders of $SHADOWBENCH_SCENARIOS or among those installed with the program; for run also a folder.
+Results go to results/ in the current folder, unless --out names another.
 Exit codes: 0 ok; 1 slower (compare, ab); 2 a technique broke what it promises, or something is larger, less accurate or missing (compare, ab); 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
 
 int report(std::ostream& err, ErrorCode code, std::string message) {

@@ -347,6 +347,34 @@ TEST_F(Cli, finds_scenarios_by_name) {
     EXPECT_NE(listed.out.find("broken.json"), std::string::npos) << "one broken file does not hide the others";
 }
 
+TEST_F(Cli, looks_for_data_in_no_folder_outside_unless_it_is_named) {
+    fs::create_directories(folder_ / "project");
+    fs::create_directories(folder_ / "shared/data");
+    write("shared/data/quad.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+    write("project/quad.json", R"({"name": "q", "scene": {"objects": [{"type": "mesh", "file": "quad.obj"}]},
+        "lights": [{"type": "directional", "direction": [0, -1, 0]}], "techniques": [{"type": "deep"}]})");
+    const fs::path before = fs::current_path();
+    fs::current_path(folder_ / "project");
+    const Outcome alone = cli({"validate", "quad.json"});
+    const Outcome named = cli({"validate", "quad.json", "--data", "../shared/data"});
+    fs::current_path(before);
+    EXPECT_EQ(alone.code, 66) << alone.out;
+    EXPECT_EQ(alone.err.find("shared"), std::string::npos) << alone.err;
+    EXPECT_EQ(named.code, 0) << named.err;
+}
+
+TEST_F(Cli, lists_the_scenario_that_a_name_finds) {
+    for (const char* one : {"first", "second"}) {
+        fs::create_directories(folder_ / one);
+        write(std::string(one) + "/same.json", std::string(R"({"name": "same", "purpose": ")") + one + "\"}");
+    }
+    setenv("SHADOWBENCH_SCENARIOS", (path("first") + ":" + path("second")).c_str(), 1);
+    const Outcome listed = cli({"list", "scenarios"});
+    unsetenv("SHADOWBENCH_SCENARIOS");
+    EXPECT_NE(listed.out.find("first/same.json"), std::string::npos) << listed.out;
+    EXPECT_EQ(listed.out.find("second/same.json"), std::string::npos) << listed.out;
+}
+
 TEST_F(Cli, lists_every_technique_with_its_parameters) {
     const Outcome outcome = cli({"list", "techniques"});
     EXPECT_EQ(outcome.code, 0);
