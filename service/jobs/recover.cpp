@@ -107,7 +107,7 @@ bool is_half_done(JobStore& store, const fs::path& place) {
     std::error_code ignored;
     if (!parts || !fs::is_directory(fs::symlink_status(place, ignored))) return false;
     const auto& [id, suffix] = *parts;
-    if (suffix == "copy") return has_record_of(place, id);
+    if (suffix == "copy") return fs::is_empty(place, ignored) || has_record_of(place, id);
     if (suffix == "removed") return is_job_id(id);
     return suffix.find_first_not_of("0123456789") == std::string::npos && store.find(id);
 }
@@ -116,7 +116,10 @@ void sweep_work(StateFolder& state, JobStore& store, const JobFolders& folders) 
     for (const fs::path& place : entries_of(folders.work)) {
         const std::string name = place.filename().string();
         if (!is_half_done(store, place)) {
-            state.set_aside(fs::path("work") / name, "not of this server");
+            const auto parts = split(name);
+            state.set_aside(fs::path("work") / name, parts && is_job_id(parts->first)
+                                                         ? "of a job that the database does not have"
+                                                         : "not of this server");
             continue;
         }
         if (name.ends_with("-removed")) store.remove(split(name)->first);

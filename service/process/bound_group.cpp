@@ -24,7 +24,7 @@ constexpr int not_started = 127;
 
 // In a copy of this process, where other threads may have held any lock: system calls alone.
 [[noreturn]] void keep(int line) {
-    ::setpgid(0, 0);
+    if (::setpgid(0, 0) != 0) ::_exit(not_started);  // else it would kill another group than its own
     ::prctl(PR_SET_NAME, "keeper");
     sigset_t all;
     ::sigfillset(&all);
