@@ -251,7 +251,9 @@ TEST_P(SeenSurface, gains_receivers_from_the_floor_and_loses_none_as_its_opacity
             EXPECT_LE(points[i].position.length(), before[i].position.length() + 0.03) << i << " at " << opacity;
             moved += points[i].position != before[i].position || points[i].across != before[i].across;
         }
-        if (opacity == 0.51f) EXPECT_LT(moved, 0.05 * 120 * 120);
+        if (opacity == 0.51f) {
+            EXPECT_LT(moved, 0.05 * 120 * 120);
+        }
         before = points;
     }
 }

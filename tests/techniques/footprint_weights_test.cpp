@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "techniques/cells.h"
 #include "techniques/built.h"
 #include "techniques/deep/deep.h"
 #include "techniques/deep/tile_cache.h"
