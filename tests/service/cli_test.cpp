@@ -206,9 +206,8 @@ TEST_F(Cli, validate_says_what_of_a_file_is_passed_over) {
     const Outcome outcome = cli({"validate", path("tiny.json"), "--set",
                                  R"(scene.objects=[{"type": "mesh", "name": "edge", "file": "edge.obj"}])"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_NE(
-        outcome.out.find("note: /scene/objects/0: passed over: faces of fewer than 3 corners (1), lines (2)\n"),
-        std::string::npos)
+    EXPECT_NE(outcome.out.find("note: /scene/objects/0: passed over: faces of fewer than 3 corners (1), lines (2)\n"),
+              std::string::npos)
         << outcome.out;
 }
 
