@@ -105,7 +105,9 @@ TEST(FileValues, VolumesWithoutANameTurnedAndSwapped) {
     for (const char* file : {"noname.vdb", "rot90.vdb", "yzswap.vdb"}) {
         SCOPED_TRACE(file);
         expect_everywhere(volume_document(file), "uncompressed", far_away, {visibility}, 1e-6);
-        expect_runs(volume_document(file));
+        json exact = volume_document(file);
+        exact["rays"]["media"] = "cells";  // steps err, and the truth does not
+        expect_runs(exact);
     }
     EXPECT_THAT(validate(volume_document("noname.vdb"), options()).notes,
                 ElementsAre("/scene/objects/0: the grid \"(no name)\" is read, the only one"));
