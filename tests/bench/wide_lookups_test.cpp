@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "document/document.h"
 #include "bench/run.h"
+#include "document/document.h"
 
 namespace shadowbench::bench {
 namespace {
