@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "scene/files.h"
@@ -237,6 +238,50 @@ TEST(ReadDeepImage, RefusesMipLevelsBeforePixelsAreRead) {
     const base::Error error = error_of([&] { read_deep_image(file); });
     EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
     EXPECT_THAT(error.message(), HasSubstr("mip levels"));
+}
+
+// The library reads some values at their own size, and takes what lies behind for attributes: one that is said to be
+// longer would hide a text of 2 GB there.
+TEST(ReadDeepImage, RefusesAttributesOfAnotherSizeThanTheirType) {
+    const std::string bytes = test::read_bytes(write({"A", "Z"}, {{{0.5f, 4}}}));
+    for (const std::string& mark :
+         {std::string("lineOrder\0lineOrder\0\x01", 21), std::string("pixelAspectRatio\0float\0\x04", 24),
+          std::string("dataWindow\0box2i\0\x10", 18), std::string("channels\0chlist\0\x25", 17)}) {
+        const std::size_t at = bytes.find(mark);
+        ASSERT_NE(at, std::string::npos) << mark;
+        for (const int by : {-1, 1, 40}) {
+            std::string other = bytes;
+            char& size = other[at + mark.size() - 1];
+            size = static_cast<char>(size + by);
+            const auto file = test::write_file("size.exr", other);
+            EXPECT_EQ(error_of([&] { read_deep_image(file); }).code(), base::ErrorCode::bad_input) << mark << by;
+            EXPECT_THAT(error_of([&] { read_deep_image(file); }).where(), testing::StartsWith(file.string() + ":"));
+        }
+    }
+}
+
+TEST(ReadDeepImage, ChecksPreviewsAndListsOfTexts) {
+    const std::string bytes = test::read_bytes(write({"A", "Z"}, {{{0.5f, 4}}}));
+    const auto with = [&](const std::string& name_and_type, const std::string& value) {
+        std::string other = bytes;
+        other.insert(8, name_and_type + test::bytes_of(static_cast<std::uint32_t>(value.size())) + value);
+        // The table of places lies behind the header: all move.
+        const std::size_t table = other.find(std::string("version\0int\0", 12)) + 12 + 8 + 1;
+        std::uint64_t place = 0;
+        std::memcpy(&place, other.data() + table, sizeof place);
+        place += other.size() - bytes.size();
+        std::memcpy(other.data() + table, &place, sizeof place);
+        return test::write_file("attribute.exr", other);
+    };
+    const std::string texts("names\0stringvector\0", 19), preview("preview\0preview\0", 16);
+    const std::string one = test::bytes_of(2u) + "ab";
+    EXPECT_EQ(read_deep_image(with(texts, one + one)).z_front.size(), 1u);
+    EXPECT_EQ(read_deep_image(with(preview, test::bytes_of(1u, 2u) + "12345678")).z_front.size(), 1u);
+    for (const auto& file :
+         {with(texts, one + test::bytes_of(0x7fffffffu) + "ab"), with(texts, one + "ab"),
+          with(preview, test::bytes_of(1u, 3u) + "12345678"), with(preview, test::bytes_of(0x8000u, 0x20000u)),
+          with(std::string("list\0floatvector\0", 17), "12345")})
+        EXPECT_EQ(error_of([&] { read_deep_image(file); }).code(), base::ErrorCode::bad_input);
 }
 
 TEST(ReadDeepImage, RefusesOtherFiles) {
