@@ -42,7 +42,7 @@ Mesh inline_mesh(const json& from, const std::string& where) {
 std::string no_triangles(const MeshFile& file) {
     if (file.passed_over.empty() && !file.mesh.positions.empty())
         return fmt::format(
-            "a point cloud: {} vertices and no triangles; points are drawn by an object "
+            "a point cloud: {} vertices and no faces; a mesh needs faces, and points are drawn by an object "
             "of type spheres or particles that has them as its centres",
             file.mesh.positions.size());
     std::string message = "the mesh has no triangles";

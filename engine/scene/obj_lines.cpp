@@ -158,7 +158,7 @@ private:
             return;
         }
         if (!is_word(keyword))
-            fail(fmt::format("{}\"{}\" is no keyword of OBJ", vertices_ == 0 ? "not a Wavefront OBJ file: " : "",
+            fail(fmt::format("\"{}\" is not a keyword: the file is damaged, or not a Wavefront OBJ file",
                              keyword.substr(0, 40)));
         ++unknown_;
         pass_over(file_, fmt::format("lines of the unknown keyword \"{}\"", keyword));
