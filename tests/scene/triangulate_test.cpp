@@ -215,6 +215,58 @@ TEST_P(TurnedFrame, StarsAreCoveredWhereverTheirListBegins) {
     }
 }
 
+double cross(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+    return (b - a).cross(c - a);
+}
+
+// Corners at random, and edges that cross exchanged until none do.
+std::vector<Vec2d> simple_outline(std::size_t corners, std::mt19937& random) {
+    std::uniform_real_distribution<double> at(0.0, 1.0);
+    std::vector<Vec2d> p(corners);
+    for (Vec2d& corner : p) corner = {at(random), at(random)};
+    const auto meet = [&](std::size_t i, std::size_t j) {
+        const Vec2d &a = p[i], &b = p[i + 1], &c = p[j], &d = p[(j + 1) % corners];
+        return (cross(a, b, c) > 0) != (cross(a, b, d) > 0) && (cross(c, d, a) > 0) != (cross(c, d, b) > 0);
+    };
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t i = 0; i < corners; ++i)
+            for (std::size_t j = i + 2; j < corners; ++j)
+                if ((j + 1) % corners != i && meet(i, j)) {
+                    std::reverse(p.begin() + static_cast<std::ptrdiff_t>(i + 1),
+                                 p.begin() + static_cast<std::ptrdiff_t>(j + 1));
+                    changed = true;
+                }
+    }
+    return p;
+}
+
+// With corners on their edges, repeated ones, and spikes there and back: floats round all of them off their lines.
+TEST_P(TurnedFrame, SimpleOutlinesWithCornersOnTheirEdgesAreCovered) {
+    std::mt19937 random(static_cast<unsigned>(GetParam()));
+    std::uniform_real_distribution<double> draw(0.0, 1.0);
+    for (std::size_t corners = 4; corners < 24; ++corners) {
+        const std::vector<Vec2d> outline = simple_outline(corners, random);
+        Polygon polygon;
+        double twice = 0.0;
+        const auto add = [&](const Vec2d& at) { polygon.positions.push_back(place(at.x, at.y)); };
+        for (std::size_t i = 0; i < corners; ++i) {
+            const Vec2d &a = outline[i], &b = outline[(i + 1) % corners];
+            const Vec2d between = a + (b - a) * draw(random);
+            twice += a.x * b.y - a.y * b.x;
+            add(a);
+            if (draw(random) < 0.1) add(a);
+            if (draw(random) < 0.3) add(between);
+            if (draw(random) >= 0.1) continue;
+            add(b);
+            add(between);
+        }
+        const Triangulation result = triangulate(polygon);
+        ASSERT_EQ(result.fault, "");
+        EXPECT_NEAR(area(polygon, result), std::abs(twice) / 2.0, 5e-5);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Places, TurnedFrame, testing::Range(0, 30));
 
 // The width of this face is what a float far from the origin can just tell.
