@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+
 #include "base/error.h"
 
 namespace shadowbench::base {

@@ -43,14 +43,15 @@ void figure_6(const Context& context) {
         hair_ball,
         {"rays.resolution=512", "rays.samples_per_pixel=1", "rays.pattern=regular", set_techniques(pcf(16, "centre"))},
         {"rays.resolution=128"});
-    const results::Result large = context.run(hair_ball,
-                                            {"rays.resolution=4096", "rays.samples_per_pixel=1", "rays.pattern=regular",
-                                             "receivers.filter_width=8", set_techniques(pcf(400, "centre"))},
-                                            {"rays.resolution=1024"});
+    const results::Result large =
+        context.run(hair_ball,
+                    {"rays.resolution=4096", "rays.samples_per_pixel=1", "rays.pattern=regular",
+                     "receivers.filter_width=8", set_techniques(pcf(400, "centre"))},
+                    {"rays.resolution=1024"});
     const results::Result deep = context.run(hair_ball,
-                                           {"rays.resolution=512", "rays.samples_per_pixel=256", "timing.repetitions=7",
-                                            set_techniques(tent + std::string(",") + pixels)},
-                                           {"rays.resolution=128"});
+                                             {"rays.resolution=512", "rays.samples_per_pixel=256",
+                                              "timing.repetitions=7", set_techniques(tent + std::string(",") + pixels)},
+                                             {"rays.resolution=128"});
     const Cell& coarse = cell_of(light_of(small), "pcf");
     const Cell& fine = cell_of(light_of(large), "pcf");
     const Cell& stored = cell_of(light_of(deep), "deep", {"kernel=tent"});

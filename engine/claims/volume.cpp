@@ -89,8 +89,8 @@ void table_of_techniques(const Sets& sets, PaperReport& report) {
     for (const Measured& m : sets)
         for (const Cell& cell : m.light().cells) {
             if (cell.status == results::CellStatus::failed) continue;  // the claims that need it will say so
-            table.rows.push_back({m.name, results::title(cell), to_text(of(cell.times->build_ms)), to_text(time_of(cell)),
-                                  fmt::format("{:.3g}", bytes_a_texel(cell, m.light())),
+            table.rows.push_back({m.name, results::title(cell), to_text(of(cell.times->build_ms)),
+                                  to_text(time_of(cell)), fmt::format("{:.3g}", bytes_a_texel(cell, m.light())),
                                   fmt::format("{:.2g}", cell.curve->norms.max),
                                   fmt::format("{:.2g}", cell.curve->norms.rms), fmt::format("{:.2g}", rms(cell)),
                                   fmt::format("{:.2g}", cell.lookup->norms.max)});

@@ -16,10 +16,10 @@ inline constexpr int result_schema_version = 1;
 // one scenario on one machine are equal. Numbers that do not exist (or are not finite) are null.
 nlohmann::ordered_json to_json(const Result& result);
 
-// The way back, and the only place that reads a result.json: to_json(from_json(j)) == j for what to_json() wrote. Also
-// reads what earlier programs wrote under this schema version, and baselines for any machine (portable.h): what they
-// lack keeps its default. Throws Error{bad_input}, place: `origin`, then the JSON pointer of what is missing, of
-// another type or out of range.
+// The way back, and the only place that reads measures from a result.json: to_json(from_json(j)) == j for what
+// to_json() wrote. Also reads what earlier programs wrote under this schema version, and baselines for any machine
+// (portable.h): what they lack keeps its default. Throws Error{bad_input}, place: `origin`, then the JSON pointer of
+// what is missing, of another type or out of range.
 Result from_json(const nlohmann::json& json, const std::string& origin);
 
 // Removes every "times" object, at any depth.

@@ -18,6 +18,7 @@ struct Row {
     const Result& result;
     const VariantResult& variant;
     const LightResult& light;
+    const Settling& floors;  // of the light
     const Cell& cell;
 };
 
@@ -104,11 +105,9 @@ const Column columns[] = {
     {"on_bytes_error_front", [](const Row& r) { return std::string(r.cell.on_bytes_front ? "1" : "0"); }},
     {"verdict", [](const Row& r) { return std::string(to_string(r.cell.verdict)); }},
     {"verdict_why", [](const Row& r) { return r.cell.verdict_why; }},
-    {"settled",
-     [](const Row& r) {
-         const Settling floors = settling(r.light);
-         return std::string(floors.floors == 0 ? "" : floors.settled() ? "1" : "0");
-     }},
+    {"settled", [](const Row& r) { return std::string(r.floors.floors == 0 ? ""
+                                                      : r.floors.settled() ? "1"
+                                                                           : "0"); }},
 };
 
 // RFC 4180: a field with a comma, a quote or a line break stands in quotes, and its quotes are doubled.
@@ -129,13 +128,16 @@ std::string to_csv(const Result& result) {
     for (const Column& column : columns) text += (text.empty() ? "" : ",") + std::string(column.name);
     text += "\n";
     for (const VariantResult& variant : result.variants)
-        for (const LightResult& light : variant.lights)
+        for (const LightResult& light : variant.lights) {
+            const Settling floors = settling(light);
             for (const Cell& cell : light.cells) {
                 std::string line;
                 for (const Column& column : columns)
-                    line += (&column == columns ? "" : ",") + quoted(column.value({result, variant, light, cell}));
+                    line +=
+                        (&column == columns ? "" : ",") + quoted(column.value({result, variant, light, floors, cell}));
                 text += line + "\n";
             }
+        }
     return text;
 }
 

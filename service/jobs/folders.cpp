@@ -130,6 +130,16 @@ void empty_folder(const fs::path& folder) {
     for (const fs::path& entry : entries) remove_folder(entry);
 }
 
+std::vector<fs::path> entries_of(const fs::path& folder) {
+    std::vector<fs::path> entries;
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
+        entries.push_back(entry->path());
+    check(failed, folder, "cannot be read");
+    std::sort(entries.begin(), entries.end());
+    return entries;
+}
+
 std::vector<std::string> list_files(const fs::path& folder) {
     std::vector<std::string> names;
     std::error_code failed;

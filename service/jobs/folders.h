@@ -35,14 +35,16 @@ bool is_published(const JobFolders& folders, const std::string& id);
 void remove_folder(const std::filesystem::path& folder);  // as far as it can be
 void empty_folder(const std::filesystem::path& folder);   // likewise
 
-// Takes the results of a job from their place to removed_folder(), from where a start would go on to remove them; false:
-// there are none.
+// Takes the results of a job from their place to removed_folder(), from where a start would go on to remove them;
+// false: there are none.
 bool unpublish(const JobFolders& folders, const std::string& id);
 void discard_results(const JobFolders& folders, const std::string& id);  // all that, as far as it can be
 std::filesystem::path removed_folder(const JobFolders& folders, const std::string& id);
 std::filesystem::path copy_folder(const JobFolders& folders, const std::string& id);
 std::filesystem::path attempt_folder(const JobFolders& folders, const std::string& id, int attempt);
 
+// What lies in a folder, sorted; hidden things and links too. Throws Error{io}, place the folder.
+std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
 // By relative names with '/', sorted; hidden files are left out.
 std::vector<std::string> list_files(const std::filesystem::path& folder);
 // The file of such a name; nothing when there is none, when the name leads elsewhere, or through a link.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "service/jobs/folders.h"
 #include "service/jobs/record.h"
 #include "service/jobs/room.h"
 #include "service/store/damaged_store.h"
@@ -19,16 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t adopted_at_once = 200;  // each with its scenario's text
-
-std::vector<fs::path> entries_of(const fs::path& folder) {
-    std::vector<fs::path> entries;
-    std::error_code failed;
-    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
-        entries.push_back(entry->path());
-    if (failed) throw base::Error(base::ErrorCode::io, folder.string(), "cannot be read: " + failed.message());
-    std::sort(entries.begin(), entries.end());
-    return entries;
-}
 
 // Of a job that the store has as running and has noted the promises of: an earlier version did so before it moved the
 // results to their place, and wrote no record.
@@ -144,9 +135,10 @@ void tell_of_missing(const JobStore& store, const JobFolders& folders, const Say
 std::unique_ptr<JobStore> open_store(StateFolder& state, const JobFolders& folders, const Say& say) {
     const fs::path file = state.database();
     const auto tell = [&](const char* why) {
-        say(fmt::format("{}: {}; a new one gets the jobs that have results: those that waited, failed or were cancelled "
-                        "are not known any more",
-                        file.string(), why));
+        say(fmt::format(
+            "{}: {}; a new one gets the jobs that have results: those that waited, failed or were cancelled "
+            "are not known any more",
+            file.string(), why));
     };
     if (kind_of_store(file) == StoreKind::none) {
         // SQLite would delete what lies beside a file that is not there.

@@ -10,10 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "document/document.h"
 #include "bench/queries.h"
 #include "bench/reference.h"
 #include "bench/run.h"
+#include "document/document.h"
 #include "rays/scenes.h"
 #include "rays/tracer.h"
 #include "scene/files.h"

@@ -9,9 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "document/document.h"
 #include "bench/reference.h"
 #include "bench/run.h"
+#include "document/document.h"
 #include "rays/scenes.h"
 
 namespace shadowbench::bench {

@@ -10,8 +10,8 @@
 
 #include "bench/functions.h"
 #include "bench/one_light.h"
-#include "errors.h"
 #include "document/technique_choice.h"
+#include "errors.h"
 #include "rays/capture.h"
 
 namespace shadowbench::bench {

@@ -61,7 +61,8 @@ protected:
     }
     // Does what it should, or says as the program does that its folder takes nothing.
     std::string writes(std::size_t bytes) const {
-        return "echo x >>" + path("runs") + "; head -c " + std::to_string(bytes) + " /dev/zero >big && echo {} >result.json || " +
+        return "echo x >>" + path("runs") + "; head -c " + std::to_string(bytes) +
+               " /dev/zero >big && echo {} >result.json || " +
                "{ echo '{\"storage\":{\"message\":\"full\"}}'; exit 74; }";
     }
     std::size_t runs() const { return fs::exists(path("runs")) ? count(base::read_text(path("runs")), "x") : 0; }
@@ -75,8 +76,8 @@ TEST_F(FullDisk, LetsJobsWaitAndGoOn) {
     EXPECT_FALSE(jobs->storage_fails());
     std::vector<std::string> ids;
     for (int i = 0; i < 2; ++i)
-        ids.push_back(submit("echo '{\"stage\":\"build\"}'; while [ ! -e " + path("gate") + " ]; do sleep 0.02; done; " +
-                             success));
+        ids.push_back(submit("echo '{\"stage\":\"build\"}'; while [ ! -e " + path("gate") +
+                             " ]; do sleep 0.02; done; " + success));
     for (const std::string& id : ids) wait_for_run(id);
     for (int i = 0; i < 5; ++i) ids.push_back(submit(success));
     fill();
@@ -180,18 +181,9 @@ TEST_F(FullDisk, LosesNothingWhereAServerCannotStart) {
 
 // The program itself, whose results and pictures are more than there is room for.
 TEST_F(FullDisk, LetsTheProgramsJobsWait) {
-    const std::string scenario = R"({
-        "name": "tiny",
-        "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
-        "lights": [{"type": "directional", "direction": [0, -1, 0]}],
-        "rays": {"resolution": 8, "samples_per_pixel": 4},
-        "receivers": {"type": "camera", "position": [0, 1, 5], "target": [0, 0, 0], "resolution": [16, 12]},
-        "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
-        "timing": {"repetitions": 1, "lookups": 64},
-        "techniques": [{"type": "deep"}, {"type": "uncompressed"}]})";
     for (const std::size_t left : {std::size_t{48} << 10, std::size_t{100} << 10}) {
         jobs = std::make_unique<Jobs>(state(), SHADOWBENCH_PROGRAM, std::vector<std::string>{}, limits);
-        const std::string id = submit(scenario + std::string(left % 7, ' '));
+        const std::string id = submit(std::string(tiny_scenario) + std::string(left % 7, ' '));
         fill(left);
         wait_for_fault(true);
         const auto job = jobs->find(id);

@@ -40,6 +40,17 @@ inline bool has_ended(const JobInfo& job) {
     return job.state != JobState::queued && job.state != JobState::running;
 }
 
+// A scenario that the program itself runs in a moment, pictures included.
+inline constexpr const char* tiny_scenario = R"({
+    "name": "tiny",
+    "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
+    "lights": [{"type": "directional", "direction": [0, -1, 0]}],
+    "rays": {"resolution": 8, "samples_per_pixel": 4},
+    "receivers": {"type": "camera", "position": [0, 1, 5], "target": [0, 0, 0], "resolution": [16, 12]},
+    "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
+    "timing": {"repetitions": 1, "lookups": 64},
+    "techniques": [{"type": "deep"}, {"type": "uncompressed"}]})";
+
 class JobHost : public ::testing::Test {
 protected:
     void SetUp() override {

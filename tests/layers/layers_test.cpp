@@ -97,9 +97,8 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"service/jobs", {"base", "bench", "results", "service/process", "service/store", "service/jobs"}},
         {"service/web", {"base", "service/web"}},
         {"service/api",
-         {"base", "scene", "techniques", "document", "results", "bench", "compare", "service/process",
-          "service/jobs", "service/web",
-          "service/api"}},
+         {"base", "scene", "techniques", "document", "results", "bench", "compare", "service/process", "service/jobs",
+          "service/web", "service/api"}},
         {"service/http", {"base", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files.
         {"service/cli",

@@ -106,8 +106,11 @@ TEST(LoadScenario, DefaultsAreThoseThatTheSchemaDocuments) {
 TEST(LoadScenario, ReadsEverySetting) {
     json document = minimal();
     document["purpose"] = "To see.";
-    document["rays"] = {
-        {"resolution", {64, 32}}, {"samples_per_pixel", 9}, {"pattern", "regular"}, {"media", "cells"}, {"seed", 9007199254740991}};
+    document["rays"] = {{"resolution", {64, 32}},
+                        {"samples_per_pixel", 9},
+                        {"pattern", "regular"},
+                        {"media", "cells"},
+                        {"seed", 9007199254740991}};
     document["receivers"] = {{"type", "camera"},    {"position", {1, 2, 3}}, {"target", {0, 1, 0}}, {"up", {0, 0, 1}},
                              {"fov", 60},           {"resolution", 100},     {"media_lookups", 3},  {"seed", 4},
                              {"filter_width", 2.5}, {"bias", 0.25}};

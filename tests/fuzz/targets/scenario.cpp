@@ -1,5 +1,5 @@
-#include "document/document.h"
 #include "scene/scenario.h"
+#include "document/document.h"
 
 #include <nlohmann/json.hpp>
 
