@@ -95,7 +95,7 @@ ChosenRay choose(const LightRays& tile, const MapLayout& layout, const rays::Lig
     return {&tile, ray, ray_at(view, place.x, place.y, rays::sample_time(layout, i, j))};
 }
 
-void compare(const std::vector<ChosenRay>& chosen, const Check& check, Agreement& agreement) {
+void compare(const std::vector<ChosenRay>& chosen, const Check& check, results::Agreement& agreement) {
     std::vector<rays::TracedSegment> segments;
     for (const ChosenRay& one : chosen) {
         trace(check, one.traced, segments);
@@ -118,8 +118,8 @@ double rate_of_tracer(const std::vector<ChosenRay>& chosen, const Check& check) 
 
 }  // namespace
 
-Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& layout, const rays::LightView& view,
-                              const rays::Tracer& tracer, std::size_t max_rays) {
+results::Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& layout,
+                                       const rays::LightView& view, const rays::Tracer& tracer, std::size_t max_rays) {
     const base::ThreadLimit one_thread(1);
     std::vector<LightRays> tiles;
     std::size_t rays = 0;
@@ -140,7 +140,7 @@ Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& lay
         for (std::size_t ray = 0; ray < tile.rays(); ++ray, ++at)
             if (at % step == 0) chosen.push_back(choose(tile, layout, view, ray));
 
-    Agreement agreement;
+    results::Agreement agreement;
     const Check check{tracer, layout.cells ? rays::Tracer::Grids::cells : rays::Tracer::Grids::steps};
     compare(chosen, check, agreement);
     agreement.times.capture_rays_per_second = static_cast<double>(rays) / seconds;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <variant>
 
 #include "rays/hits.h"
@@ -16,15 +17,18 @@ namespace {
 
 // Rows of a deep image are the map's rows: one ray a pixel, its samples submitted as they stand in the image.
 void copy_deep_image(const scene::DeepImage& image, bool submission, LightRays& rays) {
+    const auto channels = static_cast<std::size_t>(image.channels);
     rays.begin.assign(1, 0);
     for (int y = rays.y0; y < rays.y0 + rays.height; ++y)
         for (int x = rays.x0; x < rays.x0 + rays.width; ++x) {
             const std::size_t pixel = static_cast<std::size_t>(y) * image.width + x;
             for (std::size_t s = image.begin[pixel]; s < image.begin[pixel + 1]; ++s) {
-                if (image.transmittance[s] == 1.0f) continue;
+                const auto through = std::span(image.transmittance).subspan(s * channels, channels);
+                const bool clear = std::all_of(through.begin(), through.end(), [](float t) { return t == 1.0f; });
+                if (clear || scene::behind_everything(image, s)) continue;
                 rays.z_front.push_back(image.z_front[s]);
                 rays.z_back.push_back(image.z_back[s]);
-                rays.transmittance.push_back(image.transmittance[s]);
+                rays.transmittance.insert(rays.transmittance.end(), through.begin(), through.end());
             }
             rays.begin.push_back(static_cast<std::uint32_t>(rays.z_front.size()));
         }
@@ -51,13 +55,11 @@ MapLayout make_layout(const scene::Scene& scene, const LightView& view, const sc
     const double rounding = scene.deep_image ? 0.0 : 0x1p-23 * std::max(std::abs(view.z_min), std::abs(view.z_max));
     layout.z_min = outward(std::max(view.z_min - rounding, std::min(view.z_min, view.z_near)), -infinity);
     layout.z_max = outward(view.z_max + rounding, infinity);
+    layout.channels = scene::channels(scene);
+    layout.media = scene::has_media(scene);
     if (scene.deep_image) {
         layout.jittered = false;
-        for (std::size_t s = 0; s < scene.deep_image->z_front.size() && !layout.media; ++s)
-            layout.media = scene.deep_image->z_back[s] > scene.deep_image->z_front[s];
     } else {
-        layout.channels = scene::channels(scene);
-        layout.media = scene::has_media(scene);
         layout.moving = scene::has_motion(scene);
         layout.cells = settings.media == scene::Media::cells;
         set_samples(layout, settings.samples_per_pixel);

@@ -129,6 +129,7 @@ LightView deep_image_view(const scene::DeepImage& image) {
     view.z_min = infinity;
     view.z_max = -infinity;
     for (std::size_t s = 0; s < image.z_front.size(); ++s) {
+        if (scene::behind_everything(image, s)) continue;
         view.z_min = std::min<double>(view.z_min, image.z_front[s]);
         view.z_max = std::max<double>(view.z_max, image.z_back[s]);
     }

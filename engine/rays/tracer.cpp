@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "rays/grid_media.h"
+#include "rays/surfaces.h"
 #include "rays/traced_geometry.h"
 #include "scene/scene.h"
 
@@ -37,6 +38,8 @@ struct Tracer::State {
     std::vector<std::unique_ptr<Traced>> geometries;
     GridMedia media;
     double widest_hair = 0.0;
+    bool translucent = false;  // some surface lets a part of the light through
+    bool has_media = false;
 
     explicit State(GridMedia grids) : media(std::move(grids)) {}
     ~State() {
@@ -45,7 +48,14 @@ struct Tracer::State {
     }
 
     void add(const scene::Object& object) {
-        if (std::holds_alternative<scene::GridVolume>(object.shape)) return;
+        const bool grid = std::holds_alternative<scene::GridVolume>(object.shape);
+        const bool medium = grid || std::holds_alternative<scene::Particles>(object.shape);
+        has_media = has_media || medium;
+        if (grid) return;
+        const auto* mesh = std::get_if<scene::Mesh>(&object.shape);
+        translucent =
+            translucent ||
+            (!medium && ((mesh && mesh->alpha) || !(is_opaque(object.opacity) || is_nothing(object.opacity))));
         if (const auto* hair = std::get_if<scene::Hair>(&object.shape))
             for (const float radius : hair->radii) widest_hair = std::max<double>(widest_hair, radius);
         geometries.push_back(std::make_unique<Traced>(Traced{&object, {}}));
@@ -94,15 +104,22 @@ void Tracer::all_segments(const Vec3d& origin, const Vec3d& direction, double t_
     sort(out);
 }
 
-bool Tracer::nearest(const Vec3d& origin, const Vec3d& direction, SurfaceHit& out, double time) const {
-    const TracedRay ray{origin, direction, time, 0.0, std::numeric_limits<double>::infinity()};
-    if (!trace_nearest(state_->scene, state_->widest_hair, ray, out)) return false;
-    out.position = origin + direction * out.t;
-    if (out.tangent != Vec3d(0.0)) out.normal = out.tangent * out.tangent.dot(direction) - direction;
-    if (out.normal.dot(direction) > 0.0) out.normal = -out.normal;
-    const double length = out.normal.length();
-    out.normal = length > 0.0 ? out.normal / length : -direction.normalized();
-    return true;
+bool Tracer::surfaces(const Vec3d& origin, const Vec3d& direction, std::vector<SurfaceHit>& out, double time) const {
+    out.clear();
+    TracedRay ray{origin, direction, time, 0.0, std::numeric_limits<double>::infinity()};
+    thread_local std::vector<Crossing> crossings;
+    crossings.clear();
+    Crossing opaque;
+    const bool ends = trace_opaque(state_->scene, state_->widest_hair, ray, opaque);
+    if (ends) ray.t_max = opaque.depth;
+    if (state_->translucent) trace_translucent(state_->scene, state_->widest_hair, ray, crossings);
+    if (ends) crossings.push_back(opaque);
+    order_crossings(ray, crossings);
+    return take_surfaces(ray, crossings, out);
+}
+
+bool Tracer::has_media() const {
+    return state_->has_media;
 }
 
 Vec3d Tracer::transmittance(const LightView& view, double x, double y, double z, std::vector<TracedSegment>& scratch,

@@ -80,20 +80,40 @@ void check_kind(const json& from) {
                                       : "a scene has objects or a deep_image, not both");
 }
 
-Scene load_scene(const json& from, const SearchPath& path) {
-    Scene scene;
-    if (from.contains("objects")) {
-        load_objects(from["objects"], path, scene);
-        return scene;
+DeepChoice deep_choice(const json& from) {
+    DeepChoice choice;
+    if (const auto layer = from.find("layer"); layer != from.end()) choice.layer = layer->get<std::string>();
+    if (const auto part = from.find("part"); part != from.end()) {
+        if (part->is_string())
+            choice.part = part->get<std::string>();
+        else
+            choice.part = part->get<int>();
     }
+    return choice;
+}
+
+DeepImage load_deep_image(const json& from, const SearchPath& path) {
     const std::string where = "/scene/deep_image/file";
-    const std::filesystem::path file = find_file(path, from["deep_image"]["file"].get<std::string>(), where);
+    const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where);
+    DeepImage image;
     try {
-        scene.deep_image = read_deep_image(file);
+        image = read_deep_image(file, deep_choice(from));
     } catch (const base::Error& error) {
         throw base::Error(error.code(), where, error.what());
     }
-    if (scene.deep_image->z_front.empty()) refuse(where, "the deep image has no samples");
+    if (image.z_front.empty()) refuse(where, "the deep image has no samples");
+    std::size_t sample = 0;
+    while (sample < image.z_front.size() && behind_everything(image, sample)) ++sample;
+    if (sample == image.z_front.size()) refuse(where, "all samples of the deep image are at infinity: nothing is near");
+    return image;
+}
+
+Scene load_scene(const json& from, const SearchPath& path) {
+    Scene scene;
+    if (from.contains("objects"))
+        load_objects(from["objects"], path, scene);
+    else
+        scene.deep_image = load_deep_image(from["deep_image"], path);
     return scene;
 }
 

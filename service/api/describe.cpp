@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
-#include "bench/document.h"
+#include "document/document.h"
 #include "scene/scenario.h"
 #include "service/api/file_answer.h"
 #include "service/api/openapi_text.h"
@@ -68,9 +68,11 @@ json describe(const techniques::Technique& row) {
 void read_scenario(const fs::path& file, std::map<std::string, json>& found) {
     try {
         const json document = json::parse(scene::parse_json(base::read_text(file), file.string()).dump());
-        found[document.at("name").get<std::string>()] = {{"name", document.at("name")},
-                                                         {"purpose", document.value("purpose", "")},
-                                                         {"document", json::parse(base::read_text(file))}};
+        // A name stands for its scenario in the first folder that has one, as on the command line.
+        found.try_emplace(document.at("name").get<std::string>(),
+                          json{{"name", document.at("name")},
+                               {"purpose", document.value("purpose", "")},
+                               {"document", json::parse(base::read_text(file))}});
     } catch (const std::exception&) {  // one broken file does not hide the others
     }
 }
@@ -102,7 +104,7 @@ ApiResponse list_scenarios(Context& context, const Call& call) {
 }
 
 ApiResponse get_schema(Context&, const Call& call) {
-    return text_answer(call.request, "application/json", bench::full_schema().dump() + "\n");
+    return text_answer(call.request, "application/json", document::full_schema().dump() + "\n");
 }
 
 ApiResponse get_openapi(Context&, const Call& call) {
@@ -124,8 +126,10 @@ ApiResponse get_health(Context&, const Call&) {
 }
 
 ApiResponse get_ready(Context& context, const Call&) {
-    if (!context.jobs.stopping()) return json_answer(200, json{{"status", "ready"}});
-    ApiResponse response = problem(503, "The server is stopping.");
+    const bool stopping = context.jobs.stopping();
+    if (!stopping && !context.jobs.storage_fails()) return json_answer(200, json{{"status", "ready"}});
+    ApiResponse response = problem(503, stopping ? "The server is stopping."
+                                                 : "The server's storage cannot be written: jobs wait until it can.");
     response.headers.push_back({"Retry-After", "10"});
     return response;
 }

@@ -62,7 +62,7 @@ struct JobLimits {
     std::size_t queue = 2000;         // jobs that wait; more are refused
     double seconds = 3600.0;          // of one run
     std::size_t memory = std::size_t{16} << 30;  // bytes a child may take
-    int attempts = 3;                 // runs of a job whose process or server died
+    int attempts = 3;                 // runs of a job whose process died by itself
     int parallel = 1;
     double grace = 10.0;              // seconds that stop() waits before it requeues what runs
 };
@@ -74,10 +74,13 @@ struct JobPage {
 
 class Jobs {
 public:
-    // Opens or makes `state` (database and artifacts), queues again what ran when the last server died, removes
-    // half-written artifacts, starts the worker. `program` is run as `program job FOLDER --data DIR...`.
-    // Throws base::Error{io}: not writable, or another server holds it.
-    Jobs(std::filesystem::path state, std::string program, std::vector<std::string> data, JobLimits limits);
+    // Opens or makes `state` (see state_folder.h), queues again what ran when the last server died, takes back results
+    // that the database does not know, starts the worker. `program` is run as `program job FOLDER --data DIR...`.
+    // `say` gets what who watches the server should know, a line each, one at a time: what was found and moved away,
+    // results taken back, storage that fails and works again. Its lines name places of the machine.
+    // Throws base::Error{usage}: the folder is none of ours; {io}: not writable, or another server holds it.
+    Jobs(std::filesystem::path state, std::string program, std::vector<std::string> data, JobLimits limits,
+         std::function<void(const std::string& line)> say = {});
     ~Jobs();
     Jobs(const Jobs&) = delete;
     Jobs& operator=(const Jobs&) = delete;
@@ -101,6 +104,9 @@ public:
     // Blocks until the job's revision is above `revision`, it is gone, stop() was called, or `seconds` have passed;
     // the job then. Cheap for many waiting threads.
     std::optional<JobInfo> wait(const std::string& id, std::uint64_t revision, double seconds) const;
+
+    // While the state folder cannot be written, as on a full disk: jobs wait.
+    bool storage_fails() const;
 
     // No more is started; what runs has `grace` seconds to end, then is killed and queued again. Wakes all waits.
     void stop();

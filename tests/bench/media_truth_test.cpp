@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/document.h"
+#include "document/document.h"
 #include "bench/queries.h"
 #include "bench/reference.h"
 #include "bench/run.h"
@@ -232,7 +232,7 @@ TEST(MediaTruth, DoesNotDependOnTheMarchingStep) {
     if (find("volumes/bucky_32x32x32_uint8.raw").empty())
         GTEST_SKIP() << "the Bucky ball is not there: set SHADOWBENCH_DATA to the folder of data";
     for (const char* step : {"", "scene.objects.0.step=0.5", "scene.objects.0.step=0.01", "rays.media=\"cells\""}) {
-        if (*step) set_value(document, step);
+        if (*step) document::set_value(document, step);
         const scene::Scenario scenario = scene::load_scenario(document, data());
         const rays::LightView view =
             rays::make_light_view(scenario.lights[0], scenario.scene, scenario.rays.resolution, "/lights/0");
@@ -243,7 +243,7 @@ TEST(MediaTruth, DoesNotDependOnTheMarchingStep) {
         EXPECT_NEAR(truth.value[1], 0.84867, 1e-4) << step;
         RunOptions options;
         options.data = data();
-        const LightResult light = run(document, options, {}).variants.at(0).lights.at(0);
+        const results::LightResult light = run(document, options, {}).variants.at(0).lights.at(0);
         EXPECT_LT(light.cells.at(0).lookup->norms.max, 1e-4) << step;
         ASSERT_TRUE(light.agreement);
         EXPECT_EQ(light.agreement->other_transmittance, 0u) << step;

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/document.h"
+#include "document/document.h"
 #include "bench/reference.h"
 #include "bench/run.h"
 #include "rays/scenes.h"
@@ -149,13 +149,13 @@ nlohmann::json shutter_times() {
 TEST(MovingTruth, IsTheSameAtEverySeedAndForTracedRays) {
     nlohmann::json document = shutter_times();
     for (const char* setting : {"timing.repetitions=1", "timing.lookups=64", "reference.spread_seeds=0"})
-        set_value(document, setting);
+        document::set_value(document, setting);
     for (const int seed : {1, 35, 36, 37, 1234567}) {
-        set_value(document, "reference.seed=" + std::to_string(seed));
-        const LightResult light = run(document, {}, {}).variants.at(0).lights.at(0);
+        document::set_value(document, "reference.seed=" + std::to_string(seed));
+        const results::LightResult light = run(document, {}, {}).variants.at(0).lights.at(0);
         ASSERT_EQ(light.cells.size(), 1u);
-        const Cell& traced = light.cells[0];
-        ASSERT_EQ(traced.status, CellStatus::ok) << traced.reason;
+        const results::Cell& traced = light.cells[0];
+        ASSERT_EQ(traced.status, results::CellStatus::ok) << traced.reason;
         EXPECT_GT(light.reference.error_max, 0.0);
         EXPECT_LT(light.reference.error_max, 0.015);
         // Three channels; shadow rays are 64 times as many as the truth's.

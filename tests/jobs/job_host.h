@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,8 +49,16 @@ protected:
 
     Jobs& start() {
         jobs.reset();
-        jobs = std::make_unique<Jobs>(state(), program.string(), data, limits);
+        jobs = std::make_unique<Jobs>(state(), program.string(), data, limits, [this](const std::string& line) {
+            const std::scoped_lock lock(said_mutex);
+            said_lines += line + "\n";
+        });
         return *jobs;
+    }
+    // All that servers of this test have said.
+    std::string said() const {
+        const std::scoped_lock lock(said_mutex);
+        return said_lines;
     }
     std::filesystem::path state() const { return folder.path() / "state"; }
 
@@ -89,7 +98,9 @@ protected:
     const std::filesystem::path program = folder.path() / "fake";
     std::vector<std::string> data;
     JobLimits limits;
-    std::unique_ptr<Jobs> jobs;
+    mutable std::mutex said_mutex;
+    std::string said_lines;
+    std::unique_ptr<Jobs> jobs;  // the first to go
 };
 
 // Says that it runs, and then runs until it is ended.

@@ -303,12 +303,12 @@ TEST(Tracer, TheNearestSurfaceStandsWhereItsTimePutsIt) {
     scene.objects[1].opacity = Vec3f(1);
     for (scene::Object& object : scene.objects) object.motion = {0, 0, 4};
     const Tracer tracer(scene, false);
-    SurfaceHit hit;
-    ASSERT_TRUE(tracer.nearest({0.1, 0.2, -3}, {0, 0, 1}, hit, scene::mid_shutter));
-    EXPECT_NEAR(hit.t, 5.0, 1e-5);
-    ASSERT_TRUE(tracer.nearest({0, 0, 20}, {0, 0, -1}, hit, 0.25));
-    EXPECT_NEAR(hit.t, 13.0, 1e-5);
-    EXPECT_NEAR(hit.normal.z, 1.0, 1e-6);
+    std::vector<SurfaceHit> hits;
+    ASSERT_TRUE(tracer.surfaces({0.1, 0.2, -3}, {0, 0, 1}, hits, scene::mid_shutter));
+    EXPECT_NEAR(hits.at(0).t, 5.0, 1e-5);
+    ASSERT_TRUE(tracer.surfaces({0, 0, 20}, {0, 0, -1}, hits, 0.25));
+    EXPECT_NEAR(hits.at(0).t, 13.0, 1e-5);
+    EXPECT_NEAR(hits.at(0).normal.z, 1.0, 1e-6);
 }
 
 TEST(Motion, AStillSceneStoresNoTimes) {
