@@ -54,7 +54,7 @@ public:
     bool has_media() const;
 
     // Exact transmittance per channel of the light ray at map position (x, y) up to depth z (surfaces strictly before;
-    // grid volumes integrated up to z itself). `scratch` is reused between calls.
+    // grid volumes integrated up to z itself). `scratch`, reused between calls, has the segments of all else.
     base::Vec3d transmittance(const LightView& view, double x, double y, double z, std::vector<TracedSegment>& scratch,
                               double time = 0.0) const;
 

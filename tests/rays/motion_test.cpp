@@ -225,10 +225,13 @@ struct Kind {
 class MovingKind : public ::testing::TestWithParam<Kind> {};
 
 // Compares every ray with Embree at the ray's time: as many segments, at the same depths, with the same transmittance.
-void expect_agreement(scene::Scene scene, const scene::Light& light) {
+void expect_agreement(scene::Scene scene, const scene::Light& light, scene::Media media = scene::Media::steps) {
     scene.objects.push_back(testing::quad({-3, -3, -1.5f}, {6, 0, 0.1f}, {0, 6, 0}, 0.5f));  // stands still, behind all
     const Tracer tracer(scene, true);
-    const Captured c = capture(scene, light, testing::rays(64, 16));
+    scene::RaySettings settings = testing::rays(64, 16);
+    settings.media = media;
+    const auto grids = media == scene::Media::cells ? Tracer::Grids::cells : Tracer::Grids::steps;
+    const Captured c = capture(scene, light, settings);
     ASSERT_GT(c.tiles.size(), 1u);
     std::vector<TracedSegment> traced;
     int rays = 0, met = 0, differing = 0;
@@ -237,9 +240,9 @@ void expect_agreement(scene::Scene scene, const scene::Light& light) {
         const SamplePosition p = sample_position(c.layout, i, j);
         const LightLine line = light_line(c.view, p.x, p.y);
         tracer.all_segments(line.origin, line.direction, std::max(line.z_start, 0.0), 1e9, traced,
-                            sample_time(c.layout, i, j), Tracer::Grids::steps);
+                            sample_time(c.layout, i, j), grids);
         double through = 1.0;
-        for (const TracedSegment& s : traced) through *= s.transmittance.x;
+        for (const TracedSegment& segment : traced) through *= segment.transmittance.x;
         ++rays;
         met += traced.size() > 1;
         if (traced.size() != segments_of(t, ray)) {
@@ -262,6 +265,7 @@ TEST_P(MovingKind, AgreesWithEmbreeRayByRay) {
             scene.objects.push_back(GetParam().make());
             scene.objects[0].motion = motion;
             expect_agreement(scene, light);
+            if (scene::has_media(scene)) expect_agreement(scene, light, scene::Media::cells);
         }
 }
 
