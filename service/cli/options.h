@@ -1,4 +1,5 @@
-// The commands with their options, a group a file.
+// The commands with their options, a group a file. The files that include CLI11 are compiled as one (CMakeLists.txt):
+// it takes longer than all else in them.
 #pragma once
 
 #include <functional>
@@ -17,6 +18,11 @@ struct Command {
     std::function<int(std::ostream& out, std::ostream& err)> run;  // the exit code; throws base::Error
 };
 using Commands = std::vector<Command>;
+
+constexpr int promise_broken = 2;  // exit code: less accurate than a technique says
+
+// One value an option, as often as the option is given: a positional argument after it stays one.
+void repeatable(CLI::Option* option);
 
 // Each adds its subcommands to the application, and what each runs once the arguments are parsed.
 void add_measuring_commands(CLI::App& app, Commands& commands);
