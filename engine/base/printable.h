@@ -1,5 +1,5 @@
-// Text that quotes a file, made fit to be shown: a file may hold any bytes, a terminal would obey some of them, and JSON
-// would not take others.
+// Text that quotes a file, made fit to be shown: a file may hold any bytes, a terminal would obey some of them, and
+// JSON would not take others.
 #pragma once
 
 #include <string>

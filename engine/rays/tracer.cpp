@@ -22,6 +22,16 @@ namespace shadowbench::rays {
 using base::Vec3d;
 using base::Vec3f;
 
+namespace {
+
+void sort(std::vector<TracedSegment>& segments) {
+    std::sort(segments.begin(), segments.end(), [](const TracedSegment& a, const TracedSegment& b) {
+        return a.front != b.front ? a.front < b.front : a.back < b.back;
+    });
+}
+
+}  // namespace
+
 struct Tracer::State {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
@@ -91,9 +101,7 @@ void Tracer::all_segments(const Vec3d& origin, const Vec3d& direction, double t_
     const TracedRay ray{origin, direction, time, t_min, t_max};
     trace_all(state_->scene, state_->widest_hair, ray, out);
     if (!state_->media.empty()) state_->march(ray, grids, out);
-    std::sort(out.begin(), out.end(), [](const TracedSegment& a, const TracedSegment& b) {
-        return a.front != b.front ? a.front < b.front : a.back < b.back;
-    });
+    sort(out);
 }
 
 bool Tracer::surfaces(const Vec3d& origin, const Vec3d& direction, std::vector<SurfaceHit>& out, double time) const {
@@ -120,6 +128,7 @@ Vec3d Tracer::transmittance(const LightView& view, double x, double y, double z,
     const TracedRay ray{line.origin, line.direction, time, std::max(line.z_start, 0.0), z};
     scratch.clear();
     trace_all(state_->scene, state_->widest_hair, ray, scratch);
+    sort(scratch);  // the product is rounded in one order, whatever Embree's
     Vec3d result(1, 1, 1);
     for (const TracedSegment& s : scratch)
         if (s.front < z) result *= s.transmittance;

@@ -22,11 +22,11 @@ struct TracedSegment {
 };
 
 struct SurfaceHit {
-    double t;
-    base::Vec3d position;
-    base::Vec3d normal;   // unit length, faces the ray's origin; for hair, across the strand
-    base::Vec3d tangent;  // unit length, along the strand; 0 for what is not hair
-    base::Vec3d opacity;  // here, texture included: each in [0, 1], one of them above 0
+    double t = 0.0;
+    base::Vec3d position{0, 0, 0};
+    base::Vec3d normal{0, 0, 0};   // unit length, faces the ray's origin; for hair, across the strand
+    base::Vec3d tangent{0, 0, 0};  // unit length, along the strand; 0 for what is not hair
+    base::Vec3d opacity{0, 0, 0};  // here, texture included: each in [0, 1], one of them above 0
 };
 
 // Thread-safe once made. Keeps a reference to the scene. `time`, in [0, 1], is when in the shutter a ray sees the

@@ -52,9 +52,10 @@ struct Chooser {
         const auto floats = all_that([](const VdbGridName& grid) { return grid.type == vdb_float_tree; });
         if (floats.empty()) refuse("the file has no grid of float values");
         if (floats.size() > 1)
-            refuse(fmt::format("there is no grid \"{}\", and several others: give \"grid\", a name or a number from 0 "
-                               "on",
-                               usual_grid));
+            refuse(
+                fmt::format("there is no grid \"{}\", and several others: give \"grid\", a name or a number from 0 "
+                            "on",
+                            usual_grid));
         return floats[0];
     }
 };

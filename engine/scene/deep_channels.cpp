@@ -61,17 +61,18 @@ DeepChannels find_deep_channels(const std::vector<std::string>& names, const std
     if (layer) {
         if (const auto found = layers.find(*layer); found != layers.end() && complete(channels_of(found->second)))
             return channels_of(found->second);
-        refuse_image(file, fmt::format("there is no layer \"{}\" with the channels A and Z; the layers that have them: {}",
-                                       *layer, list(fit)));
+        refuse_image(file,
+                     fmt::format("there is no layer \"{}\" with the channels A and Z; the layers that have them: {}",
+                                 *layer, list(fit)));
     }
     if (fit.empty())
         refuse_image(file, fmt::format("the channels A and Z are needed; there are: {}", fmt::join(names, ", ")));
     if (fit.size() > 1 && !fit[0].empty())
-        refuse_image(file,
-                     fmt::format("{} layers have the channels A and Z: give \"layer\", one of: {}", fit.size(), list(fit)));
+        refuse_image(file, fmt::format("{} layers have the channels A and Z: give \"layer\", one of: {}", fit.size(),
+                                       list(fit)));
     if (fit.size() > 1)
-        notes.lines.push_back(fmt::format("the channels without a layer are read; passed over: {}",
-                                          list({fit.begin() + 1, fit.end()})));
+        notes.lines.push_back(
+            fmt::format("the channels without a layer are read; passed over: {}", list({fit.begin() + 1, fit.end()})));
     return channels_of(layers[fit[0]]);
 }
 

@@ -17,8 +17,8 @@ void clamp_negatives(std::vector<float>& density, ReadNotes& notes) {
         value = 0.0f;
     }
     if (count > 0)
-        notes.lines.push_back(fmt::format("{} of {} densities are below 0, the least {}: taken as 0", count,
-                                          density.size(), least));
+        notes.lines.push_back(
+            fmt::format("{} of {} densities are below 0, the least {}: taken as 0", count, density.size(), least));
 }
 
 std::string negative_refused(float density) {

@@ -75,10 +75,9 @@ int choose_part(OIIO::ImageInput& input, const DeepChoice& choice, const std::fi
         refuse_image(file, fmt::format("{} parts {}: give \"part\", the number (or name) of one of: {}", meant.size(),
                                        named ? "have this name" : "are deep images", list(parts)));
     if (!meant[0].deep)
-        refuse_image(file, fmt::format("the part {} is not a deep image; the deep ones are: {}", shown(meant[0]),
-                                       list(parts)));
-    if (parts.size() > 1)
-        notes.lines.push_back(fmt::format("of {} parts {} is read", parts.size(), shown(meant[0])));
+        refuse_image(
+            file, fmt::format("the part {} is not a deep image; the deep ones are: {}", shown(meant[0]), list(parts)));
+    if (parts.size() > 1) notes.lines.push_back(fmt::format("of {} parts {} is read", parts.size(), shown(meant[0])));
     return meant[0].number;
 }
 
@@ -99,7 +98,8 @@ OIIO::ImageSpec open_part(OIIO::ImageInput& input, int part, const std::filesyst
 Sample read_sample(const OIIO::DeepData& data, const DeepChannels& channels, std::int64_t pixel, int index) {
     const float z = data.deep_value(pixel, channels.z, index);
     Sample sample{z, channels.z_back < 0 ? z : data.deep_value(pixel, channels.z_back, index), {}};
-    for (std::size_t c = 0; c < 3; ++c) sample.transmittance[c] = 1.0f - data.deep_value(pixel, channels.alpha[c], index);
+    for (std::size_t c = 0; c < 3; ++c)
+        sample.transmittance[c] = 1.0f - data.deep_value(pixel, channels.alpha[c], index);
     return sample;
 }
 

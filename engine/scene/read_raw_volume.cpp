@@ -32,8 +32,7 @@ std::vector<float> read_float32(FileReader& reader, std::uint64_t voxels, Negati
 
 }  // namespace
 
-GridVolume read_raw_volume(const std::filesystem::path& file, Vec3i size, const std::string& type,
-                           Negative negative) {
+GridVolume read_raw_volume(const std::filesystem::path& file, Vec3i size, const std::string& type, Negative negative) {
     FileReader reader(file);
     if (size.x < 1 || size.y < 1 || size.z < 1) reader.fail(0, "a volume needs at least one voxel along every axis");
     if (type != "uint8" && type != "float32")
@@ -48,7 +47,8 @@ GridVolume read_raw_volume(const std::filesystem::path& file, Vec3i size, const 
     const std::uint64_t voxels = row * static_cast<std::uint64_t>(size.z);
     GridVolume volume;
     volume.size = size;
-    volume.density = type == "uint8" ? read_uint8(reader, voxels) : read_float32(reader, voxels, negative, volume.notes);
+    volume.density =
+        type == "uint8" ? read_uint8(reader, voxels) : read_float32(reader, voxels, negative, volume.notes);
     return volume;
 }
 

@@ -81,12 +81,14 @@ Axes find_axes(const openvdb::math::Transform& transform, const openvdb::Coord& 
         for (int k = 0; k < 3; ++k) {
             if (k == i) continue;
             const double beside = std::abs(matrix[i][axes.to[static_cast<std::size_t>(k)]]);
-            skew = skew || beside > most_skew * std::abs(along(i)) || beside * size[i] > most_shift * std::abs(along(k));
+            skew =
+                skew || beside > most_skew * std::abs(along(i)) || beside * size[i] > most_shift * std::abs(along(k));
         }
     }
     if (skew)
-        fail(file, "the grid's transform shears it or turns it by other than right angles, where only axes that are "
-                   "swapped or mirrored are read: resample it to the world's axes in the program that wrote it");
+        fail(file,
+             "the grid's transform shears it or turns it by other than right angles, where only axes that are "
+             "swapped or mirrored are read: resample it to the world's axes in the program that wrote it");
     return axes;
 }
 
@@ -169,16 +171,17 @@ void note_choice(const VdbGrid& grid, const openvdb::FloatGrid& source, GridVolu
     constexpr std::size_t most_names = 8;
     const std::size_t others = grid.passed_over.size(), named = std::min(others, most_names);
     if (others > 0)
-        volume.notes.lines.push_back(
-            fmt::format("the grid \"{}\" is read and {} passed over: {}{}", shown(grid), others,
-                        fmt::join(grid.passed_over.begin(), grid.passed_over.begin() + static_cast<std::ptrdiff_t>(named), ", "),
-                        named < others ? ", ..." : ""));
+        volume.notes.lines.push_back(fmt::format(
+            "the grid \"{}\" is read and {} passed over: {}{}", shown(grid), others,
+            fmt::join(grid.passed_over.begin(), grid.passed_over.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+            named < others ? ", ..." : ""));
     else if (grid.name != usual_grid)
         volume.notes.lines.push_back(fmt::format("the grid \"{}\" is read, the only one", shown(grid)));
     if (source.background() > 0.0f)
-        volume.notes.lines.push_back(fmt::format("the grid's background is {}, but outside the box of its active voxels "
-                                                 "there is no density",
-                                                 source.background()));
+        volume.notes.lines.push_back(
+            fmt::format("the grid's background is {}, but outside the box of its active voxels "
+                        "there is no density",
+                        source.background()));
 }
 
 }  // namespace

@@ -149,8 +149,8 @@ struct Receivers {
     std::vector<Vec3d> points;   // given, world space; none: there is a camera, or points are spread
     int count = 65536;           // points to spread
     std::uint64_t seed = 7;      // of the spread points, and of the draw between a pixel's surfaces
-    double filter_width = 1.0;  // map pixels
-    double bias = 0.0;          // moves every receiver towards the light, world length, >= 0
+    double filter_width = 1.0;   // map pixels
+    double bias = 0.0;           // moves every receiver towards the light, world length, >= 0
 };
 
 struct Reference {

@@ -13,7 +13,6 @@
 
 #include "base/error.h"
 #include "base/hash_text.h"
-#include "document/document.h"
 #include "results/program.h"
 #include "service/jobs/board.h"
 #include "service/jobs/folders.h"

@@ -144,14 +144,18 @@ TEST(CameraPoints, see_surfaces_through_the_media_before_them) {
     }
 }
 
+rays::SurfaceHit at(double t, const Vec3d& opacity) {
+    return {t, Vec3d(0.0), Vec3d(0.0), Vec3d(0.0), opacity};
+}
+
 TEST(CameraPoints, take_the_nearest_where_nothing_is_left_of_what_is_seen) {
-    const std::vector<rays::SurfaceHit> surfaces{{2, {}, {}, {}, Vec3d(0.5)}, {3, {}, {}, {}, Vec3d(1.0)}};
+    const std::vector<rays::SurfaceHit> surfaces{at(2, Vec3d(0.5)), at(3, Vec3d(1.0))};
     const std::vector<rays::TracedSegment> dark{{0.5, 1.0, Vec3d(0.0)}};
     for (const double u : {0.0, 0.3, 0.999}) EXPECT_EQ(draw_surface(surfaces, dark, u), 0u) << u;
     const std::vector<rays::TracedSegment> between{{2.5, 2.75, Vec3d(0.0)}};
     for (const double u : {0.0, 0.3, 0.999}) EXPECT_EQ(draw_surface(surfaces, between, u), 0u) << u;
-    const std::vector<rays::SurfaceHit> unseen{
-        {2, {}, {}, {}, Vec3d(1, 0, 0)}, {3, {}, {}, {}, Vec3d(1, 0, 0)}, {4, {}, {}, {}, Vec3d(0, 1, 1)}};
+    const Vec3d red(1, 0, 0);
+    const std::vector<rays::SurfaceHit> unseen{at(2, red), at(3, red), at(4, Vec3d(0, 1, 1))};
     EXPECT_EQ(draw_surface(unseen, {}, 0.0), 0u);
     EXPECT_EQ(draw_surface(unseen, {}, 0.999), 2u) << "the second is behind red alone";
 }
@@ -251,7 +255,9 @@ TEST_P(SeenSurface, gains_receivers_from_the_floor_and_loses_none_as_its_opacity
             EXPECT_LE(points[i].position.length(), before[i].position.length() + 0.03) << i << " at " << opacity;
             moved += points[i].position != before[i].position || points[i].across != before[i].across;
         }
-        if (opacity == 0.51f) EXPECT_LT(moved, 0.05 * 120 * 120);
+        if (opacity == 0.51f) {
+            EXPECT_LT(moved, 0.05 * 120 * 120);
+        }
         before = points;
     }
 }

@@ -183,7 +183,7 @@ protected:
     curves::Curve function(float stray) const {
         curves::SweepScratch scratch;
         curves::Curve curve;
-        curves::visibility(capture_->tile(0, {}, 0), 0, 4, 0x1p-24, scratch, curve);
+        curves::visibility(capture_->tile(0), 0, 4, 0x1p-24, scratch, curve);
         const float end = curve.back().value, span = 1.0f - end;
         for (curves::Vertex& v : curve) v.value += stray * 4.0f * (1.0f - v.value) * (v.value - end) / (span * span);
         return curve;

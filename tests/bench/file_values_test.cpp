@@ -89,7 +89,8 @@ TEST(FileValues, TwoHundredFaintLayers) {
 // Light along -y through a box of density 0.5; the map lies inside of the box.
 json volume_document(const std::string& file, const std::string& more = "") {
     return json::parse(R"({"name": "volume", "scene": {"objects": [
-            {"type": "volume", "file": ")" + file + R"(", "extinction": 0.2)" + more + R"(}]},
+            {"type": "volume", "file": ")" +
+                       file + R"(", "extinction": 0.2)" + more + R"(}]},
         "lights": [{"type": "directional", "direction": [0.3, -1, 0.2], "extent": [2, 2]}],
         "rays": {"resolution": 16, "samples_per_pixel": 1},
         "receivers": {"type": "probes", "count": 500},
@@ -117,8 +118,8 @@ TEST(FileValues, VolumesWithoutANameTurnedAndSwapped) {
 
 TEST(FileValues, AVolumeWithADensityJustBelow0) {
     json document = volume_document("tinyneg.vdb");
-    document["lights"][0] = {{"type", "directional"}, {"direction", {0, -1, 0}}, {"target", {1, 0, 1}},
-                             {"extent", {1e-3, 1e-3}}};
+    document["lights"][0] = {
+        {"type", "directional"}, {"direction", {0, -1, 0}}, {"target", {1, 0, 1}}, {"extent", {1e-3, 1e-3}}};
     // The column of (1, 1, 1) has 0 at one of its 16 voxels, and what is linear towards its neighbours.
     expect_everywhere(document, "uncompressed", far_away, {std::exp(-0.2 * 0.5 * 15.0)}, 1e-3);
     document["lights"][0]["target"] = {8, 0, 8};

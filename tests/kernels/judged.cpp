@@ -123,7 +123,7 @@ void Judged::check_answers(const std::vector<techniques::Query>& queries, const 
     pass();
     check(first == answers, "the same lookups are answered differently");
     bench::Contender answering;
-    answering.cell.promises = state_->cell().promises;
+    answering.promises = state_->contender[0].promises;
     bench::check_answers(answering, queries, answers);
     check(answering.ok(), answering.cell.reason);
 }

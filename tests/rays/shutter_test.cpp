@@ -79,7 +79,9 @@ TEST(Shutter, EachColumnAndEachRowOfCellsHasOneRayInEachLongStretch) {
                     ++row[static_cast<std::size_t>(j * s + part / n)];
                 }
             ASSERT_EQ(std::count(column.begin(), column.end(), 1), samples);
-            if (n % s == 0) ASSERT_EQ(std::count(row.begin(), row.end(), 1), samples);
+            if (n % s == 0) {
+                ASSERT_EQ(std::count(row.begin(), row.end(), 1), samples);
+            }
         });
 }
 

@@ -104,8 +104,8 @@ TEST(VerdictsMarkdown, does_not_depend_on_the_clock_and_the_machine) {
                 for (Cell& one : each.cells) one.times = CellTimes{};
             }
     }
-    EXPECT_EQ(verdicts_markdown(three(), columns), verdicts_markdown(other));
-    EXPECT_EQ(verdicts_text(three(), columns), verdicts_text(other));
+    EXPECT_EQ(verdicts_markdown(three(), columns), verdicts_markdown(other, columns));
+    EXPECT_EQ(verdicts_text(three(), columns), verdicts_text(other, columns));
 }
 
 TEST(VerdictsText, names_what_failed_and_what_could_not_be_run) {

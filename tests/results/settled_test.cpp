@@ -168,7 +168,7 @@ TEST(Settled, TheRunSaysSoWhereverItIsShown) {
     ASSERT_EQ(json["times"]["unsettled"].size(), 1u);
     EXPECT_EQ(json["times"]["unsettled"][0]["light"], "fill");
     EXPECT_EQ(json["times"]["unsettled"][0]["variant"], 0);
-    EXPECT_EQ(from_json(json).times.seconds, 0.0) << "what is derived is read past";
+    EXPECT_EQ(from_json(json, "").times.seconds, 0.0) << "what is derived is read past";
     result.variants[0].lights.pop_back();
     json = to_json(result);
     EXPECT_EQ(json["times"]["settled"], true);

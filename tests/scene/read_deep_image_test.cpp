@@ -88,16 +88,16 @@ TEST(ReadDeepImage, TellsThePixelOfABadSample) {
 
 // "Interpreting OpenEXR Deep Pixels": ZBack says where a volume ends; 0, or anything before Z, says nothing.
 TEST(ReadDeepImage, TakesABackThatIsNotBehindForASurface) {
-    const DeepImage image = read_deep_image(
-        write({"A", "Z", "ZBack"}, {{{0.5f, 3, 0}}, {{0.25f, 1, 2}}, {{0.5f, 2, 1}}, {{1, 4, -infinity}}, {{0, -2, 0}}}));
+    const DeepImage image = read_deep_image(write(
+        {"A", "Z", "ZBack"}, {{{0.5f, 3, 0}}, {{0.25f, 1, 2}}, {{0.5f, 2, 1}}, {{1, 4, -infinity}}, {{0, -2, 0}}}));
     EXPECT_THAT(image.z_front, ElementsAre(-2, 1, 2, 3, 4));
     EXPECT_THAT(image.z_back, ElementsAre(0, 2, 2, 3, 4));
     EXPECT_THAT(image.notes.lines, ElementsAre("3 of 5 samples have their ZBack before Z: taken as surfaces"));
 }
 
 TEST(ReadDeepImage, KeepsSamplesAtInfinityBehindEverything) {
-    const DeepImage image = read_deep_image(
-        write({"A", "Z"}, {{{1, infinity}}, {{0.5f, 1e30f}}, {{0.25f, 7}}, {{0.5f, 1.5e18f}}}));
+    const DeepImage image =
+        read_deep_image(write({"A", "Z"}, {{{1, infinity}}, {{0.5f, 1e30f}}, {{0.25f, 7}}, {{0.5f, 1.5e18f}}}));
     EXPECT_THAT(image.z_front, ElementsAre(7, 1.5e18f, 1e30f, infinity));
     EXPECT_EQ(image.z_back, image.z_front);
     EXPECT_THAT(image.transmittance, ElementsAre(0.75f, 0.5f, 0.5f, 0));
@@ -121,8 +121,8 @@ TEST(ReadDeepImage, AnEndlessStretchIsFarOrWhereItIsOpaqueASurface) {
 }
 
 TEST(ReadDeepImage, ReadsAnAlphaOfEachColour) {
-    const DeepImage image = read_deep_image(
-        write({"A", "AB", "AG", "AR", "Z"}, {{{0.5f, 0.75f, 0.5f, 0.25f, 4}}, {{9, 0, 1, 0.5f, 2}}}));
+    const DeepImage image =
+        read_deep_image(write({"A", "AB", "AG", "AR", "Z"}, {{{0.5f, 0.75f, 0.5f, 0.25f, 4}}, {{9, 0, 1, 0.5f, 2}}}));
     EXPECT_EQ(image.channels, 3);
     EXPECT_THAT(image.z_front, ElementsAre(2, 4));
     EXPECT_THAT(image.transmittance, ElementsAre(0.5f, 0, 1, 0.75f, 0.5f, 0.25f));
@@ -138,8 +138,8 @@ TEST(ReadDeepImage, ReadsAnAlphaOfEachColour) {
 }
 
 TEST(ReadDeepImage, EqualAlphasAreOneChannel) {
-    const DeepImage image = read_deep_image(
-        write({"A", "AR", "AG", "AB", "Z"}, {{{0, 0.25f, 0.25f, 0.25f, 4}}, {{0, 1, 1, 1.001f, 5}}}));
+    const DeepImage image =
+        read_deep_image(write({"A", "AR", "AG", "AB", "Z"}, {{{0, 0.25f, 0.25f, 0.25f, 4}}, {{0, 1, 1, 1.001f, 5}}}));
     EXPECT_EQ(image.channels, 1);
     EXPECT_THAT(image.transmittance, ElementsAre(0.75f, 0));
     EXPECT_THAT(image.notes.lines, ElementsAre(HasSubstr("1 of 2 samples have an alpha just outside [0, 1]")));
@@ -155,14 +155,15 @@ TEST(ReadDeepImage, TakesTheOnlyLayerThatHasAlphaAndZ) {
         EXPECT_TRUE(image.notes.lines.empty());
     }
     for (const char* layer : {"other", "", "rgba.A"})
-        EXPECT_THAT(error_of([&] { read_deep_image(file, {layer, {}}); }).message(),
+        EXPECT_THAT(error_of([&] {
+                        read_deep_image(file, {layer, {}});
+                    }).message(),
                     AllOf(HasSubstr("no layer"), HasSubstr("that have them: rgba")));
 }
 
 TEST(ReadDeepImage, AsksWhichOfSeveralLayersIsMeant) {
     const auto file = write({"a.A", "a.Z", "b.c.A", "b.c.Z"}, {{{0.5f, 4, 0.25f, 5}}});
-    EXPECT_THAT(error_of([&] { read_deep_image(file); }).message(),
-                AllOf(HasSubstr("\"layer\""), HasSubstr("a, b.c")));
+    EXPECT_THAT(error_of([&] { read_deep_image(file); }).message(), AllOf(HasSubstr("\"layer\""), HasSubstr("a, b.c")));
     EXPECT_THAT(read_deep_image(file, {"b.c", {}}).z_front, ElementsAre(5));
     EXPECT_THAT(read_deep_image(file, {"a", {}}).transmittance, ElementsAre(0.5f));
     // Channels without a layer are the image itself.

@@ -150,8 +150,7 @@ TEST(ReadVdb, TakesDensitiesBelow0As0AndCountsThemOrRefusesThem) {
     const auto file = write({grid});
     const GridVolume volume = read_vdb(file, "density");
     EXPECT_THAT(volume.density, testing::ElementsAre(1, 0, 3, 11, 12, 0));
-    EXPECT_THAT(volume.notes.lines,
-                testing::ElementsAre("2 of 6 densities are below 0, the least -2.5: taken as 0"));
+    EXPECT_THAT(volume.notes.lines, testing::ElementsAre("2 of 6 densities are below 0, the least -2.5: taken as 0"));
     EXPECT_THAT(error_of([&] { read_vdb(file, "density", Negative::refuse); }).message(), HasSubstr("below 0"));
     EXPECT_EQ(read_vdb(write({small_grid()}), "density", Negative::refuse).density.size(), 6u);
 }

@@ -201,6 +201,26 @@ TEST_F(Cli, a_coloured_map_comes_back_in_colour) {
     EXPECT_EQ(cli({"run", path("again.json"), "--out", path("results")}).code, 0);
 }
 
+TEST_F(Cli, validate_says_what_of_a_file_is_passed_over) {
+    write("edge.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\nf 1 2\nl 1 2\nl 3 4\n");
+    const Outcome outcome = cli({"validate", path("tiny.json"), "--set",
+                                 R"(scene.objects=[{"type": "mesh", "name": "edge", "file": "edge.obj"}])"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("note: /scene/objects/0: passed over: faces of fewer than 3 corners (1), lines (2)\n"),
+              std::string::npos)
+        << outcome.out;
+}
+
+// As Windows' editor writes it.
+TEST_F(Cli, takes_a_scenario_with_a_byte_order_mark) {
+    write("marked.json", "\xef\xbb\xbf" + read(path("tiny.json")));
+    EXPECT_EQ(cli({"validate", path("marked.json")}).out, cli({"validate", path("tiny.json")}).out);
+    write("wide.json", std::string("\xff\xfe{\0}\0", 6));
+    const Outcome outcome = cli({"validate", path("wide.json")});
+    EXPECT_EQ(outcome.code, 65);
+    EXPECT_NE(outcome.err.find("save it as UTF-8"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Cli, counts_what_each_variant_has) {
     const Outcome outcome = cli({"validate", path("tiny.json"), "--set", "sweeps={\"/rays/seed\":[1,2,3]}"});
     EXPECT_EQ(outcome.out, "OK tiny: 3 variants of 1 light and 2 techniques\n") << outcome.err;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "techniques/built.h"
+#include "techniques/cells.h"
 #include "techniques/deep/deep.h"
 #include "techniques/deep/tile_cache.h"
 #include "techniques/deep_levels.h"
