@@ -157,7 +157,9 @@ private:
             if (!known->lost.empty()) pass_over(file_, known->lost);
             return;
         }
-        if (!is_word(keyword)) fail(fmt::format("\"{}\" is no keyword of a Wavefront OBJ file", keyword.substr(0, 40)));
+        if (!is_word(keyword))
+            fail(fmt::format("\"{}\" is not a keyword: the file is damaged, or not a Wavefront OBJ file",
+                             keyword.substr(0, 40)));
         ++unknown_;
         pass_over(file_, fmt::format("lines of the unknown keyword \"{}\"", keyword));
     }

@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
-#include "errors.h"
 #include "bench/functions.h"
 #include "bench/one_light.h"
 #include "bench/run.h"
 #include "document/technique_choice.h"
+#include "errors.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -105,14 +105,17 @@ TEST(FileValues, VolumesWithoutANameTurnedAndSwapped) {
     for (const char* file : {"noname.vdb", "rot90.vdb", "yzswap.vdb"}) {
         SCOPED_TRACE(file);
         expect_everywhere(volume_document(file), "uncompressed", far_away, {visibility}, 1e-6);
-        expect_runs(volume_document(file));
+        json exact = volume_document(file);
+        exact["rays"]["media"] = "cells";         // steps err, and the truth does not
+        exact["rays"]["samples_per_pixel"] = 64;  // the box's top lies across the rays: one ray a pixel is noisy
+        expect_runs(exact);
     }
     EXPECT_THAT(validate(volume_document("noname.vdb"), options()).notes,
                 ElementsAre("/scene/objects/0: the grid \"(no name)\" is read, the only one"));
     EXPECT_TRUE(validate(volume_document("rot90.vdb"), options()).notes.empty());
     expect_everywhere(volume_document("noname.vdb", R"(, "grid": 0)"), "uncompressed", far_away, {visibility}, 1e-6);
     EXPECT_THAT(test::error_of([&] { validate(volume_document("noname.vdb", R"(, "grid": 1)"), options()); },
-                         base::ErrorCode::bad_input, "/scene/objects/0/file"),
+                               base::ErrorCode::bad_input, "/scene/objects/0/file"),
                 HasSubstr("no grid number 1"));
 }
 
@@ -126,9 +129,10 @@ TEST(FileValues, AVolumeWithADensityJustBelow0) {
     expect_everywhere(document, "uncompressed", far_away, {std::exp(-0.2 * 0.5 * 16.0)}, 1e-6);
     EXPECT_THAT(validate(document, options()).notes,
                 ElementsAre("/scene/objects/0: 1 of 4096 densities are below 0, the least -1e-06: taken as 0"));
-    EXPECT_THAT(test::error_of([&] { validate(volume_document("tinyneg.vdb", R"(, "negative": "refuse")"), options()); },
-                         base::ErrorCode::bad_input, "/scene/objects/0/file"),
-                HasSubstr("-1e-06 is below 0"));
+    EXPECT_THAT(
+        test::error_of([&] { validate(volume_document("tinyneg.vdb", R"(, "negative": "refuse")"), options()); },
+                       base::ErrorCode::bad_input, "/scene/objects/0/file"),
+        HasSubstr("-1e-06 is below 0"));
 }
 
 json deep_document(const std::string& file, const std::string& more = "") {
@@ -160,10 +164,10 @@ TEST(FileValues, DeepSamplesOfALayer) {
     expect_half_at_3(deep_document("layered.exr"));
     expect_half_at_3(deep_document("layered.exr", R"(, "layer": "rgba", "part": 0)"));
     EXPECT_THAT(test::error_of([&] { validate(deep_document("layered.exr", R"(, "layer": "beauty")"), options()); },
-                         base::ErrorCode::bad_input, "/scene/deep_image/file"),
+                               base::ErrorCode::bad_input, "/scene/deep_image/file"),
                 HasSubstr("that have them: rgba"));
     EXPECT_THAT(test::error_of([&] { validate(deep_document("layered.exr", R"(, "part": "right")"), options()); },
-                         base::ErrorCode::bad_input, "/scene/deep_image/file"),
+                               base::ErrorCode::bad_input, "/scene/deep_image/file"),
                 HasSubstr("not there"));
 }
 

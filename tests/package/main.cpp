@@ -45,7 +45,7 @@ bool check() {
         techniques::read_parameters(row.parameters, nlohmann::json{{"tolerance", 0.001}}, "/techniques/0");
     const std::unique_ptr<techniques::Map> map = row.create(values);
     map->begin({layout, view, nullptr});
-    for (int tile = 0; tile < layout.tiles(); ++tile) map->add(capture.tile(tile, {}, map->needs().apron));
+    for (int tile = 0; tile < layout.tiles(); ++tile) map->add(capture.tile(tile, map->needs().apron));
     map->finish();
 
     const base::Vec3d places[] = {{0.1, 0.1, 0.5}, {0.1, 0.1, -0.5}, {1.6, 1.6, -0.5}};

@@ -235,7 +235,11 @@ void expect_agreement(scene::Scene scene, const scene::Light& light) {
     double worst = 0.0;
     for_each_ray(c, [&](const LightRays& t, std::size_t ray, int i, int j) {
         const SamplePosition p = sample_position(c.layout, i, j);
-        const double through = tracer.transmittance(c.view, p.x, p.y, 1e9, traced, sample_time(c.layout, i, j)).x;
+        const LightLine line = light_line(c.view, p.x, p.y);
+        tracer.all_segments(line.origin, line.direction, std::max(line.z_start, 0.0), 1e9, traced,
+                            sample_time(c.layout, i, j), Tracer::Grids::steps);
+        double through = 1.0;
+        for (const TracedSegment& s : traced) through *= s.transmittance.x;
         ++rays;
         met += traced.size() > 1;
         if (traced.size() != segments_of(t, ray)) {

@@ -113,9 +113,9 @@ TEST(Render, composites_a_stack_of_layers_as_the_closed_form_has_it) {
     json& objects = document["scene"]["objects"] = json::array();
     for (std::size_t i = 0; i < opacities.size(); ++i)
         objects.push_back({{"type", "quad"},
-                           {"corner", {-3, 1.0 - 0.25 * static_cast<double>(i), -3}},
-                           {"edge_u", {0, 0, 6}},
-                           {"edge_v", {6, 0, 0}},
+                           {"corner", {-4, 1.0 - 0.25 * static_cast<double>(i), -4}},
+                           {"edge_u", {0, 0, 8}},
+                           {"edge_v", {8, 0, 0}},
                            {"opacity", {opacities[i].x, opacities[i].y, opacities[i].z}}});
     document["lights"] = json::parse(R"([{"type": "directional", "direction": [0, -1, 0]}])");
     document["rays"]["resolution"] = 16;

@@ -30,6 +30,7 @@ Result small_result() {
     good.nodes = {3, 7, 4, {0, 1, 1, 0, 1}};
     good.times = CellTimes{};
     good.times->build_ms = summarise({3.0, 1.0, 2.0});
+    good.times->image_order.ns = summarise({2.5});
     good.times->random_order.ns = summarise({7.5});
     Cell bad = good;
     bad.status = CellStatus::failed;
@@ -72,7 +73,7 @@ TEST(ResultJson, gives_every_cell_a_verdict) {
     EXPECT_EQ(cells[1]["verdict"], "failed");
     EXPECT_EQ(cells[1]["verdict_why"], cells[1]["reason"]);
     EXPECT_EQ(json["schema_version"], 1) << "keys were added; those that were there mean what they meant";
-    EXPECT_NE(to_csv(small_result()).find(",verdict,verdict_why\n"), std::string::npos);
+    EXPECT_NE(to_csv(small_result()).find(",verdict,verdict_why,settled\n"), std::string::npos);
 }
 
 TEST(ResultJson, holds_the_clock_under_times_only) {

@@ -30,6 +30,8 @@ LightResult light_of(int cells, int repetitions, const Floor& floor) {
             for (int r = 0; r < repetitions; ++r) raw.push_back(floor(c, order, r));
             (order ? cell.times->random_order : cell.times->image_order).floor = summarise(raw);
         }
+        cell.times->build_ms = summarise({1.0});
+        cell.times->image_order.ns = cell.times->random_order.ns = summarise({10.0});
         light.cells.push_back(std::move(cell));
     }
     return light;

@@ -183,7 +183,7 @@ TEST(LoadMesh, RefusesAFileWithoutTriangles) {
     const auto folder = test::write_file("a.obj", "v 0 0 0\n").parent_path();
     const base::Error hollow = failure(R"({"type": "mesh", "file": "a.obj"})", {folder});
     EXPECT_THAT(hollow.message(), HasSubstr((folder / "a.obj").string()));
-    EXPECT_THAT(hollow.message(), HasSubstr("no triangles"));
+    EXPECT_THAT(hollow.message(), HasSubstr("a point cloud: 1 vertices and no faces"));
     EXPECT_EQ(hollow.where(), "/scene/objects/0/file") << "where an editor marks it";
     const base::Error missing = failure(R"({"type": "mesh", "file": "b.obj"})", {folder});
     EXPECT_EQ(missing.code(), base::ErrorCode::no_such_file);

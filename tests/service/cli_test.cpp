@@ -375,9 +375,13 @@ TEST_F(Cli, looks_for_data_in_no_folder_outside_unless_it_is_named) {
         "lights": [{"type": "directional", "direction": [0, -1, 0]}], "techniques": [{"type": "deep"}]})");
     const fs::path before = fs::current_path();
     fs::current_path(folder_ / "project");
+    const char* data = std::getenv("SHADOWBENCH_DATA");
+    const std::string kept = data ? data : "";
+    unsetenv("SHADOWBENCH_DATA");
     const Outcome alone = cli({"validate", "quad.json"});
     const Outcome named = cli({"validate", "quad.json", "--data", "../shared/data"});
     fs::current_path(before);
+    if (data) setenv("SHADOWBENCH_DATA", kept.c_str(), 1);
     EXPECT_EQ(alone.code, 66) << alone.out;
     EXPECT_EQ(alone.err.find("shared"), std::string::npos) << alone.err;
     EXPECT_EQ(named.code, 0) << named.err;

@@ -38,14 +38,14 @@ double mean_over(const Query& q, double cell, double map_width, double map_heigh
     return sum / area;
 }
 
-// The same of the cells of a map whose centres lie within width / 2, whole.
+// The same of the cells of a map whose centres lie within width / 2, whole; of those at the very border the upper ones.
 template <class Value>
 double mean_of_centres(const Query& q, double cell, double map_width, double map_height, const Value& value) {
     double sum = 0.0, weights = 0.0;
     for (int y = 0; y * cell < map_height; ++y)
         for (int x = 0; x * cell < map_width; ++x) {
-            if (std::abs((x + 0.5) * cell - q.x) > 0.5 * q.width || std::abs((y + 0.5) * cell - q.y) > 0.5 * q.width)
-                continue;
+            const double dx = (x + 0.5) * cell - q.x, dy = (y + 0.5) * cell - q.y, reach = 0.5 * q.width;
+            if (dx <= -reach || dx > reach || dy <= -reach || dy > reach) continue;
             const double w = covered(x * cell, (x + 1) * cell, 0, 1e9, map_width) *
                              covered(y * cell, (y + 1) * cell, 0, 1e9, map_height);
             sum += w * value(x, y);
