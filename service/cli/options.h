@@ -1,5 +1,4 @@
-// The commands with their options, a group a file. The files that include CLI11 are compiled as one (CMakeLists.txt):
-// it takes longer than all else in them.
+// The commands with their options, a group a file.
 #pragma once
 
 #include <functional>

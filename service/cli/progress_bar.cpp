@@ -14,7 +14,7 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr std::size_t width = 30;
-constexpr std::chrono::milliseconds between_frames{50}, between_ticks{1000}, between_lines{5000};
+constexpr std::chrono::milliseconds between_frames{50}, between_ticks{1000}, between_log_lines{5000};
 
 ProgressBar::Style style_of(const std::ostream& stream) {
     if (&stream != &std::cerr) return ProgressBar::Style::none;
@@ -40,7 +40,7 @@ private:
 }  // namespace
 
 ProgressBar::ProgressBar(std::ostream& stream)
-    : ProgressBar(stream, style_of(stream), style_of(stream) == Style::bar ? between_ticks : between_lines) {}
+    : ProgressBar(stream, style_of(stream), style_of(stream) == Style::bar ? between_ticks : between_log_lines) {}
 
 ProgressBar::ProgressBar(std::ostream& stream, Style style, std::chrono::milliseconds every)
     : stream_(stream), style_(style), every_(every) {

@@ -56,7 +56,7 @@ fs::file_type type_of(const fs::path& place) {
     return type;
 }
 
-std::vector<fs::path> entries_of(const fs::path& folder) {
+std::vector<fs::path> state_entries(const fs::path& folder) {
     std::vector<fs::path> entries;
     std::error_code failed;
     for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
@@ -67,19 +67,19 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
 
 // What a start makes before its mark is in place, and lost+found, as a new file system has it, hold nothing.
 bool holds_nothing(const fs::path& folder) {
-    for (const fs::path& entry : entries_of(folder)) {
+    for (const fs::path& entry : state_entries(folder)) {
         const std::string name = entry.filename().string();
         if (name == lost_name || name == pending_mark_name) continue;
         std::error_code failed;
         const bool empty_file = (name == "lock" || name == "jobs.db") && fs::file_size(entry, failed) == 0;
-        const bool empty_folder = (name == "jobs" || name == "work") && entries_of(entry).empty();
+        const bool empty_folder = (name == "jobs" || name == "work") && state_entries(entry).empty();
         if (!empty_file && !empty_folder) return false;
     }
     return true;
 }
 
 bool has_results(const fs::path& jobs) {
-    for (const fs::path& entry : entries_of(jobs))
+    for (const fs::path& entry : state_entries(jobs))
         if (const std::string name = entry.filename().string(); is_job_id(name) && read_record(entry, name)) return true;
     return false;
 }
@@ -129,7 +129,7 @@ bool check_ours(const fs::path& folder) {
     return false;
 }
 
-void sync(const fs::path& place) {
+void sync_place(const fs::path& place) {
     const int file = ::open(place.c_str(), O_RDONLY | O_CLOEXEC);
     const bool done = file >= 0 && ::fsync(file) == 0;
     const std::error_code failed(errno, std::generic_category());
@@ -149,7 +149,7 @@ void write_mark(const fs::path& folder) {
     if (!done) fail(folder, "the state folder cannot be written", failed);
     fs::rename(pending, folder / mark_name, failed);
     if (failed) fail(folder / mark_name, "cannot be written", failed);
-    sync(folder);
+    sync_place(folder);
 }
 
 // A new folder in lost+found, of this moment.
@@ -187,7 +187,7 @@ bool StateFolder::set_aside(const fs::path& place, const std::string& why) {
         if (!failed && type_of(to) != fs::file_type::not_found) failed = std::make_error_code(std::errc::file_exists);
         if (!failed) fs::rename(path_ / place, to, failed);
         if (!failed) {
-            sync(lost_);
+            sync_place(lost_);
             say_(fmt::format("{}: {}; moved to {}", from, why, to.string()));
             return true;
         }
