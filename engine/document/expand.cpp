@@ -28,7 +28,7 @@ struct Sweep {
 };
 
 // "/sweeps/~1rays~1seed": the place of a sweep in the document.
-std::string place_of(const std::string& pointer) {
+std::string sweep_place(const std::string& pointer) {
     return (json::json_pointer("/sweeps") / pointer).to_string();
 }
 
@@ -36,7 +36,7 @@ std::vector<Sweep> read_sweeps(const json& document) {
     std::vector<Sweep> sweeps;
     if (!document.contains("sweeps")) return sweeps;
     for (const auto& [text, values] : document.at("sweeps").items()) {
-        const std::string where = place_of(text);
+        const std::string where = sweep_place(text);
         if (!values.is_array() || values.empty())
             throw Error(ErrorCode::bad_input, where, "expected a list of one value or more");
         try {

@@ -10,7 +10,7 @@
 namespace shadowbench::results {
 namespace {
 
-std::string number(double value) {
+std::string csv_number(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
@@ -30,15 +30,15 @@ std::string settings_text(const VariantResult& variant) {
 }
 
 std::string from_times(const Row& row, double (*read)(const CellTimes&)) {
-    return row.cell.times ? number(read(*row.cell.times)) : std::string();
+    return row.cell.times ? csv_number(read(*row.cell.times)) : std::string();
 }
 
 std::string from_curve(const Row& row, double (*read)(const CurveErrors&)) {
-    return row.cell.curve ? number(read(*row.cell.curve)) : std::string();
+    return row.cell.curve ? csv_number(read(*row.cell.curve)) : std::string();
 }
 
 std::string from_lookup(const Row& row, double (*read)(const LookupErrors&)) {
-    return row.cell.lookup ? number(read(*row.cell.lookup)) : std::string();
+    return row.cell.lookup ? csv_number(read(*row.cell.lookup)) : std::string();
 }
 
 struct Column {
@@ -84,7 +84,7 @@ const Column columns[] = {
     {"bytes", [](const Row& r) { return fmt::format("{}", r.cell.bytes); }},
     {"working_bytes", [](const Row& r) { return fmt::format("{}", r.cell.working_bytes); }},
     {"nodes_total", [](const Row& r) { return fmt::format("{}", r.cell.nodes.total); }},
-    {"nodes_mean", [](const Row& r) { return number(r.cell.nodes.mean()); }},
+    {"nodes_mean", [](const Row& r) { return csv_number(r.cell.nodes.mean()); }},
     {"nodes_max", [](const Row& r) { return fmt::format("{}", r.cell.nodes.max); }},
     {"curve_error_max", [](const Row& r) { return from_curve(r, [](const CurveErrors& e) { return e.norms.max; }); }},
     {"curve_error_rms", [](const Row& r) { return from_curve(r, [](const CurveErrors& e) { return e.norms.rms; }); }},

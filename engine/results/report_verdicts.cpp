@@ -111,7 +111,7 @@ std::string figure(double value) {
     return std::isfinite(value) ? fmt::format("{:.3g}", value) : "-";
 }
 
-std::vector<std::string> row_of(const Cell& cell) {
+std::vector<std::string> verdict_row(const Cell& cell) {
     const std::string word = to_string(cell.verdict);
     return {title(cell),
             cell.verdict == Verdict::failed ? "**" + word + "**" : word,
@@ -135,7 +135,7 @@ std::string light_section(const Result& result, const VariantResult& variant, co
                                            : fmt::format(" {} of {} receivers are outside the map.", light.dropped,
                                                          light.dropped + light.receivers));
     std::vector<std::vector<std::string>> rows;
-    for (const Cell& cell : light.cells) rows.push_back(row_of(cell));
+    for (const Cell& cell : light.cells) rows.push_back(verdict_row(cell));
     return text + base::markdown_table({"technique", "verdict", "curve max", "lookup rms", "lookup max", "bytes",
                                         "nodes mean", "nodes max", "why"},
                                        rows);

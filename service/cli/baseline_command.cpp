@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 using base::Error;
 using base::ErrorCode;
 
-constexpr int wrong_answer = 2;  // exit code of the kernels
-
 std::vector<fs::path> files_of(const std::vector<std::string>& names) {
     std::vector<fs::path> files;
     for (const std::string& name : names) {

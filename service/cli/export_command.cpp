@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <memory>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -100,15 +99,12 @@ void export_command(const ExportArguments& arguments, std::ostream& out, std::os
     const Job job = read_job(arguments);
     { const base::PendingFile writable(arguments.out); }  // found out now, and not after all the work
     const base::ThreadLimit threads(job.options.threads);
-    std::unique_ptr<ProgressBar> bar;
-    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
-    const bench::ProgressCallback progress = [&](const bench::Progress& p) {
-        if (bar) bar->show(p);
-    };
+    ProgressBar bar(err);
+    const bench::ProgressCallback progress = [&](const bench::Progress& p) { bar.show(p); };
     const bench::OneLight light(*job.document, job.options, arguments.light);
     const std::string text = arguments.rays ? export_rays(arguments, light, progress)
                                             : export_map(arguments, tiled, light, technique, progress);
-    bar.reset();
+    bar.end();
     out << text;
 }
 

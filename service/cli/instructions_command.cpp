@@ -26,8 +26,6 @@ using base::Error;
 using base::ErrorCode;
 using json = nlohmann::ordered_json;
 
-constexpr int wrong_answer = 2;  // exit code of the kernels
-
 // The C library chooses its functions by what the processor can do: these features are hidden from it, so that as many
 // processors as can be count alike, and symbols are bound before anything is counted.
 constexpr const char* surroundings[] = {

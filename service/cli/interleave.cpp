@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <sstream>
 #include <tuple>
 
@@ -86,15 +85,13 @@ void run_turns(const Turns& turns, const fs::path& folder, std::ostream& err) {
         fs::create_directories(folder / side, failed);
         if (failed) throw Error(ErrorCode::io, folder.string(), "cannot make the folder: " + failed.message());
     }
-    std::unique_ptr<ProgressBar> bar;
-    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
+    ProgressBar bar(err);
     const auto total = static_cast<std::size_t>(turns.pairs) * 2;
     for (int pair = 0; pair < turns.pairs; ++pair)
         for (const bool second : {false, true}) {
             const bool is_b = second == (pair % 2 == 0);  // neither always goes first
-            if (bar)
-                bar->show({fmt::format("{} pair {}/{}", turns.what, pair + 1, turns.pairs), is_b ? "B" : "A",
-                           static_cast<std::size_t>(pair) * 2 + second, total});
+            bar.show({fmt::format("{} pair {}/{}", turns.what, pair + 1, turns.pairs), is_b ? "B" : "A",
+                      static_cast<std::size_t>(pair) * 2 + second, total});
             run_once(turns, is_b, pair, folder);
         }
     fs::remove(folder / "log.txt", failed);

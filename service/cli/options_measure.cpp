@@ -9,14 +9,12 @@
 #include "service/cli/options.h"
 
 namespace shadowbench::service {
-namespace {
 
-constexpr int promise_broken = 2;  // less accurate than it says
-
-// One value an option, as often as the option is given: a following positional argument stays one.
 void repeatable(CLI::Option* option) {
     option->allow_extra_args(false);
 }
+
+namespace {
 
 // CLI::Range lets what is not a number through.
 CLI::Validator in_range(double least, double most) {

@@ -10,8 +10,6 @@
 namespace shadowbench::service {
 namespace {
 
-constexpr int promise_broken = 2;
-
 void add_data(CLI::App& command, std::vector<std::string>& data, const char* text) {
     command.add_option("--data", data, text)->allow_extra_args(false);
 }

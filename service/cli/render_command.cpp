@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <charconv>
-#include <memory>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -57,12 +56,10 @@ bool render_command(const RenderArguments& arguments, std::ostream& out, std::os
     base::Undo made;  // a rendering that fails leaves no folder
     base::make_writable(folder, made);
 
-    std::unique_ptr<ProgressBar> bar;
-    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
-    const render::Rendering rendering = render::render(*job.document, options, [&](const bench::Progress& progress) {
-        if (bar) bar->show(progress);
-    });
-    bar.reset();
+    ProgressBar bar(err);
+    const render::Rendering rendering =
+        render::render(*job.document, options, [&](const bench::Progress& progress) { bar.show(progress); });
+    bar.end();
     render::write_pictures(folder, rendering);
     made.keep();
     out << render::to_table(rendering)

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <ctime>
-#include <memory>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -66,13 +65,10 @@ void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, s
     context.threads = arguments.threads;
     std::vector<claims::PaperReport> reports;
     for (const claims::Paper* paper : papers) {
-        std::unique_ptr<ProgressBar> bar;
-        if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
-        context.progress = [&](const bench::Progress& progress) {
-            if (bar) bar->show(progress);
-        };
+        ProgressBar bar(err);
+        context.progress = [&](const bench::Progress& progress) { bar.show(progress); };
         reports.push_back(claims::measure(*paper, context));
-        bar.reset();
+        bar.end();
         out << reports.back().title << "\n";
         for (const claims::Claim& claim : reports.back().claims)
             out << fmt::format("  {:<18}  {}: {}; here {}\n", to_string(claim.verdict), claim.place, claim.says,

@@ -1,6 +1,5 @@
 #include <deque>
 #include <map>
-#include <memory>
 #include <optional>
 #include <ostream>
 #include <utility>
@@ -54,7 +53,7 @@ void refuse_equal_names(const std::vector<Planned>& plan) {
 }
 
 // All that are asked for. Of several, each is checked first: a fault in one is found before the first is run.
-std::vector<Planned> make_plan(const RunArguments& arguments, bool& several) {
+std::vector<Planned> make_plan(const RunArguments& arguments, bool& several, std::ostream& err) {
     std::vector<fs::path> files;
     several = arguments.scenarios.size() > 1;
     for (const std::string& name : arguments.scenarios) {
@@ -69,7 +68,9 @@ std::vector<Planned> make_plan(const RunArguments& arguments, bool& several) {
         plan.push_back({files[0], std::move(job), std::move(folder)});
         return plan;
     }
+    ProgressBar bar(err);
     for (const fs::path& file : files) {
+        bar.show({file.filename().string(), "check", plan.size(), files.size()});
         try {
             Job job = read_job(arguments, file);
             bench::validate(*job.document, job.options);
@@ -84,12 +85,10 @@ std::vector<Planned> make_plan(const RunArguments& arguments, bool& several) {
 }
 
 results::Result run_one(const Planned& planned, const std::string& place, std::ostream& err) {
-    std::unique_ptr<ProgressBar> bar;
-    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
+    ProgressBar bar(err);
     return bench::run(*planned.job.document, planned.job.options, [&](bench::Progress progress) {
-        if (!bar) return;
         if (!place.empty()) progress.place = place + (progress.place.empty() ? "" : " ") + progress.place;
-        bar->show(progress);
+        bar.show(progress);
     });
 }
 
@@ -124,7 +123,7 @@ bench::Validated check(const Job& job, std::ostream& err) {
 
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
     bool several = false;
-    const std::vector<Planned> plan = make_plan(arguments, several);
+    const std::vector<Planned> plan = make_plan(arguments, several, err);
     // Before hours are spent on what goes there. A run that fails leaves no folder.
     base::Undo made_for_verdicts;
     const fs::path verdicts = verdicts_file(arguments, several);

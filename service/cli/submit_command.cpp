@@ -1,6 +1,5 @@
 #include <chrono>
 #include <functional>
-#include <memory>
 #include <ostream>
 #include <random>
 #include <thread>
@@ -103,10 +102,9 @@ Reply patiently(const std::function<Reply()>& ask, const std::string& server, st
 
 json wait_for(Client& client, json job, const std::string& server, std::ostream& err) {
     const std::string self = job.at("links").at("self");
-    std::unique_ptr<ProgressBar> bar;
-    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
+    ProgressBar bar(err);
     while (job.at("state") == "queued" || job.at("state") == "running") {
-        if (bar) show(job, *bar);
+        show(job, bar);
         std::this_thread::sleep_for(between_looks);
         job = take(patiently([&] { return client.get(self); }, server, err), 200, server);
     }

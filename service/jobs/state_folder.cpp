@@ -126,7 +126,7 @@ bool check_ours(const fs::path& folder) {
     return false;
 }
 
-void sync(const fs::path& place) {
+void sync_place(const fs::path& place) {
     const int file = ::open(place.c_str(), O_RDONLY | O_CLOEXEC);
     const bool done = file >= 0 && ::fsync(file) == 0;
     const std::error_code failed(errno, std::generic_category());
@@ -146,7 +146,7 @@ void write_mark(const fs::path& folder) {
     if (!done) fail(folder, "the state folder cannot be written", failed);
     fs::rename(pending, folder / mark_name, failed);
     if (failed) fail(folder / mark_name, "cannot be written", failed);
-    sync(folder);
+    sync_place(folder);
 }
 
 // A new folder in lost+found, of this moment.
@@ -184,7 +184,7 @@ bool StateFolder::set_aside(const fs::path& place, const std::string& why) {
         if (!failed && type_of(to) != fs::file_type::not_found) failed = std::make_error_code(std::errc::file_exists);
         if (!failed) fs::rename(path_ / place, to, failed);
         if (!failed) {
-            sync(lost_);
+            sync_place(lost_);
             say_(fmt::format("{}: {}; moved to {}", from, why, to.string()));
             return true;
         }
