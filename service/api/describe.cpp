@@ -126,8 +126,8 @@ ApiResponse get_health(Context&, const Call&) {
 ApiResponse get_ready(Context& context, const Call&) {
     const bool stopping = context.jobs.stopping();
     if (!stopping && !context.jobs.storage_fails()) return json_answer(200, json{{"status", "ready"}});
-    ApiResponse response = problem(503, stopping ? "The server is stopping."
-                                                 : "The server's storage cannot be written: jobs wait until it can.");
+    ApiResponse response = problem(
+        503, stopping ? "The server is stopping." : "The server's storage cannot be written: jobs wait until it can.");
     response.headers.push_back({"Retry-After", "10"});
     return response;
 }

@@ -55,7 +55,10 @@ void add_serve(CLI::App& app, Commands& commands) {
     serve->add_option("--port-file", arguments->port_file, "File that the port is written to once it listens");
     serve->add_option("--token-file", arguments->token_file,
                       "File of a token, readable by its owner alone, that every request must bring");
-    serve->add_option("--state", arguments->state, "Folder of the jobs and their results: new, empty, or one of a server's")->capture_default_str();
+    serve
+        ->add_option("--state", arguments->state,
+                     "Folder of the jobs and their results: new, empty, or one of a server's")
+        ->capture_default_str();
     add_data(*serve, arguments->data, "A folder whose files scenarios may name; without it none");
     serve->add_option("--grace", arguments->grace, "Seconds that jobs have to end when the server stops")
         ->check(CLI::Range(0.0, 3600.0))

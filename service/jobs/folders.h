@@ -35,8 +35,8 @@ bool is_published(const JobFolders& folders, const std::string& id);
 void remove_folder(const std::filesystem::path& folder);  // as far as it can be
 void empty_folder(const std::filesystem::path& folder);   // likewise
 
-// Takes the results of a job from their place to removed_folder(), from where a start would go on to remove them; false:
-// there are none.
+// Takes the results of a job from their place to removed_folder(), from where a start would go on to remove them;
+// false: there are none.
 bool unpublish(const JobFolders& folders, const std::string& id);
 void discard_results(const JobFolders& folders, const std::string& id);  // all that, as far as it can be
 std::filesystem::path removed_folder(const JobFolders& folders, const std::string& id);

@@ -262,8 +262,8 @@ Jobs::Change Jobs::cancel(const std::string& id) {
     return Change::done;
 }
 
-// Files first, and a start would go on from there: so a full disk can be emptied, and no result is left without its job,
-// which the next start would take back.
+// Files first, and a start would go on from there: so a full disk can be emptied, and no result is left without its
+// job, which the next start would take back.
 Jobs::Change Jobs::remove(const std::string& id) {
     State& all = *state_;
     const std::optional<StoredJob> job = all.store.find(id);

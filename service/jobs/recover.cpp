@@ -144,9 +144,10 @@ void tell_of_missing(const JobStore& store, const JobFolders& folders, const Say
 std::unique_ptr<JobStore> open_store(StateFolder& state, const JobFolders& folders, const Say& say) {
     const fs::path file = state.database();
     const auto tell = [&](const char* why) {
-        say(fmt::format("{}: {}; a new one gets the jobs that have results: those that waited, failed or were cancelled "
-                        "are not known any more",
-                        file.string(), why));
+        say(fmt::format(
+            "{}: {}; a new one gets the jobs that have results: those that waited, failed or were cancelled "
+            "are not known any more",
+            file.string(), why));
     };
     if (kind_of_store(file) == StoreKind::none) {
         // SQLite would delete what lies beside a file that is not there.

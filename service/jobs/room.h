@@ -11,7 +11,8 @@ namespace shadowbench::service {
 inline constexpr std::uintmax_t least_room = std::uintmax_t{64} << 10;
 
 // Writes least_room bytes into a file of the folder that nobody sees, reserves `bytes` in all (where the file system
-// can), puts them onto the disk and gives them back. A kill in between may leave a file whose name is_room_file() knows.
+// can), puts them onto the disk and gives them back. A kill in between may leave a file whose name is_room_file()
+// knows.
 bool has_room(const std::filesystem::path& folder, std::uintmax_t bytes);
 bool is_room_file(const std::filesystem::path& file);
 

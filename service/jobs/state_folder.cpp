@@ -34,11 +34,15 @@ struct Part {
     const char* name;
     fs::file_type type;
 };
-constexpr Part parts[] = {{mark_name, fs::file_type::regular},     {pending_mark_name, fs::file_type::regular},
-                          {"lock", fs::file_type::regular},        {"jobs.db", fs::file_type::regular},
-                          {"jobs.db-wal", fs::file_type::regular}, {"jobs.db-shm", fs::file_type::regular},
+constexpr Part parts[] = {{mark_name, fs::file_type::regular},
+                          {pending_mark_name, fs::file_type::regular},
+                          {"lock", fs::file_type::regular},
+                          {"jobs.db", fs::file_type::regular},
+                          {"jobs.db-wal", fs::file_type::regular},
+                          {"jobs.db-shm", fs::file_type::regular},
                           {"jobs.db-journal", fs::file_type::regular},
-                                                  {"jobs", fs::file_type::directory},      {"work", fs::file_type::directory},
+                          {"jobs", fs::file_type::directory},
+                          {"work", fs::file_type::directory},
                           {lost_name, fs::file_type::directory}};
 
 [[noreturn]] void refuse(const fs::path& place, const std::string& why) {
@@ -80,7 +84,8 @@ bool holds_nothing(const fs::path& folder) {
 
 bool has_results(const fs::path& jobs) {
     for (const fs::path& entry : entries_of(jobs))
-        if (const std::string name = entry.filename().string(); is_job_id(name) && read_record(entry, name)) return true;
+        if (const std::string name = entry.filename().string(); is_job_id(name) && read_record(entry, name))
+            return true;
     return false;
 }
 
@@ -142,8 +147,8 @@ void write_mark(const fs::path& folder) {
     const std::string text = json{{"program", "shadowbench"}, {"layout", layout}}.dump() + "\n";
     const fs::path pending = folder / pending_mark_name;
     const int file = ::open(pending.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
-    const bool done = file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
-                      ::fsync(file) == 0;
+    const bool done =
+        file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(file) == 0;
     std::error_code failed(errno, std::generic_category());
     if (file >= 0) ::close(file);
     if (!done) fail(folder, "the state folder cannot be written", failed);

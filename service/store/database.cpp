@@ -22,8 +22,7 @@ bool has_tables(Database& database) {
 
 void check_whole(Database& database) {
     Rows rows(database, "PRAGMA integrity_check(1)");
-    if (!rows.next() || rows.text(0) != "ok")
-        database.fail_damaged("the database is damaged");
+    if (!rows.next() || rows.text(0) != "ok") database.fail_damaged("the database is damaged");
 }
 
 void write_ahead(Database& database) {
@@ -73,7 +72,8 @@ void Database::fail(const std::string& message) const {
 }
 
 void Database::fail_damaged(const std::string& what) const {
-    throw DamagedStore(base::ErrorCode::io, place_, what + "; the next start sets it aside and makes a new one from the results");
+    throw DamagedStore(base::ErrorCode::io, place_,
+                       what + "; the next start sets it aside and makes a new one from the results");
 }
 
 void Database::check(int code) const {

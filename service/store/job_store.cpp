@@ -122,7 +122,8 @@ constexpr std::string_view end_sql =
     "revision = ?7 WHERE id = ?8 AND state IN (?9, ?10)";
 
 constexpr std::string_view adopt_sql =
-    "INSERT INTO jobs (id, state, name, hash, seed, program, pictures, cached, created, started, ended, attempts, kept, "
+    "INSERT INTO jobs (id, state, name, hash, seed, program, pictures, cached, created, started, ended, attempts, "
+    "kept, "
     "revision, scenario) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15) "
     "ON CONFLICT (id) DO UPDATE SET state = ?2, started = ?10, ended = ?11, attempts = ?12, kept = ?13, revision = ?14 "
     "WHERE state IN (?16, ?17)";
@@ -288,7 +289,8 @@ void JobStore::adopt(const std::vector<KeptJob>& jobs) {
                  std::int64_t{job.attempts}, value(job.kept), value(state_->take_revision()), scenario,
                  job_states::queued, job_states::running});
             if (!key.empty())
-                run(database, "INSERT OR IGNORE INTO keys (key, request, job) SELECT ?, ?, sequence FROM jobs WHERE id = ?",
+                run(database,
+                    "INSERT OR IGNORE INTO keys (key, request, job) SELECT ?, ?, sequence FROM jobs WHERE id = ?",
                     {key, request, job.id});
         }
         return true;
@@ -308,7 +310,8 @@ std::optional<std::string> JobStore::scenario(const std::string& id) const {
 
 std::optional<JobStore::Key> JobStore::key_of(const std::string& id) const {
     const std::scoped_lock lock(state_->read_mutex);
-    Rows rows(*state_->reader, "SELECT key, request FROM keys JOIN jobs ON jobs.sequence = keys.job WHERE id = ?", {id});
+    Rows rows(*state_->reader, "SELECT key, request FROM keys JOIN jobs ON jobs.sequence = keys.job WHERE id = ?",
+              {id});
     return rows.next() ? std::optional(Key{rows.text(0), rows.text(1)}) : std::nullopt;
 }
 

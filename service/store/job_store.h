@@ -94,8 +94,8 @@ public:
 
     bool remove(const std::string& id);  // one that does not run
 
-    // Takes jobs in whose results lie in their place, all of them or none: those that the store does not have, and those
-    // that it has as queued or running. A key that another job has stays with that one.
+    // Takes jobs in whose results lie in their place, all of them or none: those that the store does not have, and
+    // those that it has as queued or running. A key that another job has stays with that one.
     void adopt(const std::vector<KeptJob>& jobs);
 
     std::optional<StoredJob> find(const std::string& id) const;

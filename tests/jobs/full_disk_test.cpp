@@ -61,7 +61,8 @@ protected:
     }
     // Does what it should, or says as the program does that its folder takes nothing.
     std::string writes(std::size_t bytes) const {
-        return "echo x >>" + path("runs") + "; head -c " + std::to_string(bytes) + " /dev/zero >big && echo {} >result.json || " +
+        return "echo x >>" + path("runs") + "; head -c " + std::to_string(bytes) +
+               " /dev/zero >big && echo {} >result.json || " +
                "{ echo '{\"storage\":{\"message\":\"full\"}}'; exit 74; }";
     }
     std::size_t runs() const { return fs::exists(path("runs")) ? count(base::read_text(path("runs")), "x") : 0; }
@@ -75,8 +76,8 @@ TEST_F(FullDisk, LetsJobsWaitAndGoOn) {
     EXPECT_FALSE(jobs->storage_fails());
     std::vector<std::string> ids;
     for (int i = 0; i < 2; ++i)
-        ids.push_back(submit("echo '{\"stage\":\"build\"}'; while [ ! -e " + path("gate") + " ]; do sleep 0.02; done; " +
-                             success));
+        ids.push_back(submit("echo '{\"stage\":\"build\"}'; while [ ! -e " + path("gate") +
+                             " ]; do sleep 0.02; done; " + success));
     for (const std::string& id : ids) wait_for_run(id);
     for (int i = 0; i < 5; ++i) ids.push_back(submit(success));
     fill();

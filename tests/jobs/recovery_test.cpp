@@ -145,7 +145,8 @@ TEST_F(Recovery, TakesResultsOfAnEarlierVersionBack) {
     remove_database();
     const std::string id = "j-0123456789abcdef", failed = "j-0123456789abcdee";
     const auto result = [](const char* status) {
-        return std::string(R"({"name": "n", "scenario_hash": "h", "scenario": {"rays": {"seed": 7}, "scene": {"objects": []}},
+        return std::string(
+                   R"({"name": "n", "scenario_hash": "h", "scenario": {"rays": {"seed": 7}, "scene": {"objects": []}},
             "program": {"version": "1.0", "commit": "abc"}, "times": {"started": "2026-01-02T03:04:05Z", "seconds": 1},
             "variants": [{"lights": [{"cells": [{"status": "ok"}, {"status": ")") +
                status + R"("}]}]}]})";

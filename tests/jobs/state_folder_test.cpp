@@ -30,9 +30,9 @@ protected:
         std::map<std::string, std::string> found;
         for (const auto& entry : fs::recursive_directory_iterator(path))
             found[entry.path().lexically_relative(path).string()] =
-                entry.is_symlink()             ? "-> " + fs::read_symlink(entry.path()).string()
-                : entry.is_regular_file()      ? base::read_text(entry.path())
-                                               : "";
+                entry.is_symlink()        ? "-> " + fs::read_symlink(entry.path()).string()
+                : entry.is_regular_file() ? base::read_text(entry.path())
+                                          : "";
         return found;
     }
     void is_refused(const char* says, base::ErrorCode code = base::ErrorCode::usage) const {
@@ -96,7 +96,8 @@ TEST_F(StateFolders, LeaveFoldersOfOthersAlone) {
     write(path / "work" / "a", "a\n");
     fs::create_directories(path / "jobs");
     is_refused(says);
-    for (const char* file : {"thesis.tex", "jobs/mine", "work/.hidden", "jobs/j-0123456789abcdef/mine", ".git/config"}) {
+    for (const char* file :
+         {"thesis.tex", "jobs/mine", "work/.hidden", "jobs/j-0123456789abcdef/mine", ".git/config"}) {
         empty();
         write(path / file, "x");
         is_refused(says);
@@ -168,8 +169,8 @@ TEST_F(StateFolders, KnowTheirVersion) {
     fs::create_directories(path);
     write(path / "shadowbench-state", R"({"program": "shadowbench", "layout": 2})");
     is_refused("newer", base::ErrorCode::io);
-    for (const char* mark : {"", "x", "[]", "{}", R"({"program": "other", "layout": 1})", R"({"program": "shadowbench"})",
-                             R"({"program": "shadowbench", "layout": "1"})"}) {
+    for (const char* mark : {"", "x", "[]", "{}", R"({"program": "other", "layout": 1})",
+                             R"({"program": "shadowbench"})", R"({"program": "shadowbench", "layout": "1"})"}) {
         write(path / "shadowbench-state", mark);
         is_refused("not the mark");
     }
@@ -210,7 +211,8 @@ TEST_F(StateFolders, SetAsideAndNeverOverwrite) {
     }
     EXPECT_EQ(found.size(), 20u);
     ASSERT_EQ(said.size(), 80u);
-    EXPECT_THAT(said[0], HasSubstr((path / "work" / "a").string() + ": unknown; moved to " + (path / "lost+found").string()));
+    EXPECT_THAT(said[0],
+                HasSubstr((path / "work" / "a").string() + ": unknown; moved to " + (path / "lost+found").string()));
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ class Interrupt : public ::testing::Test {
 protected:
     void SetUp() override {
         // A build that never ends, behind a shell that would not pass a signal on.
-        std::ofstream(path("build")) << "#!/bin/sh\necho $$ > " << path("shell") << "\nsleep 1000 &\necho $! > " << path("made") << "\nmv " << path("made")
-                                     << " " << path("sleeper") << "\nwait\n";
+        std::ofstream(path("build")) << "#!/bin/sh\necho $$ > " << path("shell") << "\nsleep 1000 &\necho $! > "
+                                     << path("made") << "\nmv " << path("made") << " " << path("sleeper") << "\nwait\n";
         fs::permissions(path("build"), fs::perms::owner_all);
         fs::create_directory(path("tmp"));
     }

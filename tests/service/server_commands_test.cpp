@@ -259,8 +259,8 @@ TEST_F(ServerCommands, ServeSaysWhatItMovedAway) {
     EXPECT_EQ(stop(), 0);
     write("state/work/a", "a\n");
     const std::string command = std::string(SHADOWBENCH_PROGRAM) + " serve --port 0 --port-file " + path("again") +
-                                " --state " + path("state") + " >" + path("out") + " 2>" + path("err") + " & echo $! >" +
-                                path("number");
+                                " --state " + path("state") + " >" + path("out") + " 2>" + path("err") +
+                                " & echo $! >" + path("number");
     ASSERT_EQ(std::system(command.c_str()), 0);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     while (!fs::exists(path("again")) && std::chrono::steady_clock::now() < end)
