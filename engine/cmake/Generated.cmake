@@ -12,8 +12,8 @@ add_custom_target(shadowbench_build_info
           -P ${CMAKE_CURRENT_SOURCE_DIR}/engine/cmake/BuildInfo.cmake
   BYPRODUCTS "${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp"
   VERBATIM)
-add_dependencies(shadowbench_bench shadowbench_build_info)
-target_sources(shadowbench_bench PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp")
+add_dependencies(shadowbench_results shadowbench_build_info)
+target_sources(shadowbench_results PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp")
 
 file(READ "${CMAKE_CURRENT_SOURCE_DIR}/service/api/openapi.json" OPENAPI_TEXT)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS service/api/openapi.json)

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
-#include "bench/document.h"
+#include "document/document.h"
 #include "scene/scenario.h"
 #include "service/api/file_answer.h"
 #include "service/api/openapi_text.h"
@@ -68,9 +68,11 @@ json describe(const techniques::Technique& row) {
 void read_scenario(const fs::path& file, std::map<std::string, json>& found) {
     try {
         const json document = json::parse(scene::parse_json(base::read_text(file), file.string()).dump());
-        found[document.at("name").get<std::string>()] = {{"name", document.at("name")},
-                                                         {"purpose", document.value("purpose", "")},
-                                                         {"document", json::parse(base::read_text(file))}};
+        // A name stands for its scenario in the first folder that has one, as on the command line.
+        found.try_emplace(document.at("name").get<std::string>(),
+                          json{{"name", document.at("name")},
+                               {"purpose", document.value("purpose", "")},
+                               {"document", json::parse(base::read_text(file))}});
     } catch (const std::exception&) {  // one broken file does not hide the others
     }
 }
@@ -102,7 +104,7 @@ ApiResponse list_scenarios(Context& context, const Call& call) {
 }
 
 ApiResponse get_schema(Context&, const Call& call) {
-    return text_answer(call.request, "application/json", bench::full_schema().dump() + "\n");
+    return text_answer(call.request, "application/json", document::full_schema().dump() + "\n");
 }
 
 ApiResponse get_openapi(Context&, const Call& call) {

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
+
 namespace shadowbench::service {
 namespace {
 
@@ -71,6 +73,12 @@ std::optional<PathParameters> match(const char* pattern, const std::vector<std::
 }
 
 }  // namespace
+
+const std::string& Call::parameter(const char* name) const {
+    const auto found = path.find(name);
+    if (found != path.end()) return found->second;
+    throw base::Error(base::ErrorCode::internal, "path", std::string("the route has no parameter ") + name);
+}
 
 std::span<const Route> routes() {
     return table;

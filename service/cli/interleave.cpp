@@ -11,7 +11,8 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
+#include "results/write_result.h"
 #include "service/cli/child.h"
 #include "service/cli/progress_bar.h"
 
@@ -68,7 +69,7 @@ std::string scenario_of(const std::string& source, const fs::path& folder) {
     const nlohmann::json document = compare::read_json(source);
     if (!document.is_object() || !document.contains("scenario_hash") || !document.contains("scenario")) return source;
     const fs::path file = folder / "scenario.json";
-    bench::write_files({{file, document.at("scenario").dump()}});
+    base::write_files({{file, document.at("scenario").dump()}});
     return file.string();
 }
 
@@ -97,7 +98,7 @@ void run_turns(const Turns& turns, const fs::path& folder, std::ostream& err) {
             run_once(turns, is_b, pair, folder);
         }
     fs::remove(folder / "log.txt", failed);
-    bench::write_files({{folder / compare::interleaved_mark, fmt::format("{{\"pairs\": {}}}\n", turns.pairs)}});
+    base::write_files({{folder / compare::interleaved_mark, fmt::format("{{\"pairs\": {}}}\n", turns.pairs)}});
 }
 
 compare::Comparison compare_turns(const Turns& turns, const fs::path& folder, const compare::Options& options) {

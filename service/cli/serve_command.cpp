@@ -11,7 +11,8 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
+#include "results/write_result.h"
 #include "service/api/helper_side.h"
 #include "service/api/service.h"
 #include "service/cli/scenario_files.h"
@@ -127,7 +128,7 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
               [&](const std::string& line) { err << fmt::format("shadowbench: {}\n", line) << std::flush; });
     Service service(jobs, options);
     HttpServer server(service, options.event_streams, http);
-    if (!arguments.port_file.empty()) bench::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});
+    if (!arguments.port_file.empty()) base::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});
     out << fmt::format("shadowbench serves {} (state: {})\n", server.url(), arguments.state) << std::flush;
     std::atomic<bool> done = false;
     std::thread stopper([&] {

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "bench/build_info.h"
-#include "bench/document.h"
+#include "base/hash_text.h"
+#include "results/program.h"
 #include "service/jobs/board.h"
 #include "service/jobs/folders.h"
 #include "service/jobs/record.h"
@@ -59,13 +59,13 @@ std::string new_id() {
 }
 
 std::string program_version() {
-    const bench::BuildInfo build = bench::build_info();
+    const results::Program build = results::this_program();
     return fmt::format("{} {}", build.version, build.commit);
 }
 
 // What must be the same when an idempotency key comes again.
 std::string request_hash(const JobRequest& request) {
-    return bench::hash_text(fmt::format("{} {} {}", request.pictures, request.reuse, request.scenario));
+    return base::hash_text(fmt::format("{} {} {}", request.pictures, request.reuse, request.scenario));
 }
 
 std::int64_t read_cursor(const std::string& cursor) {

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
 #include "service/jobs/folders.h"
 #include "service/jobs/utc.h"
 
@@ -105,7 +105,7 @@ void write_record(const fs::path& folder, const KeptJob& kept) {
                                            {"idempotency_key", kept.idempotency_key},
                                            {"request", kept.request},
                                            {"scenario", kept.scenario}};
-    bench::write_files(
+    base::write_files(
         {{folder / record_name, record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"}});
 }
 

@@ -2,7 +2,8 @@
 #include <set>
 
 #include "api/fixture.h"
-#include "bench/document.h"
+#include "base/hash_text.h"
+#include "document/document.h"
 
 namespace shadowbench::service {
 namespace {
@@ -19,7 +20,7 @@ TEST_F(JobsApi, TakesAScenarioAndTellsWhereItsJobIs) {
     EXPECT_EQ(job["state"], "queued");
     EXPECT_EQ(job["name"], "tiny");
     EXPECT_EQ(job["seed"], 5);
-    EXPECT_EQ(job["scenario_hash"], bench::hash_text(tiny_scenario().dump()));
+    EXPECT_EQ(job["scenario_hash"], base::hash_text(tiny_scenario().dump()));
     EXPECT_EQ(job["position"], 0);
     EXPECT_TRUE(job["progress"].is_null());
     const JobRequest request = fake::last_request(*jobs_);

@@ -49,7 +49,7 @@ TEST_F(JobProgram, LeavesThePicturesOutWhereTheyAreNotWanted) {
     JobRequest request = request_of(scenario().dump());
     request.pictures = false;
     const JobInfo job = wait_for_end(jobs->submit(request).job.id);
-    EXPECT_EQ(jobs->artifacts(job.id), (std::vector<std::string>{"result.csv", "result.json"}));
+    EXPECT_EQ(jobs->artifacts(job.id), (std::vector<std::string>{"result.csv", "result.json", "table.txt"}));
 }
 
 TEST_F(JobProgram, TellsWhichPartOfTheScenarioIsWrong) {

@@ -235,7 +235,11 @@ void expect_agreement(scene::Scene scene, const scene::Light& light) {
     double worst = 0.0;
     for_each_ray(c, [&](const LightRays& t, std::size_t ray, int i, int j) {
         const SamplePosition p = sample_position(c.layout, i, j);
-        const double through = tracer.transmittance(c.view, p.x, p.y, 1e9, traced, sample_time(c.layout, i, j)).x;
+        const LightLine line = light_line(c.view, p.x, p.y);
+        tracer.all_segments(line.origin, line.direction, std::max(line.z_start, 0.0), 1e9, traced,
+                            sample_time(c.layout, i, j), Tracer::Grids::steps);
+        double through = 1.0;
+        for (const TracedSegment& s : traced) through *= s.transmittance.x;
         ++rays;
         met += traced.size() > 1;
         if (traced.size() != segments_of(t, ray)) {
@@ -295,12 +299,12 @@ TEST(Tracer, TheNearestSurfaceStandsWhereItsTimePutsIt) {
     scene.objects[1].opacity = Vec3f(1);
     for (scene::Object& object : scene.objects) object.motion = {0, 0, 4};
     const Tracer tracer(scene, false);
-    SurfaceHit hit;
-    ASSERT_TRUE(tracer.nearest({0.1, 0.2, -3}, {0, 0, 1}, hit, scene::mid_shutter));
-    EXPECT_NEAR(hit.t, 5.0, 1e-5);
-    ASSERT_TRUE(tracer.nearest({0, 0, 20}, {0, 0, -1}, hit, 0.25));
-    EXPECT_NEAR(hit.t, 13.0, 1e-5);
-    EXPECT_NEAR(hit.normal.z, 1.0, 1e-6);
+    std::vector<SurfaceHit> hits;
+    ASSERT_TRUE(tracer.surfaces({0.1, 0.2, -3}, {0, 0, 1}, hits, scene::mid_shutter));
+    EXPECT_NEAR(hits.at(0).t, 5.0, 1e-5);
+    ASSERT_TRUE(tracer.surfaces({0, 0, 20}, {0, 0, -1}, hits, 0.25));
+    EXPECT_NEAR(hits.at(0).t, 13.0, 1e-5);
+    EXPECT_NEAR(hits.at(0).normal.z, 1.0, 1e-6);
 }
 
 TEST(Motion, AStillSceneStoresNoTimes) {

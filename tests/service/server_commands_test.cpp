@@ -226,6 +226,11 @@ TEST_F(ServerCommands, TokensAreOneLongWordForOneReader) {
     const fs::perms mine = fs::perms::owner_read | fs::perms::owner_write;
     EXPECT_EQ(code_of("0123456789abcdef\nmore\n", mine), 0);
     EXPECT_EQ(code_of("0123456789abcde\n", mine), 65);
+    EXPECT_EQ(code_of("\xef\xbb\xbf"
+                      "0123456789abcde\n",
+                      mine),
+              65)
+        << "a byte-order mark is no part of the token";
     EXPECT_EQ(code_of("0123456789 abcdef\n", mine), 65);
     EXPECT_EQ(code_of("", mine), 65);
     EXPECT_EQ(code_of("0123456789abcdef\n", mine | fs::perms::group_read), 65);

@@ -105,7 +105,7 @@ public:
     }
     void touched(const Query& query, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();
-        texels_.for_each(query, [&](std::size_t cell, float) { touch_lines(texels_.at(cell), 8 * nodes_, lines); });
+        texels_.for_each(query, [&](std::size_t cell, double) { touch_lines(texels_.at(cell), 8 * nodes_, lines); });
         keep_unique(lines, before);
     }
 
@@ -216,7 +216,7 @@ Technique avsm() {
     return {"avsm",
             "adaptive volumetric shadow map: a fixed number of nodes a texel",
             "Salvi et al. 2010",
-            2,
+            3,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Avsm>(values); },

@@ -48,12 +48,13 @@ const Parameter parameters[] = {
      {"none", "nearest", "blend"}},
     {"kernel",
      ParameterKind::choice,
-     "how a lookup weighs the pixels of its footprint",
+     "how a lookup weighs pixels: box, by the part of each that its footprint covers; tent, twice as wide, bilinear at "
+     "one pixel's width; pixels, the paper's box: whole pixels, those whose centres lie within the filter radius",
      0,
      0,
      0,
      "box",
-     {"box", "tent"}},
+     {"box", "tent", "pixels"}},
     {"search",
      ParameterKind::choice,
      "how a lookup finds the segment of a function: cached starts at the one that the same batch used last in that "
@@ -82,8 +83,10 @@ PixelFilter filter_of(const ParameterValues& values) {
 }
 
 LookupRule rule_of(const ParameterValues& values) {
-    const std::string &mip = values.word("mip"), &search = values.word("search");
-    return {values.word("kernel") == "tent",
+    const std::string &kernel = values.word("kernel"), &mip = values.word("mip"), &search = values.word("search");
+    return {kernel == "box"    ? Kernel::box
+            : kernel == "tent" ? Kernel::tent
+                               : Kernel::pixels,
             mip == "none"      ? Mip::none
             : mip == "nearest" ? Mip::nearest
                                : Mip::blend,
@@ -166,7 +169,7 @@ Technique deep() {
     return {"deep",
             "deep shadow map: visibility functions compressed within a tolerance",
             "Lokovic, Veach 2000",
-            3,
+            4,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Deep>(values); },

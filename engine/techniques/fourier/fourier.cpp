@@ -68,7 +68,7 @@ public:
     void touched(const Query& q, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();
         texels_.for_each(
-            q, [&](std::size_t cell, float) { touch_lines(texels_.at(cell), sizeof(float) * texels_.stride, lines); });
+            q, [&](std::size_t cell, double) { touch_lines(texels_.at(cell), sizeof(float) * texels_.stride, lines); });
         keep_unique(lines, before);
     }
 
@@ -135,7 +135,7 @@ Technique fourier() {
     return {"fourier",
             "Fourier opacity map: a truncated series of the absorption",
             "Jansen, Bavoil 2010",
-            2,
+            3,
             {.monotone = false, .localised = false, .leak = std::exp(-5.545)},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Fourier>(values); },

@@ -74,7 +74,7 @@ public:
 
     void touched(const Query& q, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();
-        texels_.for_each(q, [&](std::size_t cell, float) {
+        texels_.for_each(q, [&](std::size_t cell, double) {
             const float* texel = texels_.at(cell);
             const Slices slices = slices_of(texel);
             const int i = slices.interval(slices.place(q.z));
@@ -157,7 +157,7 @@ Technique opacity() {
     return {"opacity",
             "opacity shadow map: optical depth at uniform slices",
             "Kim, Neumann 2001",
-            2,
+            3,
             {.localised = false, .leak = std::exp(-5.545)},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<Opacity>(values); },

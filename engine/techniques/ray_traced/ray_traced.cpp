@@ -91,7 +91,7 @@ Technique ray_traced() {
     return {"ray_traced",
             "shadow rays through the scene, no map",
             "none: the cost of doing without",
-            2,
+            3,
             {},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<RayTraced>(values); },

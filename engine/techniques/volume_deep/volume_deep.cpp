@@ -72,7 +72,7 @@ public:
 
     void touched(const Query& q, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();
-        texels_.for_each(q, [&](std::size_t cell, float) { touch_lines(texels_.at(cell), sizeof(Crossings), lines); });
+        texels_.for_each(q, [&](std::size_t cell, double) { touch_lines(texels_.at(cell), sizeof(Crossings), lines); });
         keep_unique(lines, before);
     }
 
@@ -126,7 +126,7 @@ Technique volume_deep() {
     return {"volume_deep",
             "deep shadow map of volumes: depths at 10, 50 and 90 % opacity, and the maximum opacity",
             "Deep Shadow Maps from Volumetric Data",
-            2,
+            3,
             {.localised = false},
             parameters,
             [](const ParameterValues& values) -> std::unique_ptr<Map> { return std::make_unique<VolumeDeep>(values); },
