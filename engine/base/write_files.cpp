@@ -20,7 +20,7 @@ void make_folders(const fs::path& folder, Undo& undo) {
     if (folder.empty() || fs::is_directory(folder, failed)) return;
     make_folders(folder.parent_path(), undo);
     if (fs::create_directory(folder, failed)) undo.made(folder);
-    if (failed) throw Error(ErrorCode::io, folder.string(), "cannot make the folder: " + failed.message());
+    if (failed) throw WriteError(folder, "cannot make the folder", failed);
 }
 
 fs::path temporary_name(const fs::path& path) {
@@ -32,11 +32,40 @@ void write_one(const fs::path& path, const std::string& content) {
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     file.close();
-    const std::string why = errno ? ": " + std::generic_category().message(errno) : "";
-    if (!file) throw Error(ErrorCode::io, path.string(), "cannot write the file" + why);
+    const std::error_code why(errno, std::generic_category());
+    if (!file) throw WriteError(path, "cannot write the file", why);
+}
+
+void write_and_rename(const std::vector<NewFile>& files, Undo& undo) {
+    std::error_code failed;
+    for (const NewFile& file : files) {
+        // rename() would refuse a folder only after other files have been replaced.
+        if (fs::is_directory(file.path, failed))
+            throw WriteError(file.path, "a folder is in the file's place",
+                             std::make_error_code(std::errc::is_a_directory));
+        make_folders(file.path.parent_path(), undo);
+        undo.made(temporary_name(file.path));
+        write_one(temporary_name(file.path), file.content);
+    }
+    for (const NewFile& file : files) {
+        fs::rename(temporary_name(file.path), file.path, failed);
+        if (failed) throw WriteError(file.path, "cannot replace the file", failed);
+    }
+}
+
+std::uintmax_t bytes_of(const std::vector<NewFile>& files) {
+    constexpr std::uintmax_t block = 4096;
+    std::uintmax_t bytes = 0;
+    for (const NewFile& file : files) bytes += (file.content.size() + block - 1) / block * block;
+    return bytes;
 }
 
 }  // namespace
+
+WriteError::WriteError(const fs::path& place, const std::string& what, std::error_code why)
+    : Error(ErrorCode::io, place.string(), why ? what + ": " + why.message() : what), why_(why) {}
+
+WriteError::WriteError(const WriteError& error, std::uintmax_t bytes) : Error(error), why_(error.why_), bytes_(bytes) {}
 
 Undo::~Undo() {
     std::error_code ignored;
@@ -45,18 +74,10 @@ Undo::~Undo() {
 
 void write_files(const std::vector<NewFile>& files) {
     Undo undo;
-    std::error_code failed;
-    for (const NewFile& file : files) {
-        // rename() would refuse a folder only after other files have been replaced.
-        if (fs::is_directory(file.path))
-            throw Error(ErrorCode::io, file.path.string(), "a folder is in the file's place");
-        make_folders(file.path.parent_path(), undo);
-        undo.made(temporary_name(file.path));
-        write_one(temporary_name(file.path), file.content);
-    }
-    for (const NewFile& file : files) {
-        fs::rename(temporary_name(file.path), file.path, failed);
-        if (failed) throw Error(ErrorCode::io, file.path.string(), "cannot replace the file: " + failed.message());
+    try {
+        write_and_rename(files, undo);
+    } catch (const WriteError& error) {
+        throw WriteError(error, bytes_of(files));
     }
     undo.keep();
 }

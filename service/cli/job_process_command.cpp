@@ -4,7 +4,10 @@
 #include <chrono>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <ostream>
+#include <string>
+#include <system_error>
 
 #include <nlohmann/json.hpp>
 
@@ -79,10 +82,27 @@ void draw(const nlohmann::json& document, const bench::RunOptions& run, const fs
     }
 }
 
-// Whether a place is of the job's own folder: what fails there is the server's storage.
+// Whether a place is in the job's own folder: what fails there is the server's storage.
 bool is_in(const std::string& folder, const std::string& place) {
     const std::string as_told = Error(ErrorCode::io, folder, "").where();  // as places of errors are written
     return place == as_told || place.starts_with(as_told + "/");
+}
+
+// What no other disk would take either, as a name that is too long, is the job's fault.
+bool is_of_storage(const std::error_code& why) {
+    for (const std::errc of_job : {std::errc::filename_too_long, std::errc::file_too_large, std::errc::invalid_argument,
+                                   std::errc::is_a_directory, std::errc::not_a_directory, std::errc::file_exists})
+        if (why == of_job) return false;
+    return static_cast<bool>(why);
+}
+
+// Nothing: it is a fault of the job.
+std::optional<StorageFault> storage_fault(const Error& error, const std::string& folder) {
+    if (!is_in(folder, error.where())) return std::nullopt;
+    if (const auto* write = dynamic_cast<const base::WriteError*>(&error))
+        return is_of_storage(write->why()) ? std::optional(StorageFault{error.what(), write->bytes()}) : std::nullopt;
+    const bool file_fault = error.code() == ErrorCode::io || error.code() == ErrorCode::no_such_file;
+    return file_fault ? std::optional(StorageFault{error.what(), 0}) : std::nullopt;
 }
 
 bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
@@ -119,17 +139,10 @@ bool job_process_command(const JobProcessArguments& arguments, std::ostream& out
     try {
         return run_job(arguments, out);
     } catch (const Error& error) {
-        const bool file_fault = error.code() == ErrorCode::io || error.code() == ErrorCode::no_such_file;
-        if (file_fault && is_in(arguments.folder, error.where()))
-            out << storage_line(error.what()) << '\n' << std::flush;
+        if (const auto fault = storage_fault(error, arguments.folder))
+            out << storage_line(*fault) << '\n' << std::flush;
         else
             tell(error);
-        throw;
-    } catch (const fs::filesystem_error& error) {
-        if (is_in(arguments.folder, error.path1().string()))
-            out << storage_line(error.what()) << '\n' << std::flush;
-        else
-            tell({ErrorCode::internal, "", "internal fault"});
         throw;
     } catch (const std::bad_alloc&) {
         tell({ErrorCode::internal, "", "out of memory; a smaller map or fewer samples may help"});

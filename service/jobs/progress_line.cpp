@@ -57,8 +57,8 @@ std::string error_line(const base::Error& error) {
                   {{"code", static_cast<int>(error.code())}, {"where", error.where()}, {"message", error.message()}}}});
 }
 
-std::string storage_line(const std::string& message) {
-    return dump({{"storage", {{"message", message}}}});
+std::string storage_line(const StorageFault& fault) {
+    return dump({{"storage", {{"message", fault.message}, {"bytes", fault.bytes}}}});
 }
 
 std::variant<std::monostate, JobProgress, JobFault, StorageFault> read_line(std::string_view line) {
@@ -66,7 +66,8 @@ std::variant<std::monostate, JobProgress, JobFault, StorageFault> read_line(std:
     if (!read.is_object()) return {};
     if (read.contains("stage")) return progress_of(read);
     const auto storage = read.find("storage");
-    if (storage != read.end() && storage->is_object()) return StorageFault{text(*storage, "message")};
+    if (storage != read.end() && storage->is_object())
+        return StorageFault{text(*storage, "message"), count(*storage, "bytes")};
     const auto error = read.find("error");
     if (error != read.end() && error->is_object()) return fault_of(*error);
     return {};

@@ -98,7 +98,7 @@ auto persist(const Workplace& place, const Body& body) -> std::optional<std::dec
 // Until there is room for what the job had written and more, it waits no longer, or the server stops.
 void wait_for_room(const Workplace& place, const StoredJob& job, const Waits& waits, Patience& patience) {
     StorageAlarm alarm(place);
-    alarm.begin(waits.why);
+    alarm.begin(job.id + ": " + waits.why);
     const auto in_queue = [&] {
         try {
             const std::optional<StoredJob> now = place.store.find(job.id);
@@ -143,7 +143,7 @@ public:
             fault->message = hide(fault->message, place_.hidden);
             fault_ = std::move(*fault);
         } else if (auto* storage = std::get_if<StorageFault>(&heard)) {
-            storage_ = std::move(storage->message);
+            storage_ = std::move(*storage);
         }
     }
 
@@ -160,14 +160,14 @@ public:
     }
 
     const std::optional<JobFault>& fault() const { return fault_; }
-    const std::optional<std::string>& storage_fault() const { return storage_; }
+    const std::optional<StorageFault>& storage_fault() const { return storage_; }
 
 private:
     const Workplace& place_;
     JobBoard::Run& run_;
     std::optional<JobProgress> latest_;
     std::optional<JobFault> fault_;
-    std::optional<std::string> storage_;
+    std::optional<StorageFault> storage_;
     Clock::time_point next_{};
 };
 
@@ -195,7 +195,7 @@ std::optional<Waits> storage_fault(const Workplace& place, const Verdict& verdic
     const auto* again = std::get_if<Again>(&verdict);
     const bool by_itself = report.end == ChildEnd::exited || report.end == ChildEnd::signalled;
     if (!by_itself || !(std::holds_alternative<JobFault>(verdict) || (again && !again->uncounted))) return std::nullopt;
-    if (listener.storage_fault()) return Waits{*listener.storage_fault(), bytes_in(work)};
+    if (const auto& fault = listener.storage_fault()) return Waits{fault->message, bytes_in(work) + fault->bytes};
     if (has_room(place.folders.work, least_room)) return std::nullopt;
     return Waits{"nothing can be written to " + place.folders.work.string(), bytes_in(work)};
 }

@@ -56,6 +56,26 @@ TEST_F(WriteFiles, refuses_a_folder_in_a_files_place_before_replacing_others) {
     EXPECT_EQ(read(folder_ / "one"), "old");
 }
 
+TEST_F(WriteFiles, tells_why_and_how_much_there_was_to_write) {
+    const auto fault_of = [](const std::vector<NewFile>& files) {
+        try {
+            write_files(files);
+        } catch (const WriteError& error) {
+            return error;
+        }
+        ADD_FAILURE();
+        return WriteError("", "", {});
+    };
+    const std::string long_name(300, 'x');
+    const WriteError error = fault_of({{folder_ / "one", std::string(5000, 'x')}, {folder_ / long_name, "x"}});
+    EXPECT_EQ(error.why(), std::errc::filename_too_long) << error.what();
+    EXPECT_EQ(error.bytes(), 3u * 4096);
+    write_files({{folder_ / "file", ""}});
+    EXPECT_TRUE(fault_of({{folder_ / "file/sub/one", "x"}}).why());
+    const WriteError full = fault_of({{"/dev/full/one", ""}});
+    EXPECT_EQ(full.code(), ErrorCode::io);
+}
+
 TEST_F(WriteFiles, tells_beforehand_that_a_folder_cannot_be_made) {
     write_files({{folder_ / "file", ""}});
     Undo undo;

@@ -182,12 +182,13 @@ TEST_F(FullDisk, LosesNothingWhereAServerCannotStart) {
 // The program itself, whose results and pictures are more than there is room for.
 TEST_F(FullDisk, LetsTheProgramsJobsWait) {
     for (const std::size_t left : {std::size_t{48} << 10, std::size_t{100} << 10}) {
-        jobs = std::make_unique<Jobs>(state(), SHADOWBENCH_PROGRAM, std::vector<std::string>{}, limits);
+        start(SHADOWBENCH_PROGRAM);
         const std::string id = submit(std::string(tiny_scenario) + std::string(left % 7, ' '));
         fill(left);
         wait_for_fault(true);
-        const auto job = jobs->find(id);
-        EXPECT_TRUE(job->state == JobState::queued || job->state == JobState::running) << to_string(job->state);
+        std::this_thread::sleep_for(std::chrono::seconds(2));
+        EXPECT_EQ(jobs->find(id)->state, JobState::queued) << "it is not run again before there is room";
+        EXPECT_THAT(said(), HasSubstr("No space left"));
         empty();
         const JobInfo end = wait_for_end(id);
         EXPECT_EQ(end.state, JobState::succeeded) << (end.fault ? end.fault->message : "");

@@ -58,9 +58,10 @@ protected:
         limits.grace = 0.0;
     }
 
-    Jobs& start() {
+    Jobs& start() { return start(program.string()); }
+    Jobs& start(const std::string& own_program) {
         jobs.reset();
-        jobs = std::make_unique<Jobs>(state(), program.string(), data, limits, [this](const std::string& line) {
+        jobs = std::make_unique<Jobs>(state(), own_program, data, limits, [this](const std::string& line) {
             const std::scoped_lock lock(said_mutex);
             said_lines += line + "\n";
         });

@@ -40,10 +40,11 @@ TEST(ProgressLines, TellFaultsAsTheyWereThrown) {
 }
 
 TEST(ProgressLines, TellFaultsOfTheStorageFromThoseOfTheJob) {
-    const auto read = read_line(storage_line("/state/work: no space left"));
+    const auto read = read_line(storage_line({"/state/work: no space left", 4096}));
     const auto* fault = std::get_if<StorageFault>(&read);
     ASSERT_TRUE(fault);
     EXPECT_EQ(fault->message, "/state/work: no space left");
+    EXPECT_EQ(fault->bytes, 4096u);
     EXPECT_TRUE(std::holds_alternative<std::monostate>(read_line(R"({"storage":3})")));
 }
 
