@@ -4,10 +4,11 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "base/utf8.h"
 
 namespace shadowbench::base {
 
-std::string read_text(const std::filesystem::path& file) {
+std::string read_bytes(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored))
         throw Error(ErrorCode::no_such_file, file.string(), "there is no such file");
@@ -15,8 +16,15 @@ std::string read_text(const std::filesystem::path& file) {
         throw Error(ErrorCode::io, file.string(), "a folder cannot be read as a file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw Error(ErrorCode::io, file.string(), "cannot open the file");
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
     if (!stream) throw Error(ErrorCode::io, file.string(), "cannot read the file");
+    return bytes;
+}
+
+std::string read_text(const std::filesystem::path& file) {
+    std::string text = read_bytes(file);
+    const std::size_t mark = text.size() - without_mark(text, file.string()).size();
+    text.erase(0, mark);
     return text;
 }
 

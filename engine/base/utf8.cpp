@@ -1,5 +1,7 @@
 #include "base/utf8.h"
 
+#include "base/error.h"
+
 namespace shadowbench::base {
 
 std::size_t utf8_sequence(std::string_view text) {
@@ -24,6 +26,15 @@ bool is_utf8(std::string_view text) {
         text.remove_prefix(length);
     }
     return true;
+}
+
+std::string_view without_mark(std::string_view text, std::string_view where) {
+    using namespace std::string_view_literals;
+    for (const std::string_view mark : {"\xff\xfe"sv, "\xfe\xff"sv, "\0\0\xfe\xff"sv})
+        if (text.starts_with(mark))
+            throw Error(ErrorCode::bad_input, where, "the text is UTF-16 or UTF-32; save it as UTF-8");
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
 }  // namespace shadowbench::base

@@ -37,8 +37,14 @@ TracedRay ray_at(const rays::LightView& view, double x, double y, double time) {
     return {at, (ahead - at).normalized(), 0.0, (view.z_max + margin - start) * stretch, time};
 }
 
-void trace(const rays::Tracer& tracer, const TracedRay& ray, std::vector<rays::TracedSegment>& out) {
-    tracer.all_segments(ray.origin, ray.direction, ray.t_min, ray.t_max, out, ray.time);
+// The tracer, taking grid volumes as the capture does.
+struct Check {
+    const rays::Tracer& tracer;
+    rays::Tracer::Grids grids;
+};
+
+void trace(const Check& check, const TracedRay& ray, std::vector<rays::TracedSegment>& out) {
+    check.tracer.all_segments(ray.origin, ray.direction, ray.t_min, ray.t_max, out, ray.time, check.grids);
 }
 
 struct Crossed {
@@ -89,10 +95,10 @@ ChosenRay choose(const LightRays& tile, const MapLayout& layout, const rays::Lig
     return {&tile, ray, ray_at(view, place.x, place.y, rays::sample_time(layout, i, j))};
 }
 
-void compare(const std::vector<ChosenRay>& chosen, const rays::Tracer& tracer, Agreement& agreement) {
+void compare(const std::vector<ChosenRay>& chosen, const Check& check, results::Agreement& agreement) {
     std::vector<rays::TracedSegment> segments;
     for (const ChosenRay& one : chosen) {
-        trace(tracer, one.traced, segments);
+        trace(check, one.traced, segments);
         const Crossed ours = crossed(*one.tile, one.ray), theirs = crossed(segments);
         bool differs = false;
         for (int c = 0; c < 3; ++c)
@@ -103,17 +109,17 @@ void compare(const std::vector<ChosenRay>& chosen, const rays::Tracer& tracer, A
     agreement.rays = chosen.size();
 }
 
-double rate_of_tracer(const std::vector<ChosenRay>& chosen, const rays::Tracer& tracer) {
+double rate_of_tracer(const std::vector<ChosenRay>& chosen, const Check& check) {
     std::vector<rays::TracedSegment> segments;
     const Stopwatch stopwatch;
-    for (const ChosenRay& one : chosen) trace(tracer, one.traced, segments);
+    for (const ChosenRay& one : chosen) trace(check, one.traced, segments);
     return static_cast<double>(chosen.size()) / stopwatch.seconds();
 }
 
 }  // namespace
 
-Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& layout, const rays::LightView& view,
-                              const rays::Tracer& tracer, std::size_t max_rays) {
+results::Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& layout,
+                                       const rays::LightView& view, const rays::Tracer& tracer, std::size_t max_rays) {
     const base::ThreadLimit one_thread(1);
     std::vector<LightRays> tiles;
     std::size_t rays = 0;
@@ -134,10 +140,11 @@ Agreement compare_with_tracer(const rays::Capture& capture, const MapLayout& lay
         for (std::size_t ray = 0; ray < tile.rays(); ++ray, ++at)
             if (at % step == 0) chosen.push_back(choose(tile, layout, view, ray));
 
-    Agreement agreement;
-    compare(chosen, tracer, agreement);
+    results::Agreement agreement;
+    const Check check{tracer, layout.cells ? rays::Tracer::Grids::cells : rays::Tracer::Grids::steps};
+    compare(chosen, check, agreement);
     agreement.times.capture_rays_per_second = static_cast<double>(rays) / seconds;
-    agreement.times.tracer_rays_per_second = rate_of_tracer(chosen, tracer);  // after compare() has warmed it up
+    agreement.times.tracer_rays_per_second = rate_of_tracer(chosen, check);  // after compare() has warmed it up
     agreement.times.ratio = agreement.times.capture_rays_per_second / agreement.times.tracer_rays_per_second;
     return agreement;
 }

@@ -3,16 +3,16 @@
 
 #include <cstddef>
 
-#include "bench/result.h"
 #include "rays/capture.h"
 #include "rays/light_view.h"
 #include "rays/tracer.h"
+#include "results/result.h"
 
 namespace shadowbench::bench {
 
 // Captures tiles spread over the map on one thread, then traces up to `max_rays` of their rays on one thread.
 // `tracer` sees what casts shadows. Which rays are compared depends on the layout alone.
-Agreement compare_with_tracer(const rays::Capture& capture, const rays::MapLayout& layout, const rays::LightView& view,
-                              const rays::Tracer& tracer, std::size_t max_rays);
+results::Agreement compare_with_tracer(const rays::Capture& capture, const rays::MapLayout& layout,
+                                       const rays::LightView& view, const rays::Tracer& tracer, std::size_t max_rays);
 
 }  // namespace shadowbench::bench

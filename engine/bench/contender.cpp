@@ -76,7 +76,8 @@ void finish_all(std::span<Contender> contenders) {
         }
         contender.cell.bytes = bytes(contender.maps);
         contender.cell.working_bytes = working_bytes(contender.maps);
-        contender.cell.nodes = nodes(contender.maps);
+        const techniques::NodeStats counted = nodes(contender.maps);
+        contender.cell.nodes = {counted.cells, counted.total, counted.max, counted.histogram};
     }
 }
 
@@ -85,7 +86,7 @@ void judge(Contender& contender, const Asked& judged, const Truth& truth) {
     check_answers(contender, judged, visibility);
     if (!contender.ok()) return;
     std::vector<double> errors(visibility.size());
-    LookupErrors result;
+    results::LookupErrors result;
     for (std::size_t i = 0; i < visibility.size(); ++i) {
         errors[i] = visibility[i] - truth.value[i];
         result.signed_mean += errors[i];
@@ -97,19 +98,25 @@ void judge(Contender& contender, const Asked& judged, const Truth& truth) {
 
 }  // namespace
 
-Contender make_contender(const scene::TechniqueRequest& request, const std::string& where) {
+Contender make_contender(const scene::TechniqueRequest& request, const std::string& where,
+                         std::span<const std::string> swept) {
     Contender contender;
     contender.row = &techniques::find(request.type, where + "/type");
     contender.values =
         techniques::read_parameters(contender.row->parameters, nlohmann::json::parse(request.parameters), where);
     contender.needs = contender.row->create(contender.values)->needs();
-    Cell& cell = contender.cell;
+    results::Cell& cell = contender.cell;
     cell.technique = contender.row->id;
     cell.version = contender.row->version;
-    cell.parameters = techniques::to_string(contender.values, contender.row->parameters, false);
+    cell.parameters = techniques::to_string(contender.values, contender.row->parameters, swept);
     cell.parameters_json = techniques::to_json(contender.values).dump();
+    cell.defaults = techniques::to_string(contender.values, contender.row->parameters, false).empty();
     cell.where = where;
     return contender;
+}
+
+Contender unbuilt(const Contender& contender) {
+    return {contender.row, contender.values, contender.needs, {}, contender.cell, {}};
 }
 
 void ask_for_needs(std::span<const Contender> contenders, rays::MapLayout& layout) {
@@ -127,7 +134,7 @@ std::vector<int> aprons_of(std::span<const Contender> contenders) {
 
 void fail(Contender& contender, const std::string& reason) {
     if (!contender.ok()) return;
-    contender.cell.status = CellStatus::failed;
+    contender.cell.status = results::CellStatus::failed;
     contender.cell.reason = reason;
     contender.maps = {};
 }
@@ -146,8 +153,8 @@ void build_all(std::span<Contender> contenders, const RaySource& source, const t
                std::size_t memory_limit, const RaySource::Watch& watch) {
     for (Contender& contender : contenders) {
         contender.cell.error_bound = contender.row->error_bound(contender.values, input.layout);
-        contender.cell.promises = techniques::promises(*contender.row, contender.values);
-        contender.cell.outside_promise = contender.cell.promises.opaque_only && source.translucent();
+        contender.promises = techniques::promises(*contender.row, contender.values);
+        contender.cell.outside_promise = contender.promises.opaque_only && source.translucent();
     }
     begin_all(contenders, input);
     const std::vector<int> aprons = aprons_of(contenders);
@@ -168,7 +175,7 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
     std::vector<Contender*> owners;
     for (Contender& contender : contenders) {
         if (!contender.ok()) continue;
-        checked.push_back({&contender.maps, contender.cell.promises, contender.cell.error_bound,
+        checked.push_back({&contender.maps, contender.promises, contender.cell.error_bound,
                            !contender.cell.outside_promise, contender.needs.apron});
         owners.push_back(&contender);
     }
@@ -180,7 +187,7 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
 }
 
 void check_answers(Contender& contender, const Asked& asked, std::span<const float> answers) {
-    const bool bounded = contender.cell.promises.unit_range;
+    const bool bounded = contender.promises.unit_range;
     for (std::size_t i = 0; i < answers.size(); ++i) {
         const float v = answers[i];
         if (bounded ? v >= -rounding && v <= 1.0f + rounding : std::isfinite(v)) continue;

@@ -10,7 +10,7 @@
 #include "bench/maps.h"
 #include "bench/ray_source.h"
 #include "bench/reference.h"
-#include "bench/result.h"
+#include "results/result.h"
 
 namespace shadowbench::bench {
 
@@ -18,14 +18,20 @@ struct Contender {
     const techniques::Technique* row = nullptr;
     techniques::ParameterValues values;
     techniques::RayNeeds needs;
-    Cell cell;
+    techniques::Promises promises;  // of these values; known once built
+    results::Cell cell;
     Maps maps;  // finished once warmed up; none when the cell failed
 
-    bool ok() const { return cell.status == CellStatus::ok; }
+    bool ok() const { return cell.status == results::CellStatus::ok; }
 };
 
-// From the request of a scenario. Throws what read_parameters throws, with `where` as its place.
-Contender make_contender(const scene::TechniqueRequest& request, const std::string& where);
+// From the request of a scenario; the cell's label names the `swept` parameters, whatever their values. Throws what
+// read_parameters throws, with `where` as its place.
+Contender make_contender(const scene::TechniqueRequest& request, const std::string& where,
+                         std::span<const std::string> swept = {});
+
+// The same technique before anything was built for it: for another light.
+Contender unbuilt(const Contender& contender);
 
 // Makes the layout of the capture ask for what all of them need together.
 void ask_for_needs(std::span<const Contender> contenders, rays::MapLayout& layout);

@@ -241,7 +241,7 @@ std::vector<TileErrors> check_tile(const Pass& pass, const LightRays& tile) {
 
 CurveVerdict merge(std::span<const std::vector<TileErrors>> tiles, std::size_t map, double reference_error) {
     CurveVerdict verdict;
-    CurveErrors errors;
+    results::CurveErrors errors;
     errors.reference_error = reference_error;
     std::vector<double> all;
     double worst = -1.0;

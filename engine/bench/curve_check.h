@@ -11,7 +11,7 @@
 
 #include "bench/maps.h"
 #include "bench/ray_source.h"
-#include "bench/result.h"
+#include "results/result.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::bench {
@@ -26,8 +26,8 @@ struct CheckedMap {
 };
 
 struct CurveVerdict {
-    std::optional<CurveErrors> errors;  // nothing when the technique stores no function
-    std::string broken;                 // the first promise that is broken; empty: none
+    std::optional<results::CurveErrors> errors;  // nothing when the technique stores no function
+    std::string broken;                          // the first promise that is broken; empty: none
 };
 
 // Checks all maps in one pass over the light rays, tiles in parallel. Of maps with more than `max_cells` cells an even

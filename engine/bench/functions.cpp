@@ -26,7 +26,7 @@ constexpr double rounding = 1e-6;         // of stored floats
 constexpr std::size_t lookups = 1 << 16;  // in one timed pass
 constexpr double shortest_build = 0.002;  // seconds of a timed pass; shorter builds are repeated within it
 
-std::unique_ptr<Map> build(const TechniqueChoice& technique, std::span<const Curve> functions) {
+std::unique_ptr<Map> build(const document::TechniqueChoice& technique, std::span<const Curve> functions) {
     return technique.row->from_curves(technique.values, functions);
 }
 
@@ -106,7 +106,7 @@ void shuffle(std::vector<Query>& queries) {
     for (std::size_t i = queries.size(); i > 1; --i) std::swap(queries[i - 1], queries[random.below(i)]);
 }
 
-double build_seconds(const TechniqueChoice& technique, std::span<const Curve> functions) {
+double build_seconds(const document::TechniqueChoice& technique, std::span<const Curve> functions) {
     int builds = 0;
     double seconds = 0.0;
     do {
@@ -125,7 +125,7 @@ double lookup_ns(const Map& map, std::span<const Query> queries, std::vector<flo
     return 1e9 * stopwatch.seconds() / static_cast<double>(queries.size());
 }
 
-FunctionResult describe(const TechniqueChoice& technique, std::span<const Curve> functions, const Map& map) {
+FunctionResult describe(const document::TechniqueChoice& technique, std::span<const Curve> functions, const Map& map) {
     FunctionResult result;
     result.technique = technique.row->id;
     result.parameters = techniques::to_string(technique.values, technique.row->parameters, false);
@@ -150,7 +150,7 @@ bool keeps_promises(const FunctionResult& result) {
     return result.broken == 0 && result.over_tolerance.value_or(0) == 0;
 }
 
-void time_all(std::span<const Curve> functions, std::span<const TechniqueChoice> techniques, int repetitions,
+void time_all(std::span<const Curve> functions, std::span<const document::TechniqueChoice> techniques, int repetitions,
               std::vector<Timed>& timed) {
     const base::ThreadLimit one_thread(1);
     const std::vector<Query> coherent = coherent_queries(functions);
@@ -174,7 +174,7 @@ void time_all(std::span<const Curve> functions, std::span<const TechniqueChoice>
 }  // namespace
 
 std::vector<FunctionResult> measure_functions(std::span<const Curve> functions,
-                                              std::span<const TechniqueChoice> techniques, int repetitions) {
+                                              std::span<const document::TechniqueChoice> techniques, int repetitions) {
     if (functions.empty()) throw Error(ErrorCode::bad_input, "", "there are no functions");
     std::vector<FunctionResult> results;
     std::vector<Timed> timed;
@@ -185,8 +185,9 @@ std::vector<FunctionResult> measure_functions(std::span<const Curve> functions,
     }
     time_all(functions, techniques, repetitions, timed);
     for (Timed& one : timed)
-        results[one.index].times = FunctionTimes{summarise(std::move(one.build)), summarise(std::move(one.random)),
-                                                 summarise(std::move(one.coherent))};
+        results[one.index].times =
+            FunctionTimes{results::summarise(std::move(one.build)), results::summarise(std::move(one.random)),
+                          results::summarise(std::move(one.coherent))};
     return results;
 }
 

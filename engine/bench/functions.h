@@ -10,15 +10,15 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "bench/result.h"
 #include "curves/curve.h"
-#include "techniques/technique.h"
+#include "document/technique_choice.h"
+#include "results/result.h"
 
 namespace shadowbench::bench {
 
 struct FunctionTimes {
-    Sample build_ns_per_vertex;  // one thread, the whole map, per vertex that goes in
-    Sample lookup_random_ns, lookup_coherent_ns;
+    results::Sample build_ns_per_vertex;  // one thread, the whole map, per vertex that goes in
+    results::Sample lookup_random_ns, lookup_coherent_ns;
 };
 
 struct FunctionResult {
@@ -34,19 +34,10 @@ struct FunctionResult {
     std::vector<curves::Curve> stored;            // the functions as the technique holds them
 };
 
-// "deep:tolerance=0.02,filter=point" -> its row and parameters. Throws Error{usage}.
-struct TechniqueChoice {
-    const techniques::Technique* row = nullptr;
-    techniques::ParameterValues values;
-};
-TechniqueChoice read_any_technique(const std::string& text);
-// Only those that can take given functions.
-TechniqueChoice read_technique(const std::string& text);
-
 // One map of all functions a technique, checked and then timed: repetitions interleaved. No function, or a technique
 // that cannot take functions, is Error{bad_input} or {usage}.
 std::vector<FunctionResult> measure_functions(std::span<const curves::Curve> functions,
-                                              std::span<const TechniqueChoice> techniques, int repetitions);
+                                              std::span<const document::TechniqueChoice> techniques, int repetitions);
 
 nlohmann::ordered_json to_json(const FunctionResult& result);
 std::string to_table(std::span<const FunctionResult> results);

@@ -1,15 +1,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/table.h"
 #include "bench/functions.h"
-#include "bench/table.h"
 
 namespace shadowbench::bench {
 namespace {
 
 using json = nlohmann::ordered_json;
 
-json to_json(const Sample& sample) {
+json to_json(const results::Sample& sample) {
     return {
         {"median", sample.median}, {"interval95", {sample.interval.low, sample.interval.high}}, {"raw", sample.raw}};
 }
@@ -43,11 +43,11 @@ nlohmann::ordered_json to_json(const FunctionResult& result) {
 }
 
 std::string to_table(std::span<const FunctionResult> results) {
-    Table table({"technique", "functions", "vertices in", "nodes out", "bytes", "curve err max", "rms",
-                 "over tolerance", "rises by", "leaves [0,1] by", "broken", "ns/vertex", "random ns", "coherent ns",
-                 "status"});
+    base::Table table({"technique", "functions", "vertices in", "nodes out", "bytes", "curve err max", "rms",
+                       "over tolerance", "rises by", "leaves [0,1] by", "broken", "ns/vertex", "random ns",
+                       "coherent ns", "status"});
     for (const FunctionResult& r : results) {
-        const auto time = [&](const Sample FunctionTimes::*sample) {
+        const auto time = [&](const results::Sample FunctionTimes::*sample) {
             return r.times ? fmt::format("{:.2f}", ((*r.times).*sample).median) : std::string("-");
         };
         table.add({r.parameters.empty() ? r.technique : r.technique + " " + r.parameters,

@@ -88,6 +88,38 @@ private:
     std::vector<std::size_t> inside_;  // media that reach beyond the depth
 };
 
+// A ray's sample cell in the map.
+struct Cell {
+    int i, j;
+};
+Cell cell_of(const LightRays& tile, const MapLayout& layout, std::size_t ray) {
+    const int pixel = static_cast<int>(ray / tile.samples), sample = static_cast<int>(ray % tile.samples);
+    return {(tile.x0 + pixel % tile.width) * layout.samples_x + sample % layout.samples_x,
+            (tile.y0 + pixel / tile.width) * layout.samples_y + sample / layout.samples_x};
+}
+
+// What the grid volumes leave of one ray's light at some depths.
+class MediaWalk {
+public:
+    MediaWalk(const GridsInLight& media, const MapLayout& layout) : media_(media), layout_(layout) {}
+
+    void start(const Cell& cell, std::span<const double> depths) {  // that ascend
+        if (media_.grids.empty()) return;
+        const rays::SamplePosition place = rays::sample_position(layout_, cell.i, cell.j);
+        optical_depth_.resize(depths.size());
+        media_.grids.optical_depths(media_.view, place.x, place.y, rays::sample_time(layout_, cell.i, cell.j), depths,
+                                    optical_depth_);
+    }
+    double transmittance(std::size_t depth, int channel) const {
+        return media_.grids.empty() ? 1.0 : std::exp(-optical_depth_[depth][channel]);
+    }
+
+private:
+    const GridsInLight& media_;
+    const MapLayout& layout_;
+    std::vector<base::Vec3d> optical_depth_;
+};
+
 }  // namespace
 
 FilterBox filter_box(const Query& query, const MapLayout& layout) {
@@ -104,35 +136,44 @@ FilterBox filter_box(const Query& query, const MapLayout& layout) {
 }
 
 void gather_footprints(const LightRays& tile, const MapLayout& layout, std::span<const Query> queries,
-                       std::span<Part> parts) {
+                       const GridsInLight& media, std::span<Part> parts) {
     std::vector<FilterBox> footprints;
     footprints.reserve(parts.size());
     for (const Part& part : parts) footprints.push_back(filter_box(queries[part.query], layout));
     const PartsByPixel sorted = sort_parts(tile, footprints, queries, parts);
     RayWalk walk;
+    MediaWalk through_media(media, layout);
+    std::vector<std::uint32_t> answered;  // parts whose footprint holds the ray, by depth
+    std::vector<double> depths;
     for (std::size_t ray = 0; ray < tile.rays(); ++ray) {
-        const std::size_t pixel = ray / tile.samples, sample = ray % tile.samples;
+        const std::size_t pixel = ray / tile.samples;
         if (sorted.begin[pixel] == sorted.begin[pixel + 1]) continue;
-        const int x = tile.x0 + static_cast<int>(pixel) % tile.width,
-                  y = tile.y0 + static_cast<int>(pixel) / tile.width;
-        const rays::SamplePosition place =
-            rays::sample_position(layout, x * layout.samples_x + static_cast<int>(sample) % layout.samples_x,
-                                  y * layout.samples_y + static_cast<int>(sample) / layout.samples_x);
-        walk.start(tile, ray);
+        const Cell cell = cell_of(tile, layout, ray);
+        const rays::SamplePosition place = rays::sample_position(layout, cell.i, cell.j);
+        answered.clear();
+        depths.clear();
         for (std::uint32_t k = sorted.begin[pixel]; k < sorted.begin[pixel + 1]; ++k) {
             const FilterBox& f = footprints[sorted.part[k]];
             if (place.x < f.left || place.x > f.right || place.y < f.low || place.y > f.high) continue;
-            Part& part = parts[sorted.part[k]];
-            const double z = queries[part.query].z;
-            walk.advance(tile, z);
-            for (int c = 0; c < tile.channels; ++c) part.moments.add(c, walk.transmittance(tile, c, z));
-            ++part.moments.count;
+            answered.push_back(sorted.part[k]);
+            depths.push_back(queries[parts[sorted.part[k]].query].z);
+        }
+        if (answered.empty()) continue;
+        walk.start(tile, ray);
+        through_media.start(cell, depths);
+        for (std::size_t k = 0; k < answered.size(); ++k) {
+            Moments& moments = parts[answered[k]].moments;
+            walk.advance(tile, depths[k]);
+            for (int c = 0; c < tile.channels; ++c)
+                moments.add(c, walk.transmittance(tile, c, depths[k]) * through_media.transmittance(k, c));
+            ++moments.count;
         }
     }
 }
 
 void gather_nearest(const LightRays& tile, const MapLayout& layout, std::span<const Query> queries,
-                    std::span<Part> parts) {
+                    const GridsInLight& media, std::span<Part> parts) {
+    MediaWalk through_media(media, layout);
     for (Part& part : parts) {
         const Query& query = queries[part.query];
         const int i = static_cast<int>(query.x * static_cast<double>(layout.samples_x));
@@ -141,7 +182,10 @@ void gather_nearest(const LightRays& tile, const MapLayout& layout, std::span<co
         if (x < 0 || x >= tile.width || y < 0 || y >= tile.height) continue;
         const int sample = (j % layout.samples_y) * layout.samples_x + i % layout.samples_x;
         const std::size_t ray = (static_cast<std::size_t>(y) * tile.width + x) * tile.samples + sample;
-        for (int c = 0; c < tile.channels; ++c) part.moments.add(c, rays::transmittance(tile, ray, c, query.z));
+        const double depth = query.z;
+        through_media.start({i, j}, {&depth, 1});
+        for (int c = 0; c < tile.channels; ++c)
+            part.moments.add(c, rays::transmittance(tile, ray, c, depth) * through_media.transmittance(0, c));
         ++part.moments.count;
     }
 }

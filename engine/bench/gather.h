@@ -1,12 +1,15 @@
-// Sums of the exact transmittance of all light rays of a tile over the footprints of queries. Internal to
-// reference.cpp.
+// Sums of the exact transmittance of all light rays of a tile over the footprints of queries. Grid volumes are not
+// among the rays' segments, whose extinction is constant: they are integrated along the rays, up to each depth that is
+// asked for. Internal to reference.cpp.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "rays/grid_media.h"
 #include "rays/light_rays.h"
+#include "rays/light_view.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::bench {
@@ -34,13 +37,19 @@ struct Part {
     Moments moments;
 };
 
+// The grid volumes of the scene, and the light that made the rays.
+struct GridsInLight {
+    const rays::GridMedia& grids;
+    const rays::LightView& view;
+};
+
 // Adds to each part the rays of this tile inside its query's footprint. Each ray is walked once for all queries that it
 // answers, front to back.
 void gather_footprints(const rays::LightRays& tile, const rays::MapLayout& layout,
-                       std::span<const techniques::Query> queries, std::span<Part> parts);
+                       std::span<const techniques::Query> queries, const GridsInLight& media, std::span<Part> parts);
 
 // Adds the one ray of the sample cell that holds (x, y), if it is this tile's.
 void gather_nearest(const rays::LightRays& tile, const rays::MapLayout& layout,
-                    std::span<const techniques::Query> queries, std::span<Part> parts);
+                    std::span<const techniques::Query> queries, const GridsInLight& media, std::span<Part> parts);
 
 }  // namespace shadowbench::bench

@@ -11,12 +11,14 @@
 #include "bench/agreement.h"
 #include "bench/build_timing.h"
 #include "bench/clock.h"
-#include "bench/fronts.h"
 #include "bench/lookup_timing.h"
+#include "bench/prepared_light.h"
 #include "bench/queries.h"
 #include "bench/ray_source.h"
 #include "bench/reference.h"
+#include "bench/verdict.h"
 #include "rays/capture.h"
+#include "results/fronts.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -24,6 +26,10 @@ namespace {
 using techniques::Query;
 
 constexpr std::size_t agreement_rays = 20000;
+
+const scene::Light& light_of(const LightJob& job) {
+    return job.scenario.lights[job.light];
+}
 
 QuerySet make_queries(const LightJob& job, const rays::LightView& view) {
     const scene::Receivers& receivers = job.scenario.receivers;
@@ -34,7 +40,7 @@ QuerySet make_queries(const LightJob& job, const rays::LightView& view) {
     throw base::Error(base::ErrorCode::bad_input, "/receivers",
                       set.dropped == 0 ? "there is nothing to ask for: the camera sees no surface and no medium"
                                        : fmt::format("none of the {} receivers is inside the map of light \"{}\"",
-                                                     set.dropped, job.light.name));
+                                                     set.dropped, light_of(job).name));
 }
 
 RaySource::Watch stage(const LightJob& job, const char* name, const rays::MapLayout& layout) {
@@ -54,9 +60,10 @@ Truth find_truth(const LightJob& job, const rays::LightView& view, std::span<con
                                 stage(job, "reference"));
 }
 
-ReferenceReport report_reference(const LightJob& job, const rays::LightView& view, const rays::MapLayout& layout,
-                                 std::span<const Query> judged, const Truth& truth) {
-    ReferenceReport report;
+results::ReferenceReport report_reference(const LightJob& job, const rays::LightView& view,
+                                          const rays::MapLayout& layout, std::span<const Query> judged,
+                                          const Truth& truth) {
+    results::ReferenceReport report;
     const metrics::ErrorNorms error = metrics::error_norms(truth.standard_error);
     report.judged = judged.size();
     report.samples_per_pixel = job.scenario.scene.deep_image ? 1 : job.scenario.reference.samples_per_pixel;
@@ -111,9 +118,9 @@ void time_all(const LightJob& job, std::span<Contender> contenders, const RaySou
         for (const LookupOrder* order : {&one.plan.image, &one.plan.random})
             check_answers(contenders[one.contender], order->asked(), order->answers);
         if (!contenders[one.contender].ok()) continue;
-        CellTimes times;
+        results::CellTimes times;
         for (double& s : seconds[one.contender]) s *= 1e3;
-        times.build_ms = summarise(std::move(seconds[one.contender]));
+        times.build_ms = results::summarise(std::move(seconds[one.contender]));
         times.ns_per_segment =
             source.segments() ? 1e6 * times.build_ms.median / static_cast<double>(source.segments()) : 0.0;
         times.image_order = summarise(one.plan.image);
@@ -129,17 +136,18 @@ QuerySet judged_queries(const LightJob& job, const QuerySet& set) {
                 choose_judged(set.queries.size(), static_cast<std::size_t>(reference.queries), reference.seed));
 }
 
-LightResult describe(const LightJob& job, const rays::MapLayout& layout, const QuerySet& set) {
-    LightResult result;
-    result.name = job.light.name;
-    result.layout = layout;
+results::LightResult describe(const LightJob& job, const rays::MapLayout& layout, const QuerySet& set) {
+    results::LightResult result;
+    result.name = light_of(job).name;
+    result.layout = {layout.width, layout.height,   layout.samples_x, layout.samples_y, layout.jittered,
+                     layout.seed,  layout.channels, layout.media,     layout.z_min,     layout.z_max};
     result.deep_image = job.scenario.scene.deep_image.has_value();
     result.receivers = set.queries.size();
     result.dropped = set.dropped;
     return result;
 }
 
-void report_capture(const RaySource& source, double setup_seconds, LightResult& result) {
+void report_capture(const RaySource& source, double setup_seconds, results::LightResult& result) {
     result.rays = source.rays();
     result.segments = source.segments();
     result.ray_bytes = source.bytes();
@@ -150,16 +158,13 @@ void report_capture(const RaySource& source, double setup_seconds, LightResult& 
 
 }  // namespace
 
-LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
+results::LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
     const scene::Scene& scene = job.scenario.scene;
-    const rays::LightView view = rays::make_light_view(job.light, scene, job.scenario.rays.resolution, job.where);
-    rays::MapLayout layout = rays::make_layout(scene, view, job.scenario.rays);
-    ask_for_needs(contenders, layout);
-    check_memory(job.scenario, view, contenders, job.limits, "/rays");
+    const auto [view, layout, least] = prepare_light(job.scenario, job.light, contenders, job.limits);
     const techniques::BuildInput input{layout, view, job.casters};
     if (scene.deep_image) check_served(contenders, input);
     const QuerySet set = make_queries(job, view);
-    LightResult result = describe(job, layout, set);
+    results::LightResult result = describe(job, layout, set);
 
     const Stopwatch setup;
     const rays::Capture capture(scene, view, layout);
@@ -175,11 +180,14 @@ LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
     build_all(contenders, source, input, job.limits.all, stage(job, "build", layout));
     check_functions(contenders, source, layout, stage(job, "check", layout));
     check_lookups(contenders, judged.asked(), truth);
-    if (sees_nothing(result)) check_lit(contenders);
+    if (results::sees_nothing(result)) check_lit(contenders);
     time_all(job, contenders, source, input, set.asked());
 
-    for (Contender& contender : contenders) result.cells.push_back(std::move(contender.cell));
-    mark_fronts(result.cells);
+    for (Contender& contender : contenders) {
+        judge(contender.cell, contender.promises, result.reference.noise_tolerance);
+        result.cells.push_back(std::move(contender.cell));
+    }
+    results::mark_fronts(result.cells);
     return result;
 }
 

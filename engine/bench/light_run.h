@@ -1,16 +1,16 @@
 // One light of one scenario: capture, check, time.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "bench/contender.h"
 #include "bench/memory.h"
 #include "bench/queries.h"
-#include "bench/result.h"
 #include "rays/tracer.h"
+#include "results/result.h"
 #include "scene/scene.h"
 
 namespace shadowbench::bench {
@@ -19,8 +19,7 @@ using StageWatch = std::function<void(const char* stage, std::size_t done, std::
 
 struct LightJob {
     const scene::Scenario& scenario;
-    const scene::Light& light;
-    std::string where;                  // JSON pointer of the light
+    std::size_t light;                  // its number
     const rays::Tracer* casters;        // null for a deep image
     std::span<const CameraPoint> seen;  // receivers in world space, with a camera
     MemoryLimits limits;
@@ -30,6 +29,6 @@ struct LightJob {
 // Throws Error{bad_input}: no receiver is in the light's map, the memory limit is exceeded, or a technique cannot serve
 // this layout. A fault of a technique is not an error: its cell is marked failed. Nor is a light that sees nothing: all
 // is lit then, and every answer has to be 1.
-LightResult run_light(const LightJob& job, std::vector<Contender> contenders);
+results::LightResult run_light(const LightJob& job, std::vector<Contender> contenders);
 
 }  // namespace shadowbench::bench

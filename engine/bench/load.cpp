@@ -24,7 +24,7 @@ json without_scene(json document) {
 
 ScenarioLoader::ScenarioLoader(scene::SearchPath data) : data_(std::move(data)) {}
 
-const scene::Scenario& ScenarioLoader::load(const Variant& variant) {
+const scene::Scenario& ScenarioLoader::load(const document::Variant& variant) {
     const json& document = *variant.document;
     // A deep image also sets the size of the map, so it is read anew; it is small.
     const bool same_scene = loaded_ && !scenario_.scene.deep_image && same_part(*loaded_, document, "scene") &&
@@ -44,10 +44,10 @@ const scene::Scenario& ScenarioLoader::load(const Variant& variant) {
     return scenario_;
 }
 
-std::vector<Contender> make_contenders(const scene::Scenario& scenario, const Variant& variant) {
+std::vector<Contender> make_contenders(const scene::Scenario& scenario, const document::Variant& variant) {
     std::vector<Contender> contenders;
     for (std::size_t i = 0; i < scenario.techniques.size(); ++i)
-        contenders.push_back(make_contender(scenario.techniques[i], variant.technique_where[i]));
+        contenders.push_back(make_contender(scenario.techniques[i], variant.technique_where[i], variant.swept[i]));
     return contenders;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/contender.h"
-#include "bench/document.h"
+#include "document/document.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::bench {
@@ -17,7 +17,7 @@ public:
     explicit ScenarioLoader(scene::SearchPath data);
 
     // The reference stays valid until the next call.
-    const scene::Scenario& load(const Variant& variant);
+    const scene::Scenario& load(const document::Variant& variant);
 
 private:
     scene::SearchPath data_;
@@ -26,6 +26,6 @@ private:
 };
 
 // The techniques of a variant's scenario, their messages naming the places in the original document.
-std::vector<Contender> make_contenders(const scene::Scenario& scenario, const Variant& variant);
+std::vector<Contender> make_contenders(const scene::Scenario& scenario, const document::Variant& variant);
 
 }  // namespace shadowbench::bench

@@ -152,14 +152,14 @@ void time_repetition(const Maps& maps, LookupPlan& plan, bool floor_first) {
     time_order(maps, plan.random, plan, floor_first);
 }
 
-LookupTimes summarise(const LookupOrder& order) {
-    LookupTimes times;
-    times.ns = summarise(order.ns);
+results::LookupTimes summarise(const LookupOrder& order) {
+    results::LookupTimes times;
+    times.ns = results::summarise(order.ns);
     if (order.floor_ns.empty()) return times;
-    times.floor = summarise(order.floor_ns);
+    times.floor = results::summarise(order.floor_ns);
     std::vector<double> ratios;
     for (std::size_t r = 0; r < order.ns.size(); ++r) ratios.push_back(order.ns[r] / order.floor_ns[r]);
-    times.ratio = summarise(std::move(ratios));
+    times.ratio = results::summarise(std::move(ratios));
     return times;
 }
 

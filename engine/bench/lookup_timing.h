@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/maps.h"
-#include "bench/result.h"
+#include "results/result.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::bench {
@@ -47,6 +47,6 @@ LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, 
 // its floor goes first: alternate it, so that neither always finds the other's lines in the cache.
 void time_repetition(const Maps& maps, LookupPlan& plan, bool floor_first);
 
-LookupTimes summarise(const LookupOrder& order);
+results::LookupTimes summarise(const LookupOrder& order);
 
 }  // namespace shadowbench::bench

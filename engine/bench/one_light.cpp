@@ -7,7 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "bench/document.h"
+#include "document/document.h"
+#include "document/technique_choice.h"
 #include "rays/capture.h"
 
 namespace shadowbench::bench {
@@ -16,11 +17,12 @@ namespace {
 using base::Error;
 using base::ErrorCode;
 
-Variant only_variant(const nlohmann::json& document) {
-    std::vector<Variant> variants = expand(document);
+document::Variant only_variant(const nlohmann::json& document) {
+    std::vector<document::Variant> variants = document::expand(document);
     if (variants.size() == 1) return std::move(variants[0]);
     std::string swept;
-    for (const Setting& setting : variants[0].settings) swept += (swept.empty() ? "" : ", ") + setting.pointer;
+    for (const document::Setting& setting : variants[0].settings)
+        swept += (swept.empty() ? "" : ", ") + setting.pointer;
     throw Error(ErrorCode::usage, "--set",
                 fmt::format("the scenario sweeps over {}; set one value of each, as in --set {}=...", swept,
                             variants[0].settings[0].pointer));
@@ -57,38 +59,36 @@ std::size_t find_light(const std::vector<std::string>& names, const std::string&
 OneLight::OneLight(const nlohmann::json& document, const RunOptions& options, const std::string& light)
     : options_(options), loader_(options.data) {
     scenario_ = &loader_.load(only_variant(document));
-    const std::size_t index = find_light(names_of(scenario_->lights), light, "--light ");
-    light_ = &scenario_->lights[index];
-    where_ = scenario_->scene.deep_image ? "/scene/deep_image" : fmt::format("/lights/{}", index);
-    view_ = rays::make_light_view(*light_, scenario_->scene, scenario_->rays.resolution, where_);
-    layout_ = rays::make_layout(scenario_->scene, view_, scenario_->rays);
+    index_ = find_light(names_of(scenario_->lights), light, "--light ");
+    light_ = &scenario_->lights[index_];
+    prepared_ = prepare_light(*scenario_, index_, {}, options_.limits);
     if (!scenario_->scene.objects.empty()) casters_ = std::make_unique<rays::Tracer>(scenario_->scene, true);
 }
 
 void OneLight::capture(std::span<Contender> contenders, const ProgressCallback& progress, const Visit& visit) const {
-    check_memory(*scenario_, view_, contenders, options_.limits, "/rays");
-    rays::MapLayout layout = layout_;
-    ask_for_needs(contenders, layout);
-    const rays::Capture capture(scenario_->scene, view_, layout);
-    const RaySource source(capture, layout, options_.limits.kept_rays, stage(progress, "capture", layout));
+    const PreparedLight prepared = prepare_light(*scenario_, index_, contenders, options_.limits);
+    const rays::Capture capture(scenario_->scene, prepared.view, prepared.layout);
+    const RaySource source(capture, prepared.layout, options_.limits.kept_rays,
+                           stage(progress, "capture", prepared.layout));
     if (source.segments() == 0)
-        throw Error(ErrorCode::bad_input, where_,
+        throw Error(ErrorCode::bad_input, pointer_of(*scenario_, index_),
                     fmt::format("light \"{}\" sees nothing that casts a shadow", light_->name));
-    visit(source, layout);
+    visit(source, prepared);
 }
 
 void OneLight::for_each_batch(const std::function<void(RaySource::Batch)>& body,
                               const ProgressCallback& progress) const {
-    capture({}, progress, [&](const RaySource& source, const rays::MapLayout&) { source.for_each_batch(0, body); });
+    capture({}, progress, [&](const RaySource& source, const PreparedLight&) { source.for_each_batch(0, body); });
 }
 
-Contender OneLight::build(const TechniqueChoice& technique, const ProgressCallback& progress) const {
+Contender OneLight::build(const document::TechniqueChoice& technique, const ProgressCallback& progress) const {
     const std::string where = fmt::format("--technique {}", technique.row->id);
     Contender contender =
         make_contender({technique.row->id, techniques::to_json(technique.values).dump(), where}, where);
     const std::span<Contender> one(&contender, 1);
-    capture(one, progress, [&](const RaySource& source, const rays::MapLayout& layout) {
-        build_all(one, source, {layout, view_, casters_.get()}, options_.limits.all, stage(progress, "build", layout));
+    capture(one, progress, [&](const RaySource& source, const PreparedLight& prepared) {
+        build_all(one, source, {prepared.layout, prepared.view, casters_.get()}, options_.limits.all,
+                  stage(progress, "build", prepared.layout));
     });
     if (!contender.ok()) throw Error(ErrorCode::internal, where, contender.cell.reason);
     return contender;

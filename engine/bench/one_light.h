@@ -13,9 +13,11 @@
 #include "bench/contender.h"
 #include "bench/functions.h"
 #include "bench/load.h"
+#include "bench/prepared_light.h"
 #include "bench/progress.h"
 #include "bench/ray_source.h"
 #include "bench/run.h"
+#include "document/technique_choice.h"
 #include "rays/tracer.h"
 
 namespace shadowbench::bench {
@@ -36,7 +38,7 @@ public:
 
     const scene::Scenario& scenario() const { return *scenario_; }
     const scene::Light& light() const { return *light_; }
-    const rays::MapLayout& layout() const { return layout_; }
+    const rays::MapLayout& layout() const { return prepared_.layout; }
 
     // Calls body with all light rays, some tiles at a time, in order. Throws Error{bad_input} for a light that sees
     // nothing, or more than the memory limit.
@@ -44,19 +46,18 @@ public:
 
     // The finished map. Throws the same, and Error{bad_input} when the technique cannot serve the light, internal when
     // it fails.
-    Contender build(const TechniqueChoice& technique, const ProgressCallback& progress) const;
+    Contender build(const document::TechniqueChoice& technique, const ProgressCallback& progress) const;
 
 private:
-    using Visit = std::function<void(const RaySource& source, const rays::MapLayout& layout)>;
+    using Visit = std::function<void(const RaySource& source, const PreparedLight& light)>;
     void capture(std::span<Contender> contenders, const ProgressCallback& progress, const Visit& visit) const;
 
     RunOptions options_;
     ScenarioLoader loader_;
     const scene::Scenario* scenario_ = nullptr;
     const scene::Light* light_ = nullptr;
-    std::string where_;  // JSON pointer of the light
-    rays::LightView view_;
-    rays::MapLayout layout_;
+    std::size_t index_ = 0;                  // of the light
+    PreparedLight prepared_;                 // for no technique
     std::unique_ptr<rays::Tracer> casters_;  // null for a deep image
 };
 

@@ -10,11 +10,12 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "bench/contender.h"
-#include "bench/document.h"
 #include "bench/load.h"
 #include "bench/one_light.h"
+#include "bench/prepared_light.h"
 #include "curves/norms.h"
 #include "curves/sweep.h"
+#include "document/document.h"
 #include "rays/capture.h"
 
 namespace shadowbench::bench {
@@ -30,9 +31,9 @@ constexpr double linearisation = 1e-4;         // of media's exponentials, in th
 constexpr int even_depths = 128;               // that functions which are not piecewise linear are also sampled at
 constexpr const char* asked_light = "light=";  // as the service is asked
 
-Variant take_variant(const nlohmann::json& document, const RunOptions& options, std::size_t index) {
-    std::vector<Variant> variants = expand(select_variant(document, index));
-    keep_only(variants[0], options.only);
+document::Variant take_variant(const nlohmann::json& document, const RunOptions& options, std::size_t index) {
+    std::vector<document::Variant> variants = document::expand(document::select_variant(document, index));
+    document::keep_only(variants[0], options.only);
     return std::move(variants[0]);
 }
 
@@ -48,7 +49,7 @@ struct Tile {
 };
 
 Tile capture_tile(const rays::Capture& capture, int index, int apron) {
-    Tile tile{capture.tile(index, {}, apron), {}};
+    Tile tile{capture.tile(index, apron), {}};
     for (int c = 0; c < tile.rays.channels; ++c)
         tile.channels.push_back(tile.rays.channels == 1 ? tile.rays : rays::channel(tile.rays, c));
     return tile;
@@ -67,7 +68,7 @@ Curve with_ends(Curve curve, const rays::MapLayout& layout) {
 struct PixelProbe::State {
     RunOptions options;
     base::ThreadLimit threads;
-    Variant variant;
+    document::Variant variant;
     ScenarioLoader loader;
     const scene::Scenario& scenario;
     const scene::Light& light;
@@ -90,13 +91,11 @@ struct PixelProbe::State {
           loader(told.data),
           scenario(loader.load(variant)),
           light(scenario.lights[find_light(names_of(scenario.lights), light_name, asked_light)]) {
-        const std::string where =
-            scenario.scene.deep_image ? "/scene/deep_image" : fmt::format("/lights/{}", &light - &scenario.lights[0]);
-        view = rays::make_light_view(light, scenario.scene, scenario.rays.resolution, where);
         contenders = make_contenders(scenario, variant);
-        check_memory(scenario, view, contenders, options.limits, "/rays");
-        layout = rays::make_layout(scenario.scene, view, scenario.rays);
-        ask_for_needs(contenders, layout);
+        PreparedLight prepared =
+            prepare_light(scenario, static_cast<std::size_t>(&light - &scenario.lights[0]), contenders, options.limits);
+        view = prepared.view;
+        layout = prepared.layout;
         if (!scenario.scene.objects.empty()) casters = std::make_unique<rays::Tracer>(scenario.scene, true);
         capture = std::make_unique<rays::Capture>(scenario.scene, view, layout);
     }
@@ -183,7 +182,7 @@ struct PixelProbe::State {
 
     TechniqueCurve curve_of(std::size_t i, int x, int y) {
         TechniqueCurve out;
-        out.title = title(contenders[i].cell);
+        out.title = results::title(contenders[i].cell);
         out.technique = contenders[i].cell.technique;
         if (!maps[i]) {
             out.absent = faults[i];
@@ -206,7 +205,7 @@ struct PixelProbe::State {
 };
 
 void check_light(const nlohmann::json& document, const std::string& light, std::size_t variant) {
-    find_light(scene::light_names(select_variant(document, variant)), light, asked_light);
+    find_light(scene::light_names(document::select_variant(document, variant)), light, asked_light);
 }
 
 PixelProbe::PixelProbe(const nlohmann::json& document, const RunOptions& options, const std::string& light,

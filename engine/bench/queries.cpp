@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "base/parallel.h"
 #include "base/random.h"
-#include "rays/image_plane.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -16,39 +13,6 @@ using techniques::Footprint;
 using techniques::Query;
 
 constexpr double behind = 0.05;  // of the depth range: how far probes reach behind what casts shadows
-
-struct Span {
-    double front, back;
-};
-
-// Where the ray is inside of any medium: disjoint, in order.
-std::vector<Span> media_spans(const std::vector<rays::TracedSegment>& segments) {
-    std::vector<Span> spans;
-    for (const rays::TracedSegment& segment : segments) {
-        if (!(segment.front < segment.back)) continue;
-        if (!spans.empty() && segment.front <= spans.back().back)
-            spans.back().back = std::max(spans.back().back, segment.back);
-        else
-            spans.push_back({segment.front, segment.back});
-    }
-    return spans;
-}
-
-// Appends the distances of `count` places that divide the spans into equal parts.
-void spread(const std::vector<Span>& spans, int count, std::vector<double>& distances) {
-    double length = 0.0;
-    for (const Span& span : spans) length += span.back - span.front;
-    std::size_t at = 0;
-    double before = 0.0;  // length of the spans already passed
-    for (int i = 0; i < count && !spans.empty(); ++i) {
-        const double wanted = (i + 0.5) / count * length;
-        while (at + 1 < spans.size() && before + spans[at].back - spans[at].front < wanted) {
-            before += spans[at].back - spans[at].front;
-            ++at;
-        }
-        distances.push_back(std::min(spans[at].front + (wanted - before), spans[at].back));
-    }
-}
 
 std::optional<Query> query_if_seen(const Vec3d& place, double width, const rays::LightView& view) {
     const Query query{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z),
@@ -68,15 +32,6 @@ void append(const std::optional<Query>& query, QuerySet& set) {
 
 }  // namespace
 
-// Where the rays through the neighbouring pixels meet the plane through the point.
-CameraPoint camera_point(const rays::ImagePlane& plane, const Vec3d& through, const Vec3d& point, const Vec3d& normal) {
-    const double scale = (point - plane.origin).length() / through.length();
-    const auto edge = [&](const Vec3d& step) {
-        return (step - through * (normal.dot(step) / normal.dot(through))) * scale;
-    };
-    return {point, edge(plane.across), edge(plane.down)};
-}
-
 Footprint footprint_of(const CameraPoint& point, const rays::LightView& view) {
     const Vec3d place = rays::to_light(view, point.position);
     const auto in_map = [&](const Vec3d& edge, float& x, float& y) {
@@ -95,34 +50,6 @@ Footprint footprint_of(const CameraPoint& point, const rays::LightView& view) {
     // Of a surface seen edge-on: as good as not known.
     const bool finite = std::isfinite(f.ux) && std::isfinite(f.uy) && std::isfinite(f.vx) && std::isfinite(f.vy);
     return finite ? f : Footprint{};
-}
-
-std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer) {
-    const base::Vec2i resolution = receivers.resolution;
-    const rays::ImagePlane plane = rays::make_image_plane(*receivers.camera, resolution);
-    std::vector<std::vector<CameraPoint>> rows(static_cast<std::size_t>(resolution.y));
-    base::parallel_for(rows.size(), [&](std::size_t row) {
-        std::vector<rays::TracedSegment> segments;
-        std::vector<double> distances;
-        for (int x = 0; x < resolution.x; ++x) {
-            const Vec3d through = plane.through(x + 0.5, static_cast<double>(row) + 0.5);
-            const Vec3d direction = through.normalized();
-            rays::SurfaceHit hit;
-            const bool surface = tracer.nearest(plane.origin, direction, hit, scene::mid_shutter);
-            const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
-            distances.clear();
-            if (receivers.media_lookups > 0) {
-                tracer.all_segments(plane.origin, direction, 0.0, end, segments, scene::mid_shutter);
-                spread(media_spans(segments), receivers.media_lookups, distances);
-            }
-            for (const double t : distances)
-                rows[row].push_back(camera_point(plane, through, plane.origin + direction * t, direction));
-            if (surface) rows[row].push_back(camera_point(plane, through, hit.position, hit.normal));
-        }
-    });
-    std::vector<CameraPoint> points;
-    for (const std::vector<CameraPoint>& row : rows) points.insert(points.end(), row.begin(), row.end());
-    return points;
 }
 
 std::optional<Query> query_of_point(const Vec3d& point, const scene::Receivers& receivers,

@@ -8,10 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/camera_points.h"
 #include "bench/maps.h"
-#include "rays/image_plane.h"
 #include "rays/light_view.h"
-#include "rays/tracer.h"
 #include "scene/scene.h"
 #include "techniques/technique.h"
 
@@ -24,23 +23,6 @@ struct QuerySet {
 
     Asked asked() const { return {queries, footprints}; }
 };
-
-// A place that a pixel of the camera sees, and the pixel's edges there: how far the place moves from one pixel to the
-// next, to the right and downwards, on the plane that touches the surface; in a medium, on the plane that faces the
-// view ray. Without bound where the surface is seen from its side.
-struct CameraPoint {
-    base::Vec3d position;
-    base::Vec3d across{0, 0, 0}, down{0, 0, 0};
-};
-
-// What the pixel whose ray runs along `through` (of the plane) sees at `point`, where the plane that touches it has
-// this normal: its edges to first order in the pixel.
-CameraPoint camera_point(const rays::ImagePlane& plane, const base::Vec3d& through, const base::Vec3d& point,
-                         const base::Vec3d& normal);
-
-// For each pixel of the image, `media_lookups` places spread evenly over the media that its view ray passes before the
-// nearest surface, then the place on that surface, all at mid-shutter. `tracer` sees all objects.
-std::vector<CameraPoint> camera_points(const scene::Receivers& receivers, const rays::Tracer& tracer);
 
 // A world point as a query of one light, moved towards it by the bias; nothing when it is outside the light's map.
 std::optional<techniques::Query> query_of_point(const base::Vec3d& point, const scene::Receivers& receivers,

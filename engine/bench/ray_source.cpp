@@ -53,7 +53,7 @@ void RaySource::capture_all(int apron, const Visit& visit) const {
         batch.clear();
         batch.resize(static_cast<std::size_t>(std::min(in_flight, layout_.tiles() - first)));
         base::parallel_for(batch.size(),
-                           [&](std::size_t i) { batch[i] = capture_.tile(first + static_cast<int>(i), {}, apron); });
+                           [&](std::size_t i) { batch[i] = capture_.tile(first + static_cast<int>(i), apron); });
         visit(batch);
     }
 }

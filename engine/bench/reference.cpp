@@ -44,26 +44,23 @@ std::vector<Moments> reduce(const std::vector<std::vector<Part>>& parts, std::si
     return total;
 }
 
-// The pixels of a tile that its queries' footprints touch.
-std::vector<unsigned char> wanted_pixels(int tile, const MapLayout& layout, std::span<const Query> queries,
-                                         std::span<const Part> parts) {
-    const int x0 = tile % layout.tiles_x() * layout.tile_width, y0 = tile / layout.tiles_x() * layout.tile_height;
-    const int width = std::min(layout.tile_width, layout.width - x0);
-    const int height = std::min(layout.tile_height, layout.height - y0);
-    std::vector<unsigned char> wanted(static_cast<std::size_t>(width) * height, 0);
-    for (const Part& part : parts) {
-        const FilterBox f = filter_box(queries[part.query], layout);
-        for (int y = std::max(f.y0, y0); y <= std::min(f.y1, y0 + height - 1); ++y)
-            for (int x = std::max(f.x0, x0); x <= std::min(f.x1, x0 + width - 1); ++x)
-                wanted[static_cast<std::size_t>(y - y0) * width + (x - x0)] = 1;
-    }
-    return wanted;
-}
+using Gather = void (*)(const LightRays&, const MapLayout&, std::span<const Query>, const GridsInLight&,
+                        std::span<Part>);
 
-using Gather = void (*)(const LightRays&, const MapLayout&, std::span<const Query>, std::span<Part>);
+// What casts shadows, in one light: grid volumes apart, since a segment's extinction is constant and theirs is not.
+struct Casters {
+    Casters(const scene::Scene& scene, const rays::LightView& in, const MapLayout& map)
+        : layout(map), capture(scene, in, map, rays::Capture::Grids::left_out), grids(scene, true), view(in) {}
 
-std::vector<Moments> gather_all(const rays::Capture& capture, const MapLayout& layout, std::span<const Query> queries,
-                                Gather gather, const ReferenceWatch& watch) {
+    const MapLayout& layout;
+    rays::Capture capture;
+    rays::GridMedia grids;
+    const rays::LightView& view;
+};
+
+std::vector<Moments> gather_all(const Casters& casters, std::span<const Query> queries, Gather gather,
+                                const ReferenceWatch& watch) {
+    const MapLayout& layout = casters.layout;
     std::vector<std::vector<Part>> parts = parts_by_tile(layout, queries);
     std::vector<std::size_t> tiles;
     for (std::size_t t = 0; t < parts.size(); ++t)
@@ -74,8 +71,8 @@ std::vector<Moments> gather_all(const rays::Capture& capture, const MapLayout& l
         base::parallel_for(std::min(in_flight, tiles.size() - first), [&](std::size_t i) {
             std::vector<Part>& tile_parts = parts[tiles[first + i]];
             const int index = static_cast<int>(tiles[first + i]);
-            const LightRays tile = capture.tile(index, wanted_pixels(index, layout, queries, tile_parts));
-            gather(tile, layout, queries, tile_parts);
+            const LightRays tile = casters.capture.tile(index);
+            gather(tile, layout, queries, {casters.grids, casters.view}, tile_parts);
         });
         if (watch) watch(std::min(first + in_flight, tiles.size()), tiles.size());
     }
@@ -83,8 +80,7 @@ std::vector<Moments> gather_all(const rays::Capture& capture, const MapLayout& l
 }
 
 // A footprint narrower than a sample cell may hold no ray at all.
-void fill_empty(const rays::Capture& capture, const MapLayout& layout, std::span<const Query> queries,
-                std::vector<Moments>& moments) {
+void fill_empty(const Casters& casters, std::span<const Query> queries, std::vector<Moments>& moments) {
     std::vector<std::size_t> empty;
     std::vector<Query> asked;
     for (std::size_t q = 0; q < queries.size(); ++q)
@@ -94,7 +90,7 @@ void fill_empty(const rays::Capture& capture, const MapLayout& layout, std::span
             asked.back().width = 0.0f;
         }
     if (empty.empty()) return;
-    const std::vector<Moments> nearest = gather_all(capture, layout, asked, gather_nearest, {});
+    const std::vector<Moments> nearest = gather_all(casters, asked, gather_nearest, {});
     for (std::size_t i = 0; i < empty.size(); ++i) moments[empty[i]] = nearest[i];
 }
 
@@ -119,9 +115,9 @@ scene::RaySettings reference_settings(const scene::Scenario& scenario) {
 Truth reference_visibility(const scene::Scene& scene, const rays::LightView& view, const scene::RaySettings& settings,
                            std::span<const Query> queries, const ReferenceWatch& watch) {
     const MapLayout layout = rays::make_layout(scene, view, settings);
-    const rays::Capture capture(scene, view, layout);
-    std::vector<Moments> moments = gather_all(capture, layout, queries, gather_footprints, watch);
-    fill_empty(capture, layout, queries, moments);
+    const Casters casters(scene, view, layout);
+    std::vector<Moments> moments = gather_all(casters, queries, gather_footprints, watch);
+    fill_empty(casters, queries, moments);
 
     Truth truth;
     truth.channels = layout.channels;

@@ -1,5 +1,6 @@
 // The truth that lookups are judged against: the mean, over every light ray inside the footprint of a query, of its
-// exact transmittance up to the query's depth, from rays of its own (more of them, another seed).
+// exact transmittance up to the query's depth, from rays of its own (more of them, another seed). No step or cell of a
+// grid volume shows in it.
 #pragma once
 
 #include <cstdint>

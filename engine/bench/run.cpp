@@ -3,19 +3,23 @@
 #include <algorithm>
 #include <ctime>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/hash_text.h"
 #include "base/parallel.h"
 #include "bench/clock.h"
-#include "bench/document.h"
 #include "bench/estimate.h"
 #include "bench/light_run.h"
 #include "bench/load.h"
-#include "bench/machine.h"
+#include "bench/prepared_light.h"
 #include "bench/queries.h"
+#include "document/document.h"
 #include "rays/capture.h"
+#include "results/machine.h"
+#include "results/program.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -29,9 +33,9 @@ std::string now_utc() {
     return text;
 }
 
-std::vector<Variant> variants_of(const nlohmann::json& document, const RunOptions& options) {
-    std::vector<Variant> variants = expand(document);
-    for (Variant& variant : variants) keep_only(variant, options.only);
+std::vector<document::Variant> variants_of(const nlohmann::json& document, const RunOptions& options) {
+    std::vector<document::Variant> variants = document::expand(document);
+    for (document::Variant& variant : variants) document::keep_only(variant, options.only);
     return variants;
 }
 
@@ -40,10 +44,6 @@ std::string place_of(std::size_t variant, std::size_t variants, const scene::Sce
     std::string place = variants > 1 ? fmt::format("{}/{}", variant + 1, variants) : "";
     if (scenario.lights.size() > 1) place += (place.empty() ? "" : " ") + scenario.lights[light].name;
     return place;
-}
-
-std::string pointer_of(const scene::Scenario& scenario, std::size_t light) {
-    return scenario.scene.deep_image ? "/scene/deep_image" : fmt::format("/lights/{}", light);
 }
 
 // What all lights of a variant share: Embree's trees and the camera's receivers.
@@ -60,29 +60,30 @@ Shared prepare(const scene::Scenario& scenario) {
     return shared;
 }
 
-void add_cost(const scene::Scenario& scenario, const rays::LightView& view, std::size_t techniques, double bytes,
+void add_cost(const scene::Scenario& scenario, const PreparedLight& light, std::size_t techniques,
               Validated& validated) {
-    const rays::MapLayout layout = rays::make_layout(scenario.scene, view, scenario.rays);
+    const rays::MapLayout& layout = light.layout;
     validated.largest_side = std::max({validated.largest_side, layout.width, layout.height});
     validated.most_samples = std::max({validated.most_samples, layout.samples(), scenario.reference.samples_per_pixel});
-    validated.least_bytes = std::max(validated.least_bytes, bytes);
+    validated.least_bytes = std::max(validated.least_bytes, light.least_bytes);
     validated.seconds += estimate_seconds(scenario, layout, techniques);
 }
 
 }  // namespace
 
-Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress) {
+results::Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress) {
     const base::ThreadLimit threads(options.threads);
     const Stopwatch stopwatch;
-    Result result;
+    results::Result result;
     result.times.started = now_utc();
     result.times.threads = base::thread_count();
-    result.machine = this_machine();
-    const std::vector<Variant> variants = variants_of(document, options);
+    result.program = results::this_program();
+    result.machine = results::this_machine();
+    const std::vector<document::Variant> variants = variants_of(document, options);
     result.name = document.at("name").get<std::string>();
     result.purpose = document.value("purpose", "");
     result.document = document.dump();
-    result.hash = hash_text(result.document);
+    result.hash = base::hash_text(result.document);
     result.only = options.only;
 
     ScenarioLoader loader(options.data);
@@ -90,7 +91,7 @@ Result run(const nlohmann::json& document, const RunOptions& options, const Prog
         const scene::Scenario& scenario = loader.load(variants[v]);
         const std::vector<Contender> contenders = make_contenders(scenario, variants[v]);
         const Shared shared = prepare(scenario);
-        VariantResult& out = result.variants.emplace_back();
+        results::VariantResult& out = result.variants.emplace_back();
         out.settings = variants[v].settings;
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
             StageWatch watch;
@@ -100,10 +101,9 @@ Result run(const nlohmann::json& document, const RunOptions& options, const Prog
                     progress({place, stage, done, total});
                 };
             std::vector<Contender> fresh;
-            for (const Contender& c : contenders) fresh.push_back({c.row, c.values, c.needs, c.cell, {}});
-            out.lights.push_back(run_light({scenario, scenario.lights[l], pointer_of(scenario, l), shared.casters.get(),
-                                            shared.seen, options.limits, watch},
-                                           std::move(fresh)));
+            for (const Contender& c : contenders) fresh.push_back(unbuilt(c));
+            out.lights.push_back(
+                run_light({scenario, l, shared.casters.get(), shared.seen, options.limits, watch}, std::move(fresh)));
         }
     }
     result.times.seconds = stopwatch.seconds();
@@ -114,19 +114,18 @@ Validated validate(const nlohmann::json& document, const RunOptions& options) {
     const base::ThreadLimit threads(options.threads);
     Validated validated;
     ScenarioLoader loader(options.data);
-    for (const Variant& variant : variants_of(document, options)) {
+    for (const document::Variant& variant : variants_of(document, options)) {
         const scene::Scenario& scenario = loader.load(variant);
         const std::vector<Contender> contenders = make_contenders(scenario, variant);
+        for (const std::string& note : scene::read_notes(scenario.scene))
+            if (std::count(validated.notes.begin(), validated.notes.end(), note) == 0) validated.notes.push_back(note);
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
-            const rays::LightView view = rays::make_light_view(scenario.lights[l], scenario.scene,
-                                                               scenario.rays.resolution, pointer_of(scenario, l));
+            const PreparedLight light = prepare_light(scenario, l, contenders, options.limits);
             const std::string& name = scenario.lights[l].name;
             const bool known = std::count(validated.blind.begin(), validated.blind.end(), name) > 0;
-            if (!known && rays::misses_all(view, scenario.scene)) validated.blind.push_back(name);
-            add_cost(scenario, view, contenders.size(),
-                     check_memory(scenario, view, contenders, options.limits, "/rays"), validated);
-            if (scenario.scene.deep_image)
-                check_served(contenders, {rays::make_layout(scenario.scene, view, scenario.rays), view, nullptr});
+            if (!known && rays::misses_all(light.view, scenario.scene)) validated.blind.push_back(name);
+            add_cost(scenario, light, contenders.size(), validated);
+            if (scenario.scene.deep_image) check_served(contenders, {light.layout, light.view, nullptr});
         }
         if (validated.variants++ > 0) continue;
         validated.name = scenario.name;

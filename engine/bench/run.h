@@ -8,7 +8,7 @@
 
 #include "bench/memory.h"
 #include "bench/progress.h"
-#include "bench/result.h"
+#include "results/result.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::bench {
@@ -22,12 +22,13 @@ struct RunOptions {
 
 // Expands the document, and captures, checks and times every variant, light and technique.
 // Throws Error: bad_input, no_such_file, io, or usage for `only`. Whether a technique failed stands in its cell.
-Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress);
+results::Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress);
 
 struct Validated {
     std::string name;
     std::size_t variants = 0, lights = 0, techniques = 0;  // lights and techniques: of the first variant
     std::vector<std::string> blind;                        // lights that surely see nothing that casts a shadow
+    std::vector<std::string> notes;                        // of the files' readers: see scene::read_notes
     int largest_side = 0, most_samples = 0;                // of the maps: pixels; rays a pixel, the truth's too
     double least_bytes = 0.0;                              // of the variant that needs most
     double seconds = 0.0;                                  // of the whole run, guessed: see estimate.h

@@ -7,6 +7,10 @@
 namespace shadowbench::bench {
 namespace {
 
+using results::Cell;
+using results::Verdict;
+using techniques::Promises;
+
 // What a verdict without a bound goes by.
 struct Strayed {
     double error;
@@ -23,45 +27,48 @@ Strayed strayed(const Cell& cell) {
 }
 
 // How far functions rise and fall below 0 that promise neither.
-std::string faults(const Cell& cell) {
+std::string faults(const Cell& cell, const Promises& promises) {
     constexpr double rounding = 1e-6;
     std::string text;
     if (!cell.curve) return text;
-    if (!cell.promises.monotone && cell.curve->rise > rounding)
+    if (!promises.monotone && cell.curve->rise > rounding)
         text += fmt::format("; rises by up to {:.3g}", cell.curve->rise);
-    if (!cell.promises.unit_range && cell.curve->lowest < -rounding)
+    if (!promises.unit_range && cell.curve->lowest < -rounding)
         text += fmt::format("; falls to {:.3g}", cell.curve->lowest);
     return text;
 }
 
 // Why no bound is promised.
-std::string cause(const Cell& cell) {
+std::string cause(const Cell& cell, const Promises& promises) {
     if (cell.outside_promise) return "made for opaque scenes, and this one lets light through";
     if (!cell.curve) return "stores no function, and promises no bound on the noise of its answers";
-    if (cell.promises.approximate)
-        return fmt::format("approximates, by up to {:.2g} even behind all that casts shadows", cell.promises.leak);
-    if (!cell.promises.localised) return "exact only before and behind all that casts shadows";
+    if (promises.approximate)
+        return fmt::format("approximates, by up to {:.2g} even behind all that casts shadows", promises.leak);
+    if (!promises.localised) return "exact only before and behind all that casts shadows";
     return fmt::format("promises no bound on its error (at most {} node{} a function here)", cell.nodes.max,
                        cell.nodes.max == 1 ? "" : "s");
 }
 
 }  // namespace
 
-Judgement judge(const Cell& cell, const LightResult& light) {
-    if (cell.status == CellStatus::failed) return {Verdict::failed, cell.reason};
-    if (cell.curve && std::isfinite(cell.error_bound) && !cell.outside_promise)
-        return {Verdict::kept, fmt::format("curve error {:.3g}, promised {:.3g}{}", cell.curve->norms.max,
-                                           cell.error_bound, faults(cell))};
+void judge(Cell& cell, const Promises& promises, double noise) {
     const Strayed far = strayed(cell);
-    const double noise = light.reference.noise_tolerance;
-    if (far.error <= noise)
-        return {Verdict::kept, fmt::format("{}, within the noise tolerance {:.3g}{}", far.text, noise, faults(cell))};
-    return {Verdict::degraded,
-            fmt::format("{}: {}, noise tolerance {:.3g}{}", cause(cell), far.text, noise, faults(cell))};
-}
-
-const char* to_string(Verdict verdict) {
-    return verdict == Verdict::kept ? "kept" : verdict == Verdict::degraded ? "degraded" : "failed";
+    if (cell.status == results::CellStatus::failed) {
+        cell.verdict = Verdict::failed;
+        cell.verdict_why = cell.reason;
+    } else if (cell.curve && std::isfinite(cell.error_bound) && !cell.outside_promise) {
+        cell.verdict = Verdict::kept;
+        cell.verdict_why = fmt::format("curve error {:.3g}, promised {:.3g}{}", cell.curve->norms.max, cell.error_bound,
+                                       faults(cell, promises));
+    } else if (far.error <= noise) {
+        cell.verdict = Verdict::kept;
+        cell.verdict_why =
+            fmt::format("{}, within the noise tolerance {:.3g}{}", far.text, noise, faults(cell, promises));
+    } else {
+        cell.verdict = Verdict::degraded;
+        cell.verdict_why = fmt::format("{}: {}, noise tolerance {:.3g}{}", cause(cell, promises), far.text, noise,
+                                       faults(cell, promises));
+    }
 }
 
 }  // namespace shadowbench::bench

@@ -2,9 +2,8 @@
 // broke a promise.
 #pragma once
 
-#include <string>
-
-#include "bench/result.h"
+#include "results/result.h"
+#include "techniques/technique.h"
 
 namespace shadowbench::bench {
 
@@ -19,14 +18,7 @@ namespace shadowbench::bench {
 // this scene lets light through. One that is exact only before and behind all that casts shadows (Promises::localised
 // false) is held to that and fails where it is not; between, it promises nothing, so its error decides. So it is of one
 // that approximates (Promises::approximate), whose ends are held to Promises::leak.
-enum class Verdict { kept, degraded, failed };
-
-struct Judgement {
-    Verdict verdict = Verdict::kept;
-    std::string why;  // the figures, and of a degraded one the cause
-};
-Judgement judge(const Cell& cell, const LightResult& light);
-
-const char* to_string(Verdict verdict);
+// Fills in the cell's verdict and its reason.
+void judge(results::Cell& cell, const techniques::Promises& promises, double noise_tolerance);
 
 }  // namespace shadowbench::bench

@@ -11,7 +11,7 @@ Value exactly(double value) {
     return {value, value, value};
 }
 
-Value of(const bench::Sample& sample) {
+Value of(const results::Sample& sample) {
     return {sample.median, sample.interval.low, sample.interval.high};
 }
 
@@ -29,6 +29,26 @@ Value operator-(const Value& a, const Value& b) {
 
 Value operator*(double factor, const Value& a) {
     return {factor * a.value, factor * a.low, factor * a.high};
+}
+
+const char* to_string(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::holds:
+            return "holds";
+        case Verdict::in_shape:
+            return "holds in shape";
+        case Verdict::fails:
+            return "does not hold here";
+        case Verdict::undecided:
+            return "undecided";
+    }
+    return "";
+}
+
+Claim undecided(Claim claim, const std::string& reason) {
+    claim.verdict = Verdict::undecided;
+    claim.why = fmt::format("Undecided until the experiment is done again: {}. {}", reason, claim.why);
+    return claim;
 }
 
 std::string to_text(const Value& value) {

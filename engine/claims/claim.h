@@ -5,22 +5,24 @@
 #include <utility>
 #include <vector>
 
-#include "bench/result.h"
+#include "results/result.h"
 
 namespace shadowbench::claims {
 
 enum class Verdict {
-    holds,     // the value is met, or bettered where the paper claims a bound
-    in_shape,  // the direction or the law is the paper's, the value is not
-    fails,     // neither
+    holds,      // the value is met, or bettered where the paper claims a bound
+    in_shape,   // the direction or the law is the paper's, the value is not
+    fails,      // neither
+    undecided,  // measured, but not judged: see undecided()
 };
+const char* to_string(Verdict verdict);  // "holds", "holds in shape", "does not hold here", "undecided"
 
 // A number with the interval that it lies in: of medians (95 % bootstrap), or twice itself where nothing varies.
 struct Value {
     double value = 0.0, low = 0.0, high = 0.0;
 };
 Value exactly(double value);
-Value of(const bench::Sample& sample);
+Value of(const results::Sample& sample);
 Value operator/(const Value& a, const Value& b);  // both above 0; the widest interval that theirs allow
 Value operator+(const Value& a, const Value& b);
 Value operator-(const Value& a, const Value& b);
@@ -37,6 +39,10 @@ struct Claim {
     std::string why;            // one sentence
     std::vector<Value> values;  // the numbers in `measured`, in their order
 };
+
+// A claim that is measured and gets no verdict until its experiment is done again. `reason`, half a sentence, says why;
+// it stands before the claim's own `why`.
+Claim undecided(Claim claim, const std::string& reason);
 
 // Rows of text under a header.
 struct Table {

@@ -11,8 +11,8 @@
 namespace shadowbench::claims {
 namespace {
 
-using bench::Cell;
-using bench::LightResult;
+using results::Cell;
+using results::LightResult;
 
 constexpr const char* hair_ball = "lokovic2000_hairball";
 
@@ -22,8 +22,10 @@ std::string pcf(int samples, const char* cells) {
                        samples, cells);
 }
 
-// A lookup weighs the pixels around it by a tent, so that its filter is as wide as a pixel wherever it stands.
+// The paper's filter weighs whole pixels (section 3.4). By a tent it is as wide as a pixel wherever it stands; of a box
+// of a pixel's width the nearest pixel is left.
 constexpr const char* tent = R"({"type":"deep","kernel":"tent"})";
+constexpr const char* pixels = R"({"type":"deep","kernel":"pixels"})";
 
 std::string set_techniques(const std::string& list) {
     return "techniques=[" + list + "]";
@@ -37,18 +39,19 @@ std::string bytes_text(double bytes) {
 // pixel of the smaller maps.
 void figure_6(const Context& context) {
     PaperReport& report = *context.report;
-    const bench::Result small = context.run(
+    const results::Result small = context.run(
         hair_ball,
         {"rays.resolution=512", "rays.samples_per_pixel=1", "rays.pattern=regular", set_techniques(pcf(16, "centre"))},
         {"rays.resolution=128"});
-    const bench::Result large = context.run(hair_ball,
-                                            {"rays.resolution=4096", "rays.samples_per_pixel=1", "rays.pattern=regular",
-                                             "receivers.filter_width=8", set_techniques(pcf(400, "centre"))},
-                                            {"rays.resolution=1024"});
-    const bench::Result deep = context.run(hair_ball,
-                                           {"rays.resolution=512", "rays.samples_per_pixel=256", "timing.repetitions=7",
-                                            set_techniques(tent + std::string(R"(,{"type":"deep"})"))},
-                                           {"rays.resolution=128"});
+    const results::Result large =
+        context.run(hair_ball,
+                    {"rays.resolution=4096", "rays.samples_per_pixel=1", "rays.pattern=regular",
+                     "receivers.filter_width=8", set_techniques(pcf(400, "centre"))},
+                    {"rays.resolution=1024"});
+    const results::Result deep = context.run(hair_ball,
+                                             {"rays.resolution=512", "rays.samples_per_pixel=256",
+                                              "timing.repetitions=7", set_techniques(tent + std::string(",") + pixels)},
+                                             {"rays.resolution=128"});
     const Cell& coarse = cell_of(light_of(small), "pcf");
     const Cell& fine = cell_of(light_of(large), "pcf");
     const Cell& stored = cell_of(light_of(deep), "deep", {"kernel=tent"});
@@ -61,11 +64,11 @@ void figure_6(const Context& context) {
                               fmt::format("{:.3g}", cell.lookup->norms.rms),
                               fmt::format("{:.3g}", cell.lookup->norms.max)});
     };
-    const auto map = [](const bench::Result& result) { return light_of(result).layout; };
+    const auto map = [](const results::Result& result) { return light_of(result).layout; };
     add(fmt::format("depth map {}, 16 samples", map(small).width), coarse);
     add(fmt::format("depth map {}, 400 samples", map(large).width), fine);
     add(fmt::format("deep map {}, {} samples a pixel", map(deep).width, map(deep).samples()), stored);
-    add("the same, nearest pixel alone", cell_of(light_of(deep), "deep", {"kernel=box"}));
+    add("the same, nearest pixel alone", cell_of(light_of(deep), "deep", {"kernel=pixels"}));
     report.tables.push_back(table);
 
     const Value faster = time_of(fine) / time_of(stored);
@@ -111,10 +114,10 @@ struct Row {
 };
 
 Row measure_row(const Context& context, int samples) {
-    const bench::Result result = context.run(hair_ball,
-                                             {fmt::format("rays.samples_per_pixel={}", samples),
-                                              set_techniques(tent + std::string(",") + pcf(samples, "sample"))},
-                                             {"rays.resolution=96"});
+    const results::Result result = context.run(hair_ball,
+                                               {fmt::format("rays.samples_per_pixel={}", samples),
+                                                set_techniques(tent + std::string(",") + pcf(samples, "sample"))},
+                                               {"rays.resolution=96"});
     const LightResult& light = light_of(result);
     const Cell &deep = cell_of(light, "deep"), &depth = cell_of(light, "pcf");
     const double capture_ms = 1e3 * static_cast<double>(light.rays) / light.agreement->times.capture_rays_per_second;
@@ -152,15 +155,15 @@ void figures_7_and_8(const Context& context) {
     const auto faster =
         std::find_if(rows.begin(), rows.end(), [](const Row& r) { return r.pcf_ns.low > r.deep_ns.high; });
     const bool never = faster == rows.end();
-    report.claims.push_back({"section 6, figure 7",
-                             "depth maps are faster only at 4 x 4 samples and fewer",
-                             never ? "depth maps are not slower at any N"
-                                   : fmt::format("deep maps are faster from N = {} on", faster->samples),
-                             never || faster == rows.begin()                ? Verdict::fails
-                             : faster->samples > 4 && faster->samples <= 64 ? Verdict::holds
-                                                                            : Verdict::in_shape,
-                             "Where the crossing lies is the price of a search against that of a depth test.",
-                             {exactly(never ? 0 : faster->samples)}});
+    report.claims.push_back(undecided({"section 6, figure 7",
+                                       "depth maps are faster only at 4 x 4 samples and fewer",
+                                       never ? "depth maps are not slower at any N"
+                                             : fmt::format("deep maps are faster from N = {} on", faster->samples),
+                                       Verdict::undecided,
+                                       "Where the crossing lies is the price of a search against that of a depth test.",
+                                       {exactly(never ? 0 : faster->samples)}},
+                                      "the rule asked for a crossing beyond N = 16, and was loosened to beyond N = 4 "
+                                      "shortly before the first results"));
     const Value growth = rows.back().deep_ns / rows[2].deep_ns;
     report.claims.push_back({"section 6, figure 7",
                              "deep lookup times are virtually constant as N grows",
@@ -209,7 +212,7 @@ void figures_7_and_8(const Context& context) {
 void figure_9(const Context& context) {
     PaperReport& report = *context.report;
     const std::vector<int> widths{1, 2, 4, 8, 16, 32};
-    const bench::Result result = context.run(
+    const results::Result result = context.run(
         hair_ball,
         {"rays.samples_per_pixel=64", "reference.samples_per_pixel=64", "reference.queries=512",
          fmt::format(R"(sweeps={{"/receivers/filter_width":[{}]}})", fmt::join(widths, ",")),
@@ -280,11 +283,11 @@ void figure_9(const Context& context) {
 
 void section_5_2(const Context& context) {
     PaperReport& report = *context.report;
-    const std::string deep = set_techniques(R"({"type":"deep"})");
-    const bench::Result grey = context.run(hair_ball, {deep}, {"rays.resolution=128"});
-    const bench::Result colour =
+    const std::string deep = set_techniques(pixels);
+    const results::Result grey = context.run(hair_ball, {deep}, {"rays.resolution=128"});
+    const results::Result colour =
         context.run(hair_ball, {"/scene/objects/0/opacity=[0.9,0.6,0.35]", deep}, {"rays.resolution=128"});
-    const bench::Result one = context.run(hair_ball, {"/scene/objects/0/opacity=0.6", deep}, {"rays.resolution=128"});
+    const results::Result one = context.run(hair_ball, {"/scene/objects/0/opacity=0.6", deep}, {"rays.resolution=128"});
     const Cell &three = cell_of(light_of(colour), "deep"), &single = cell_of(light_of(one), "deep");
     const Value size = exactly(static_cast<double>(three.bytes) / static_cast<double>(single.bytes));
     report.claims.push_back({"section 5.2",
@@ -305,8 +308,8 @@ void section_5_2(const Context& context) {
 
 void figure_12(const Context& context) {
     PaperReport& report = *context.report;
-    const bench::Result moving = context.run("lokovic2000_motion", {}, {"rays.resolution=96"});
-    const bench::Result still =
+    const results::Result moving = context.run("lokovic2000_motion", {}, {"rays.resolution=96"});
+    const results::Result still =
         context.run("lokovic2000_motion", {"/scene/objects/0/motion=[0,0,0]"}, {"rays.resolution=96"});
     const Cell &a = cell_of(light_of(moving), "deep"), &b = cell_of(light_of(still), "deep");
     const Value cost = time_of(a) / time_of(b);
@@ -335,8 +338,8 @@ void measure_lokovic(const Context& context) {
     context.report->sheets.push_back(
         picture_sheet(context, hair_ball,
                       {"rays.resolution=512", "rays.samples_per_pixel=16",
-                       set_techniques(pcf(16, "centre") + "," + pcf(16, "sample") + R"(,{"type":"deep"},)" +
-                                      R"({"type":"deep","tolerance":0.02,"kernel":"tent"})")}));
+                       set_techniques(pcf(16, "centre") + "," + pcf(16, "sample") + "," + pixels +
+                                      R"(,{"type":"deep","tolerance":0.02,"kernel":"tent"})")}));
 }
 
 }  // namespace shadowbench::claims

@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "base/read_text.h"
 #include "bench/clock.h"
-#include "bench/document.h"
 #include "bench/run.h"
+#include "document/document.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -41,10 +41,10 @@ bool has_all(const json& parameters, const std::vector<std::string>& wanted) {
     });
 }
 
-bool has_settings(const bench::VariantResult& variant, const std::vector<std::string>& wanted) {
+bool has_settings(const results::VariantResult& variant, const std::vector<std::string>& wanted) {
     return std::all_of(wanted.begin(), wanted.end(), [&](const std::string& assignment) {
         const auto named = split(assignment);
-        return std::any_of(variant.settings.begin(), variant.settings.end(), [&](const bench::Setting& setting) {
+        return std::any_of(variant.settings.begin(), variant.settings.end(), [&](const document::Setting& setting) {
             return setting.pointer == named.first && json::parse(setting.value) == named.second;
         });
     });
@@ -55,42 +55,42 @@ bool has_settings(const bench::VariantResult& variant, const std::vector<std::st
 json Context::document(const std::string& name, const std::vector<std::string>& set) const {
     const std::filesystem::path file = scenarios / (name + ".json");
     json document = scene::parse_json(base::read_text(file), file.string());
-    for (const std::string& assignment : set) bench::set_value(document, assignment);
+    for (const std::string& assignment : set) document::set_value(document, assignment);
     return document;
 }
 
-bench::Result Context::run(const std::string& name, const std::vector<std::string>& set,
-                           const std::vector<std::string>& smaller) const {
+results::Result Context::run(const std::string& name, const std::vector<std::string>& set,
+                             const std::vector<std::string>& smaller) const {
     json changed = document(name, set);
     if (quick)
-        for (const std::string& assignment : smaller) bench::set_value(changed, assignment);
+        for (const std::string& assignment : smaller) document::set_value(changed, assignment);
     bench::RunOptions options;
     options.data = data;
     options.threads = threads;
-    bench::Result result = bench::run(changed, options, progress);
+    results::Result result = bench::run(changed, options, progress);
     report->documents.push_back(fmt::format("{} {}", name, result.hash));
     return result;
 }
 
-const bench::LightResult& light_of(const bench::Result& result, const std::vector<std::string>& settings) {
-    for (const bench::VariantResult& variant : result.variants)
+const results::LightResult& light_of(const results::Result& result, const std::vector<std::string>& settings) {
+    for (const results::VariantResult& variant : result.variants)
         if (has_settings(variant, settings)) return variant.lights.front();
     throw Error(ErrorCode::internal, result.name,
                 fmt::format("no variant has the settings {}", fmt::join(settings, ", ")));
 }
 
-const bench::Cell& cell_of(const bench::LightResult& light, const std::string& technique,
-                           const std::vector<std::string>& parameters) {
-    for (const bench::Cell& cell : light.cells) {
+const results::Cell& cell_of(const results::LightResult& light, const std::string& technique,
+                             const std::vector<std::string>& parameters) {
+    for (const results::Cell& cell : light.cells) {
         if (cell.technique != technique || !has_all(json::parse(cell.parameters_json), parameters)) continue;
-        if (cell.status == bench::CellStatus::failed) throw Error(ErrorCode::internal, technique, cell.reason);
+        if (cell.status == results::CellStatus::failed) throw Error(ErrorCode::internal, technique, cell.reason);
         return cell;
     }
     throw Error(ErrorCode::internal, technique,
                 fmt::format("no cell has the parameters {}", fmt::join(parameters, ", ")));
 }
 
-Value time_of(const bench::Cell& cell) {
+Value time_of(const results::Cell& cell) {
     return of(cell.times->image_order.ns);
 }
 

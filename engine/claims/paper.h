@@ -9,8 +9,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "bench/progress.h"
-#include "bench/result.h"
 #include "claims/claim.h"
+#include "results/result.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::claims {
@@ -28,21 +28,21 @@ struct Context {
     nlohmann::json document(const std::string& name, const std::vector<std::string>& set = {}) const;
 
     // Runs scenarios/papers/<name>.json with these changes ("path=value"), and with `smaller` too when quick.
-    bench::Result run(const std::string& name, const std::vector<std::string>& set,
-                      const std::vector<std::string>& smaller) const;
+    results::Result run(const std::string& name, const std::vector<std::string>& set,
+                        const std::vector<std::string>& smaller) const;
 };
 
 // The one light of the one variant whose settings begin with these values ("pointer=value"); the first light when there
 // are several. Throws Error{internal} when there is none.
-const bench::LightResult& light_of(const bench::Result& result, const std::vector<std::string>& settings = {});
+const results::LightResult& light_of(const results::Result& result, const std::vector<std::string>& settings = {});
 
 // The cell of a technique whose parameters have these values ("nodes=8"). Throws Error{internal} where there is none,
 // or when it failed: its reason.
-const bench::Cell& cell_of(const bench::LightResult& light, const std::string& technique,
-                           const std::vector<std::string>& parameters = {});
+const results::Cell& cell_of(const results::LightResult& light, const std::string& technique,
+                             const std::vector<std::string>& parameters = {});
 
 // Nanoseconds of a lookup in image order.
-Value time_of(const bench::Cell& cell);
+Value time_of(const results::Cell& cell);
 
 struct Paper {
     const char* id;  // "lokovic2000"

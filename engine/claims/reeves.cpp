@@ -7,19 +7,19 @@
 
 #include "base/parallel.h"
 #include "bench/clock.h"
-#include "bench/document.h"
 #include "bench/load.h"
 #include "claims/hand_made.h"
 #include "claims/paper.h"
 #include "claims/sheet.h"
+#include "document/document.h"
 #include "rays/tracer.h"
 #include "render/shading_points.h"
 
 namespace shadowbench::claims {
 namespace {
 
-using bench::Cell;
-using bench::LightResult;
+using results::Cell;
+using results::LightResult;
 
 double rms_of(const Cell& cell) {
     return cell.lookup->norms.rms;
@@ -29,7 +29,7 @@ double rms_of(const Cell& cell) {
 
 // One thread, seconds of repetitions: finding what the camera sees and shading it, without any shadow.
 Value shading_seconds(const Context& context, const std::string& name, std::size_t& points) {
-    const auto variants = bench::expand(context.document(name));
+    const auto variants = document::expand(context.document(name));
     bench::ScenarioLoader loader(context.data);
     const scene::Scenario& scenario = loader.load(variants.front());
     const rays::Tracer tracer(scenario.scene, false);
@@ -50,10 +50,10 @@ Value shading_seconds(const Context& context, const std::string& name, std::size
         seconds.push_back(stopwatch.seconds());
         points = found.points();
     }
-    return of(bench::summarise(seconds));
+    return of(results::summarise(seconds));
 }
 
-void table_1(const Context& context, const char* name, const char* title, double paper, const bench::Result& result,
+void table_1(const Context& context, const char* name, const char* title, double paper, const results::Result& result,
              Table& table) {
     std::size_t points = 0;
     const Value without = shading_seconds(context, name, points);
@@ -79,7 +79,7 @@ void table_1(const Context& context, const char* name, const char* title, double
 
 // --- table 2 -------------------------------------------------------------------------------------------------------
 
-double stored_bytes(const bench::Result& result, const char* storage) {
+double stored_bytes(const results::Result& result, const char* storage) {
     double sum = 0.0;
     for (const LightResult& light : result.variants.front().lights)
         sum += static_cast<double>(cell_of(light, "shadow_map", {fmt::format("storage={}", storage)}).bytes);
@@ -87,7 +87,7 @@ double stored_bytes(const bench::Result& result, const char* storage) {
 }
 
 void table_2(const Context& context, const char* title, double box_paper, double tiles_paper,
-             const bench::Result& result, Table& table) {
+             const results::Result& result, Table& table) {
     const double raw = stored_bytes(result, "raw"), box = stored_bytes(result, "bounding_box") / raw,
                  tiles = stored_bytes(result, "tiles") / raw;
     table.rows.push_back({title, fmt::format("{:.3g}", raw / 1048576.0), fmt::format("{:.2f}", box),
@@ -183,7 +183,7 @@ void figure_9(const Context& context) {
         return fmt::format(R"({{"type":"pcf","num_samples":16,"res_factor":3,"region":1,"bias0":{},"bias1":{}}})",
                            bias0, bias1);
     };
-    const bench::Result result = context.run(
+    const results::Result result = context.run(
         "reeves1987_sphere",
         {"receivers.filter_width=0.01", "receivers.bias=0.02",
          fmt::format("techniques=[{},{},{},{}]", pcf("0", "0"), pcf("0.2", "0.3"), pcf("0.3", "0.4"), pcf("3", "4"))},
@@ -209,11 +209,11 @@ void figure_9(const Context& context) {
 void figure_10(const Context& context) {
     std::vector<double> errors;
     for (const int resolution : {256, 512, 1024}) {
-        const bench::Result result = context.run("reeves1987_sphere",
-                                                 {fmt::format("rays.resolution={}", resolution),
-                                                  fmt::format("receivers.filter_width={}", 4.0 * resolution / 1024.0),
-                                                  R"(techniques=[{"type":"pcf","num_samples":16,"res_factor":1}])"},
-                                                 {});
+        const results::Result result = context.run("reeves1987_sphere",
+                                                   {fmt::format("rays.resolution={}", resolution),
+                                                    fmt::format("receivers.filter_width={}", 4.0 * resolution / 1024.0),
+                                                    R"(techniques=[{"type":"pcf","num_samples":16,"res_factor":1}])"},
+                                                   {});
         errors.push_back(rms_of(cell_of(light_of(result), "pcf")));
     }
     context.report->claims.push_back(
@@ -236,9 +236,9 @@ void measure_reeves(const Context& context) {
         "a "
         "room full of things; Luxo Jr. and Red's Dream are not public. Images have 16 view rays a pixel, as theirs, "
         "each shaded and looked up by itself; times are of one thread.";
-    const bench::Result sphere = context.run("reeves1987_sphere", {}, {});
-    const bench::Result colours = context.run("reeves1987_lights", {}, {});
-    const bench::Result store = context.run("reeves1987_store", {}, {});
+    const results::Result sphere = context.run("reeves1987_sphere", {}, {});
+    const results::Result colours = context.run("reeves1987_lights", {}, {});
+    const results::Result store = context.run("reeves1987_store", {}, {});
     Table times{"Table 1: milliseconds",
                 {"image", "without shadows", "lights", "first pass", "second pass", "increase", "theirs"},
                 {}};

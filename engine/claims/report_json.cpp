@@ -1,17 +1,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/write_result.h"
+#include "base/write_files.h"
 #include "claims/report.h"
+#include "results/write_result.h"
 
 namespace shadowbench::claims {
 namespace {
 
 using nlohmann::ordered_json;
-
-const char* text_of(Verdict verdict) {
-    return verdict == Verdict::holds ? "holds" : verdict == Verdict::in_shape ? "holds in shape" : "does not hold here";
-}
 
 ordered_json to_object(const Claim& claim) {
     ordered_json values = ordered_json::array();
@@ -20,7 +17,7 @@ ordered_json to_object(const Claim& claim) {
             {"says", claim.says},
             {"measured", claim.measured},
             {"values", values},
-            {"verdict", text_of(claim.verdict)},
+            {"verdict", to_string(claim.verdict)},
             {"why", claim.why}};
 }
 
@@ -60,14 +57,14 @@ std::string to_json(std::span<const PaperReport> reports, const Conditions& cond
 
 void write_reports(const std::filesystem::path& folder, const std::string& name, std::span<const PaperReport> reports,
                    const Conditions& conditions) {
-    std::vector<bench::NewFile> files{{folder / (name + ".md"), to_markdown(reports, conditions)},
-                                      {folder / (name + ".json"), to_json(reports, conditions)}};
+    std::vector<base::NewFile> files{{folder / (name + ".md"), to_markdown(reports, conditions)},
+                                     {folder / (name + ".json"), to_json(reports, conditions)}};
     for (const PaperReport& report : reports)
         for (const Plot& plot : report.plots) files.push_back({folder / "plots" / (plot.name + ".svg"), to_svg(plot)});
     for (const PaperReport& report : reports)
         for (const Sheet& sheet : report.sheets)
             files.push_back({folder / "pictures" / (sheet.name + ".png"), sheet.png});
-    bench::write_files(files);
+    base::write_files(files);
 }
 
 }  // namespace shadowbench::claims

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/markdown.h"
+#include "base/markdown.h"
 #include "claims/report.h"
 
 namespace shadowbench::claims {
@@ -14,14 +14,14 @@ constexpr const char* rules =
     "as ratios within one run. *holds*: the paper's value is met (a ratio within a factor of 1.5), or bettered where "
     "the "
     "paper claims a gain. *holds in shape*: the direction or the law is the paper's, the value is not. *does not hold "
-    "here*: neither. Intervals in brackets are of 95 %; where one stands, the worst verdict of the value and of its "
+    "here*: neither. *undecided*: measured, but not judged; the last column says why. Intervals in brackets are of 95 "
+    "%; where one stands, the worst verdict of the value and of its "
     "ends "
     "counts.\n";
 
-const char* text_of(Verdict verdict) {
-    return verdict == Verdict::holds      ? "**holds**"
-           : verdict == Verdict::in_shape ? "holds in shape"
-                                          : "**does not hold here**";
+std::string text_of(Verdict verdict) {
+    const bool strong = verdict == Verdict::holds || verdict == Verdict::fails;
+    return fmt::format("{0}{1}{0}", strong ? "**" : "", to_string(verdict));
 }
 
 void add_paper(std::string& out, const PaperReport& report) {
@@ -29,10 +29,10 @@ void add_paper(std::string& out, const PaperReport& report) {
     std::vector<std::vector<std::string>> rows;
     for (const Claim& claim : report.claims)
         rows.push_back({claim.place, claim.says, claim.measured, text_of(claim.verdict), claim.why});
-    out += bench::markdown_table({"where", "the paper says", "measured here", "verdict", "why"}, rows);
+    out += base::markdown_table({"where", "the paper says", "measured here", "verdict", "why"}, rows);
     for (const Table& table : report.tables) {
         out += fmt::format("### {}\n\n", table.title);
-        out += bench::markdown_table(table.header, table.rows);
+        out += base::markdown_table(table.header, table.rows);
     }
     for (const Plot& plot : report.plots) out += fmt::format("![{}](plots/{}.svg)\n\n", plot.title, plot.name);
     for (const Sheet& sheet : report.sheets)
@@ -51,10 +51,11 @@ std::string to_markdown(std::span<const PaperReport> reports, const Conditions& 
     if (conditions.quick) out += "**Quick run: smaller sizes than the report that is cited.**\n\n";
     out += rules;
     out += fmt::format("\n{}; {}; {}.\n\n", conditions.machine, conditions.build, conditions.date);
-    std::size_t count[3] = {0, 0, 0};
+    std::size_t count[4] = {0, 0, 0, 0};
     for (const PaperReport& report : reports)
         for (const Claim& claim : report.claims) ++count[static_cast<int>(claim.verdict)];
-    out += fmt::format("{} claims hold, {} hold in shape, {} do not hold here.\n\n", count[0], count[1], count[2]);
+    out += fmt::format("{} claims hold, {} hold in shape, {} do not hold here, {} are undecided.\n\n", count[0],
+                       count[1], count[2], count[3]);
     for (const PaperReport& report : reports) add_paper(out, report);
     return out;
 }

@@ -13,8 +13,8 @@
 namespace shadowbench::claims {
 namespace {
 
-using bench::Cell;
-using bench::LightResult;
+using results::Cell;
+using results::LightResult;
 
 // A column of table 1: their milliseconds on a Radeon 5870 (lookup, compression) and their megabytes (of the map).
 struct Column {
@@ -152,7 +152,7 @@ void quality(const LightResult& light, PaperReport& report) {
 
 // The same smoke in its own depth range, and with one puff far behind it.
 void depth_range(const Context& context, const LightResult& near) {
-    const bench::Result result = context.run("salvi2010_depth", {}, {"rays.resolution=128"});
+    const results::Result result = context.run("salvi2010_depth", {}, {"rays.resolution=128"});
     const LightResult& far = light_of(result);
     const auto growth = [&](const char* technique, const std::vector<std::string>& parameters) {
         return cell_of(far, technique, parameters).curve->norms.rms /
@@ -176,7 +176,7 @@ void depth_range(const Context& context, const LightResult& near) {
 
 // Hair in smoke: steps and slopes, spread over a large depth.
 void figure_5(const Context& context) {
-    const bench::Result result = context.run("salvi2010_hair", {}, {"rays.resolution=128"});
+    const results::Result result = context.run("salvi2010_hair", {}, {"rays.resolution=128"});
     const LightResult& light = light_of(result);
     const auto rms = [&](const char* technique) { return cell_of(light, technique).curve->norms.rms; };
     const double nodes = rms("avsm"), slices = rms("opacity"), terms = rms("fourier");
@@ -203,23 +203,22 @@ void curve_figure(const Context& context, const char* scenario, const char* name
               curves.series};
     report.plots.push_back(std::move(plot));
     Table table{fmt::format("{}: largest error of each curve", place), {"curve", "largest error"}, {}};
-    double twelve = -1.0, least_other = 1.0;
+    double twelve = -1.0;
     for (std::size_t i = 0; i < curves.error.size(); ++i) {
         table.rows.push_back({curves.series[i].name, fmt::format("{:.3g}", curves.error[i])});
         if (curves.series[i].name.starts_with("avsm nodes=12")) twelve = curves.error[i];
-        if (curves.series[i].name.starts_with("opacity") || curves.series[i].name.starts_with("fourier"))
-            least_other = std::min(least_other, curves.error[i]);
     }
     if (twelve < 0.0) throw base::Error(base::ErrorCode::internal, scenario, "there is no AVSM of 12 nodes");
     report.tables.push_back(std::move(table));
-    report.claims.push_back({place,
-                             fmt::format("12 nodes fit a curve of {} nodes almost exactly", nodes_there),
-                             fmt::format("largest error {:.3g} on a curve of {} segments", twelve, curves.segments),
-                             twelve < 0.05          ? Verdict::holds
-                             : twelve < least_other ? Verdict::in_shape
-                                                    : Verdict::fails,
-                             "The texel is the one with the most segments that are not all in the dark.",
-                             {exactly(twelve)}});
+    report.claims.push_back(undecided(
+        {place,
+         fmt::format("12 nodes fit a curve of {} nodes almost exactly", nodes_there),
+         fmt::format("largest error {:.3g} on a curve of {} segments", twelve, curves.segments),
+         Verdict::undecided,
+         "The texel is the one with the most segments that are not all in the dark.",
+         {exactly(twelve)}},
+        "half of the claim was judged: the paper also finds the curve of figure 6 closer than slices and terms and "
+        "like a deep map, and 16 nodes close in figure 7"));
 }
 
 }  // namespace
@@ -231,7 +230,7 @@ void measure_salvi(const Context& context) {
         "(Radeon 5870): times stand as ratios to AVSM with 8 nodes. Lookups are bilinear over four texels. The scene "
         "with "
         "smoke and hair and the game level of the paper are not public.";
-    const bench::Result result = context.run("salvi2010_smoke", {}, {"rays.resolution=128"});
+    const results::Result result = context.run("salvi2010_smoke", {}, {"rays.resolution=128"});
     const LightResult& light = light_of(result);
     table_1(light, *context.report);
     memory(light, *context.report);

@@ -30,9 +30,8 @@ Sheet picture_sheet(const Context& context, const std::string& name, const std::
     sheet.name = context.report->id;
     sheet.caption = fmt::format("{}: reference", name);
     for (const render::TechniquePictures& one : rendering.techniques) {
-        const std::string label =
-            one.cell.parameters.empty() ? one.cell.technique : one.cell.technique + " " + one.cell.parameters;
-        if (one.cell.status == bench::CellStatus::failed) {
+        const std::string label = results::title(one.cell);
+        if (one.cell.status == results::CellStatus::failed) {
             sheet.caption += fmt::format("; {} failed ({})", label, one.cell.reason);
             continue;
         }

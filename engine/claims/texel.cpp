@@ -7,10 +7,11 @@
 
 #include "base/error.h"
 #include "bench/contender.h"
-#include "bench/document.h"
 #include "bench/load.h"
+#include "bench/prepared_light.h"
 #include "curves/norms.h"
 #include "curves/sweep.h"
+#include "document/document.h"
 #include "rays/capture.h"
 #include "rays/light_view.h"
 
@@ -43,14 +44,11 @@ Series to_series(const std::string& name, const curves::Curve& curve, const rays
 }  // namespace
 
 TexelCurves busiest_texel(const nlohmann::json& document, const scene::SearchPath& data) {
-    const std::vector<bench::Variant> variants = bench::expand(document);
+    const std::vector<document::Variant> variants = document::expand(document);
     bench::ScenarioLoader loader(data);
     const scene::Scenario& scenario = loader.load(variants.front());
-    const rays::LightView view =
-        rays::make_light_view(scenario.lights.front(), scenario.scene, scenario.rays.resolution, "/lights/0");
-    rays::MapLayout layout = rays::make_layout(scenario.scene, view, scenario.rays);
     std::vector<bench::Contender> contenders = bench::make_contenders(scenario, variants.front());
-    bench::ask_for_needs(contenders, layout);
+    const auto [view, layout, least] = bench::prepare_light(scenario, 0, contenders, {});
     if (layout.samples() != 1 || layout.apron > 0)
         throw base::Error(base::ErrorCode::internal, scenario.name,
                           "a texel's curve needs one ray a pixel, and filters no wider");
@@ -75,10 +73,7 @@ TexelCurves busiest_texel(const nlohmann::json& document, const scene::SearchPat
         for (const rays::LightRays& one : tiles) bench::add(maps, one);
         bench::finish(maps);
         bench::stored(maps, result.x, result.y, 0, depths, stored);
-        const std::string parameters = contender.cell.parameters;
-        result.series.push_back(
-            to_series(parameters.empty() ? contender.row->id : fmt::format("{} {}", contender.row->id, parameters),
-                      stored, layout));
+        result.series.push_back(to_series(results::title(contender.cell), stored, layout));
         result.error.push_back(curves::distance(stored, exact, layout.z_min, layout.z_max).max);
     }
     result.series.push_back(to_series(fmt::format("uncompressed ({} segments)", place.segments), exact, layout));

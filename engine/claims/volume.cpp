@@ -7,16 +7,16 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
-#include "bench/document.h"
 #include "claims/paper.h"
 #include "claims/sheet.h"
 #include "claims/texel.h"
+#include "document/document.h"
 
 namespace shadowbench::claims {
 namespace {
 
-using bench::Cell;
-using bench::LightResult;
+using results::Cell;
+using results::LightResult;
 
 constexpr double grey_step = 1.0 / 255.0;       // of a picture of 8 bits: less is not noticed
 constexpr double image_pixels = 512.0 * 512.0;  // of a frame; the paper names no size but the map's
@@ -32,7 +32,7 @@ const DataSet data_sets[] = {
 // Of one data set: all techniques with receivers in the volume and on the plane, and some with the plane alone.
 struct Measured {
     const char* name;
-    bench::Result both, plane;
+    results::Result both, plane;
 
     const LightResult& light() const { return light_of(both); }
     const LightResult& behind() const { return light_of(plane); }
@@ -88,13 +88,12 @@ void table_of_techniques(const Sets& sets, PaperReport& report) {
                 {}};
     for (const Measured& m : sets)
         for (const Cell& cell : m.light().cells) {
-            if (cell.status == bench::CellStatus::failed) continue;  // the claims that need it will say so
-            table.rows.push_back(
-                {m.name, cell.parameters.empty() ? cell.technique : cell.technique + " " + cell.parameters,
-                 to_text(of(cell.times->build_ms)), to_text(time_of(cell)),
-                 fmt::format("{:.3g}", bytes_a_texel(cell, m.light())), fmt::format("{:.2g}", cell.curve->norms.max),
-                 fmt::format("{:.2g}", cell.curve->norms.rms), fmt::format("{:.2g}", rms(cell)),
-                 fmt::format("{:.2g}", cell.lookup->norms.max)});
+            if (cell.status == results::CellStatus::failed) continue;  // the claims that need it will say so
+            table.rows.push_back({m.name, results::title(cell), to_text(of(cell.times->build_ms)),
+                                  to_text(time_of(cell)), fmt::format("{:.3g}", bytes_a_texel(cell, m.light())),
+                                  fmt::format("{:.2g}", cell.curve->norms.max),
+                                  fmt::format("{:.2g}", cell.curve->norms.rms), fmt::format("{:.2g}", rms(cell)),
+                                  fmt::format("{:.2g}", cell.lookup->norms.max)});
         }
     report.tables.push_back(std::move(table));
 }
@@ -262,8 +261,8 @@ void memory(const Sets& sets, PaperReport& report) {
 void curve_figure(const Context& context, const DataSet& set) {
     const std::filesystem::path file = context.scenarios / (std::string(set.scenario) + ".json");
     nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
-    bench::set_value(document, "rays.resolution=128");
-    bench::set_value(document, R"(techniques=[{"type":"volume_deep"},{"type":"avsm","nodes":4}])");
+    document::set_value(document, "rays.resolution=128");
+    document::set_value(document, R"(techniques=[{"type":"volume_deep"},{"type":"avsm","nodes":4}])");
     const TexelCurves curves = busiest_texel(document, context.data);
     context.report->plots.push_back({fmt::format("volume_{}", set.name),
                                      fmt::format("{}: light along the ray of the most segments", set.name),

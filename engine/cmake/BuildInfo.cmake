@@ -9,15 +9,15 @@ else()
     string(APPEND commit "+changes")
   endif()
 endif()
-set(text "#include \"bench/build_info.h\"
+set(text "#include \"results/program.h\"
 
-namespace shadowbench::bench {
+namespace shadowbench::results {
 
-BuildInfo build_info() {
+Program this_program() {
     return {\"${VERSION}\", \"${commit}\", \"${COMPILER}\", \"${BUILD_TYPE}\"};
 }
 
-}  // namespace shadowbench::bench
+}  // namespace shadowbench::results
 ")
 set(old "")
 if(EXISTS "${OUT}")

@@ -12,8 +12,11 @@ add_custom_target(shadowbench_build_info
           -P ${CMAKE_CURRENT_SOURCE_DIR}/engine/cmake/BuildInfo.cmake
   BYPRODUCTS "${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp"
   VERBATIM)
-add_dependencies(shadowbench_bench shadowbench_build_info)
-target_sources(shadowbench_bench PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp")
+add_dependencies(shadowbench_results shadowbench_build_info)
+target_sources(shadowbench_results PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp")
+# By itself: another commit does not make its whole layer anew.
+set_source_files_properties("${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp" PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 
 file(READ "${CMAKE_CURRENT_SOURCE_DIR}/service/api/openapi.json" OPENAPI_TEXT)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS service/api/openapi.json)

@@ -3,8 +3,8 @@
 // Exact measures (bytes, nodes, errors, promises) are judged by tolerance alone; they hold on any machine.
 //
 // Times. What a process has once it keeps (where its memory lies, who else is on the machine), so a process, not a
-// repetition, is one observation: the median of its samples. On the shared machine of `../shared/platform.md`, 24 runs
-// of one program gave medians that lay a factor of 1.3 to 6 apart, so fewer than 4 processes a side decide nothing.
+// repetition, is one observation: the median of its samples. On a two-core machine shared with other work, 24
+// runs of one program gave medians that lay a factor of 1.3 to 6 apart: fewer than 4 processes a side decide nothing.
 //  - Interleaved sides (`ab`): process i of one beside process i of the other. Judged are the pairs' ratios of plain
 //    times: what disturbs a pair disturbs both, and a floor would only add its own noise (and moves itself when a
 //    change touches other lines). Plain times of kernels are the processor's. Interval: bootstrap of the median; test:

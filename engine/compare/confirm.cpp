@@ -13,14 +13,30 @@ std::vector<Line> suspicious(const Comparison& comparison) {
     return lines;
 }
 
+namespace {
+
+// The line of the same measure of the same cell: by its name, else by its technique, for a cell that runs alone is not
+// swept, and is not named after what the sweep had set.
+const Line* find_again(const Comparison& again, const Line& line) {
+    const auto find = [&](const auto& same_cell) {
+        const auto found = std::find_if(again.lines.begin(), again.lines.end(), [&](const Line& other) {
+            return other.suite == line.suite && other.group == line.group && other.measure == line.measure &&
+                   other.ratio > 0.0 && same_cell(other);
+        });
+        return found == again.lines.end() ? nullptr : &*found;
+    };
+    if (const Line* named = find([&](const Line& other) { return other.cell == line.cell; })) return named;
+    if (line.rerun.technique.empty()) return nullptr;
+    return find([&](const Line& other) { return other.rerun.technique == line.rerun.technique; });
+}
+
+}  // namespace
+
 void confirm(Comparison& first, const Comparison& again) {
     for (Line& line : first.lines) {
         if (!line.suspicious) continue;
-        const auto fresh = std::find_if(again.lines.begin(), again.lines.end(), [&](const Line& other) {
-            return other.suite == line.suite && other.group == line.group && other.cell == line.cell &&
-                   other.measure == line.measure && other.ratio > 0.0;
-        });
-        if (fresh == again.lines.end()) {
+        const Line* const fresh = find_again(again, line);
+        if (!fresh) {
             line.reason += (line.reason.empty() ? "" : "; ") + std::string("it was not run again");
             continue;
         }
@@ -34,8 +50,10 @@ void confirm(Comparison& first, const Comparison& again) {
                                              fresh->interval.low, fresh->interval.high, line.ratio);
         const bool confirmed = fresh->verdict == Verdict::slower;
         const Rerun rerun = line.rerun;
+        const std::string cell = line.cell;
         line = *fresh;
         line.rerun = rerun;
+        line.cell = cell;
         line.verdict = confirmed ? Verdict::slower : Verdict::inconclusive;
         line.suspicious = confirmed;
         line.fresh = true;

@@ -10,25 +10,25 @@ namespace {
 
 using metrics::CostAndError;
 
-constexpr double none = std::numeric_limits<double>::infinity();
+constexpr double absent = std::numeric_limits<double>::infinity();
 
 double exact_of(const Cell* cell, const char* name) {
-    if (!cell || cell->failed) return none;
+    if (!cell || cell->failed) return absent;
     for (const Exact& exact : cell->exact)
         if (exact.name == name) return exact.value;
-    return none;
+    return absent;
 }
 
 // Plain time of lookups in random order, as the fronts of a result have it.
 double time_of(const Cell* cell) {
-    if (!cell || cell->failed) return none;
+    if (!cell || cell->failed) return absent;
     for (const Timed& timed : cell->timed) {
         if (timed.name != "lookup_random") continue;
         std::vector<double> values;
         for (const Process& process : timed.processes) values.push_back(metrics::median(process.raw));
         return metrics::median(values);
     }
-    return none;
+    return absent;
 }
 
 using Lines = std::map<std::string, const Line*>;  // by cell and measure
@@ -40,11 +40,11 @@ const Line* find(const Lines& lines, const std::string& cell, const char* measur
 
 // A current value, or the baseline's where nothing is known to have changed.
 double settled(double baseline, double current, const Line* line) {
-    return line && baseline != none && current != none && line->verdict == Verdict::same ? baseline : current;
+    return line && baseline != absent && current != absent && line->verdict == Verdict::same ? baseline : current;
 }
 
 double settled_time(double baseline, double current, const Line* line) {
-    if (baseline == none || current == none) return current;
+    if (baseline == absent || current == absent) return current;
     const bool changed = line && (line->verdict == Verdict::slower || line->verdict == Verdict::faster);
     return changed ? baseline * line->ratio : baseline;
 }
@@ -61,7 +61,7 @@ const std::string& name_of(const FrontCell& cell) {
 std::vector<std::string> who_beats(const Side& side, const std::vector<FrontCell>& cells, std::size_t i) {
     std::vector<std::string> names;
     const CostAndError& own = side.choices[i];
-    if (own.cost == none || own.error == none) return names;  // it was not there, or broke its promise
+    if (own.cost == absent || own.error == absent) return names;  // it was not there, or broke its promise
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const CostAndError& other = side.choices[k];
         if (side.front[k] && other.cost <= own.cost && other.error <= own.error &&
@@ -83,7 +83,7 @@ std::vector<FrontChange> front_changes(const std::string& suite, const std::stri
     std::vector<double> scales;
     for (const FrontCell& cell : cells) {
         const double before = time_of(cell.baseline), now = time_of(cell.current);
-        if (before != none && now != none && now > 0.0) scales.push_back(before / now);
+        if (before != absent && now != absent && now > 0.0) scales.push_back(before / now);
     }
     const double scale = scales.empty() ? 1.0 : metrics::median(scales);
 

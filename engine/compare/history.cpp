@@ -17,7 +17,7 @@
 namespace shadowbench::compare {
 namespace {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
 struct Run {
     Suite suite;
@@ -71,11 +71,11 @@ void add_cell(AllSeries& all, const Run& run, const Cell& cell) {
     }
 }
 
-json number(double value) {
-    return std::isfinite(value) ? json(value) : json(nullptr);
+ordered_json number_or_null(double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-json drift_of(const Series& series, const HistoryOptions& options) {
+ordered_json drift_of(const Series& series, const HistoryOptions& options) {
     std::vector<const Point*> last;
     for (auto point = series.points.rbegin(); point != series.points.rend() && last.size() < options.last; ++point)
         if (std::isfinite(point->value) && point->alike == series.points.back().alike) last.push_back(&*point);
@@ -86,18 +86,18 @@ json drift_of(const Series& series, const HistoryOptions& options) {
     if (!line) return nullptr;
     return {{"from", line->first},
             {"to", line->last},
-            {"ratio", line->first == 0.0 ? json(nullptr) : number(line->last / line->first)},
+            {"ratio", line->first == 0.0 ? ordered_json(nullptr) : number_or_null(line->last / line->first)},
             {"since", last.front()->run->suite.started}};
 }
 
-json to_json(const std::string& name, const Series& series, const HistoryOptions& options) {
-    json points = json::array();
+ordered_json to_json(const std::string& name, const Series& series, const HistoryOptions& options) {
+    ordered_json points = ordered_json::array();
     for (const Point& point : series.points)
         points.push_back({{"run", point.run->suite.started},
                           {"commit", point.run->suite.commit},
-                          {"value", number(point.value)},
-                          {"low", point.interval ? number(point.interval->low) : json(nullptr)},
-                          {"high", point.interval ? number(point.interval->high) : json(nullptr)}});
+                          {"value", number_or_null(point.value)},
+                          {"low", point.interval ? number_or_null(point.interval->low) : ordered_json(nullptr)},
+                          {"high", point.interval ? number_or_null(point.interval->high) : ordered_json(nullptr)}});
     return {{"name", name}, {"unit", series.unit}, {"points", points}, {"drift", drift_of(series, options)}};
 }
 
@@ -106,13 +106,13 @@ json to_json(const std::string& name, const Series& series, const HistoryOptions
 nlohmann::ordered_json history_json(const std::filesystem::path& path, const HistoryOptions& options) {
     const std::vector<Run> runs = read_runs(path);
     AllSeries all;
-    json cells = json::array(), list = json::array();
+    ordered_json cells = ordered_json::array(), list = ordered_json::array();
     for (const Run& run : runs) {
         list.push_back({{"started", run.suite.started}, {"commit", run.suite.commit}, {"file", run.file}});
         for (const Cell& cell : run.suite.cells) add_cell(all, run, cell);
     }
     for (const auto& [title, series] : all) {
-        json measures = json::array();
+        ordered_json measures = ordered_json::array();
         for (const auto& [name, one] : series) measures.push_back(to_json(name, one, options));
         cells.push_back({{"title", title}, {"measures", std::move(measures)}});
     }
@@ -122,10 +122,10 @@ nlohmann::ordered_json history_json(const std::filesystem::path& path, const His
 std::string history_text(const nlohmann::ordered_json& history) {
     std::string text;
     std::size_t measures = 0, drifts = 0;
-    for (const json& cell : history.at("cells"))
-        for (const json& measure : cell.at("measures")) {
+    for (const ordered_json& cell : history.at("cells"))
+        for (const ordered_json& measure : cell.at("measures")) {
             ++measures;
-            const json& drift = measure.at("drift");
+            const ordered_json& drift = measure.at("drift");
             if (drift.is_null()) continue;
             ++drifts;
             const std::string unit = measure.at("unit").get<std::string>();

@@ -85,7 +85,7 @@ std::string interleaved_with(const fs::path& path) {
 }  // namespace
 
 bool add(Measured& measured, const nlohmann::json& document, const std::string& origin) {
-    const Field whole = top(document, origin);
+    const results::Field whole = results::top(document, origin);
     Suite suite;
     if (whole.has("schema_version") && whole.has("scenario_hash"))
         suite = read_result(whole, origin);

@@ -27,9 +27,9 @@ bool is_ratio(const std::string& name) {
     return has(name, "floor") && has(name, "ratio");
 }
 
-double time_of(const Field& field) {
+double time_of(const results::Field& field) {
     const double value = field.number();
-    if (value < 0.0) refuse(field.where, "must not be negative");
+    if (value < 0.0) results::refuse(field.where, "must not be negative");
     return value;
 }
 
@@ -45,7 +45,7 @@ void add_exact(Cell& cell, const std::string& name, Kind kind, double value) {
 
 // Processor time, of which other programs take nothing; but real time where the name says that it is what counts (as
 // Google Benchmark appends), and of several threads, which processor time adds up.
-const char* judged_time(const Field& run) {
+const char* judged_time(const results::Field& run) {
     const std::string& name = run.at(run.has("run_name") ? "run_name" : "name").text();
     const bool real = has(name, "/real_time") || has(name, "/manual_time") || !run.has("cpu_time") ||
                       (run.has("threads") && run.at("threads").number() > 1.0);
@@ -53,16 +53,17 @@ const char* judged_time(const Field& run) {
 }
 
 // Counts alone, as a baseline holds, have no times.
-void add_time(Cell& cell, const Field& run) {
+void add_time(Cell& cell, const results::Field& run) {
     const char* const time = judged_time(run);
     if (!run.has(time)) return;
     const std::string& unit = run.at("time_unit").text();
     if (cell.timed.empty()) cell.timed.push_back({"time", unit, {{}}});
-    if (cell.timed[0].unit != unit) refuse(run.where + "/time_unit", "repetitions of one kernel have different units");
+    if (cell.timed[0].unit != unit)
+        results::refuse(run.where + "/time_unit", "repetitions of one kernel have different units");
     cell.timed[0].processes[0].raw.push_back(time_of(run.at(time)));
 }
 
-void add_run(Cell& cell, const Field& run) {
+void add_run(Cell& cell, const results::Field& run) {
     if (run.has("error_occurred") && run.value.at("error_occurred") == json(true)) {
         cell.failed = true;
         cell.failure = run.has("error_message") ? run.at("error_message").text() : "it failed";
@@ -83,17 +84,17 @@ void add_run(Cell& cell, const Field& run) {
     }
 }
 
-std::string context(const Field& from, const char* key) {
+std::string context(const results::Field& from, const char* key) {
     return from.has(key) && from.value.at(key).is_string() ? from.at(key).text() : "";
 }
 
 }  // namespace
 
-Suite read_kernels(const Field& kernels) {
+Suite read_kernels(const results::Field& kernels) {
     Suite suite;
     suite.results = 1;
     suite.name = "kernels";
-    const Field about = kernels.at("context"), runs = kernels.at("benchmarks");
+    const results::Field about = kernels.at("context"), runs = kernels.at("benchmarks");
     about.object();
     const std::string cpu = context(about, "cpu");
     suite.machine =
@@ -102,7 +103,7 @@ Suite read_kernels(const Field& kernels) {
     suite.started = context(about, "date");
     std::map<std::string, std::size_t> places;
     for (std::size_t i = 0; i < runs.array().size(); ++i) {
-        const Field run = runs.item(i);
+        const results::Field run = runs.item(i);
         if (run.has("run_type") && run.at("run_type").text() == "aggregate") continue;
         const std::string& name = run.at(run.has("run_name") ? "run_name" : "name").text();
         const auto [place, is_new] = places.emplace(name, suite.cells.size());

@@ -8,26 +8,27 @@
 namespace shadowbench::compare {
 namespace {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
-json number(double value) {
-    return std::isfinite(value) ? json(value) : json(nullptr);
+ordered_json number(double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-json to_json(const Line& line, const Options& options) {
-    json out{{"title", title_of(line)},
-             {"suite", line.suite},
-             {"group", line.group},
-             {"cell", line.cell},
-             {"measure", line.measure},
-             {"verdict", to_string(line.verdict)},
-             {"code", code_of(line, options)},
-             {"unit", line.unit},
-             {"baseline", number(line.baseline)},
-             {"current", number(line.current)},
-             {"reason", line.reason},
-             {"command", line.rerun.source.empty() ? json(nullptr) : json(command_of(line.rerun))},
-             {"time", nullptr}};
+ordered_json to_json(const Line& line, const Options& options) {
+    ordered_json out{
+        {"title", title_of(line)},
+        {"suite", line.suite},
+        {"group", line.group},
+        {"cell", line.cell},
+        {"measure", line.measure},
+        {"verdict", to_string(line.verdict)},
+        {"code", code_of(line, options)},
+        {"unit", line.unit},
+        {"baseline", number(line.baseline)},
+        {"current", number(line.current)},
+        {"reason", line.reason},
+        {"command", line.rerun.source.empty() ? ordered_json(nullptr) : ordered_json(command_of(line.rerun))},
+        {"time", nullptr}};
     if (line.ratio > 0.0)
         out["time"] = {
             {"ratio", number(line.ratio)}, {"interval95", {number(line.interval.low), number(line.interval.high)}},
@@ -38,11 +39,11 @@ json to_json(const Line& line, const Options& options) {
 
 }  // namespace
 
-json to_json(const Comparison& comparison) {
-    json lines = json::array(), fronts = json::array(), counts = json::object();
+ordered_json to_json(const Comparison& comparison) {
+    ordered_json lines = ordered_json::array(), fronts = ordered_json::array(), counts = ordered_json::object();
     for (const Line* line : by_severity(comparison)) {
         lines.push_back(to_json(*line, comparison.options));
-        json& count = counts[to_string(line->verdict)];
+        ordered_json& count = counts[to_string(line->verdict)];
         count = count.is_null() ? 1 : count.get<int>() + 1;
     }
     for (const FrontChange& change : comparison.fronts)

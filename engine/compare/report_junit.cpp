@@ -7,7 +7,7 @@ namespace shadowbench::compare {
 namespace {
 
 // XML 1.0 takes no control characters, even escaped.
-std::string escaped(const std::string& text) {
+std::string xml_escaped(const std::string& text) {
     std::string result;
     for (const char c : text) switch (c) {
             case '&':
@@ -32,15 +32,15 @@ std::string case_of(const Line& line, const Options& options) {
     const std::string what =
         fmt::format("{}: {}{}{}", to_string(line.verdict), values_text(line),
                     values_text(line).empty() || change_text(line).empty() ? "" : "; ", change_text(line));
-    std::string text = fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(title_of(line)),
-                                   escaped(line.measure.empty() ? "all measures" : line.measure));
+    std::string text = fmt::format("  <testcase classname=\"{}\" name=\"{}\"", xml_escaped(title_of(line)),
+                                   xml_escaped(line.measure.empty() ? "all measures" : line.measure));
     if (code_of(line, options) > 0)
         return text + fmt::format("><failure type=\"{}\" message=\"{}\">{}</failure></testcase>\n",
-                                  to_string(line.verdict), escaped(what),
-                                  line.rerun.source.empty() ? "" : escaped(command_of(line.rerun)));
+                                  to_string(line.verdict), xml_escaped(what),
+                                  line.rerun.source.empty() ? "" : xml_escaped(command_of(line.rerun)));
     if (line.verdict == Verdict::inconclusive || line.verdict == Verdict::not_comparable ||
         line.verdict == Verdict::missing)
-        return text + fmt::format("><skipped message=\"{}\"/></testcase>\n", escaped(what));
+        return text + fmt::format("><skipped message=\"{}\"/></testcase>\n", xml_escaped(what));
     return text + "/>\n";
 }
 
@@ -59,9 +59,9 @@ std::string to_junit(const Comparison& comparison) {
     std::string out;
     for (const FrontChange& change : comparison.fronts) out += front_text(change) + "\n";
     for (const std::string& note : comparison.notes) out += "note: " + note + "\n";
-    std::string lines;  // escaped() would take their ends
+    std::string lines;  // xml_escaped() would take their ends
     for (std::size_t at = 0, end; (end = out.find('\n', at)) != std::string::npos; at = end + 1)
-        lines += escaped(out.substr(at, end - at)) + "\n";
+        lines += xml_escaped(out.substr(at, end - at)) + "\n";
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"shadowbench compare\" tests=\"{}\" "
         "failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}  <system-out>{}</system-out>\n</testsuite>\n",

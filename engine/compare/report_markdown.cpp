@@ -7,7 +7,7 @@ namespace shadowbench::compare {
 namespace {
 
 // A bar would end the cell, and names are no markup.
-std::string escaped(const std::string& text) {
+std::string markdown_escaped(const std::string& text) {
     std::string result;
     for (const char c : text) {
         if (std::string("\\`*_|<>[]").find(c) != std::string::npos) result += '\\';
@@ -45,21 +45,23 @@ std::string code(const std::string& text) {
 
 std::string to_markdown(const Comparison& comparison) {
     std::string text = fmt::format("## shadowbench: {}\n\n{} → {}: {}.\n\n", outcome_text(comparison),
-                                   escaped(comparison.baseline), escaped(comparison.current), counts_text(comparison));
+                                   markdown_escaped(comparison.baseline), markdown_escaped(comparison.current),
+                                   counts_text(comparison));
     std::string rows;
     for (const Line* line : by_severity(comparison))
         if (is_news(*line))
-            rows += fmt::format("| {} | {} | {} | {} | {} | {} |\n", to_string(line->verdict), escaped(title_of(*line)),
-                                escaped(line->measure), escaped(values_text(*line)), escaped(change_text(*line)),
+            rows += fmt::format("| {} | {} | {} | {} | {} | {} |\n", to_string(line->verdict),
+                                markdown_escaped(title_of(*line)), markdown_escaped(line->measure),
+                                markdown_escaped(values_text(*line)), markdown_escaped(change_text(*line)),
                                 line->rerun.source.empty() ? "" : code(command_of(line->rerun)));
     if (!rows.empty())
         text += "| verdict | cell | measure | baseline → current | change | alone |\n|---|---|---|---|---|---|\n" +
                 rows + "\n";
-    for (const FrontChange& change : comparison.fronts) text += "- " + escaped(front_text(change)) + "\n";
-    for (const std::string& note : comparison.notes) text += "- " + escaped(note) + "\n";
+    for (const FrontChange& change : comparison.fronts) text += "- " + markdown_escaped(front_text(change)) + "\n";
+    for (const std::string& note : comparison.notes) text += "- " + markdown_escaped(note) + "\n";
     if (!comparison.fronts.empty() || !comparison.notes.empty()) text += "\n";
     text += method(comparison) + ".\n";
-    if (const std::string fine = sensitivity(comparison); !fine.empty()) text += "\n" + escaped(fine) + ".\n";
+    if (const std::string fine = sensitivity(comparison); !fine.empty()) text += "\n" + markdown_escaped(fine) + ".\n";
     return text;
 }
 

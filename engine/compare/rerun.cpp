@@ -14,7 +14,7 @@ std::string quoted(const std::string& text) {
     return result + "'";
 }
 
-std::string escaped(const std::string& name) {
+std::string regex_escaped(const std::string& name) {
     std::string result;
     for (const char c : name) {
         if (std::string("\\^$.|?*+()[]{}").find(c) != std::string::npos) result += '\\';
@@ -25,7 +25,7 @@ std::string escaped(const std::string& name) {
 
 std::vector<std::string> kernel_arguments(const std::vector<Rerun>& reruns) {
     std::string names;
-    for (const Rerun& rerun : reruns) names += (names.empty() ? "" : "|") + escaped(rerun.source);
+    for (const Rerun& rerun : reruns) names += (names.empty() ? "" : "|") + regex_escaped(rerun.source);
     std::vector<std::string> arguments{fmt::format("--benchmark_filter=^({})$", names)};
     arguments.insert(arguments.end(), reruns[0].given.begin(), reruns[0].given.end());
     return arguments;
@@ -55,7 +55,7 @@ std::vector<std::string> arguments_of(const std::vector<Rerun>& reruns) {
 std::string command_of(const Rerun& rerun) {
     if (rerun.counted)
         return fmt::format("shadowbench instructions --kernels {} --filter {} --out counts.json", quoted(rerun.program),
-                           quoted("^" + escaped(rerun.source) + "$"));
+                           quoted("^" + regex_escaped(rerun.source) + "$"));
     std::string line = quoted(rerun.program);
     for (const std::string& argument : arguments_of({rerun})) line += " " + quoted(argument);
     return line;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
+#include <variant>
 
 #include "rays/hits.h"
 #include "rays/prepared.h"
@@ -15,15 +17,18 @@ namespace {
 
 // Rows of a deep image are the map's rows: one ray a pixel, its samples submitted as they stand in the image.
 void copy_deep_image(const scene::DeepImage& image, bool submission, LightRays& rays) {
+    const auto channels = static_cast<std::size_t>(image.channels);
     rays.begin.assign(1, 0);
     for (int y = rays.y0; y < rays.y0 + rays.height; ++y)
         for (int x = rays.x0; x < rays.x0 + rays.width; ++x) {
             const std::size_t pixel = static_cast<std::size_t>(y) * image.width + x;
             for (std::size_t s = image.begin[pixel]; s < image.begin[pixel + 1]; ++s) {
-                if (image.transmittance[s] == 1.0f) continue;
+                const auto through = std::span(image.transmittance).subspan(s * channels, channels);
+                const bool clear = std::all_of(through.begin(), through.end(), [](float t) { return t == 1.0f; });
+                if (clear || scene::behind_everything(image, s)) continue;
                 rays.z_front.push_back(image.z_front[s]);
                 rays.z_back.push_back(image.z_back[s]);
-                rays.transmittance.push_back(image.transmittance[s]);
+                rays.transmittance.insert(rays.transmittance.end(), through.begin(), through.end());
             }
             rays.begin.push_back(static_cast<std::uint32_t>(rays.z_front.size()));
         }
@@ -50,14 +55,13 @@ MapLayout make_layout(const scene::Scene& scene, const LightView& view, const sc
     const double rounding = scene.deep_image ? 0.0 : 0x1p-23 * std::max(std::abs(view.z_min), std::abs(view.z_max));
     layout.z_min = outward(std::max(view.z_min - rounding, std::min(view.z_min, view.z_near)), -infinity);
     layout.z_max = outward(view.z_max + rounding, infinity);
+    layout.channels = scene::channels(scene);
+    layout.media = scene::has_media(scene);
     if (scene.deep_image) {
         layout.jittered = false;
-        for (std::size_t s = 0; s < scene.deep_image->z_front.size() && !layout.media; ++s)
-            layout.media = scene.deep_image->z_back[s] > scene.deep_image->z_front[s];
     } else {
-        layout.channels = scene::channels(scene);
-        layout.media = scene::has_media(scene);
         layout.moving = scene::has_motion(scene);
+        layout.cells = settings.media == scene::Media::cells;
         set_samples(layout, settings.samples_per_pixel);
     }
     int size = 64;
@@ -74,7 +78,7 @@ struct Capture::State {
     std::vector<Prepared> objects;
 
     template <class Sink>
-    void project(LightRays& rays, std::span<const unsigned char> wanted) const {
+    void project(LightRays& rays) const {
         const bool moving = std::any_of(objects.begin(), objects.end(), [&](const Prepared& p) {
             return p.moving && (p.marcher || !p.bins.of(rays.tile).empty());
         });
@@ -82,22 +86,24 @@ struct Capture::State {
         thread_local Sink sink;  // its memory serves tile after tile
         sink.hits.clear();
         if (view.perspective)
-            TileProjection<true, Sink>(view, grid, rays, wanted, sink).project(objects);
+            TileProjection<true, Sink>(view, layout, grid, rays, sink).project(objects);
         else
-            TileProjection<false, Sink>(view, grid, rays, wanted, sink).project(objects);
+            TileProjection<false, Sink>(view, layout, grid, rays, sink).project(objects);
         sort_hits(sink, static_cast<std::size_t>(grid.nx) * grid.ny, layout.submission, rays);
     }
 };
 
-Capture::Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout)
+Capture::Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout, Grids grids)
     : state_(std::make_unique<State>(State{scene, view, layout, {}})) {
-    for (const scene::Object& object : scene.objects)
-        if (object.casts_shadow) state_->objects.push_back(prepare(object, view, layout));
+    for (const scene::Object& object : scene.objects) {
+        const bool left_out = grids == Grids::left_out && std::holds_alternative<scene::GridVolume>(object.shape);
+        if (object.casts_shadow && !left_out) state_->objects.push_back(prepare(object, view, layout));
+    }
 }
 
 Capture::~Capture() = default;
 
-LightRays Capture::tile(int index, std::span<const unsigned char> wanted, int apron) const {
+LightRays Capture::tile(int index, int apron) const {
     const MapLayout& layout = state_->layout;
     LightRays rays;
     rays.tile = index;
@@ -111,9 +117,9 @@ LightRays Capture::tile(int index, std::span<const unsigned char> wanted, int ap
     if (state_->scene.deep_image)
         copy_deep_image(*state_->scene.deep_image, layout.submission, rays);
     else if (layout.media || layout.channels > 1)
-        state_->project<SegmentHits>(rays, wanted);
+        state_->project<SegmentHits>(rays);
     else
-        state_->project<SurfaceHits>(rays, wanted);
+        state_->project<SurfaceHits>(rays);
     return rays;
 }
 

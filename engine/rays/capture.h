@@ -6,12 +6,12 @@
 //  - Hair: ribbons that face the ray with round ends; at a joint the disc around the shared point belongs to the
 //    earlier segment, so a ray crosses a strand once there.
 //  - What moves: each ray tests it where it stands at the ray's time, with edge functions that are linear in time.
-//  - Grid volumes: marched at regular steps, joined by the trapezoid rule (Lokovic and Veach 2000, section 3.2).
+//  - Grid volumes: as the layout says, marched at regular steps, joined by the trapezoid rule (Lokovic and Veach 2000,
+//    section 3.2), or cell by cell.
 #pragma once
 
 #include <cstddef>
 #include <memory>
-#include <span>
 
 #include "rays/light_rays.h"
 #include "rays/light_view.h"
@@ -30,15 +30,16 @@ MapLayout make_layout(const scene::Scene& scene, const LightView& view, const sc
 // The scene prepared for one light: primitives in view space, sorted into tiles. Keeps references to its arguments.
 class Capture {
 public:
-    Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout);
+    // Grids that are left out are for those who integrate them themselves (grid_media.h).
+    enum class Grids { captured, left_out };
+    Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout, Grids grids = Grids::captured);
     ~Capture();
     Capture(const Capture&) = delete;
     Capture& operator=(const Capture&) = delete;
 
     // Thread-safe. The rays depend on the tile alone. Throws Error{bad_input} when a tile has more than 2^28
-    // segments. `wanted`, one a pixel of the tile, names the pixels that are needed (empty: all); rays of the others
-    // may lack what is slow to find. `apron` is at most the layout's: so many pixels around the tile are covered too.
-    LightRays tile(int index, std::span<const unsigned char> wanted = {}, int apron = 0) const;
+    // segments. `apron` is at most the layout's: so many pixels around the tile are covered too.
+    LightRays tile(int index, int apron = 0) const;
 
     std::size_t bytes() const;  // held for all tiles
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "base/compensated.h"
 #include "base/random.h"
+#include "rays/shutter.h"
 
 namespace shadowbench::rays {
 
@@ -37,18 +37,13 @@ TileCore core_of(const MapLayout& layout, int tile) {
 
 double sample_time(const MapLayout& layout, int i, int j) {
     if (!layout.moving) return 0.0;
-    const std::uint64_t samples = static_cast<std::uint64_t>(layout.samples());
     const std::uint64_t pixel =
         static_cast<std::uint64_t>(i / layout.samples_x) << 32 | static_cast<std::uint32_t>(j / layout.samples_y);
-    const std::uint64_t order = base::hash(layout.seed ^ 0x74696d65u, pixel);  // of the parts of the shutter
-    std::uint64_t step = 1 + (order >> 32) % samples;
-    while (std::gcd(step, samples) != 1) ++step;
-    const std::uint64_t sample =
-        static_cast<std::uint64_t>(j % layout.samples_y * layout.samples_x + i % layout.samples_x);
-    const std::uint64_t part = (sample * step + (order & 0xffffffffu)) % samples;
-    double within = 0.5;
-    if (layout.jittered) within = static_cast<double>(base::hash(order, sample) >> 32) * 0x1p-32;
-    return (static_cast<double>(part) + within) / static_cast<double>(samples);
+    const std::uint64_t key = base::hash(layout.seed ^ 0x74696d65u, pixel);
+    const std::uint32_t part =
+        shutter_part(layout.samples_x, layout.samples_y, i % layout.samples_x, j % layout.samples_y, key);
+    const double within = layout.jittered ? static_cast<double>(base::hash(key, part) >> 32) * 0x1p-32 : 0.5;
+    return (part + within) / layout.samples();
 }
 
 LightRays channel(const LightRays& rays, int channel) {

@@ -21,6 +21,7 @@ struct MapLayout {
     int tile_width = 1, tile_height = 1;  // pixels; tiles at the right and top edge may be smaller
     bool moving = false;                  // something that casts shadows moves: each ray has its own time
     int apron = 0;                        // pixels around a tile that may be asked for with it
+    bool cells = false;                   // grid volumes: a segment a voxel cell, else a step
     bool submission = false;              // tiles tell the order in which their segments were found
 
     int samples() const { return samples_x * samples_y; }
@@ -45,7 +46,8 @@ struct TileCore {
 TileCore core_of(const MapLayout& layout, int tile);
 
 // When in the shutter, [0, 1), the ray in sample cell (i, j) sees the scene: the rays of a pixel stand one each in
-// samples() equal parts of the shutter, in an order of the pixel's own. 0 unless the layout is moving.
+// samples() equal parts of the shutter, dealt out such that places in the pixel and times are stratified together
+// (shutter.h). 0 unless the layout is moving.
 double sample_time(const MapLayout& layout, int i, int j);
 
 // A tile may be asked for with an apron: then it covers a larger rectangle of pixels, clipped to the map, and `tile`

@@ -129,6 +129,7 @@ LightView deep_image_view(const scene::DeepImage& image) {
     view.z_min = infinity;
     view.z_max = -infinity;
     for (std::size_t s = 0; s < image.z_front.size(); ++s) {
+        if (scene::behind_everything(image, s)) continue;
         view.z_min = std::min<double>(view.z_min, image.z_front[s]);
         view.z_max = std::max<double>(view.z_max, image.z_back[s]);
     }
@@ -201,6 +202,14 @@ Vec3d to_light(const LightView& view, const Vec3d& world) {
 Vec3d unproject(const LightView& view, double x, double y, double z) {
     const double w = view.perspective ? z : 1.0;
     return {(view.lower.x + x * view.pixel.x) * w, (view.lower.y + y * view.pixel.y) * w, z};
+}
+
+LightLine light_line(const LightView& view, double x, double y) {
+    const double px = view.lower.x + x * view.pixel.x, py = view.lower.y + y * view.pixel.y;
+    const Vec3d aside = view.right * px + view.up * py;
+    constexpr double far_before = -1e30;  // of all that is
+    if (!view.perspective) return {view.origin + aside, view.forward, 1.0, std::max(view.z_near, far_before)};
+    return {view.origin, aside + view.forward, std::sqrt(1.0 + px * px + py * py), view.z_near};
 }
 
 double length_per_depth(const LightView& view, double x, double y) {

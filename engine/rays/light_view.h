@@ -48,6 +48,14 @@ Vec3d to_light(const LightView& view, const Vec3d& world);
 // The view-space point of map position (x, y) at depth z.
 Vec3d unproject(const LightView& view, double x, double y, double z);
 
+// The light ray at map position (x, y): at depth z it is at origin + z * direction, in world space.
+struct LightLine {
+    Vec3d origin, direction;
+    double scale;    // its length per unit of z, >= 1
+    double z_start;  // what lies before is not seen
+};
+LightLine light_line(const LightView& view, double x, double y);
+
 // Length of the ray at map position (x, y) per unit of z, >= 1.
 double length_per_depth(const LightView& view, double x, double y);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -46,13 +45,12 @@ inline bool transmits_all(const float* t) {
 template <bool perspective, class Sink>
 class TileProjection {
 public:
-    TileProjection(const LightView& view, const TileGrid& grid, const LightRays& rays,
-                   std::span<const unsigned char> wanted, Sink& sink)
+    TileProjection(const LightView& view, const MapLayout& layout, const TileGrid& grid, const LightRays& rays,
+                   Sink& sink)
         : view_(view),
+          cells_(layout.cells),
           grid_(grid),
           tile_(rays.tile),
-          samples_(rays.samples),
-          wanted_(wanted),
           sink_(sink),
           longest_(longest_ray(view, grid)) {}
 
@@ -221,25 +219,25 @@ private:
 
     // Through a volume that stands where the scene has it, by a ray moved the other way.
     void march(const Prepared& p, std::uint32_t ray, double x, double y, const Vec3d& moved) {
-        if (!wanted_.empty() && !wanted_[ray / samples_]) return;
         check_hits(sink_);
         const ViewLine line = view_line(view_, x, y);
         const Vec3d& d = line.direction;
-        steps_.clear();
-        p.marcher->march(to_world(view_, line.origin - moved), view_.right * d.x + view_.up * d.y + view_.forward * d.z,
-                         line.scale, std::max(view_.z_near, -1e30), 1e30, steps_);
+        segments_.clear();
+        const Vec3d origin = to_world(view_, line.origin - moved);
+        const Vec3d direction = view_.right * d.x + view_.up * d.y + view_.forward * d.z;
+        const auto cut = cells_ ? &VolumeMarcher::march_cells : &VolumeMarcher::march;
+        (*p.marcher.*cut)(origin, direction, line.scale, std::max(view_.z_near, -1e30), 1e30, segments_);
         StepRounding rounding;
-        for (const MediumSegment& s : steps_) medium(ray, s.front, s.back, s.depth, p.object->extinction, rounding);
+        for (const MediumSegment& s : segments_) medium(ray, s.front, s.back, s.depth, p.object->extinction, rounding);
     }
 
     const LightView& view_;
+    const bool cells_;  // of grid volumes, else steps
     const TileGrid& grid_;
     const int tile_;
-    const int samples_;  // rays a pixel
-    const std::span<const unsigned char> wanted_;
     Sink& sink_;
     const double longest_;  // at least every ray's length per depth in this tile
-    std::vector<MediumSegment> steps_;
+    std::vector<MediumSegment> segments_;
 };
 
 }  // namespace shadowbench::rays

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "rays/march.h"
+#include "rays/traced_primitives.h"
 
 namespace shadowbench::rays {
 namespace {
@@ -15,66 +16,46 @@ namespace {
 using base::Vec3d;
 using base::Vec3f;
 
-// Embree hands this back in its callbacks: what one query collects.
+constexpr float edge_reach = 1e-4f;  // of a triangle: weights of its corners below which a ray is at its edge
+
+// Embree hands this back in its callbacks: what one query collects. With neither list, the nearest opaque surface.
 struct Query : RTCIntersectContext {
     TracedRay ray;
     double back_off;  // t from where Embree's ray starts to the ray's origin
-    bool nearest;     // only the nearest surface; media are passed through
-    std::vector<TracedSegment>* out;
+    std::vector<TracedSegment>* segments = nullptr;
+    std::vector<Crossing>* translucent = nullptr;  // surfaces
+
+    bool nearest() const { return !segments && !translucent; }
 };
 
 bool is_between(const TracedRay& ray, double t) {
     return t > ray.t_min && t <= ray.t_max;
 }
 
-// Perpendicular distance test at a joint, and the depth of a strand's axis: the ray's closest approach, in double.
-bool hair_crossing(const Traced& traced, const scene::Hair& hair, unsigned segment, const TracedRay& ray, double& t) {
-    const Vec3d origin = origin_beside(*traced.object, ray);
-    const std::uint32_t first = traced.segments.first[segment];
-    const double length2 = ray.direction.dot(ray.direction);
-    const auto across = [&](const Vec3f& point, double& along) {
-        const Vec3d p = Vec3d(point) - origin;
-        along = p.dot(ray.direction) / length2;
-        return p - ray.direction * along;
-    };
-    double ta, tb;
-    const Vec3d a = across(hair.points[first], ta), b = across(hair.points[first + 1], tb);
-    const double radius = hair.radii[first];
-    if (traced.segments.joined[segment] && a.dot(a) <= radius * radius) return false;  // the earlier segment has it
-    const Vec3d d = b - a;
-    const double d2 = d.dot(d);
-    const double u = d2 > 0.0 ? std::clamp(-a.dot(d) / d2, 0.0, 1.0) : 0.0;
-    t = ta + (tb - ta) * u;
-    return true;
+void add_translucent(Query& q, const Traced& traced, const RTCHit& hit, double t, double depth, const Vec3f& opacity) {
+    if (is_opaque(opacity) || is_nothing(opacity)) return;
+    const bool at_edge = std::holds_alternative<scene::Mesh>(traced.object->shape) &&
+                         std::min({hit.u, hit.v, 1.0f - hit.u - hit.v}) < edge_reach;
+    q.translucent->push_back(
+        {depth,
+         {t, Vec3d(0.0), Vec3d(hit.Ng_x, hit.Ng_y, hit.Ng_z), strand_direction(traced, hit.primID), Vec3d(opacity)},
+         hit.geomID,
+         hit.primID,
+         &traced,
+         at_edge});
 }
 
-Vec3f opacity_at(const scene::Object& object, const scene::Mesh& mesh, unsigned triangle, double u, double v) {
-    if (!mesh.alpha) return object.opacity;
-    const base::Vec2f* uv = &mesh.corner_uv[3 * static_cast<std::size_t>(triangle)];
-    const base::Vec2f at =
-        uv[0] * static_cast<float>(1.0 - u - v) + uv[1] * static_cast<float>(u) + uv[2] * static_cast<float>(v);
-    return object.opacity * scene::sample(*mesh.alpha, at.x, at.y);
-}
-
-// Where the ray passes a triangle's plane; `t` stays where it runs in the plane.
-void triangle_depth(const scene::Object& object, const scene::Mesh& mesh, unsigned triangle, const TracedRay& ray,
-                    double& t) {
-    const base::Vec3i& index = mesh.triangles[triangle];
-    const Vec3d p0(mesh.positions[index.x]);
-    const Vec3d normal = (Vec3d(mesh.positions[index.y]) - p0).cross(Vec3d(mesh.positions[index.z]) - p0);
-    if (const double facing = normal.dot(ray.direction); facing != 0.0)
-        t = normal.dot(p0 - origin_beside(object, ray)) / facing;
-}
-
-// Called by Embree for every crossing of a triangle or a ribbon: keeps it and lets the ray go on.
+// Called by Embree for every crossing of a triangle or a ribbon: keeps it and lets the ray go on, or accepts it where
+// the nearest one is asked for.
 void collect(const RTCFilterFunctionNArguments* args) {
     const auto& traced = *static_cast<const Traced*>(args->geometryUserPtr);
     auto& q = *static_cast<Query*>(args->context);
     const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
-    double t = reinterpret_cast<const RTCRay*>(args->ray)->tfar - q.back_off;
+    const double embree_t = reinterpret_cast<const RTCRay*>(args->ray)->tfar - q.back_off;
+    double t = embree_t;
     Vec3f opacity = traced.object->opacity;
     if (const auto* hair = std::get_if<scene::Hair>(&traced.object->shape)) {
-        if (!q.nearest && !hair_crossing(traced, *hair, hit->primID, q.ray, t)) {
+        if (!q.nearest() && !hair_crossing(traced, *hair, hit->primID, q.ray, t)) {
             args->valid[0] = 0;
             return;
         }
@@ -82,13 +63,16 @@ void collect(const RTCFilterFunctionNArguments* args) {
         opacity = opacity_at(*traced.object, *mesh, hit->primID, hit->u, hit->v);
         triangle_depth(*traced.object, *mesh, hit->primID, q.ray, t);
     }
-    if (q.nearest) {  // accept what is more there than not
-        if (t <= q.ray.t_min || opacity.x + opacity.y + opacity.z < 1.5f) args->valid[0] = 0;
+    if (q.nearest()) {
+        if (t <= q.ray.t_min || !is_opaque(opacity)) args->valid[0] = 0;
         return;
     }
     args->valid[0] = 0;
-    if (is_between(q.ray, t) && (opacity.x > 0 || opacity.y > 0 || opacity.z > 0))
-        q.out->push_back({t, t, Vec3d(1.0) - Vec3d(opacity)});
+    if (!is_between(q.ray, t)) return;
+    if (q.translucent)
+        add_translucent(q, traced, *hit, embree_t, t, opacity);
+    else if (!is_nothing(opacity))
+        q.segments->push_back({t, t, Vec3d(1.0) - Vec3d(opacity)});
 }
 
 struct SphereList {
@@ -109,40 +93,60 @@ void sphere_bounds(const RTCBoundsFunctionArguments* args) {
     *args->bounds_o = {c.x - r, c.y - r, c.z - r, 0, c.x + r, c.y + r, c.z + r, 0};
 }
 
-// Makes t the nearest hit of Embree's ray so far.
-void accept(const RTCIntersectFunctionNArguments* args, double t, const Vec3d& normal) {
+// As Embree reports what it finds itself: t from where its ray starts, in float.
+void fill(const RTCIntersectFunctionNArguments* args, float tfar, const Vec3d& normal, RTCRay& ray, RTCHit& hit) {
+    ray.tfar = tfar;
+    hit.Ng_x = static_cast<float>(normal.x);
+    hit.Ng_y = static_cast<float>(normal.y);
+    hit.Ng_z = static_cast<float>(normal.z);
+    hit.geomID = args->geomID;
+    hit.primID = args->primID;
+}
+
+// Of an opaque sphere, makes the nearer crossing after the ray's start the nearest hit so far.
+void accept_sphere(const RTCIntersectFunctionNArguments* args, const Query& q, const Vec3d& from_centre, double front,
+                   double back) {
     auto* rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
-    rayhit->ray.tfar = static_cast<float>(t);
-    rayhit->hit.Ng_x = static_cast<float>(normal.x);
-    rayhit->hit.Ng_y = static_cast<float>(normal.y);
-    rayhit->hit.Ng_z = static_cast<float>(normal.z);
-    rayhit->hit.geomID = args->geomID;
-    rayhit->hit.primID = args->primID;
+    const double t = front > q.ray.t_min ? front : back;
+    if (t <= q.ray.t_min || t + q.back_off >= rayhit->ray.tfar) return;
+    fill(args, static_cast<float>(t + q.back_off), from_centre + q.ray.direction * t, rayhit->ray, rayhit->hit);
+}
+
+void add_sphere(const RTCIntersectFunctionNArguments* args, Query& q, const Traced& traced, const Vec3d& from_centre,
+                double t) {
+    RTCRay ray{};
+    RTCHit hit{};
+    fill(args, static_cast<float>(t + q.back_off), from_centre + q.ray.direction * t, ray, hit);
+    add_translucent(q, traced, hit, ray.tfar - q.back_off, t, traced.object->opacity);
 }
 
 void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
     if (!args->valid[0]) return;
-    const scene::Object& object = *static_cast<const Traced*>(args->geometryUserPtr)->object;
+    const auto& traced = *static_cast<const Traced*>(args->geometryUserPtr);
+    const scene::Object& object = *traced.object;
     auto& q = *static_cast<Query*>(args->context);
     const SphereList list = spheres_of(object);
     const Vec3d centre((*list.centres)[args->primID]), origin = origin_beside(object, q.ray);
     double front, back;
     if (!sphere_stretch(origin, q.ray.direction, centre, (*list.radii)[args->primID], front, back)) return;
-    const auto* particles = std::get_if<scene::Particles>(&object.shape);
-    if (q.nearest) {
-        const double t = front > q.ray.t_min ? front : back;
-        const double farthest = reinterpret_cast<const RTCRayHit*>(args->rayhit)->ray.tfar;
-        if (particles || object.opacity.x < 0.5f || t <= q.ray.t_min || t + q.back_off >= farthest) return;
-        accept(args, t + q.back_off, origin + q.ray.direction * t - centre);
-    } else if (particles) {
+    if (const auto* particles = std::get_if<scene::Particles>(&object.shape)) {
+        if (!q.segments) return;
         front = std::max(front, q.ray.t_min);
         back = std::min(back, q.ray.t_max);
         const double length = (back - front) * q.ray.direction.length();
         if (back > front)
-            q.out->push_back({front, back, transmitted(object.extinction, length * particles->density[args->primID])});
-    } else {
-        for (const double t : {front, back})
-            if (is_between(q.ray, t)) q.out->push_back({t, t, Vec3d(1.0) - Vec3d(object.opacity)});
+            q.segments->push_back(
+                {front, back, transmitted(object.extinction, length * particles->density[args->primID])});
+    } else if (q.nearest()) {
+        if (is_opaque(object.opacity)) accept_sphere(args, q, origin - centre, front, back);
+    } else if (!is_nothing(object.opacity)) {
+        for (const double t : {front, back}) {
+            if (!is_between(q.ray, t)) continue;
+            if (q.translucent)
+                add_sphere(args, q, traced, origin - centre, t);
+            else
+                q.segments->push_back({t, t, Vec3d(1.0) - Vec3d(object.opacity)});
+        }
     }
 }
 
@@ -186,21 +190,11 @@ RTCRayHit trace(RTCScene scene, double widest_hair, Query& q) {
     return rayhit;
 }
 
-Query make_query(const TracedRay& ray, std::vector<TracedSegment>* out) {
+Query make_query(const TracedRay& ray) {
     Query q;
     rtcInitIntersectContext(&q);
     q.ray = ray;
-    q.nearest = !out;
-    q.out = out;
     return q;
-}
-
-// 0 for what is not hair.
-Vec3d strand_direction(const Traced& traced, unsigned primitive) {
-    const auto* hair = std::get_if<scene::Hair>(&traced.object->shape);
-    if (!hair) return Vec3d(0.0);
-    const std::uint32_t first = traced.segments.first[primitive];
-    return (Vec3d(hair->points[first + 1]) - Vec3d(hair->points[first])).normalized();
 }
 
 }  // namespace
@@ -241,19 +235,32 @@ RTCGeometryTy* make_geometry(RTCDeviceTy* device, Traced& traced) {
 }
 
 void trace_all(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, std::vector<TracedSegment>& out) {
-    Query q = make_query(ray, &out);
+    Query q = make_query(ray);
+    q.segments = &out;
     trace(scene, widest_hair, q);
 }
 
-bool trace_nearest(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, SurfaceHit& out) {
-    Query q = make_query(ray, nullptr);
+bool trace_opaque(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, Crossing& out) {
+    Query q = make_query(ray);
     const RTCRayHit found = trace(scene, widest_hair, q);
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    out.t = found.ray.tfar - q.back_off;
-    out.normal = Vec3d(found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z);
-    const void* traced = rtcGetGeometryUserData(rtcGetGeometry(scene, found.hit.geomID));
-    out.tangent = strand_direction(*static_cast<const Traced*>(traced), found.hit.primID);
+    const unsigned primitive = found.hit.primID;
+    const auto& traced = *static_cast<const Traced*>(rtcGetGeometryUserData(rtcGetGeometry(scene, found.hit.geomID)));
+    const double t = found.ray.tfar - q.back_off;
+    out = {depth_of(traced, primitive, ray, t),
+           {t, Vec3d(0.0), Vec3d(found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z), strand_direction(traced, primitive),
+            Vec3d(1.0)},
+           found.hit.geomID,
+           primitive,
+           &traced,
+           false};
     return true;
+}
+
+void trace_translucent(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, std::vector<Crossing>& out) {
+    Query q = make_query(ray);
+    q.translucent = &out;
+    trace(scene, widest_hair, q);
 }
 
 Vec3d transmitted(const Vec3f& extinction, double optical_depth) {

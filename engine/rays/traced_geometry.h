@@ -34,9 +34,29 @@ RTCGeometryTy* make_geometry(RTCDeviceTy* device, Traced& traced);
 // Appends all crossings, unsorted. `widest_hair` is the largest half-width in the scene.
 void trace_all(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, std::vector<TracedSegment>& out);
 
-// The nearest surface that is more there than not; false when there is none. Fills `t`, `tangent`, and `normal` as
-// Embree has it: of any length and side.
-bool trace_nearest(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, SurfaceHit& out);
+// A surface on a ray. `hit.t`, `tangent`, `opacity` and `normal` are filled in, the normal as Embree has it: of any
+// length and side.
+struct Crossing {
+    double depth;  // t in double, for the order; hit.t is Embree's, in float
+    SurfaceHit hit;
+    unsigned geometry, primitive;
+    const Traced* traced;
+    bool at_edge;  // of a mesh: within a ten-thousandth of a triangle's edge
+};
+
+// Whether a surface of this opacity lets nothing through; or is not there at all.
+inline bool is_opaque(const base::Vec3f& opacity) {
+    return opacity.x >= 1.0f && opacity.y >= 1.0f && opacity.z >= 1.0f;
+}
+inline bool is_nothing(const base::Vec3f& opacity) {
+    return !(opacity.x > 0.0f || opacity.y > 0.0f || opacity.z > 0.0f);
+}
+
+// The nearest crossing of an opaque surface; false when there is none.
+bool trace_opaque(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, Crossing& out);
+
+// Appends all crossings of surfaces that are neither opaque nor nothing, unsorted.
+void trace_translucent(RTCSceneTy* scene, double widest_hair, const TracedRay& ray, std::vector<Crossing>& out);
 
 // What is left of light after an optical depth of one unit of extinction.
 base::Vec3d transmitted(const base::Vec3f& extinction, double optical_depth);

@@ -22,10 +22,11 @@ struct TracedSegment {
 };
 
 struct SurfaceHit {
-    double t;
-    base::Vec3d position;
-    base::Vec3d normal;   // unit length, faces the ray's origin; for hair, across the strand
-    base::Vec3d tangent;  // unit length, along the strand; 0 for what is not hair
+    double t = 0.0;
+    base::Vec3d position{0, 0, 0};
+    base::Vec3d normal{0, 0, 0};   // unit length, faces the ray's origin; for hair, across the strand
+    base::Vec3d tangent{0, 0, 0};  // unit length, along the strand; 0 for what is not hair
+    base::Vec3d opacity{0, 0, 0};  // here, texture included: each in [0, 1], one of them above 0
 };
 
 // Thread-safe once made. Keeps a reference to the scene. `time`, in [0, 1], is when in the shutter a ray sees the
@@ -37,15 +38,23 @@ public:
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;
 
-    // Everything between t_min and t_max, sorted by front; crossings at equal depth are all kept.
+    // Everything between t_min and t_max, sorted by front; crossings at equal depth are all kept. Grid volumes have a
+    // segment a voxel cell, or a step where rays that were captured so are checked.
+    enum class Grids { cells, steps };
     void all_segments(const base::Vec3d& origin, const base::Vec3d& direction, double t_min, double t_max,
-                      std::vector<TracedSegment>& out, double time = 0.0) const;
+                      std::vector<TracedSegment>& out, double time = 0.0, Grids grids = Grids::cells) const;
 
-    // The nearest surface; false when there is none.
-    bool nearest(const base::Vec3d& origin, const base::Vec3d& direction, SurfaceHit& out, double time = 0.0) const;
+    // The surfaces that a ray meets, in order of depth, up to and including the first behind which no channel has
+    // anything left; true when there is such a one. Surfaces of opacity 0 are not there. At equal depth all are kept,
+    // in the order of the scene's objects; a ray through an edge that triangles of one mesh share meets one of them.
+    bool surfaces(const base::Vec3d& origin, const base::Vec3d& direction, std::vector<SurfaceHit>& out,
+                  double time = 0.0) const;
 
-    // Exact transmittance per channel of the light ray at map position (x, y) up to depth z (surfaces strictly before).
-    // `scratch` is reused between calls.
+    // Whether the scene has media: all_segments may have segments that are no surfaces.
+    bool has_media() const;
+
+    // Exact transmittance per channel of the light ray at map position (x, y) up to depth z (surfaces strictly before;
+    // grid volumes integrated up to z itself). `scratch`, reused between calls, has the segments of all else.
     base::Vec3d transmittance(const LightView& view, double x, double y, double z, std::vector<TracedSegment>& scratch,
                               double time = 0.0) const;
 

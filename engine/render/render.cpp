@@ -9,13 +9,15 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/hash_text.h"
 #include "base/parallel.h"
 #include "bench/contender.h"
-#include "bench/document.h"
 #include "bench/load.h"
+#include "bench/prepared_light.h"
 #include "bench/queries.h"
 #include "bench/ray_source.h"
 #include "bench/reference.h"
+#include "document/document.h"
 #include "metrics/statistics.h"
 #include "rays/capture.h"
 #include "render/heat_map.h"
@@ -117,11 +119,7 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
     const scene::Scenario& scenario = work.scenario;
     const scene::Light& light = scenario.lights[index];
     const bench::MemoryLimits& limits = work.options.run.limits;
-    const rays::LightView view =
-        rays::make_light_view(light, scenario.scene, scenario.rays.resolution, fmt::format("/lights/{}", index));
-    rays::MapLayout layout = rays::make_layout(scenario.scene, view, scenario.rays);
-    bench::ask_for_needs(contenders, layout);
-    bench::check_memory(scenario, view, contenders, limits, "/rays");
+    const auto [view, layout, least] = bench::prepare_light(scenario, index, contenders, limits);
     const auto tiles = static_cast<std::size_t>(layout.tiles());
     const rays::Capture capture(scenario.scene, view, layout);
     const bench::RaySource source(capture, layout, limits.kept_rays, watch(work, light, "capture", tiles));
@@ -133,7 +131,7 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
     const auto looked_up = watch(work, light, "lookup", contenders.size());
     for (std::size_t i = 0; i < contenders.size(); ++i) {
         TechniquePictures& out = result.techniques[i];
-        if (out.cell.status == bench::CellStatus::failed) continue;
+        if (out.cell.status == results::CellStatus::failed) continue;
         if (contenders[i].ok()) {
             const std::vector<float> answers = bench::lookup_all(contenders[i].maps, {asked.queries, asked.footprints});
             check_answers(contenders[i], answers);
@@ -155,7 +153,7 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
 void compare_all(Rendering& result) {
     std::vector<double> tops;
     for (TechniquePictures& one : result.techniques) {
-        if (one.cell.status == bench::CellStatus::failed) continue;
+        if (one.cell.status == results::CellStatus::failed) continue;
         one.shaded = compare(one.picture.shaded, result.reference.shaded);
         one.shadow = compare(one.picture.shadow, result.reference.shadow);
         const std::vector<float> errors = pixel_errors(one.picture.shadow, result.reference.shadow);
@@ -164,10 +162,10 @@ void compare_all(Rendering& result) {
     if (!tops.empty()) result.heat_top = legend_top(metrics::median(tops));
 }
 
-Rendering describe(const scene::Scenario& scenario, const bench::Variant& variant, const RenderOptions& options) {
+Rendering describe(const scene::Scenario& scenario, const document::Variant& variant, const RenderOptions& options) {
     Rendering result;
     result.name = scenario.name;
-    result.hash = bench::hash_text(variant.document->dump());
+    result.hash = base::hash_text(variant.document->dump());
     result.settings = variant.settings;
     result.default_camera = !scenario.receivers.camera;
     result.camera = result.default_camera ? default_camera(scenario.scene) : *scenario.receivers.camera;
@@ -210,8 +208,8 @@ scene::Camera default_camera(const scene::Scene& scene) {
 Rendering render(const nlohmann::json& document, const RenderOptions& options,
                  const bench::ProgressCallback& progress) {
     const base::ThreadLimit threads(options.run.threads);
-    bench::Variant variant = bench::expand(document).front();
-    bench::keep_only(variant, options.run.only);
+    document::Variant variant = document::expand(document).front();
+    document::keep_only(variant, options.run.only);
     bench::ScenarioLoader loader(options.run.data);
     const scene::Scenario& scenario = loader.load(variant);
     if (scenario.scene.deep_image)
@@ -228,7 +226,7 @@ Rendering render(const nlohmann::json& document, const RenderOptions& options,
     const Work work{scenario, options, points, casters, progress};
     for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
         std::vector<Contender> fresh;
-        for (const Contender& c : contenders) fresh.push_back({c.row, c.values, c.needs, c.cell, {}});
+        for (const Contender& c : contenders) fresh.push_back(bench::unbuilt(c));
         render_light(work, l, std::move(fresh), result);
     }
     compare_all(result);

@@ -9,10 +9,10 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "bench/progress.h"
-#include "bench/result.h"
 #include "bench/run.h"
 #include "render/light_map.h"
 #include "render/shading_points.h"
+#include "results/result.h"
 
 namespace shadowbench::render {
 
@@ -30,15 +30,15 @@ struct PictureErrors {
 };
 
 struct TechniquePictures {
-    bench::Cell cell;  // of the last light; status and reason of the first that failed
-    Picture picture;   // empty when it failed
+    results::Cell cell;  // of the last light; status and reason of the first that failed
+    Picture picture;     // empty when it failed
     PictureErrors shaded, shadow;
 };
 
 struct Rendering {
     std::string name;
-    std::string hash;                      // of the scenario document as rendered
-    std::vector<bench::Setting> settings;  // what the first values of the sweeps set
+    std::string hash;                         // of the scenario document as rendered
+    std::vector<document::Setting> settings;  // what the first values of the sweeps set
     scene::Camera camera;
     bool default_camera = false;
     base::Vec2i size{0, 0};

@@ -66,18 +66,19 @@ void add_medium_point(const Eye& eye, const Vec3d& share, Row& row) {
         row.radiance.push_back(Vec3f(share * medium_albedo * Vec3d(light.colour)));
 }
 
-void add_surface_point(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d& to_eye, const Vec3d& left, Row& row) {
-    row.coverage.push_back(Vec3f(left));
+void add_surface_point(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d& to_eye, const Vec3d& share, Row& row) {
+    row.coverage.push_back(Vec3f(share));
     for (const scene::Light& light : eye.lights) {
         const Vec3d to_light = towards(light, hit.position);
         const bool hair = hit.tangent != Vec3d(0.0);
         const double shade = hair ? shade_hair(hit.tangent, to_light, to_eye) : shade_surface(hit.normal, to_light);
-        row.radiance.push_back(Vec3f(left * shade * Vec3d(light.colour)));
+        row.radiance.push_back(Vec3f(share * shade * Vec3d(light.colour)));
     }
 }
 
 // What the view rays of a thread reuse.
 struct Scratch {
+    std::vector<rays::SurfaceHit> surfaces;
     std::vector<rays::TracedSegment> segments;
     ViewMarch march;
 };
@@ -85,22 +86,23 @@ struct Scratch {
 // The view ray through position (x, y) of the plane, which stands for `part` of its pixel.
 void trace(const Eye& eye, double x, double y, double part, Scratch& scratch, Row& row) {
     const Vec3d through = eye.plane.through(x, y), direction = through.normalized();
-    rays::SurfaceHit hit;
-    const bool surface = eye.tracer.nearest(eye.plane.origin, direction, hit, scene::mid_shutter);
-    Vec3d left(part);
+    auto& [surfaces, segments, march] = scratch;
+    const bool ends = eye.tracer.surfaces(eye.plane.origin, direction, surfaces, scene::mid_shutter);
+    segments.clear();
     if (eye.media) {
-        const double end = surface ? hit.t : std::numeric_limits<double>::infinity();
-        eye.tracer.all_segments(eye.plane.origin, direction, 0.0, end, scratch.segments, scene::mid_shutter);
-        march_view_ray(scratch.segments, eye.step, scratch.march);
-        for (const ViewStep& step : scratch.march.steps) {
-            add_place(bench::camera_point(eye.plane, through, eye.plane.origin + direction * step.t, direction), row);
-            add_medium_point(eye, step.share * part, row);
-        }
-        left *= scratch.march.transmittance;
+        const double end = ends ? surfaces.back().t : std::numeric_limits<double>::infinity();
+        eye.tracer.all_segments(eye.plane.origin, direction, 0.0, end, segments, scene::mid_shutter);
     }
-    if (!surface) return;
-    add_place(bench::camera_point(eye.plane, through, hit.position, hit.normal), row);
-    add_surface_point(eye, hit, -direction, left, row);
+    march_view_ray(segments, surfaces, eye.step, march);
+    for (const ViewStep& step : march.steps) {
+        add_place(bench::camera_point(eye.plane, through, eye.plane.origin + direction * step.t, direction), row);
+        add_medium_point(eye, step.share * part, row);
+    }
+    for (std::size_t i = 0; i < march.surfaces.size(); ++i) {
+        if (march.surfaces[i] == Vec3d(0.0)) continue;
+        add_place(bench::camera_point(eye.plane, through, surfaces[i].position, surfaces[i].normal), row);
+        add_surface_point(eye, surfaces[i], -direction, march.surfaces[i] * part, row);
+    }
 }
 
 Row trace_row(const Eye& eye, int y, int width, int rays_per_side) {

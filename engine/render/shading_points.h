@@ -18,7 +18,7 @@ namespace shadowbench::render {
 struct ShadingPoints {
     base::Vec2i size{0, 0};
     std::vector<std::uint32_t> begin;  // pixels + 1 offsets into the points; pixels in image order
-    std::vector<base::Vec3d> place;    // world; of one view ray from front to back
+    std::vector<base::Vec3d> place;    // world; of one view ray media, then surfaces, each from front to back
     std::vector<base::Vec3f> across;   // edges of what a view ray stands for at its point, as bench::CameraPoint's
     std::vector<base::Vec3f> down;
     std::vector<base::Vec3f> coverage;  // share of the pixel that the point stands for; a pixel's sum is at most 1
@@ -41,9 +41,9 @@ struct ViewSettings {
 
 using ViewWatch = std::function<void(std::size_t rows, std::size_t total)>;
 
-// For each view ray: the steps through media, then the nearest surface. A surface of half opacity or more counts
-// as opaque, others are not there (as in Tracer::nearest). `tracer` sees all objects. Throws Error{bad_input} at
-// /receivers/resolution when the points would take more than the limit. The same on any number of threads.
+// For each view ray: the steps through media, and all surfaces, composited in order of depth until less than 1e-4 of
+// the light is left in every channel. `tracer` sees all objects. Throws Error{bad_input} at /receivers/resolution when
+// the points would take more than the limit. The same on any number of threads.
 ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const scene::Light> lights,
                                   const ViewSettings& settings, const rays::Tracer& tracer, const ViewWatch& watch);
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "bench/table.h"
+#include "base/table.h"
 #include "render/write_pictures.h"
 
 namespace shadowbench::render {
@@ -11,9 +11,9 @@ constexpr const char* legend =
     "shaded: the picture. shadow: average visibility alone.\n";
 
 std::vector<std::string> row_of(const TechniquePictures& one) {
-    const bench::Cell& cell = one.cell;
-    std::vector<std::string> row{cell.technique + (cell.parameters.empty() ? "" : " " + cell.parameters)};
-    const bool ok = cell.status == bench::CellStatus::ok;
+    const results::Cell& cell = one.cell;
+    std::vector<std::string> row{results::title(cell)};
+    const bool ok = cell.status == results::CellStatus::ok;
     for (const PictureErrors* errors : {&one.shaded, &one.shadow})
         for (const double value : {errors->max, errors->rms, errors->flip_mean})
             row.push_back(ok ? fmt::format("{:.2g}", value) : "-");
@@ -32,9 +32,9 @@ std::string to_table(const Rendering& rendering) {
         "to {:g}\n",
         rendering.name, rendering.size.x, rendering.size.y, rendering.default_camera ? " of a camera of its own" : "",
         rendering.points, rendering.reference_samples, rendering.reference_standard_error, rendering.heat_top);
-    for (const bench::Setting& setting : rendering.settings)
+    for (const document::Setting& setting : rendering.settings)
         text += fmt::format("{} = {} (of a sweep, the first)\n", setting.pointer, setting.value);
-    bench::Table table({"technique", "shaded max", "rms", "flip", "shadow max", "rms", "flip", "status"});
+    base::Table table({"technique", "shaded max", "rms", "flip", "shadow max", "rms", "flip", "status"});
     for (const TechniquePictures& one : rendering.techniques) table.add(row_of(one));
     return text + table.text("    ") + legend;
 }

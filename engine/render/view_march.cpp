@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace shadowbench::render {
 namespace {
 
 using base::Vec3d;
 
-constexpr double opaque = 1e-4;        // transmittance behind which nothing is looked up
-constexpr double least_light = 1e-300; // of a segment: keeps its extinction finite
+constexpr double opaque = 1e-4;         // transmittance behind which nothing is looked up
+constexpr double least_light = 1e-300;  // of a segment: keeps its extinction finite
 
 // Where extinction changes: what starts or ends there.
 struct Change {
@@ -77,6 +78,7 @@ class Walk {
 public:
     explicit Walk(const std::vector<Knot>& knots) : knots_(knots) {}
     Vec3d transmittance(double t) {
+        if (knots_.size() < 2) return Vec3d(1.0);
         while (at_ + 2 < knots_.size() && knots_[at_ + 1].t <= t) ++at_;
         const Knot &a = knots_[at_], &b = knots_[at_ + 1];
         const double u = std::clamp((t - a.t) / (b.t - a.t), 0.0, 1.0);
@@ -91,25 +93,62 @@ private:
     std::size_t at_ = 0;
 };
 
+// The eye's light, from front to back through media and surfaces.
+class Compositor {
+public:
+    Compositor(Walk& media, std::span<const rays::SurfaceHit> surfaces, ViewMarch& out)
+        : media_(media), surfaces_(surfaces), out_(out) {}
+
+    // What media scatter to the eye from the last t to this one; surfaces in between are added. Stops short where no
+    // light is left.
+    Vec3d on_to(double t) {
+        Vec3d share(0.0);
+        for (; next_ < surfaces_.size() && surfaces_[next_].t < t && light_is_left(); ++next_) {
+            share += through_media(surfaces_[next_].t);
+            const Vec3d& opacity = surfaces_[next_].opacity;
+            out_.surfaces.push_back(left() * opacity);
+            past_surfaces_ *= Vec3d(1.0) - opacity;
+        }
+        if (light_is_left()) share += through_media(t);
+        return share;
+    }
+    Vec3d left() const { return past_media_ * past_surfaces_; }
+    bool light_is_left() const { return std::max({left().x, left().y, left().z}) >= opaque; }
+
+private:
+    Vec3d through_media(double t) {
+        const Vec3d before = past_media_;
+        past_media_ = media_.transmittance(t);
+        return past_surfaces_ * (before - past_media_);
+    }
+
+    Walk& media_;
+    std::span<const rays::SurfaceHit> surfaces_;
+    ViewMarch& out_;
+    std::size_t next_ = 0;
+    Vec3d past_media_{1, 1, 1}, past_surfaces_{1, 1, 1};
+};
+
 }  // namespace
 
-void march_view_ray(std::span<const rays::TracedSegment> segments, double step, ViewMarch& out) {
+void march_view_ray(std::span<const rays::TracedSegment> segments, std::span<const rays::SurfaceHit> surfaces,
+                    double step, ViewMarch& out) {
     out.steps.clear();
-    out.transmittance = Vec3d(1.0);
+    out.surfaces.clear();
     const std::vector<Knot> knots = optical_depth(segments);
-    if (knots.size() < 2) return;
     Walk walk(knots);
+    Compositor light(walk, surfaces, out);
     for (const Stretch& stretch : stretches(knots, step)) {
         const double length = stretch.back - stretch.front;
         const int steps = static_cast<int>(std::max(1.0, std::ceil(length / step)));
-        for (int i = 0; i < steps; ++i) {
+        for (int i = 0; i < steps && light.light_is_left(); ++i) {
             const double back = i + 1 == steps ? stretch.back : stretch.front + length * (i + 1) / steps;
-            const Vec3d through = walk.transmittance(back), share = out.transmittance - through;
+            const Vec3d share = light.on_to(back);
             if (share != Vec3d(0.0)) out.steps.push_back({stretch.front + length * (i + 0.5) / steps, share});
-            out.transmittance = through;
-            if (std::max({through.x, through.y, through.z}) < opaque) return;
         }
     }
+    light.on_to(std::numeric_limits<double>::infinity());
+    out.transmittance = light.left();
 }
 
 }  // namespace shadowbench::render

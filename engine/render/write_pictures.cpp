@@ -7,12 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/build_info.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
 #include "metrics/flip.h"
 #include "render/heat_map.h"
 #include "render/image_file.h"
 #include "render/shading.h"
+#include "results/program.h"
+#include "results/write_result.h"
 
 namespace shadowbench::render {
 namespace {
@@ -23,8 +24,8 @@ using json = nlohmann::ordered_json;
 constexpr int difference_factor = 4;  // of difference_times_four
 constexpr const char* extensions[] = {".exr", ".png"};
 
-std::string file_label(const bench::Cell& cell) {
-    std::string label = cell.technique + (cell.parameters.empty() ? "" : " " + cell.parameters);
+std::string file_label(const results::Cell& cell) {
+    std::string label = results::title(cell);
     for (char& c : label)
         if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '=' && c != '-') c = '_';
     return label;
@@ -67,7 +68,7 @@ json to_json(const base::Vec3d& v) {
 }
 
 json to_json(const TechniquePictures& one, const std::string& label) {
-    const bool ok = one.cell.status == bench::CellStatus::ok;
+    const bool ok = one.cell.status == results::CellStatus::ok;
     return {{"technique", one.cell.technique},
             {"version", one.cell.version},
             {"parameters", json::parse(one.cell.parameters_json)},
@@ -93,9 +94,9 @@ json shading_json() {
 }  // namespace
 
 json to_json(const Rendering& rendering) {
-    const bench::BuildInfo build = bench::build_info();
+    const results::Program build = results::this_program();
     json settings = json::object(), lights = json::array(), techniques = json::array();
-    for (const bench::Setting& s : rendering.settings) settings[s.pointer] = json::parse(s.value);
+    for (const document::Setting& s : rendering.settings) settings[s.pointer] = json::parse(s.value);
     for (std::size_t l = 0; l < rendering.lights.size(); ++l) {
         const LightMap& one = rendering.lights[l];
         lights.push_back(
@@ -132,7 +133,7 @@ json to_json(const Rendering& rendering) {
 
 void write_pictures(const fs::path& folder, const Rendering& rendering) {
     const std::vector<std::string> labels = file_labels(rendering);
-    std::vector<bench::NewFile> files;
+    std::vector<base::NewFile> files;
     const auto add = [&](const std::string& name, const Image& image) {
         files.push_back({folder / (name + ".exr"), encode_exr(image)});
         files.push_back({folder / (name + ".png"), encode_png(image)});
@@ -143,7 +144,7 @@ void write_pictures(const fs::path& folder, const Rendering& rendering) {
     add("reference.shadow", rendering.reference.shadow);
     for (std::size_t t = 0; t < labels.size(); ++t) {
         const TechniquePictures& one = rendering.techniques[t];
-        if (one.cell.status == bench::CellStatus::failed) continue;
+        if (one.cell.status == results::CellStatus::failed) continue;
         add(labels[t] + ".shaded", one.picture.shaded);
         add(labels[t] + ".shadow", one.picture.shadow);
         add(labels[t] + ".difference", difference_times_four(one.picture.shaded, rendering.reference.shaded));
@@ -151,7 +152,7 @@ void write_pictures(const fs::path& folder, const Rendering& rendering) {
                                           rendering.size.x, rendering.size.y, rendering.heat_top));
     }
     files.push_back({folder / "images.json", to_json(rendering).dump(1) + "\n"});
-    bench::write_files(files);
+    base::write_files(files);
 }
 
 }  // namespace shadowbench::render

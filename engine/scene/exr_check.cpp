@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -18,6 +19,20 @@ namespace {
 constexpr std::uint32_t magic = 0x01312f76;
 constexpr std::uint32_t tiled = 0x200, long_names = 0x400, deep = 0x800, multi_part = 0x1000;
 constexpr std::uint32_t most_parts = 1024, most_channels = 1024;
+struct TypeSize {
+    std::string_view type;
+    std::uint32_t bytes;
+};
+constexpr std::array fixed_sizes{
+    TypeSize{"box2i", 16},   TypeSize{"box2f", 16},      TypeSize{"chromaticities", 32},
+    TypeSize{"double", 8},   TypeSize{"compression", 1}, TypeSize{"deepImageState", 1},
+    TypeSize{"envmap", 1},   TypeSize{"float", 4},       TypeSize{"int", 4},
+    TypeSize{"keycode", 28}, TypeSize{"lineOrder", 1},   TypeSize{"m33f", 36},
+    TypeSize{"m33d", 72},    TypeSize{"m44f", 64},       TypeSize{"m44d", 128},
+    TypeSize{"rational", 8}, TypeSize{"tiledesc", 9},    TypeSize{"timecode", 8},
+    TypeSize{"v2i", 8},      TypeSize{"v2f", 8},         TypeSize{"v2d", 16},
+    TypeSize{"v3i", 12},     TypeSize{"v3f", 12},        TypeSize{"v3d", 24},
+};
 constexpr std::int32_t last_pixel_type = 2, last_compression = 9, last_line_order = 2;
 
 class Walk {
@@ -54,6 +69,7 @@ private:
             const auto size = reader_.value<std::uint32_t>("attribute");
             reader_.need(size, 1, "attribute");
             const std::uint64_t value = reader_.position(), end = value + size;
+            check_size(name, type, size);
             attribute(name, type, end, found);
             if (reader_.position() > end)
                 reader_.fail(value, fmt::format("the attribute {} is longer than it says", name));
@@ -63,10 +79,24 @@ private:
         return true;
     }
 
+    // The library reads a value of these types at its own size and goes on behind that, whatever size the file tells:
+    // what it takes for the next attribute would not have been checked.
+    void check_size(const std::string& name, const std::string& type, std::uint32_t size) const {
+        for (const TypeSize& row : fixed_sizes)
+            if (row.type == type && row.bytes != size)
+                fail(fmt::format("the attribute {} of {} bytes, where a {} has {}", name, size, type, row.bytes));
+        if (type == "floatvector" && size % 4 != 0)
+            fail(fmt::format("the attribute {} of {} bytes, which are no whole numbers", name, size));
+    }
+
     void attribute(const std::string& name, const std::string& type, std::uint64_t end, Found& found) {
         if (name == "channels" && type == "chlist") {
             channels(end);
             found.channels = true;
+        } else if (type == "stringvector") {
+            strings(end);
+        } else if (type == "preview") {
+            preview(name, end);
         } else if ((name == "dataWindow" || name == "displayWindow") && type == "box2i") {
             window();
             found.window = found.window || name == "dataWindow";
@@ -99,6 +129,24 @@ private:
             if (reader_.position() > end) return;
         }
         if (count == 0) fail("an image without channels");
+        if (reader_.position() < end) fail("the list of channels is shorter than it says");
+    }
+
+    // Each behind its length.
+    void strings(std::uint64_t end) {
+        while (reader_.position() < end) {
+            const auto length = reader_.value<std::uint32_t>("text");
+            if (reader_.position() > end || length > end - reader_.position()) fail("a text longer than its list");
+            reader_.seek(reader_.position() + length, "text");
+        }
+    }
+
+    // Width, height, and four bytes a pixel.
+    void preview(const std::string& name, std::uint64_t end) {
+        const auto side = reader_.value<std::array<std::uint32_t, 2>>("preview");
+        const std::uint64_t pixels = std::uint64_t{side[0]} * side[1];  // both below 2^32
+        if (reader_.position() > end || pixels > reader_.size() || 4 * pixels != end - reader_.position())
+            fail(fmt::format("the attribute {} holds other than {} x {} pixels", name, side[0], side[1]));
     }
 
     void window() {

@@ -17,8 +17,8 @@ inline constexpr std::uint64_t max_mesh_elements = 200'000'000;  // vertices, an
 inline constexpr std::uint64_t max_voxels = 1'000'000'000;
 inline constexpr std::uint64_t max_texels = std::uint64_t{1} << 30;
 inline constexpr std::uint64_t max_deep_samples = std::uint64_t{1} << 31;
-inline constexpr double max_march_steps = 1e7;           // across a volume's diagonal
-inline constexpr double max_all_march_steps = 1e13;      // of all light rays, or of the reference: days of work
+inline constexpr double max_march_steps = 1e7;       // across a volume's diagonal
+inline constexpr double max_all_march_steps = 1e13;  // or cells, of all light rays, or of the reference: days of work
 inline constexpr double max_scene_bytes = 8589934592.0;  // 8 GiB, of all objects together
 inline constexpr int max_image_side = 65536;
 

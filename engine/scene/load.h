@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "scene/files.h"
 #include "scene/scenario.h"
 #include "scene/scene.h"
 
@@ -24,7 +25,7 @@ Object load_object(const nlohmann::json& from, std::size_t index, const SearchPa
 void merge_equal_points(Hair& hair);
 
 // Shapes that several object types share.
-Mesh load_mesh(const nlohmann::json& from, const SearchPath& path, const std::string& where);
+MeshFile load_mesh(const nlohmann::json& from, const SearchPath& path, const std::string& where);
 Mesh load_quad(const nlohmann::json& from, const SearchPath& path, const std::string& where);
 Mesh load_layers(const nlohmann::json& from, const std::string& where);
 GridVolume load_volume(const nlohmann::json& from, const SearchPath& path, const std::string& where);

@@ -39,6 +39,19 @@ Mesh inline_mesh(const json& from, const std::string& where) {
     return mesh;
 }
 
+std::string no_triangles(const MeshFile& file) {
+    if (file.passed_over.empty() && !file.mesh.positions.empty())
+        return fmt::format(
+            "a point cloud: {} vertices and no faces; a mesh needs faces, and points are drawn by an object "
+            "of type spheres or particles that has them as its centres",
+            file.mesh.positions.size());
+    std::string message = "the mesh has no triangles";
+    for (const PassedOver& each : file.passed_over)
+        message += fmt::format("{}{} ({})", &each == file.passed_over.data() ? "; passed over: " : ", ", each.what,
+                               each.count);
+    return message;
+}
+
 bool in_range(const Vec3d& position) {
     return std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)}) <= max_coordinate;
 }
@@ -92,23 +105,23 @@ std::array<Vec3d, 4> corners(const Parallelogram& shape) {
 
 }  // namespace
 
-Mesh load_mesh(const json& from, const SearchPath& path, const std::string& where) {
+MeshFile load_mesh(const json& from, const SearchPath& path, const std::string& where) {
     const bool from_file = from.contains("file");
     if (from_file)
         for (const char* key : {"vertices", "triangles", "uvs"})
             if (from.contains(key)) refuse(fmt::format("{}/{}", where, key), "the mesh has a file already");
-    Mesh mesh;
+    MeshFile file;
     if (from_file) {
-        const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
-        mesh = read_mesh(file);
-        if (mesh.triangles.empty())
-            throw base::Error(base::ErrorCode::bad_input, file.string(), "the mesh has no triangles");
+        const std::filesystem::path name = find_file(path, from["file"].get<std::string>(), where + "/file");
+        file = read_mesh(name);
+        if (file.mesh.triangles.empty())
+            throw base::Error(base::ErrorCode::bad_input, name.string(), no_triangles(file));
     } else {
-        mesh = inline_mesh(from, where);
+        file.mesh = inline_mesh(from, where);
     }
-    place(from, where, mesh);
-    load_alpha(from, path, where, mesh);
-    return mesh;
+    place(from, where, file.mesh);
+    load_alpha(from, path, where, file.mesh);
+    return file;
 }
 
 Mesh load_quad(const json& from, const SearchPath& path, const std::string& where) {

@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,44 +19,50 @@ namespace {
 
 using Shape = decltype(Object::shape);
 
-Shape mesh(const json& from, const SearchPath& path, const std::string& where) {
-    return load_mesh(from, path, where);
+struct Loaded {
+    Shape shape;
+    std::vector<PassedOver> passed_over = {};
+};
+
+Loaded mesh(const json& from, const SearchPath& path, const std::string& where) {
+    MeshFile file = load_mesh(from, path, where);
+    return {std::move(file.mesh), std::move(file.passed_over)};
 }
-Shape quad(const json& from, const SearchPath& path, const std::string& where) {
-    return load_quad(from, path, where);
+Loaded quad(const json& from, const SearchPath& path, const std::string& where) {
+    return {load_quad(from, path, where)};
 }
-Shape layers(const json& from, const SearchPath&, const std::string& where) {
-    return load_layers(from, where);
+Loaded layers(const json& from, const SearchPath&, const std::string& where) {
+    return {load_layers(from, where)};
 }
 
-Shape sphere(const json& from, const SearchPath&, const std::string&) {
+Loaded sphere(const json& from, const SearchPath&, const std::string&) {
     double radius = 0.0;
     Vec3d centre(0, 0, 0);
     read(from, "radius", radius);
     read(from, "centre", centre);
-    return Spheres{{Vec3f(centre)}, {static_cast<float>(radius)}};
+    return {Spheres{{Vec3f(centre)}, {static_cast<float>(radius)}}};
 }
 
 void check_count(std::size_t count, std::size_t centres, const std::string& where) {
     if (count != centres) refuse(where, fmt::format("{} values for {} centres", count, centres));
 }
 
-Shape spheres(const json& from, const SearchPath&, const std::string& where) {
+Loaded spheres(const json& from, const SearchPath&, const std::string& where) {
     Spheres shape;
     read(from, "centres", shape.centres);
     read(from, "radii", shape.radii);
     check_count(shape.radii.size(), shape.centres.size(), where + "/radii");
-    return shape;
+    return {std::move(shape)};
 }
 
-Shape particles(const json& from, const SearchPath&, const std::string& where) {
+Loaded particles(const json& from, const SearchPath&, const std::string& where) {
     Particles shape;
     read(from, "centres", shape.centres);
     read(from, "radii", shape.radii);
     read(from, "density", shape.density);
     check_count(shape.radii.size(), shape.centres.size(), where + "/radii");
     check_count(shape.density.size(), shape.centres.size(), where + "/density");
-    return shape;
+    return {std::move(shape)};
 }
 
 Hair with_length(Hair hair) {
@@ -62,17 +70,17 @@ Hair with_length(Hair hair) {
     return hair;
 }
 
-Shape hair(const json& from, const SearchPath& path, const std::string& where) {
+Loaded hair(const json& from, const SearchPath& path, const std::string& where) {
     const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
     double radius = 0.0;
     read(from, "radius", radius);
-    if (file.extension() == ".hair") return with_length(read_hair(file, static_cast<float>(radius)));
+    if (file.extension() == ".hair") return {with_length(read_hair(file, static_cast<float>(radius)))};
     if (file.extension() != ".tfx") refuse(where + "/file", "hair files end in .tfx or .hair");
     if (radius == 0.0) refuse(where, "\"radius\" is missing: .tfx files do not say how wide hair is");
-    return with_length(read_tressfx(file, static_cast<float>(radius)));
+    return {with_length(read_tressfx(file, static_cast<float>(radius)))};
 }
 
-Shape hair_ball(const json& from, const SearchPath&, const std::string& where) {
+Loaded hair_ball(const json& from, const SearchPath&, const std::string& where) {
     HairBall ball;
     read(from, "strands", ball.strands);
     read(from, "segments", ball.segments);
@@ -88,26 +96,26 @@ Shape hair_ball(const json& from, const SearchPath&, const std::string& where) {
         static_cast<std::uint64_t>(ball.strands) * static_cast<std::uint64_t>(ball.segments + 1);
     if (points > max_hair_points)
         refuse(where + "/strands", fmt::format("{} points of hair; the limit is {}", points, max_hair_points));
-    return with_length(make_hair_ball(ball));
+    return {with_length(make_hair_ball(ball))};
 }
 
-Shape volume(const json& from, const SearchPath& path, const std::string& where) {
-    return load_volume(from, path, where);
+Loaded volume(const json& from, const SearchPath& path, const std::string& where) {
+    return {load_volume(from, path, where)};
 }
 
-Shape cloud(const json& from, const SearchPath&, const std::string& where) {
-    return load_cloud(from, where);
+Loaded cloud(const json& from, const SearchPath&, const std::string& where) {
+    return {load_cloud(from, where)};
 }
 
-Shape density_box(const json& from, const SearchPath&, const std::string& where) {
-    return load_density_box(from, where);
+Loaded density_box(const json& from, const SearchPath&, const std::string& where) {
+    return {load_density_box(from, where)};
 }
 
-Shape crossed_rods(const json& from, const SearchPath&, const std::string& where) {
-    return load_crossed_rods(from, where);
+Loaded crossed_rods(const json& from, const SearchPath&, const std::string& where) {
+    return {load_crossed_rods(from, where)};
 }
 
-Shape smoke_column(const json& from, const SearchPath&, const std::string&) {
+Loaded smoke_column(const json& from, const SearchPath&, const std::string&) {
     SmokeColumn column;
     read(from, "particles", column.particles);
     read(from, "base", column.base);
@@ -116,13 +124,13 @@ Shape smoke_column(const json& from, const SearchPath&, const std::string&) {
     read(from, "puff_radius", column.puff_radius);
     read(from, "density", column.density);
     read(from, "seed", column.seed);
-    return make_smoke_column(column);
+    return {make_smoke_column(column)};
 }
 
 // One row a type of object; the schema's definition of the same name says what keys it has.
 struct Row {
     std::string_view type;
-    Shape (*load)(const json& from, const SearchPath& path, const std::string& where);
+    Loaded (*load)(const json& from, const SearchPath& path, const std::string& where);
 };
 constexpr std::array rows{
     Row{"mesh", mesh},
@@ -176,7 +184,9 @@ Object load_object(const json& from, std::size_t index, const SearchPath& path, 
     const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& each) { return each.type == type; });
     if (row == rows.end()) refuse(where + "/type", fmt::format("no object has type \"{}\"", type));
     try {
-        object.shape = row->load(from, path, where);
+        Loaded loaded = row->load(from, path, where);
+        object.shape = std::move(loaded.shape);
+        object.passed_over = std::move(loaded.passed_over);
     } catch (const base::Error& error) {
         if (error.where().starts_with(where)) throw;
         // A fault of its file: the scenario's place first, then the file's.

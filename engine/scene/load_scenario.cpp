@@ -39,16 +39,24 @@ double bytes_of(const Particles& particles) {
     return 20.0 * static_cast<double>(particles.centres.size());
 }
 
-void check_marching(const Scene& scene, const char* where, double rays) {
-    double steps = 0.0;
+// Into how many parts the volumes cut a ray that crosses all of them.
+double parts_of_ray(const Scene& scene, Media media) {
+    double parts = 0.0;
     for (const Object& object : scene.objects)
         if (const auto* volume = std::get_if<GridVolume>(&object.shape); volume && object.casts_shadow)
-            steps += (volume->upper - volume->lower).length() / volume->step;
-    if (steps * rays > max_all_march_steps)
-        refuse(where,
-               fmt::format("{:.3g} rays of up to {:.3g} steps through volumes; the limit is {:.3g} steps in all: "
-                           "ask for fewer rays or give the volumes a larger step",
-                           rays, steps, max_all_march_steps));
+            parts += media == Media::cells ? static_cast<double>(volume->size.x) + volume->size.y + volume->size.z
+                                           : (volume->upper - volume->lower).length() / volume->step;
+    return parts;
+}
+
+void check_marching(const Scene& scene, const char* where, Media media, double rays) {
+    const double parts = parts_of_ray(scene, media);
+    if (parts * rays <= max_all_march_steps) return;
+    const char* name = media == Media::cells ? "cells" : "steps";
+    refuse(where, fmt::format("{:.3g} rays of up to {:.3g} {} through volumes; the limit is {:.3g} {} in all: ask for "
+                              "fewer rays or give the volumes {}",
+                              rays, parts, name, max_all_march_steps, name,
+                              media == Media::cells ? "fewer voxels" : "a larger step"));
 }
 
 void load_objects(const json& objects, const SearchPath& path, Scene& scene) {
@@ -72,20 +80,40 @@ void check_kind(const json& from) {
                                       : "a scene has objects or a deep_image, not both");
 }
 
-Scene load_scene(const json& from, const SearchPath& path) {
-    Scene scene;
-    if (from.contains("objects")) {
-        load_objects(from["objects"], path, scene);
-        return scene;
+DeepChoice deep_choice(const json& from) {
+    DeepChoice choice;
+    if (const auto layer = from.find("layer"); layer != from.end()) choice.layer = layer->get<std::string>();
+    if (const auto part = from.find("part"); part != from.end()) {
+        if (part->is_string())
+            choice.part = part->get<std::string>();
+        else
+            choice.part = part->get<int>();
     }
+    return choice;
+}
+
+DeepImage load_deep_image(const json& from, const SearchPath& path) {
     const std::string where = "/scene/deep_image/file";
-    const std::filesystem::path file = find_file(path, from["deep_image"]["file"].get<std::string>(), where);
+    const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where);
+    DeepImage image;
     try {
-        scene.deep_image = read_deep_image(file);
+        image = read_deep_image(file, deep_choice(from));
     } catch (const base::Error& error) {
         throw base::Error(error.code(), where, error.what());
     }
-    if (scene.deep_image->z_front.empty()) refuse(where, "the deep image has no samples");
+    if (image.z_front.empty()) refuse(where, "the deep image has no samples");
+    std::size_t sample = 0;
+    while (sample < image.z_front.size() && behind_everything(image, sample)) ++sample;
+    if (sample == image.z_front.size()) refuse(where, "all samples of the deep image are at infinity: nothing is near");
+    return image;
+}
+
+Scene load_scene(const json& from, const SearchPath& path) {
+    Scene scene;
+    if (from.contains("objects"))
+        load_objects(from["objects"], path, scene);
+    else
+        scene.deep_image = load_deep_image(from["deep_image"], path);
     return scene;
 }
 
@@ -118,6 +146,9 @@ RaySettings load_rays(const json& from) {
     std::string pattern = rays.pattern == Pattern::regular ? "regular" : "jittered";
     read(from, "pattern", pattern);
     rays.pattern = pattern == "regular" ? Pattern::regular : Pattern::jittered;
+    std::string media = rays.media == Media::cells ? "cells" : "steps";
+    read(from, "media", media);
+    rays.media = media == "cells" ? Media::cells : Media::steps;
     read(from, "seed", rays.seed);
     const auto total = static_cast<std::uint64_t>(rays.resolution.x) * static_cast<std::uint64_t>(rays.resolution.y) *
                        static_cast<std::uint64_t>(rays.samples_per_pixel);
@@ -207,9 +238,9 @@ std::vector<std::string> light_names(const json& document) {
 
 void check_marching(const Scenario& scenario) {
     const RaySettings& rays = scenario.rays;
-    check_marching(scenario.scene, "/rays",
+    check_marching(scenario.scene, "/rays", rays.media,
                    static_cast<double>(rays.resolution.x) * rays.resolution.y * rays.samples_per_pixel);
-    check_marching(scenario.scene, "/reference",
+    check_marching(scenario.scene, "/reference", Media::cells,
                    static_cast<double>(scenario.reference.queries) * scenario.reference.samples_per_pixel);
 }
 

@@ -38,6 +38,23 @@ void read_step(const json& from, const std::string& where, GridVolume& volume) {
                            volume.step, max_march_steps, extent.length() / max_march_steps));
 }
 
+Negative negative_of(const json& from) {
+    return from.value("negative", "clamp") == "refuse" ? Negative::refuse : Negative::clamp;
+}
+
+GridChoice grid_choice(const json& from) {
+    const auto grid = from.find("grid");
+    if (grid == from.end()) return {};
+    if (grid->is_string()) return grid->get<std::string>();
+    return grid->get<int>();
+}
+
+bool is_vdb(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return extension == ".vdb";
+}
+
 GridVolume load_raw(const json& from, const std::filesystem::path& file, const std::string& where) {
     if (from.contains("grid")) refuse(where + "/grid", "only .vdb files have named grids");
     for (const char* key : {"format", "size", "lower", "upper"})
@@ -47,7 +64,7 @@ GridVolume load_raw(const json& from, const std::filesystem::path& file, const s
     read(from, "size", size);
     check_voxels(size, where + "/size");
     read_box(from, where, lower, upper);
-    GridVolume volume = read_raw_volume(file, size, from["format"].get<std::string>());
+    GridVolume volume = read_raw_volume(file, size, from["format"].get<std::string>(), negative_of(from));
     volume.lower = lower;
     volume.upper = upper;
     return volume;
@@ -70,12 +87,10 @@ GridVolume load_procedural(const json& from, const std::string& where, Parameter
 GridVolume load_volume(const json& from, const SearchPath& path, const std::string& where) {
     const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
     GridVolume volume;
-    if (file.extension() == ".vdb") {
+    if (is_vdb(file)) {
         for (const char* key : {"format", "size", "lower", "upper"})
             if (from.contains(key)) refuse(fmt::format("{}/{}", where, key), "a .vdb file has its own");
-        std::string grid = "density";
-        read(from, "grid", grid);
-        volume = read_vdb(file, grid);
+        volume = read_vdb(file, grid_choice(from), negative_of(from));
     } else {
         volume = load_raw(from, file, where);
     }

@@ -5,12 +5,14 @@
 #include <iterator>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::scene {
@@ -132,14 +134,20 @@ private:
     std::vector<std::set<std::string>> names_;
 };
 
-}  // namespace
-
-nlohmann::json parse_json(const std::string& text, const std::string& origin) {
+nlohmann::json parse_unmarked(const std::string& text, const std::string& origin) {
     const char* position = text.data();
     Check check(text, origin, &position);
     nlohmann::json::sax_parse(CountingIterator{text.data(), &position},
                               CountingIterator{text.data() + text.size(), &position}, &check);
     return nlohmann::json::parse(text);
+}
+
+}  // namespace
+
+nlohmann::json parse_json(const std::string& text, const std::string& origin) {
+    const std::string_view unmarked = base::without_mark(text, origin);
+    return unmarked.size() == text.size() ? parse_unmarked(text, origin)
+                                          : parse_unmarked(std::string(unmarked), origin);
 }
 
 }  // namespace shadowbench::scene

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "scene/file_reader.h"
 #include "scene/limits.h"
 
@@ -108,7 +109,8 @@ std::string PlySource::line() {
 }
 
 void PlySource::read_header() {
-    if (bytes_.compare(0, 3, "ply") != 0) fail("the file does not begin with ply");
+    position_ = bytes_.size() - base::without_mark(bytes_, file_).size();
+    if (bytes_.compare(position_, 3, "ply") != 0) fail("the file does not begin with ply");
     line();
     bool has_format = false;
     for (std::string text = line(); text != "end_header"; text = line()) {

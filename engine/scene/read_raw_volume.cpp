@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/densities.h"
 #include "scene/file_reader.h"
 #include "scene/files.h"
 
@@ -17,17 +18,21 @@ std::vector<float> read_uint8(FileReader& reader, std::uint64_t voxels) {
     return density;
 }
 
-std::vector<float> read_float32(FileReader& reader, std::uint64_t voxels) {
+std::vector<float> read_float32(FileReader& reader, std::uint64_t voxels, Negative negative, ReadNotes& notes) {
     std::vector<float> density = reader.array<float>(voxels, "voxels");
     reader.check_finite(density, 0, "voxels");
+    if (negative == Negative::clamp) {
+        clamp_negatives(density, notes);
+        return density;
+    }
     for (std::size_t i = 0; i < density.size(); ++i)
-        if (density[i] < 0.0f) reader.fail(i * sizeof(float), fmt::format("the density {} is below 0", density[i]));
+        if (density[i] < 0.0f) reader.fail(i * sizeof(float), negative_refused(density[i]));
     return density;
 }
 
 }  // namespace
 
-GridVolume read_raw_volume(const std::filesystem::path& file, Vec3i size, const std::string& type) {
+GridVolume read_raw_volume(const std::filesystem::path& file, Vec3i size, const std::string& type, Negative negative) {
     FileReader reader(file);
     if (size.x < 1 || size.y < 1 || size.z < 1) reader.fail(0, "a volume needs at least one voxel along every axis");
     if (type != "uint8" && type != "float32")
@@ -42,7 +47,8 @@ GridVolume read_raw_volume(const std::filesystem::path& file, Vec3i size, const 
     const std::uint64_t voxels = row * static_cast<std::uint64_t>(size.z);
     GridVolume volume;
     volume.size = size;
-    volume.density = type == "uint8" ? read_uint8(reader, voxels) : read_float32(reader, voxels);
+    volume.density =
+        type == "uint8" ? read_uint8(reader, voxels) : read_float32(reader, voxels, negative, volume.notes);
     return volume;
 }
 

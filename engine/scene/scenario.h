@@ -30,7 +30,7 @@ struct SearchPath {
 // Error{bad_input} for a name that is refused.
 std::filesystem::path find_file(const SearchPath& path, const std::string& name, const std::string& where);
 
-// Reads JSON text. Throws Error{bad_input} whose place is origin:line:column.
+// Reads JSON text, UTF-8 with or without a byte-order mark. Throws Error{bad_input} whose place is origin:line:column.
 nlohmann::json parse_json(const std::string& text, const std::string& origin);
 
 // The schema as committed, without the parameters of techniques (bench adds those from the registry).

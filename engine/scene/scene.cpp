@@ -4,6 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include <fmt/format.h>
+
+#include "base/limits.h"
+#include "base/printable.h"
+
 namespace shadowbench::scene {
 namespace {
 
@@ -92,7 +97,30 @@ Box3d bounds(const Scene& scene, bool casters_only) {
     return box;
 }
 
+bool behind_everything(const DeepImage& image, std::size_t sample) {
+    return !(image.z_back[sample] <= static_cast<float>(base::max_coordinate));
+}
+
+std::vector<std::string> read_notes(const Scene& scene) {
+    std::vector<std::string> lines;
+    const auto add = [&](const std::string& where, const ReadNotes& notes) {
+        for (const std::string& line : notes.lines) lines.push_back(base::printable(where + ": " + line));
+    };
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        const std::string where = fmt::format("/scene/objects/{}", i);
+        if (const auto* volume = std::get_if<GridVolume>(&object.shape)) add(where, volume->notes);
+        std::string passed_over;
+        for (const PassedOver& each : object.passed_over)
+            passed_over += fmt::format("{}{} ({})", passed_over.empty() ? "" : ", ", each.what, each.count);
+        if (!passed_over.empty()) add(where, {{"passed over: " + passed_over}});
+    }
+    if (scene.deep_image) add("/scene/deep_image", scene.deep_image->notes);
+    return lines;
+}
+
 int channels(const Scene& scene) {
+    if (scene.deep_image) return scene.deep_image->channels;
     for (const Object& object : scene.objects) {
         if (!object.casts_shadow) continue;
         if (!is_grey(is_medium(object) ? object.extinction : object.opacity)) return 3;
@@ -106,7 +134,7 @@ bool has_media(const Scene& scene) {
     if (!scene.deep_image) return false;
     const DeepImage& image = *scene.deep_image;
     for (std::size_t i = 0; i < image.z_front.size(); ++i)
-        if (image.z_back[i] > image.z_front[i]) return true;
+        if (image.z_back[i] > image.z_front[i] && !behind_everything(image, i)) return true;
     return false;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "scene/read_notes.h"
 
 namespace shadowbench::scene {
 
@@ -63,7 +64,8 @@ struct GridVolume {
     Vec3i size{0, 0, 0};                   // voxels
     std::vector<float> density;            // x fastest, >= 0
     Vec3d lower{0, 0, 0}, upper{0, 0, 0};  // world box; voxel centres are half a voxel inside
-    double step = 0.0;                     // marching step, world length along the ray, > 0
+    double step = 0.0;                     // of Media::steps, world length along the ray, > 0
+    ReadNotes notes{};
 };
 
 // Spheres of a constant medium.
@@ -73,6 +75,12 @@ struct Particles {
     std::vector<float> density;  // one a particle, >= 0
 };
 
+// What the reader of a file left out, and how often: {"faces of fewer than 3 corners", 2}.
+struct PassedOver {
+    std::string what;
+    std::uint64_t count = 0;
+};
+
 struct Object {
     std::string name;
     bool casts_shadow = true;
@@ -80,15 +88,20 @@ struct Object {
     Vec3f extinction{1.0f, 1.0f, 1.0f};  // media: extinction per unit of density and of length, each >= 0
     Vec3f motion{0.0f, 0.0f, 0.0f};      // while the shutter is open: at time t in [0, 1) it stands at t * motion
     std::variant<Mesh, Spheres, Hair, GridVolume, Particles> shape;
+    std::vector<PassedOver> passed_over;  // of its file
 };
 
-// Ready-made light rays: one ray a pixel, straight along z, its samples as a deep image holds them.
+// Ready-made light rays: one ray a pixel, straight along z, its samples as a deep image holds them. Where z_back is
+// beyond base::max_coordinate, infinity too, the sample lies behind everything: no place in the scene is behind it.
 struct DeepImage {
     int width = 0, height = 0;
-    std::vector<std::uint64_t> begin;  // width * height + 1 offsets into the samples, row 0 first
-    std::vector<float> z_front, z_back;
-    std::vector<float> transmittance;  // 1 - alpha
+    std::vector<std::uint64_t> begin;    // width * height + 1 offsets into the samples, row 0 first
+    std::vector<float> z_front, z_back;  // a pixel's sorted by z_front, then z_back; z_front <= z_back
+    std::vector<float> transmittance;    // channels a sample: 1 - alpha, in [0, 1]
+    int channels = 1;                    // 3 when any sample's differ, else 1
+    ReadNotes notes{};
 };
+bool behind_everything(const DeepImage& image, std::size_t sample);
 
 struct Scene {
     std::vector<Object> objects;
@@ -111,11 +124,14 @@ struct Light {
 };
 
 enum class Pattern { regular, jittered };
+// How grid volumes become segments of light rays: regular steps, or one exact segment a voxel cell.
+enum class Media { steps, cells };
 
 struct RaySettings {
     Vec2i resolution{256, 256};  // map pixels
     int samples_per_pixel = 16;  // laid out as the most square grid of that many cells
     Pattern pattern = Pattern::jittered;
+    Media media = Media::steps;
     std::uint64_t seed = 1;
 };
 
@@ -124,17 +140,17 @@ struct Camera {
     double fov = 40.0;  // vertical, degrees
 };
 
-// Where visibility is asked for: what a camera sees (nearest surface a pixel, and points inside media before it), given
-// points, or points spread evenly over the map and the casters' depths.
+// Where visibility is asked for: what a camera sees (one surface a pixel, drawn by how much of it is seen, and points
+// inside the media on the way), given points, or points spread evenly over the map and the casters' depths.
 struct Receivers {
     std::optional<Camera> camera;
     Vec2i resolution{256, 256};  // camera: pixels
     int media_lookups = 8;       // camera: points a view ray spreads over the media it passes
     std::vector<Vec3d> points;   // given, world space; none: there is a camera, or points are spread
     int count = 65536;           // points to spread
-    std::uint64_t seed = 7;
-    double filter_width = 1.0;  // map pixels
-    double bias = 0.0;          // moves every receiver towards the light, world length, >= 0
+    std::uint64_t seed = 7;      // of the spread points, and of the draw between a pixel's surfaces
+    double filter_width = 1.0;   // map pixels
+    double bias = 0.0;           // moves every receiver towards the light, world length, >= 0
 };
 
 struct Reference {
@@ -172,8 +188,11 @@ constexpr double mid_shutter = 0.5;  // the time at which cameras see the scene
 // World bounds of the objects that cast shadows (or of all), wherever they move to; empty when there are none.
 Box3d bounds(const Scene& scene, bool casters_only);
 
-// 3 when the scene's opacities or extinctions that cast shadows differ between channels, else 1.
+// 3 when the scene's opacities or extinctions that cast shadows, or its deep image's, differ between channels, else 1.
 int channels(const Scene& scene);
+
+// What the readers of the scene's files passed over, a line each behind its place: "/scene/objects/0: ...". Printable.
+std::vector<std::string> read_notes(const Scene& scene);
 
 // Whether anything that casts a shadow is a medium; or moves.
 bool has_media(const Scene& scene);

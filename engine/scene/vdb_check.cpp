@@ -1,5 +1,5 @@
 // The format as OpenVDB 10 reads and writes it (io/Archive, io/GridDescriptor, io/Compression, tree/*.h), from version
-// 222 (2013) on.
+// 222 (2013) to 224.
 #include "scene/vdb_check.h"
 
 #include <array>
@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/choose_grid.h"
 #include "scene/file_reader.h"
 #include "scene/limits.h"
 
@@ -19,7 +20,7 @@ namespace shadowbench::scene {
 namespace {
 
 constexpr std::int64_t magic = 0x56444220;
-constexpr std::uint32_t first_version = 222;
+constexpr std::uint32_t first_version = 222, last_version = 224;
 constexpr std::uint64_t uuid_bytes = 36;
 constexpr std::uint32_t max_name = 65536;  // bytes
 
@@ -51,7 +52,7 @@ constexpr std::array metadata_sizes{
 };
 
 struct Grid {
-    std::string name, unique_name, type, parent;  // parent: unique name of the grid whose tree this one shares
+    std::string parent;  // unique name of the grid whose tree this one shares
     bool half = false;
     std::uint64_t begin = 0, end = 0;  // in the file
 };
@@ -70,25 +71,37 @@ struct Node {
 
 class Walk {
 public:
-    explicit Walk(const std::filesystem::path& file) : reader_(file) {}
+    explicit Walk(const std::filesystem::path& file) : file_(file), reader_(file) {}
 
-    std::string run(const std::string& wanted) {
+    VdbGrid run(const GridChoice& choice) {
         read_header();
-        std::string names;
-        for (const Grid& grid : grids_) names += (names.empty() ? "" : ", ") + grid.name;
-        for (const Grid& grid : grids_) {
-            if (grid.name != wanted && grid.unique_name != wanted) continue;
-            check_grid(grid);
-            if (grid.parent.empty()) continue;
-            for (const Grid& parent : grids_)
-                if (parent.unique_name == grid.parent && parent.parent.empty()) check_grid(parent);
-        }
-        return names;
+        const std::size_t chosen = choose_grid(file_, names_, choice);
+        check_grid(chosen);
+        if (!grids_[chosen].parent.empty()) check_grid(parent_of(chosen));
+        const std::optional<std::string> asked = library_name(names_, chosen);
+        if (!asked)
+            reader_.fail(grids_[chosen].begin, fmt::format("the grid \"{}\" has a name by which it cannot be told from "
+                                                           "others: rename it in the program that wrote it",
+                                                           shown(names_[chosen])));
+        VdbGrid result{names_[chosen], *asked, {}};
+        for (std::size_t i = 0; i < grids_.size(); ++i)
+            if (i != chosen) result.passed_over.push_back(shown(names_[i]));
+        return result;
     }
 
 private:
     [[noreturn]] void damaged(const std::string& what) const {
         reader_.fail(reader_.position(), "the file is cut short or damaged: " + what);
+    }
+
+    std::size_t parent_of(std::size_t grid) const {
+        const std::size_t parent = library_parent(names_, grids_[grid].parent);
+        if (parent == names_.size() || !grids_[parent].parent.empty())
+            reader_.fail(grids_[grid].begin,
+                         fmt::format("the file is damaged: the grid \"{}\" shares the tree of another, and there is no "
+                                     "such grid with a tree of its own",
+                                     shown(names_[grid])));
+        return parent;
     }
 
     void skip(std::uint64_t bytes, const char* what) {
@@ -137,6 +150,8 @@ private:
     void read_header() {
         if (reader_.value<std::int64_t>("header") != magic) reader_.fail(0, "not an OpenVDB file");
         const auto version = reader_.value<std::uint32_t>("header");
+        if (version > last_version)
+            reader_.fail(8, fmt::format("version {} of the format; up to {} are read", version, last_version));
         if (version < first_version)
             reader_.fail(8, fmt::format("version {} of the format, written before 2013; save it with OpenVDB 1.2 or "
                                         "later",
@@ -148,20 +163,21 @@ private:
         metadata("", 0);
         const auto count = reader_.value<std::uint32_t>("header");
         for (std::uint32_t i = 0; i < count; ++i) {
-            grids_.push_back(read_descriptor());
+            read_descriptor();
             reader_.seek(grids_.back().end, "next grid");
         }
     }
 
-    Grid read_descriptor() {
+    void read_descriptor() {
         constexpr std::string_view half = "_HalfFloat";
         Grid grid;
+        VdbGridName name;
         const std::uint64_t at = reader_.position();
-        grid.unique_name = string("name");
-        grid.name = grid.unique_name.substr(0, grid.unique_name.find('\x1e'));
-        grid.type = string("type");
-        grid.half = grid.type.ends_with(half);
-        if (grid.half) grid.type.resize(grid.type.size() - half.size());
+        name.unique_name = string("name");
+        name.name = name.unique_name.substr(0, name.unique_name.find(vdb_suffix));
+        name.type = string("type");
+        grid.half = name.type.ends_with(half);
+        if (grid.half) name.type.resize(name.type.size() - half.size());
         grid.parent = string("name");
         grid.begin = reader_.value<std::uint64_t>("places");
         reader_.value<std::uint64_t>("places");
@@ -169,14 +185,17 @@ private:
         if (grid.begin < reader_.position() || grid.end < grid.begin || grid.end > reader_.size())
             reader_.fail(at,
                          fmt::format("the file is cut short or damaged: the grid \"{}\" lies from byte {} to {} of {}",
-                                     grid.name, grid.begin, grid.end, reader_.size()));
-        return grid;
+                                     name.name, grid.begin, grid.end, reader_.size()));
+        grids_.push_back(grid);
+        names_.push_back(name);
     }
 
-    void check_grid(const Grid& grid) {
+    void check_grid(std::size_t index) {
+        const Grid& grid = grids_[index];
+        const VdbGridName& name = names_[index];
         // Before anything of it is read: others are not checked.
-        if (grid.type != "Tree_float_5_4_3")
-            reader_.fail(grid.begin, fmt::format("the grid \"{}\" is a {}, not float", grid.name, grid.type));
+        if (name.type != vdb_float_tree)
+            reader_.fail(grid.begin, fmt::format("the grid \"{}\" is a {}, not float", shown(name), name.type));
         half_ = grid.half;
         reader_.seek(grid.begin, "grid");
         compression_ = reader_.value<std::uint32_t>("compression");
@@ -191,7 +210,7 @@ private:
         if (!grid.parent.empty()) return;
         check_tree(grid.end);
         if (reader_.position() > grid.end)
-            damaged(fmt::format("the grid \"{}\" reaches beyond its end at byte {}", grid.name, grid.end));
+            damaged(fmt::format("the grid \"{}\" reaches beyond its end at byte {}", shown(name), grid.end));
     }
 
     void check_box(std::uint64_t lower_at, std::uint64_t upper_at) {
@@ -266,8 +285,10 @@ private:
         skip(packed > 0 ? static_cast<std::uint64_t>(packed) : bytes, "values");
     }
 
+    std::filesystem::path file_;
     FileReader reader_;
     std::vector<Grid> grids_;
+    std::vector<VdbGridName> names_;  // of each of them
     std::uint32_t compression_ = 0;
     bool half_ = false;
     std::uint64_t leaves_ = 0;
@@ -275,8 +296,8 @@ private:
 
 }  // namespace
 
-std::string check_vdb(const std::filesystem::path& file, const std::string& grid) {
-    return Walk(file).run(grid);
+VdbGrid check_vdb(const std::filesystem::path& file, const GridChoice& choice) {
+    return Walk(file).run(choice);
 }
 
 }  // namespace shadowbench::scene

@@ -4,12 +4,20 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include "scene/choose_grid.h"
 
 namespace shadowbench::scene {
 
-// Walks over all of the headers and over the nodes of the float grids called `grid`. Throws Error: no_such_file, io, or
-// bad_input with "file:offset" of what is damaged, cut short or of a kind that is not read. Returns the names of the
-// grids, joined by ", ".
-std::string check_vdb(const std::filesystem::path& file, const std::string& grid);
+struct VdbGrid : VdbGridName {
+    std::string library_name;              // for File::readGrid
+    std::vector<std::string> passed_over;  // the file's other grids, as people read them
+};
+
+// Walks over all of the headers and over the nodes of the grid that is meant, which it returns. Throws Error:
+// no_such_file, io, what choose_grid throws, or bad_input with "file:offset" of what is damaged, cut short or of a kind
+// that is not read.
+VdbGrid check_vdb(const std::filesystem::path& file, const GridChoice& choice);
 
 }  // namespace shadowbench::scene

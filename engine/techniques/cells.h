@@ -82,29 +82,50 @@ inline float width_of(const Query& q) {
     return std::max(0.0f, q.width);  // in this order: a comparison with what is not a number is false
 }
 
-// Cells [x0, x1) x [y0, y1) whose centres lie within half the footprint's width of (px, py): the box filter of a lookup
-// (Lokovic and Veach 2000, section 3.4, with f a box). At least the nearest cell; clipped to the map; empty outside it.
+// A rectangle of cells [x0, x1) x [y0, y1).
 struct CellRange {
     int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
 };
-inline CellRange footprint(const CellGrid& grid, const Query& q) {
-    int cx, cy;
-    if (!grid.find(q.x, q.y, cx, cy)) return {};
-    // Cut to the map while they are floats, which hold any width; what is left is not negative, so that an integer cuts
-    // off its fraction as floor() would.
-    const auto range = [](float centre, float half, int nearest, int count, int& low, int& high) {
-        low = static_cast<int>(std::max(centre - half + 0.5f, 0.0f));
-        high = std::min(static_cast<int>(std::min(centre + half + 0.5f, static_cast<float>(count))), count);
-        if (low >= high) {
-            low = nearest;
-            high = nearest + 1;
-        }
-    };
-    const float half = 0.5f * width_of(q);
-    CellRange r;
-    range(q.x * grid.per_pixel_x, half * grid.per_pixel_x, cx, grid.width, r.x0, r.x1);
-    range(q.y * grid.per_pixel_y, half * grid.per_pixel_y, cy, grid.height, r.y0, r.y1);
-    return r;
+
+// Along one side of a map: the cells [begin, end) that a footprint reaches, at least one, and how much of each it
+// covers. In double: what is left of a border cell is a small difference of large places.
+struct Stretch {
+    int begin = 0, end = 1;
+    double first = 1.0, last = 1.0;  // covered of cells `begin` and `end` - 1, in cells
+
+    double weight(int cell) const { return cell == begin ? first : cell + 1 == end ? last : 1.0; }
+};
+
+// Of a footprint `width` cells wide around `centre`, cut to the map's [0, filled), in which the centre lies; `filled`
+// may end inside its last cell. The cell of the centre where the footprint is too narrow to cover anything.
+inline Stretch stretch(double centre, double width, double filled) {
+    const double low = std::max(centre - 0.5 * width, 0.0), high = std::min(centre + 0.5 * width, filled);
+    const int nearest = static_cast<int>(centre);
+    if (!(low < high)) return {nearest, nearest + 1, 1.0, 1.0};
+    const int begin = static_cast<int>(low), whole = static_cast<int>(high);
+    const int end = whole < high ? whole + 1 : whole;
+    if (end - begin == 1) return {begin, end, high - low, high - low};
+    return {begin, end, begin + 1 - low, high - (end - 1)};
+}
+
+// Calls visit(x, y, weight) for the cells of two sides, row after row.
+template <class Side, class Visit>
+void for_each_of(const Side& across, const Side& down, const Visit& visit) {
+    for (int y = down.begin; y < down.end; ++y) {
+        const double wy = down.weight(y);
+        for (int x = across.begin; x < across.end; ++x) visit(x, y, wy * across.weight(x));
+    }
+}
+
+// The cells that the footprint of a query covers, each weighed by the part of its area that is covered: a box filter as
+// the truth has it (the rays within half the footprint's width, inside the map), for functions that each stand for a
+// cell. The query must lie in the map.
+template <class Visit>
+void for_each_covered(const CellGrid& grid, const Query& q, const Visit& visit) {
+    const double width = width_of(q);
+    const Stretch across = stretch(static_cast<double>(q.x) * grid.per_pixel_x, width * grid.per_pixel_x, grid.width);
+    const Stretch down = stretch(static_cast<double>(q.y) * grid.per_pixel_y, width * grid.per_pixel_y, grid.height);
+    for_each_of(across, down, visit);
 }
 
 // Appends an address in each 64-byte line of [first, first + bytes); every address lies in that memory.

@@ -57,17 +57,31 @@ ParameterValues::Value standard(const Parameter& p) {
 
 }  // namespace
 
+const ParameterValues::Value& ParameterValues::at(std::string_view name) const {
+    const auto found = values.find(name);
+    if (found != values.end()) return found->second;
+    std::string names;
+    for (const auto& [there, value] : values) names += (names.empty() ? "" : ", ") + there;
+    throw base::Error(base::ErrorCode::internal, name,
+                      names.empty() ? "no such parameter: there are none" : "no such parameter; there are: " + names);
+}
+
 double ParameterValues::number(std::string_view name) const {
-    return std::get<double>(values.find(name)->second);
+    const Value& value = at(name);
+    if (const auto* number = std::get_if<double>(&value)) return *number;
+    throw base::Error(base::ErrorCode::internal, name,
+                      fmt::format("no number, but the word \"{}\"", std::get<std::string>(value)));
 }
 int ParameterValues::integer(std::string_view name) const {
     return static_cast<int>(number(name));
 }
 const std::string& ParameterValues::word(std::string_view name) const {
-    return std::get<std::string>(values.find(name)->second);
+    const Value& value = at(name);
+    if (const auto* word = std::get_if<std::string>(&value)) return *word;
+    throw base::Error(base::ErrorCode::internal, name, fmt::format("no word, but {:g}", std::get<double>(value)));
 }
 bool ParameterValues::is_word(std::string_view name) const {
-    return std::holds_alternative<std::string>(values.find(name)->second);
+    return std::holds_alternative<std::string>(at(name));
 }
 
 ParameterValues read_parameters(std::span<const Parameter> declared, const json& object, const std::string& where) {
@@ -127,16 +141,32 @@ json parameter_schema(const char* id, std::span<const Parameter> declared) {
     return {{"type", "object"}, {"additionalProperties", false}, {"required", {"type"}}, {"properties", properties}};
 }
 
+namespace {
+
+void append(std::string& text, std::string_view name, const ParameterValues::Value& value) {
+    text += text.empty() ? "" : " ";
+    if (const auto* number = std::get_if<double>(&value))
+        text += fmt::format("{}={:g}", name, *number);
+    else
+        text += fmt::format("{}={}", name, std::get<std::string>(value));
+}
+
+}  // namespace
+
 std::string to_string(const ParameterValues& values, std::span<const Parameter> declared, bool all) {
     std::string text;
+    for (const Parameter& p : declared)
+        if (const auto& value = values.at(p.name); all || value != standard(p)) append(text, p.name, value);
+    return text;
+}
+
+std::string to_string(const ParameterValues& values, std::span<const Parameter> declared,
+                      std::span<const std::string> named) {
+    std::string text;
+    for (const std::string& name : named) append(text, name, values.at(name));
     for (const Parameter& p : declared) {
-        const auto& value = values.values.find(p.name)->second;
-        if (!all && value == standard(p)) continue;
-        text += text.empty() ? "" : " ";
-        if (const auto* number = std::get_if<double>(&value))
-            text += fmt::format("{}={:g}", p.name, *number);
-        else
-            text += fmt::format("{}={}", p.name, std::get<std::string>(value));
+        if (std::find(named.begin(), named.end(), p.name) != named.end()) continue;
+        if (const auto& value = values.at(p.name); value != standard(p)) append(text, p.name, value);
     }
     return text;
 }

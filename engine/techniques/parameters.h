@@ -25,7 +25,9 @@ struct Parameter {
     std::vector<const char*> words = {};  // choice: the values there are; number_or_word: the words there are
 };
 
-// The values of one technique's parameters, complete: every declared parameter has one.
+// The values of one technique's parameters, complete: every declared parameter has one. Asking for a name that is not
+// among them, or for the wrong kind, is a fault of the program: Error{internal} that names those there are, or the
+// value.
 class ParameterValues {
 public:
     using Value = std::variant<double, std::string>;
@@ -34,6 +36,7 @@ public:
     int integer(std::string_view name) const;
     const std::string& word(std::string_view name) const;  // choice kind
     bool is_word(std::string_view name) const;             // number_or_word kind
+    const Value& at(std::string_view name) const;          // any kind
 
     std::map<std::string, Value, std::less<>> values;
 };
@@ -49,5 +52,8 @@ nlohmann::json parameter_schema(const char* id, std::span<const Parameter> decla
 
 // "tolerance=0.02 filter=point": those that differ from the defaults, or all.
 std::string to_string(const ParameterValues& values, std::span<const Parameter> declared, bool all);
+// The same with the `named` ones first, whatever their values. Throws Error{internal} for a name that is not there.
+std::string to_string(const ParameterValues& values, std::span<const Parameter> declared,
+                      std::span<const std::string> named);
 
 }  // namespace shadowbench::techniques

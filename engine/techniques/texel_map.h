@@ -57,7 +57,7 @@ public:
     }
     void touched(const Query& query, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();
-        texels_.for_each(query, [&](std::size_t cell, float) {
+        texels_.for_each(query, [&](std::size_t cell, double) {
             touch_lines(texels_.at(cell), sizeof(float) * texels_.stride, lines);
         });
         keep_unique(lines, before);

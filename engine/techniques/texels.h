@@ -16,15 +16,16 @@ namespace shadowbench::techniques {
 
 enum class Filter { point, bilinear, footprint };
 
-inline const Parameter filter_parameter{
-    "filter",
-    ParameterKind::choice,
-    "texels of a lookup: the nearest, four bilinearly, or all of the query's footprint",
-    0,
-    0,
-    0,
-    "footprint",
-    {"point", "bilinear", "footprint"}};
+inline const Parameter filter_parameter{"filter",
+                                        ParameterKind::choice,
+                                        "texels of a lookup: the nearest, four bilinearly, or all that the query's "
+                                        "footprint covers, each by the part of it "
+                                        "that is covered",
+                                        0,
+                                        0,
+                                        0,
+                                        "footprint",
+                                        {"point", "bilinear", "footprint"}};
 inline Filter read_filter(const ParameterValues& values) {
     const std::string& word = values.word("filter");
     return word == "point" ? Filter::point : word == "bilinear" ? Filter::bilinear : Filter::footprint;
@@ -83,7 +84,7 @@ struct Texels {
                 continue;
             }
             double sum = 0.0, weights = 0.0;  // of up to millions of texels: sums of float would stop growing
-            for_each(queries[i], [&](std::size_t cell, float weight) {
+            for_each(queries[i], [&](std::size_t cell, double weight) {
                 sum += weight * evaluate(at(cell), depth);
                 weights += weight;
             });
@@ -98,9 +99,9 @@ struct Texels {
                       const Evaluate& evaluate) const {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             double means[count] = {}, weights = 0.0;
-            for_each(queries[i], [&](std::size_t cell, float weight) {
+            for_each(queries[i], [&](std::size_t cell, double weight) {
                 const float* texel = at(cell);
-                for (int k = 0; k < count; ++k) means[k] += static_cast<double>(weight) * texel[k];
+                for (int k = 0; k < count; ++k) means[k] += weight * texel[k];
                 weights += weight;
             });
             if (weights == 0.0) {  // outside the map
@@ -115,15 +116,11 @@ struct Texels {
     // Calls visit(cell, weight) for the texels of a query's filter; for none outside the map.
     template <class Visit>
     void for_each(const Query& q, const Visit& visit) const {
-        if (filter == Filter::footprint) {
-            const CellRange r = footprint(grid, q);
-            for (int y = r.y0; y < r.y1; ++y)
-                for (int x = r.x0; x < r.x1; ++x) visit(grid.index(x, y), 1.0f);
-            return;
-        }
         int cx, cy;
         if (!grid.find(q.x, q.y, cx, cy)) return;
-        if (filter == Filter::point) return visit(grid.index(cx, cy), 1.0f);
+        if (filter == Filter::footprint)
+            return for_each_covered(grid, q, [&](int x, int y, double weight) { visit(grid.index(x, y), weight); });
+        if (filter == Filter::point) return visit(grid.index(cx, cy), 1.0);
         for_each_of_four(grid, q, [&](int x, int y, float weight) { visit(grid.index(x, y), weight); });
     }
 

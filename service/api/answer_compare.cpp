@@ -16,13 +16,13 @@ namespace {
 using nlohmann::json;
 
 // {"job": ID} or {"result": {...}}.
-std::variant<json, ApiResponse> read_side(const Context& context, const json& body, const std::string& name) {
+std::variant<json, ApiResponse> read_side(const Context& context, json& body, const std::string& name) {
     const std::string pointer = "/" + name;
     const auto wrong = [&](const std::string& detail) { return problem(422, detail, {{pointer, detail}}); };
     const auto side = body.find(name);
     if (side == body.end() || !side->is_object() || side->size() != 1)
         return wrong("must be {\"job\": ID} or {\"result\": {}}");
-    if (const auto result = side->find("result"); result != side->end()) return *result;
+    if (const auto result = side->find("result"); result != side->end()) return std::move(*result);
     const auto id = side->find("job");
     if (id == side->end() || !id->is_string()) return wrong("must be {\"job\": ID} or {\"result\": {}}");
     const auto file = context.jobs.artifact(id->get<std::string>(), "result.json");
@@ -35,12 +35,12 @@ std::variant<json, ApiResponse> read_side(const Context& context, const json& bo
 }  // namespace
 
 ApiResponse compare(Context& context, const Call& call) {
+    json body;
     try {
-        scene::parse_json(call.request.body, "body");
+        body = scene::parse_json(call.request.body, "body");
     } catch (const base::Error& error) {
         return problem(400, error.what());
     }
-    const json body = json::parse(call.request.body);
     if (!body.is_object()) return problem(422, "The body must be an object.", {{"", "must be an object"}});
     for (const auto& [key, value] : body.items())
         if (key != "baseline" && key != "current")

@@ -11,7 +11,7 @@
 namespace shadowbench::service {
 namespace {
 
-constexpr std::size_t at_a_time = 2, lights = 2, kept = 1024;
+constexpr std::size_t curves_at_a_time = 2, lights = 2, curves_kept = 1024;
 
 }  // namespace
 
@@ -19,8 +19,8 @@ CurveCache::CurveCache(StartHelper start, std::vector<std::string> arguments, do
     : start_(std::move(start)),
       arguments_(std::move(arguments)),
       seconds_(seconds),
-      slots_(at_a_time, waiting),
-      answers_(kept),
+      slots_(curves_at_a_time, waiting),
+      answers_(curves_kept),
       workers_(lights) {}
 
 std::shared_ptr<CurveCache::Worker> CurveCache::worker_for(const std::string& key) {

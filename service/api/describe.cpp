@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
-#include "bench/document.h"
+#include "document/document.h"
 #include "scene/scenario.h"
 #include "service/api/file_answer.h"
 #include "service/api/openapi_text.h"
@@ -20,7 +20,7 @@ namespace shadowbench::service {
 namespace {
 
 namespace fs = std::filesystem;
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 using techniques::Parameter;
 using techniques::ParameterKind;
 
@@ -38,20 +38,20 @@ const char* type_of(ParameterKind kind) {
     return "number_or_word";
 }
 
-json describe(const Parameter& parameter) {
+ordered_json describe(const Parameter& parameter) {
     const bool numbers = parameter.kind != ParameterKind::choice;
     const bool word = parameter.standard_word[0] != '\0';
     return {{"name", parameter.name},
             {"type", type_of(parameter.kind)},
-            {"default", word ? json(parameter.standard_word) : json(parameter.standard)},
-            {"minimum", numbers ? json(parameter.min) : json(nullptr)},
-            {"maximum", numbers ? json(parameter.max) : json(nullptr)},
+            {"default", word ? ordered_json(parameter.standard_word) : ordered_json(parameter.standard)},
+            {"minimum", numbers ? ordered_json(parameter.min) : ordered_json(nullptr)},
+            {"maximum", numbers ? ordered_json(parameter.max) : ordered_json(nullptr)},
             {"values", parameter.words},
             {"meaning", parameter.doc}};
 }
 
-json describe(const techniques::Technique& row) {
-    json parameters = json::array();
+ordered_json describe(const techniques::Technique& row) {
+    ordered_json parameters = ordered_json::array();
     for (const Parameter& parameter : row.parameters) parameters.push_back(describe(parameter));
     return {{"id", row.id},
             {"title", row.title},
@@ -67,12 +67,15 @@ json describe(const techniques::Technique& row) {
             {"parameters", std::move(parameters)}};
 }
 
-void read_scenario(const fs::path& file, std::map<std::string, json>& found) {
+void read_scenario(const fs::path& file, std::map<std::string, ordered_json>& found) {
     try {
-        const json document = json::parse(scene::parse_json(base::read_text(file), file.string()).dump());
-        found[document.at("name").get<std::string>()] = {{"name", document.at("name")},
-                                                         {"purpose", document.value("purpose", "")},
-                                                         {"document", json::parse(base::read_text(file))}};
+        const ordered_json document =
+            ordered_json::parse(scene::parse_json(base::read_text(file), file.string()).dump());
+        // A name stands for its scenario in the first folder that has one, as on the command line.
+        found.try_emplace(document.at("name").get<std::string>(),
+                          ordered_json{{"name", document.at("name")},
+                                       {"purpose", document.value("purpose", "")},
+                                       {"document", ordered_json::parse(base::read_text(file))}});
     } catch (const std::exception&) {  // one broken file does not hide the others
     }
 }
@@ -80,7 +83,7 @@ void read_scenario(const fs::path& file, std::map<std::string, json>& found) {
 }  // namespace
 
 std::string read_scenarios(const std::vector<fs::path>& folders) {
-    std::map<std::string, json> found;
+    std::map<std::string, ordered_json> found;
     std::error_code ignored;
     for (const fs::path& folder : folders)
         for (fs::recursive_directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
@@ -88,15 +91,15 @@ std::string read_scenarios(const std::vector<fs::path>& folders) {
             if (entry->is_regular_file(ignored) && entry->path().extension() == ".json")
                 read_scenario(entry->path(), found);
         }
-    json list = json::array();
+    ordered_json list = ordered_json::array();
     for (auto& [name, scenario] : found) list.push_back(std::move(scenario));
-    return json{{"scenarios", std::move(list)}}.dump() + "\n";
+    return ordered_json{{"scenarios", std::move(list)}}.dump() + "\n";
 }
 
 ApiResponse list_techniques(Context&, const Call& call) {
-    json list = json::array();
+    ordered_json list = ordered_json::array();
     for (const techniques::Technique& row : techniques::all()) list.push_back(describe(row));
-    return text_answer(call.request, "application/json", json{{"techniques", std::move(list)}}.dump() + "\n");
+    return text_answer(call.request, "application/json", ordered_json{{"techniques", std::move(list)}}.dump() + "\n");
 }
 
 ApiResponse list_scenarios(Context& context, const Call& call) {
@@ -104,7 +107,7 @@ ApiResponse list_scenarios(Context& context, const Call& call) {
 }
 
 ApiResponse get_schema(Context&, const Call& call) {
-    return text_answer(call.request, "application/json", bench::full_schema().dump() + "\n");
+    return text_answer(call.request, "application/json", document::full_schema().dump() + "\n");
 }
 
 ApiResponse get_openapi(Context&, const Call& call) {
@@ -122,12 +125,14 @@ ApiResponse validate_scenario(Context& context, const Call& call) {
 }
 
 ApiResponse get_health(Context&, const Call&) {
-    return json_answer(200, json{{"status", "ok"}});
+    return json_answer(200, ordered_json{{"status", "ok"}});
 }
 
 ApiResponse get_ready(Context& context, const Call&) {
-    if (!context.jobs.stopping()) return json_answer(200, json{{"status", "ready"}});
-    ApiResponse response = problem(503, "The server is stopping.");
+    const bool stopping = context.jobs.stopping();
+    if (!stopping && !context.jobs.storage_fails()) return json_answer(200, ordered_json{{"status", "ready"}});
+    ApiResponse response = problem(
+        503, stopping ? "The server is stopping." : "The server's storage cannot be written: jobs wait until it can.");
     response.headers.push_back({"Retry-After", "10"});
     return response;
 }

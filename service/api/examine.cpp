@@ -7,7 +7,7 @@
 namespace shadowbench::service {
 namespace {
 
-constexpr std::size_t at_a_time = 2, kept = 256;
+constexpr std::size_t checks_at_a_time = 2, checks_kept = 256;
 
 base::Error error_of(const nlohmann::json& error) {
     return {static_cast<base::ErrorCode>(error.value("code", 70)), error.value("where", ""),
@@ -27,8 +27,8 @@ Examiner::Examiner(StartHelper start, std::vector<std::string> arguments, double
     : start_(std::move(start)),
       arguments_(std::move(arguments)),
       seconds_(seconds),
-      slots_(at_a_time, waiting),
-      answers_(kept) {}
+      slots_(checks_at_a_time, waiting),
+      answers_(checks_kept) {}
 
 std::variant<nlohmann::json, std::vector<base::Error>> Examiner::examine(const std::string& scenario) {
     {

@@ -11,7 +11,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "bench/document.h"
+#include "base/hash_text.h"
+#include "document/document.h"
 #include "service/api/accept.h"
 #include "service/api/problem.h"
 
@@ -96,7 +97,7 @@ ApiResponse file_answer(const ApiRequest& request, const std::filesystem::path& 
 }
 
 ApiResponse text_answer(const ApiRequest& request, const std::string& type, std::string text) {
-    const std::string etag = "\"" + bench::hash_text(text) + "\"";
+    const std::string etag = "\"" + base::hash_text(text) + "\"";
     if (has_version(request, etag)) return not_modified(etag);
     ApiResponse response;
     response.type = type;

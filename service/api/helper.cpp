@@ -9,12 +9,12 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "service/process/bound_group.h"
 
 namespace shadowbench::service {
 namespace {
@@ -83,12 +83,12 @@ private:
 };
 
 // Between fork and exec: calls that are safe there alone.
-[[noreturn]] void become(const Pipe& in, const Pipe& out, std::size_t memory, char* const* argv, pid_t parent) {
+[[noreturn]] void become(const Pipe& in, const Pipe& out, std::size_t memory, char* const* argv,
+                         const BoundGroup& group) {
+    group.join();
     ::dup2(in.read, 0);
     ::dup2(out.write, 1);
     ::close_range(3, ~0u, CLOSE_RANGE_CLOEXEC);  // at exec: the program's name may be one of them
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(127);  // it died before it could be watched
     const rlimit none{0, 0}, bytes{memory, memory};
     ::setrlimit(RLIMIT_CORE, &none);
     if (limit_memory) ::setrlimit(RLIMIT_AS, &bytes);
@@ -108,10 +108,9 @@ public:
         for (std::string& word : words) argv.push_back(word.data());
         argv.push_back(nullptr);
         Pipe in, out;
-        const pid_t parent = ::getpid();
         child_ = ::fork();
         if (child_ < 0) fail("fork");
-        if (child_ == 0) become(in, out, memory, argv.data(), parent);
+        if (child_ == 0) become(in, out, memory, argv.data(), group_);
         to_ = Pipe::take(in.write);
         from_ = Pipe::take(out.read);
         for (const int end : {to_, from_}) ::fcntl(end, F_SETFL, O_NONBLOCK);
@@ -119,7 +118,8 @@ public:
     ~Process() override {
         ::close(to_);
         ::close(from_);
-        ::kill(child_, SIGKILL);
+        group_.kill();
+        ::kill(child_, SIGKILL);  // which may have left the group
         while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
         }
     }
@@ -179,6 +179,7 @@ private:
         return n > 0;
     }
 
+    BoundGroup group_;
     pid_t child_ = -1;
     int to_ = -1, from_ = -1;
     std::string buffer_;

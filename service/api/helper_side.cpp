@@ -11,9 +11,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "bench/document.h"
+#include "base/hash_text.h"
 #include "bench/pixel_curves.h"
 #include "bench/run.h"
+#include "document/document.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::service {
@@ -70,12 +71,12 @@ std::uint64_t seed_of(const json& document) {
 
 json facts_of(const json& document, const std::vector<fs::path>& data) {
     const bench::Validated v = bench::validate(document, options_for(data));
-    json notes = json::array();
+    json notes = v.notes;
     for (const std::string& light : v.blind)
         notes.push_back(fmt::format("light {} sees nothing that casts a shadow", light));
     return {{"name", v.name},
             {"seed", seed_of(document)},
-            {"hash", bench::hash_text(document.dump())},
+            {"hash", base::hash_text(document.dump())},
             {"variants", v.variants},
             {"lights", v.lights},
             {"techniques", v.techniques},
@@ -94,7 +95,7 @@ std::string examine(const std::string& line, const std::vector<fs::path>& data) 
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_input) throw;
         json faults = json::array();
-        for (const Error& one : bench::all_faults(document, error)) faults.push_back(to_json(one, data));
+        for (const Error& one : document::all_faults(document, error)) faults.push_back(to_json(one, data));
         return json{{"faults", std::move(faults)}}.dump();
     }
 }

@@ -5,18 +5,18 @@
 namespace shadowbench::service {
 namespace {
 
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
-json text_or_null(const std::string& text) {
-    return text.empty() ? json(nullptr) : json(text);
+ordered_json text_or_null(const std::string& text) {
+    return text.empty() ? ordered_json(nullptr) : ordered_json(text);
 }
 
 template <class Value>
-json or_null(const std::optional<Value>& value) {
-    return value ? json(*value) : json(nullptr);
+ordered_json or_null(const std::optional<Value>& value) {
+    return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-json progress_json(const std::optional<JobProgress>& progress) {
+ordered_json progress_json(const std::optional<JobProgress>& progress) {
     if (!progress) return nullptr;
     return {{"stage", progress->stage},
             {"place", progress->place},
@@ -25,7 +25,7 @@ json progress_json(const std::optional<JobProgress>& progress) {
             {"fraction", progress->fraction}};
 }
 
-json fault_json(const std::optional<JobFault>& fault) {
+ordered_json fault_json(const std::optional<JobFault>& fault) {
     if (!fault) return nullptr;
     return {{"code", fault->code}, {"where", fault->where}, {"message", fault->message}};
 }

@@ -57,6 +57,9 @@ std::string Metrics::text(const Jobs& jobs, std::size_t event_streams) const {
     std::vector<MetricFamily> families{jobs_by_state(jobs)};
     MetricFamily queue = family("shadowbench_queue_length", "Jobs that wait for their turn.", MetricType::Gauge);
     queue.metric.push_back(gauge(static_cast<double>(jobs.count(JobState::queued))));
+    MetricFamily storage = family("shadowbench_storage_failing",
+                                  "1 while jobs wait because the state folder cannot be written.", MetricType::Gauge);
+    storage.metric.push_back(gauge(jobs.storage_fails() ? 1.0 : 0.0));
     MetricFamily streams = family("shadowbench_event_streams", "Clients that follow events.", MetricType::Gauge);
     streams.metric.push_back(gauge(static_cast<double>(event_streams)));
     MetricFamily requests =
@@ -84,7 +87,7 @@ std::string Metrics::text(const Jobs& jobs, std::size_t event_streams) const {
         metric.histogram.sample_sum = latency.sum;
         latencies.metric.push_back(std::move(metric));
     }
-    for (MetricFamily* one : {&queue, &streams, &requests, &latencies}) families.push_back(std::move(*one));
+    for (MetricFamily* one : {&queue, &storage, &streams, &requests, &latencies}) families.push_back(std::move(*one));
     return prometheus::TextSerializer().Serialize(families);
 }
 

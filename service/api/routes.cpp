@@ -4,32 +4,34 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
+
 namespace shadowbench::service {
 namespace {
 
-constexpr const char* json = "application/json";
+constexpr const char* json_type = "application/json";
 
 constexpr Route table[] = {
-    {"POST", "/v1/jobs", json, true, post_job},
-    {"GET", "/v1/jobs", json, false, list_jobs, {"state", "limit", "cursor"}},
-    {"GET", "/v1/jobs/{id}", json, false, get_job},
+    {"POST", "/v1/jobs", json_type, true, post_job},
+    {"GET", "/v1/jobs", json_type, false, list_jobs, {"state", "limit", "cursor"}},
+    {"GET", "/v1/jobs/{id}", json_type, false, get_job},
     {"DELETE", "/v1/jobs/{id}", "", false, delete_job},
     {"GET", "/v1/jobs/{id}/events", "text/event-stream", false, job_events},
-    {"POST", "/v1/jobs/{id}/cancel", json, false, cancel_job},
-    {"GET", "/v1/jobs/{id}/scenario", json, false, job_scenario},
-    {"GET", "/v1/jobs/{id}/result", json, false, job_result},
+    {"POST", "/v1/jobs/{id}/cancel", json_type, false, cancel_job},
+    {"GET", "/v1/jobs/{id}/scenario", json_type, false, job_scenario},
+    {"GET", "/v1/jobs/{id}/result", json_type, false, job_result},
     {"GET", "/v1/jobs/{id}/result.csv", "text/csv", false, job_csv},
     {"GET", "/v1/jobs/{id}/artifacts/{name...}", "", false, job_artifact},
     {"GET", "/v1/jobs/{id}/report", "text/html", false, job_report},
-    {"GET", "/v1/jobs/{id}/curves", json, false, job_curves, {"light", "variant", "x", "y"}},
-    {"POST", "/v1/compare", json, true, compare},
-    {"POST", "/v1/validate", json, true, validate_scenario},
-    {"GET", "/v1/techniques", json, false, list_techniques},
-    {"GET", "/v1/scenarios", json, false, list_scenarios},
-    {"GET", "/v1/schema", json, false, get_schema},
-    {"GET", "/openapi.json", json, false, get_openapi},
-    {"GET", "/healthz", json, false, get_health},
-    {"GET", "/readyz", json, false, get_ready},
+    {"GET", "/v1/jobs/{id}/curves", json_type, false, job_curves, {"light", "variant", "x", "y"}},
+    {"POST", "/v1/compare", json_type, true, compare},
+    {"POST", "/v1/validate", json_type, true, validate_scenario},
+    {"GET", "/v1/techniques", json_type, false, list_techniques},
+    {"GET", "/v1/scenarios", json_type, false, list_scenarios},
+    {"GET", "/v1/schema", json_type, false, get_schema},
+    {"GET", "/openapi.json", json_type, false, get_openapi},
+    {"GET", "/healthz", json_type, false, get_health},
+    {"GET", "/readyz", json_type, false, get_ready},
     {"GET", "/metrics", "text/plain", false, get_metrics},
     {"GET", "/", "text/html", false, get_page},
     {"GET", "/assets/{name...}", "", false, get_asset},
@@ -71,6 +73,12 @@ std::optional<PathParameters> match(const char* pattern, const std::vector<std::
 }
 
 }  // namespace
+
+const std::string& Call::parameter(const char* name) const {
+    const auto found = path.find(name);
+    if (found != path.end()) return found->second;
+    throw base::Error(base::ErrorCode::internal, "path", std::string("the route has no parameter ") + name);
+}
 
 std::span<const Route> routes() {
     return table;

@@ -16,7 +16,8 @@ using PathParameters = std::map<std::string, std::string>;
 struct Call {
     const ApiRequest& request;
     const PathParameters& path;
-    const std::string& parameter(const char* name) const { return path.find(name)->second; }
+    // Throws Error{internal} for a name that the route's pattern does not have.
+    const std::string& parameter(const char* name) const;
 };
 
 struct Route {

@@ -7,10 +7,11 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "bench/portable.h"
-#include "bench/report.h"
+#include "base/write_files.h"
 #include "bench/run.h"
-#include "bench/write_result.h"
+#include "results/portable.h"
+#include "results/report.h"
+#include "results/write_result.h"
 #include "service/cli/child.h"
 #include "service/cli/job.h"
 #include "service/cli/kernel_commands.h"
@@ -23,8 +24,6 @@ namespace fs = std::filesystem;
 using base::Error;
 using base::ErrorCode;
 
-constexpr int wrong_answer = 2;  // exit code of the kernels
-
 std::vector<fs::path> files_of(const std::vector<std::string>& names) {
     std::vector<fs::path> files;
     for (const std::string& name : names) {
@@ -35,25 +34,25 @@ std::vector<fs::path> files_of(const std::vector<std::string>& names) {
 }
 
 // Whether all promises are kept.
-bool add_scenario(const fs::path& scenario, int threads, const fs::path& folder, std::vector<bench::NewFile>& files) {
+bool add_scenario(const fs::path& scenario, int threads, const fs::path& folder, std::vector<base::NewFile>& files) {
     JobArguments given;
     given.threads = threads;
     const Job job = read_job(given, scenario);
     nlohmann::json document = *job.document;
-    if (document.is_object()) bench::make_portable_document(document);
-    const bench::Result result = bench::run(document, job.options, {});
-    nlohmann::ordered_json portable = bench::to_json(result);
-    bench::make_portable_result(portable);
+    if (document.is_object()) results::make_portable_document(document);
+    const results::Result result = bench::run(document, job.options, {});
+    nlohmann::ordered_json portable = results::to_json(result);
+    results::make_portable_result(portable);
     const fs::path file = folder / (result.name + ".json");
-    for (const bench::NewFile& other : files)
+    for (const base::NewFile& other : files)
         if (other.path == file)
             throw Error(ErrorCode::bad_input, scenario.string() + ": /name",
                         fmt::format("another scenario is named {} too", result.name));
     files.push_back({file, portable.dump(1) + "\n"});
-    return !bench::any_failed(result);
+    return !results::any_failed(result);
 }
 
-bool add_kernels(const std::string& told, const fs::path& folder, std::vector<bench::NewFile>& files) {
+bool add_kernels(const std::string& told, const fs::path& folder, std::vector<base::NewFile>& files) {
     const std::string program = kernel_program(told);
     const EndingSignals signals;
     const TemporaryFolder temporary;
@@ -69,7 +68,7 @@ bool add_kernels(const std::string& told, const fs::path& folder, std::vector<be
 }  // namespace
 
 bool baseline_command(const BaselineArguments& arguments, std::ostream& out) {
-    std::vector<bench::NewFile> files;
+    std::vector<base::NewFile> files;
     bool kept = add_kernels(arguments.kernels, arguments.out, files);
     for (const fs::path& scenario : files_of(arguments.scenarios)) {
         try {
@@ -79,8 +78,8 @@ bool baseline_command(const BaselineArguments& arguments, std::ostream& out) {
                         error.message());
         }
     }
-    bench::write_files(files);
-    for (const bench::NewFile& file : files) out << fmt::format("written: {}\n", file.path.string());
+    base::write_files(files);
+    for (const base::NewFile& file : files) out << fmt::format("written: {}\n", file.path.string());
     if (!kept) out << "a technique or a kernel broke its promise; see \"reason\" and \"error_message\" there\n";
     return kept;
 }

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,8 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-
-extern char** environ;
+#include "service/process/bound_group.h"
 
 namespace shadowbench::service {
 namespace {
@@ -23,50 +21,70 @@ namespace fs = std::filesystem;
 using base::Error;
 using base::ErrorCode;
 
-class FileActions {
+// In the new process: system calls alone, as in every copy of a program that may have threads. A failure is told
+// through `fault`, which exec() closes.
+[[noreturn]] void become(char* const* argv, int log, int fault, const sigset_t& signals, const BoundGroup& group) {
+    group.join();
+    const int nothing = ::open("/dev/null", O_RDONLY);
+    if (nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 && ::dup2(log, STDOUT_FILENO) >= 0 &&
+        ::dup2(log, STDERR_FILENO) >= 0 && ::sigprocmask(SIG_SETMASK, &signals, nullptr) == 0)
+        ::execv(argv[0], argv);
+    const int why = errno;
+    [[maybe_unused]] const ssize_t ignored = ::write(fault, &why, sizeof why);
+    ::_exit(127);
+}
+
+class Descriptor {
 public:
-    explicit FileActions(const fs::path& log) {
-        posix_spawn_file_actions_init(&actions_);
-        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-        posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-        posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int number() const { return number_; }
+    void close() {
+        if (number_ >= 0) ::close(number_);
+        number_ = -1;
     }
-    ~FileActions() { posix_spawn_file_actions_destroy(&actions_); }
-    FileActions(const FileActions&) = delete;
-    FileActions& operator=(const FileActions&) = delete;
-    const posix_spawn_file_actions_t* get() const { return &actions_; }
 
 private:
-    posix_spawn_file_actions_t actions_;
+    int number_;
 };
 
-// In a group of its own, so that all it started can be ended with it.
-class SpawnAttributes {
-public:
-    explicit SpawnAttributes(const sigset_t& signals) {
-        posix_spawnattr_init(&attributes_);
-        posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
-        posix_spawnattr_setsigmask(&attributes_, &signals);
-        posix_spawnattr_setpgroup(&attributes_, 0);
+pid_t start(char* const* argv, const fs::path& log, const sigset_t& signals, const BoundGroup& group) {
+    const auto fail = [&](int why) {
+        throw Error(ErrorCode::io, argv[0], fmt::format("cannot be started: {}", std::strerror(why)));
+    };
+    const Descriptor to(::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
+    int ends[2] = {-1, -1};
+    if (to.number() < 0 || ::pipe2(ends, O_CLOEXEC) != 0) fail(errno);
+    const Descriptor fault(ends[0]);
+    Descriptor mine(ends[1]);
+    const pid_t child = ::fork();
+    if (child < 0) fail(errno);
+    if (child == 0) become(argv, to.number(), mine.number(), signals, group);
+    mine.close();
+    int why = 0;
+    ssize_t count = 0;
+    while ((count = ::read(fault.number(), &why, sizeof why)) < 0 && errno == EINTR) {
     }
-    ~SpawnAttributes() { posix_spawnattr_destroy(&attributes_); }
-    SpawnAttributes(const SpawnAttributes&) = delete;
-    SpawnAttributes& operator=(const SpawnAttributes&) = delete;
-    const posix_spawnattr_t* get() const { return &attributes_; }
-
-private:
-    posix_spawnattr_t attributes_;
-};
+    if (count == sizeof why) {
+        while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+        }
+        fail(why);
+    }
+    return child;
+}
 
 // Its status.
-int wait_for(pid_t child, const EndingSignals& signals) {
+int wait_for(pid_t child, const BoundGroup& group, const EndingSignals& signals) {
     int status = 0;
     for (;;) {
         const pid_t ended = waitpid(child, &status, WNOHANG);
         if (ended == child) return status;
         if (ended < 0 && errno != EINTR) return -1;
         if (const int signal = signals.wait()) {
-            kill(-child, SIGKILL);  // nothing of it is kept
+            group.kill();  // nothing of it is kept
+            kill(child, SIGKILL);
             while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
             }
             throw Interrupted{signal};
@@ -129,13 +147,10 @@ int run_child(const std::string& program, const std::vector<std::string>& argume
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
-    const FileActions actions(log);
     const EndingSignals signals;
-    const SpawnAttributes attributes(signals.let_through());
-    pid_t child = 0;
-    if (const int failed = posix_spawn(&child, program.c_str(), actions.get(), attributes.get(), argv.data(), environ))
-        throw Error(ErrorCode::io, program, fmt::format("cannot be started: {}", std::strerror(failed)));
-    const int status = wait_for(child, signals);
+    const BoundGroup group;
+    const pid_t child = start(argv.data(), log, signals.let_through(), group);
+    const int status = wait_for(child, group, signals);
     if (status >= 0 && WIFSIGNALED(status))
         throw Error(ErrorCode::internal, program,
                     fmt::format("was ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status))));

@@ -48,7 +48,8 @@ struct Interrupted {
     int signal;
 };
 
-// Runs a program to its end, with nothing on its standard input and what it writes in `log`. Its exit code; throws
+// Runs a program to its end, with nothing on its standard input and what it writes in `log`; it and what it started
+// die with this process, however that ends (BoundGroup). Its exit code; throws
 // Error{io} where it cannot be started and {internal} where a signal ended it, place: the program; Interrupted.
 int run_child(const std::string& program, const std::vector<std::string>& arguments, const std::filesystem::path& log);
 

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/error.h"
-#include "bench/build_info.h"
+#include "results/program.h"
 #include "service/cli/child.h"
 #include "service/cli/options.h"
 
@@ -38,7 +38,8 @@ constexpr const char* examples = R"(Examples:
   shadowbench serve --data ~/volumes --port 8080
   shadowbench submit quickstart --server http://127.0.0.1:8080 --wait
   shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
-SCENARIO is a file, or the name of one in ./scenarios or in the folders of $SHADOWBENCH_SCENARIOS; for run also a folder.
+SCENARIO is a file, or the name of one in ./scenarios, in the folders of $SHADOWBENCH_SCENARIOS or among those installed with the program; for run also a folder.
+Results go to results/ in the current folder, unless --out names another.
 Exit codes: 0 ok; 1 slower (compare, ab); 2 a technique broke what it promises, or something is larger, less accurate or missing (compare, ab); 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
 
 int report(std::ostream& err, ErrorCode code, std::string message) {
@@ -60,7 +61,7 @@ std::string usage_message(const CLI::App& app, int argc, const char* const* argv
 }
 
 int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
-    const bench::BuildInfo build = bench::build_info();
+    const results::Program build = results::this_program();
     CLI::App app("Shadow-map techniques held to one scene, one oracle and one clock.", "shadowbench");
     app.set_version_flag("--version", fmt::format("shadowbench {} ({}, {}, {})", build.version, build.commit,
                                                   build.compiler, build.build_type));

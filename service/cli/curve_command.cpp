@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "bench/functions.h"
 #include "curves/functions_file.h"
+#include "document/technique_choice.h"
 #include "service/cli/commands.h"
 
 namespace shadowbench::service {
@@ -25,8 +26,8 @@ void print_json(const std::vector<bench::FunctionResult>& results, std::ostream&
 }  // namespace
 
 void curve_command(const CurveArguments& arguments, std::ostream& out) {
-    std::vector<bench::TechniqueChoice> techniques;
-    for (const std::string& text : arguments.techniques) techniques.push_back(bench::read_technique(text));
+    std::vector<document::TechniqueChoice> techniques;
+    for (const std::string& text : arguments.techniques) techniques.push_back(document::read_technique(text));
     const std::vector<curves::Curve> functions = curves::read_functions(arguments.functions);
     if (functions.empty())
         throw base::Error(base::ErrorCode::bad_input, arguments.functions, "the file holds no function");

@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <memory>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/pending_file.h"
 #include "bench/one_light.h"
+#include "document/technique_choice.h"
 #include "render/deep_exr.h"
 #include "service/cli/commands.h"
 #include "service/cli/deep_file_text.h"
@@ -81,12 +81,11 @@ std::string export_tiled(const ExportArguments& arguments, const bench::Contende
 }
 
 std::string export_map(const ExportArguments& arguments, bool tiled, const bench::OneLight& light,
-                       const bench::TechniqueChoice& technique, const bench::ProgressCallback& progress) {
+                       const document::TechniqueChoice& technique, const bench::ProgressCallback& progress) {
     const bench::Contender built = light.build(technique, progress);
     if (techniques::Cells::none == bench::cells(built.maps))
         throw Error(ErrorCode::usage, "--technique " + arguments.technique, "this technique stores no functions");
-    const std::string text =
-        title_of(light, built.cell.technique + (built.cell.parameters.empty() ? "" : " " + built.cell.parameters));
+    const std::string text = title_of(light, results::title(built.cell));
     return tiled ? export_tiled(arguments, built, text) : export_functions(arguments, built, text);
 }
 
@@ -94,21 +93,18 @@ std::string export_map(const ExportArguments& arguments, bool tiled, const bench
 
 void export_command(const ExportArguments& arguments, std::ostream& out, std::ostream& err) {
     const bool tiled = is_tiled(arguments);
-    const bench::TechniqueChoice technique = bench::read_any_technique(arguments.technique);
+    const document::TechniqueChoice technique = document::read_any_technique(arguments.technique);
     if (tiled && technique.row->id != std::string("deep"))
         throw Error(ErrorCode::usage, "--out " + arguments.out, "only technique deep is written as .dsm");
     const Job job = read_job(arguments);
     { const base::PendingFile writable(arguments.out); }  // found out now, and not after all the work
     const base::ThreadLimit threads(job.options.threads);
-    std::unique_ptr<ProgressBar> bar;
-    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
-    const bench::ProgressCallback progress = [&](const bench::Progress& p) {
-        if (bar) bar->show(p);
-    };
+    ProgressBar bar(err);
+    const bench::ProgressCallback progress = [&](const bench::Progress& p) { bar.show(p); };
     const bench::OneLight light(*job.document, job.options, arguments.light);
     const std::string text = arguments.rays ? export_rays(arguments, light, progress)
                                             : export_map(arguments, tiled, light, technique, progress);
-    bar.reset();
+    bar.end();
     out << text;
 }
 

@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/write_result.h"
+#include "base/write_files.h"
 #include "compare/history.h"
+#include "results/write_result.h"
 #include "service/cli/gate_commands.h"
 #include "service/web/history_page.h"
 
@@ -18,8 +19,8 @@ void history_command(const HistoryArguments& arguments, std::ostream& out) {
     const nlohmann::ordered_json history = compare::history_json(arguments.folder, options);
     const std::filesystem::path folder = arguments.out.empty() ? "results/history" : arguments.out;
     const std::filesystem::path numbers = folder / "history.json", page = folder / "history.html";
-    bench::write_files({{numbers, history.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"},
-                        {page, history_html(nlohmann::json(history))}});
+    base::write_files({{numbers, history.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"},
+                       {page, history_html(nlohmann::json(history))}});
     out << compare::history_text(history) << fmt::format("written: {}, {}\n", numbers.string(), page.string());
 }
 

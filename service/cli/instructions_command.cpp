@@ -11,7 +11,8 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
+#include "results/write_result.h"
 #include "service/cli/callgrind_counts.h"
 #include "service/cli/child.h"
 #include "service/cli/kernel_commands.h"
@@ -24,8 +25,6 @@ namespace fs = std::filesystem;
 using base::Error;
 using base::ErrorCode;
 using json = nlohmann::ordered_json;
-
-constexpr int wrong_answer = 2;  // exit code of the kernels
 
 // The C library chooses its functions by what the processor can do: these features are hidden from it, so that as many
 // processors as can be count alike, and symbols are bound before anything is counted.
@@ -115,7 +114,7 @@ bool instructions_command(const InstructionArguments& arguments, std::ostream& o
                     fmt::format("ended with exit code {} under callgrind: {}", code, last_line(said)));
     json kernels = read_kernels(folder.path() / "kernels.json", said);
     put_in(callgrind_counts(folder.path() / "counts"), kernels);
-    bench::write_files({{arguments.out, kernels.dump(2) + "\n"}});
+    base::write_files({{arguments.out, kernels.dump(2) + "\n"}});
     print(kernels, out);
     out << fmt::format("written: {}\n", arguments.out);
     return code == 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <sstream>
 #include <tuple>
 
@@ -11,7 +10,8 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
+#include "results/write_result.h"
 #include "service/cli/child.h"
 #include "service/cli/progress_bar.h"
 
@@ -68,7 +68,7 @@ std::string scenario_of(const std::string& source, const fs::path& folder) {
     const nlohmann::json document = compare::read_json(source);
     if (!document.is_object() || !document.contains("scenario_hash") || !document.contains("scenario")) return source;
     const fs::path file = folder / "scenario.json";
-    bench::write_files({{file, document.at("scenario").dump()}});
+    base::write_files({{file, document.at("scenario").dump()}});
     return file.string();
 }
 
@@ -85,19 +85,17 @@ void run_turns(const Turns& turns, const fs::path& folder, std::ostream& err) {
         fs::create_directories(folder / side, failed);
         if (failed) throw Error(ErrorCode::io, folder.string(), "cannot make the folder: " + failed.message());
     }
-    std::unique_ptr<ProgressBar> bar;
-    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
+    ProgressBar bar(err);
     const auto total = static_cast<std::size_t>(turns.pairs) * 2;
     for (int pair = 0; pair < turns.pairs; ++pair)
         for (const bool second : {false, true}) {
             const bool is_b = second == (pair % 2 == 0);  // neither always goes first
-            if (bar)
-                bar->show({fmt::format("{} pair {}/{}", turns.what, pair + 1, turns.pairs), is_b ? "B" : "A",
-                           static_cast<std::size_t>(pair) * 2 + second, total});
+            bar.show({fmt::format("{} pair {}/{}", turns.what, pair + 1, turns.pairs), is_b ? "B" : "A",
+                      static_cast<std::size_t>(pair) * 2 + second, total});
             run_once(turns, is_b, pair, folder);
         }
     fs::remove(folder / "log.txt", failed);
-    bench::write_files({{folder / compare::interleaved_mark, fmt::format("{{\"pairs\": {}}}\n", turns.pairs)}});
+    base::write_files({{folder / compare::interleaved_mark, fmt::format("{{\"pairs\": {}}}\n", turns.pairs)}});
 }
 
 compare::Comparison compare_turns(const Turns& turns, const fs::path& folder, const compare::Options& options) {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
-#include "bench/document.h"
+#include "document/document.h"
 #include "service/cli/scenario_files.h"
 
 namespace shadowbench::service {
@@ -28,7 +28,7 @@ nlohmann::json read_document(const fs::path& file) {
 Job read_job(const JobArguments& arguments, const fs::path& scenario) {
     Job job;
     nlohmann::json document = read_document(scenario);
-    for (const std::string& assignment : arguments.set) bench::set_value(document, assignment);
+    for (const std::string& assignment : arguments.set) document::set_value(document, assignment);
     job.document = std::make_shared<const nlohmann::json>(std::move(document));
     job.options.data = data_path(arguments.data, scenario);
     job.options.only = arguments.only;

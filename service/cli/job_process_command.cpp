@@ -4,17 +4,22 @@
 #include <chrono>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <ostream>
+#include <string>
+#include <system_error>
 
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "bench/document.h"
+#include "base/write_files.h"
 #include "bench/run.h"
-#include "bench/write_result.h"
+#include "document/document.h"
 #include "render/render.h"
 #include "render/write_pictures.h"
+#include "results/report.h"
+#include "results/write_result.h"
 #include "scene/scenario.h"
 #include "service/jobs/fraction.h"
 #include "service/jobs/progress_line.h"
@@ -49,19 +54,19 @@ private:
 };
 
 // The lights of a variant; a deep image is one.
-std::size_t lights_of(const bench::Variant& variant) {
+std::size_t lights_of(const document::Variant& variant) {
     const auto lights = variant.document->find("lights");
     return lights == variant.document->end() ? 1 : std::max<std::size_t>(lights->size(), 1);
 }
 
 // Whether there is a world that a camera could see.
-bool has_objects(const bench::Variant& variant) {
+bool has_objects(const document::Variant& variant) {
     return variant.document->at("scene").contains("objects");
 }
 
-JobFraction make_fraction(const std::vector<bench::Variant>& variants, bool pictures) {
+JobFraction make_fraction(const std::vector<document::Variant>& variants, bool pictures) {
     std::size_t lights = 0;
-    for (const bench::Variant& variant : variants) lights += lights_of(variant);
+    for (const document::Variant& variant : variants) lights += lights_of(variant);
     return {lights, pictures ? lights_of(variants.front()) : 0};
 }
 
@@ -73,8 +78,31 @@ void draw(const nlohmann::json& document, const bench::RunOptions& run, const fs
         render::write_pictures(folder, render::render(document, options, progress));
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_input) throw;
-        bench::write_files({{folder / "error.json", error_line(error) + "\n"}});
+        base::write_files({{folder / "error.json", error_line(error) + "\n"}});
     }
+}
+
+// Whether a place is in the job's own folder: what fails there is the server's storage.
+bool is_in(const std::string& folder, const std::string& place) {
+    const std::string as_told = Error(ErrorCode::io, folder, "").where();  // as places of errors are written
+    return place == as_told || place.starts_with(as_told + "/");
+}
+
+// What no other disk would take either, as a name that is too long, is the job's fault.
+bool is_of_storage(const std::error_code& why) {
+    for (const std::errc of_job : {std::errc::filename_too_long, std::errc::file_too_large, std::errc::invalid_argument,
+                                   std::errc::is_a_directory, std::errc::not_a_directory, std::errc::file_exists})
+        if (why == of_job) return false;
+    return static_cast<bool>(why);
+}
+
+// Nothing: it is a fault of the job.
+std::optional<StorageFault> storage_fault(const Error& error, const std::string& folder) {
+    if (!is_in(folder, error.where())) return std::nullopt;
+    if (const auto* write = dynamic_cast<const base::WriteError*>(&error))
+        return is_of_storage(write->why()) ? std::optional(StorageFault{error.what(), write->bytes()}) : std::nullopt;
+    const bool file_fault = error.code() == ErrorCode::io || error.code() == ErrorCode::no_such_file;
+    return file_fault ? std::optional(StorageFault{error.what(), 0}) : std::nullopt;
 }
 
 bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
@@ -85,17 +113,18 @@ bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
     options.limits.all = static_cast<std::size_t>(arguments.memory_limit * 1024.0 * 1024.0 * 1024.0);
     options.limits.kept_rays = std::min(options.limits.kept_rays, options.limits.all / 2);
 
-    const std::vector<bench::Variant> variants = bench::expand(document);
+    const std::vector<document::Variant> variants = document::expand(document);
     const bool pictures = arguments.pictures && has_objects(variants.front());
     JobFraction fraction = make_fraction(variants, pictures);
     Reporter reporter(out);
     bool kept = true;
     {
-        const bench::Result result = bench::run(document, options, [&](const bench::Progress& progress) {
+        const results::Result result = bench::run(document, options, [&](const bench::Progress& progress) {
             reporter.tell(progress, fraction.measuring(progress));
         });
-        bench::write_result(folder, result);
-        kept = !bench::any_failed(result);
+        base::write_files({{folder / "table.txt", results::to_table(result)}});
+        results::write_result(folder, result);
+        kept = !results::any_failed(result);
     }
     if (pictures)
         draw(document, options, folder / "images",
@@ -110,7 +139,10 @@ bool job_process_command(const JobProcessArguments& arguments, std::ostream& out
     try {
         return run_job(arguments, out);
     } catch (const Error& error) {
-        tell(error);
+        if (const auto fault = storage_fault(error, arguments.folder))
+            out << storage_line(*fault) << '\n' << std::flush;
+        else
+            tell(error);
         throw;
     } catch (const std::bad_alloc&) {
         tell({ErrorCode::internal, "", "out of memory; a smaller map or fewer samples may help"});

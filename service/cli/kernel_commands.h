@@ -7,6 +7,8 @@
 
 namespace shadowbench::service {
 
+constexpr int wrong_answer = 2;  // exit code of the kernels
+
 struct InstructionArguments {
     std::string kernels;                 // the program; empty: "kernels" beside this one
     std::string filter;                  // regular expression over the kernels' names; empty: all

@@ -78,16 +78,19 @@ void list_techniques(std::ostream& out) {
 }
 
 void list_scenarios(std::ostream& out) {
-    std::set<fs::path> files;
+    std::set<fs::path> files, names;  // names: below their folders, by which they are found in the first that has them
     std::error_code ignored;
     for (const fs::path& folder : scenario_folders())
         for (fs::recursive_directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
             if (entry->is_directory(ignored) && entry->path().filename() == "data") entry.disable_recursion_pending();
-            if (entry->is_regular_file(ignored) && entry->path().extension() == ".json") files.insert(entry->path());
+            if (!entry->is_regular_file(ignored) || entry->path().extension() != ".json") continue;
+            if (names.insert(entry->path().lexically_relative(folder)).second) files.insert(entry->path());
         }
     if (files.empty())
-        throw base::Error(base::ErrorCode::no_such_file, "scenarios",
-                          "no scenario here; start in the project's folder, or name folders in SHADOWBENCH_SCENARIOS");
+        throw base::Error(
+            base::ErrorCode::no_such_file, "scenarios",
+            "there is none in ./scenarios, and none was installed with the program; set SHADOWBENCH_SCENARIOS "
+            "to folders that hold some");
     std::vector<Listed> list;
     std::size_t width = 0;
     for (const fs::path& file : files) {

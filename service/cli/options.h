@@ -18,6 +18,11 @@ struct Command {
 };
 using Commands = std::vector<Command>;
 
+constexpr int promise_broken = 2;  // exit code: less accurate than a technique says
+
+// One value an option, as often as the option is given: a positional argument after it stays one.
+void repeatable(CLI::Option* option);
+
 // Each adds its subcommands to the application, and what each runs once the arguments are parsed.
 void add_measuring_commands(CLI::App& app, Commands& commands);
 void add_job_commands(CLI::App& app, Commands& commands);

@@ -15,10 +15,6 @@ constexpr const char* verdicts =
 larger or less accurate. Times are judged by process, not by repetition, and fewer than 4 processes a side decide
 nothing. Exit codes: 0; 1 slower; 2 larger, less accurate, missing, or of another scenario, seed or version.)";
 
-void repeatable(CLI::Option* option) {
-    option->allow_extra_args(false);
-}
-
 void add_verdict_options(CLI::App& command, VerdictArguments& arguments) {
     command.add_option("--effect", arguments.effect, "Percent: smaller changes of a time are none")
         ->check(CLI::Range(0.0, 1000.0))

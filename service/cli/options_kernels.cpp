@@ -9,8 +9,6 @@
 namespace shadowbench::service {
 namespace {
 
-constexpr int promise_broken = 2;
-
 void add_kernels_option(CLI::App& command, std::string& program) {
     command.add_option("--kernels", program, "The program of the kernels [the one beside this program]");
 }

@@ -9,14 +9,12 @@
 #include "service/cli/options.h"
 
 namespace shadowbench::service {
-namespace {
 
-constexpr int promise_broken = 2;  // less accurate than it says
-
-// One value an option, as often as the option is given: a following positional argument stays one.
 void repeatable(CLI::Option* option) {
     option->allow_extra_args(false);
 }
+
+namespace {
 
 // CLI::Range lets what is not a number through.
 CLI::Validator in_range(double least, double most) {
@@ -36,7 +34,7 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
                                   "/techniques/0/tolerance=0.01; a sweep over it is dropped"));
     repeatable(command.add_option("--data", arguments.data,
                                   "A folder to look for data in; before $SHADOWBENCH_DATA, the scenario's folder, its "
-                                  "data/, scenarios/data and ../shared/data"));
+                                  "data/, and scenarios/data"));
     command.add_option("--threads", arguments.threads, "Threads of capture and checks; 0: all (times are of one)")
         ->check(CLI::Range(0, 4096));
     command.add_option("--memory-limit", arguments.memory_limit, "GiB; what surely needs more is refused")
@@ -71,8 +69,8 @@ void add_run(CLI::App& app, Commands& commands) {
     add_job_options(*run, *arguments);
     add_only_option(*run, *arguments);
     add_folder_option(*run, arguments->out,
-                      "Folder of the results [results/runs/<scenario name>]; of several scenarios or a folder, each "
-                      "gets DIR/<scenario name> [results/runs/<scenario name>]");
+                      "Folder of the results [results/runs/<scenario name>, in the current folder]; of several "
+                      "scenarios or a folder, each gets DIR/<scenario name>");
     run->add_option("--verdicts", arguments->verdicts,
                     "Markdown file of the verdicts [of several scenarios or a folder: verdicts.md in the folder of "
                     "the results]")
@@ -88,7 +86,8 @@ void add_render(CLI::App& app, Commands& commands) {
         "render", "Render what the camera sees through every technique: pictures as EXR and PNG, and images.json");
     add_scenario_options(*render, *arguments);
     add_only_option(*render, *arguments);
-    add_folder_option(*render, arguments->out, "Folder of the pictures [results/images/<scenario name>]");
+    add_folder_option(*render, arguments->out,
+                      "Folder of the pictures [results/images/<scenario name>, in the current folder]");
     render->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels [the scenario's own]");
     render->add_option("--view-rays", arguments->rays_per_side, "N x N view rays a pixel: smooth edges and hair")
         ->check(CLI::Range(1, 8))
@@ -188,7 +187,8 @@ void add_reproduce(CLI::App& app, Commands& commands) {
         app.add_subcommand("reproduce", "Measure the claims of the papers again: a report with a verdict a claim");
     reproduce->add_option("PAPER", arguments->paper, "reeves1987, lokovic2000, pagot2004, volume, salvi2010, or all")
         ->capture_default_str();
-    reproduce->add_option("--out", arguments->out, "Folder of the report, its plots in plots/ [results]");
+    reproduce->add_option("--out", arguments->out,
+                          "Folder of the report, its plots in plots/ [results, in the current folder]");
     repeatable(reproduce->add_option("--data", arguments->data, "A folder to look for data in"));
     reproduce->add_flag("--quick", arguments->quick, "Smaller sizes, under five minutes for all; marked as such");
     reproduce->add_option("--threads", arguments->threads, "Threads of capture and checks; 0: all (times are of one)")

@@ -10,8 +10,6 @@
 namespace shadowbench::service {
 namespace {
 
-constexpr int promise_broken = 2;
-
 void add_data(CLI::App& command, std::vector<std::string>& data, const char* text) {
     command.add_option("--data", data, text)->allow_extra_args(false);
 }
@@ -55,14 +53,17 @@ void add_serve(CLI::App& app, Commands& commands) {
     serve->add_option("--port-file", arguments->port_file, "File that the port is written to once it listens");
     serve->add_option("--token-file", arguments->token_file,
                       "File of a token, readable by its owner alone, that every request must bring");
-    serve->add_option("--state", arguments->state, "Folder of the jobs and their results")->capture_default_str();
+    serve
+        ->add_option("--state", arguments->state,
+                     "Folder of the jobs and their results: new, empty, or one of a server's")
+        ->capture_default_str();
     add_data(*serve, arguments->data, "A folder whose files scenarios may name; without it none");
     serve->add_option("--grace", arguments->grace, "Seconds that jobs have to end when the server stops")
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
     add_limits(*serve, *arguments);
-    commands.push_back({serve, [arguments](std::ostream& out, std::ostream&) {
-                            serve_command(*arguments, out);
+    commands.push_back({serve, [arguments](std::ostream& out, std::ostream& err) {
+                            serve_command(*arguments, out, err);
                             return 0;
                         }});
 }

@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <charconv>
-#include <memory>
 #include <ostream>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
 #include "render/render.h"
 #include "render/write_pictures.h"
+#include "results/write_result.h"
 #include "scene/limits.h"
 #include "service/cli/commands.h"
 #include "service/cli/job.h"
@@ -40,7 +40,7 @@ base::Vec2i read_size(const std::string& text) {
 
 bool all_ok(const render::Rendering& rendering) {
     return std::all_of(rendering.techniques.begin(), rendering.techniques.end(),
-                       [](const auto& one) { return one.cell.status == bench::CellStatus::ok; });
+                       [](const auto& one) { return one.cell.status == results::CellStatus::ok; });
 }
 
 }  // namespace
@@ -53,15 +53,13 @@ bool render_command(const RenderArguments& arguments, std::ostream& out, std::os
     options.rays_per_side = arguments.rays_per_side;
     options.media_lookups = arguments.media_lookups;
     const fs::path folder = output_folder(arguments.out, "results/images", *job.document);
-    bench::Undo made;  // a rendering that fails leaves no folder
-    bench::make_writable(folder, made);
+    base::Undo made;  // a rendering that fails leaves no folder
+    base::make_writable(folder, made);
 
-    std::unique_ptr<ProgressBar> bar;
-    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
-    const render::Rendering rendering = render::render(*job.document, options, [&](const bench::Progress& progress) {
-        if (bar) bar->show(progress);
-    });
-    bar.reset();
+    ProgressBar bar(err);
+    const render::Rendering rendering =
+        render::render(*job.document, options, [&](const bench::Progress& progress) { bar.show(progress); });
+    bar.end();
     render::write_pictures(folder, rendering);
     made.keep();
     out << render::to_table(rendering)

@@ -6,8 +6,9 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "bench/report.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
+#include "results/report.h"
+#include "results/write_result.h"
 #include "service/cli/commands.h"
 #include "service/web/report.h"
 
@@ -23,11 +24,11 @@ nlohmann::json read_result(const fs::path& file) {
     const auto version = result.is_object() ? result.find("schema_version") : result.end();
     if (!result.is_object() || version == result.end() || !result.contains("variants"))
         throw Error(ErrorCode::bad_input, file.string(), "not a result of run");
-    if (*version != bench::result_schema_version)
+    if (*version != results::result_schema_version)
         throw Error(ErrorCode::bad_input, file.string() + "/schema_version",
                     fmt::format("{}, and this program shows {}: run the scenario again",
                                 version->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace),
-                                bench::result_schema_version));
+                                results::result_schema_version));
     return result;
 }
 
@@ -44,7 +45,7 @@ void report_command(const ReportArguments& arguments, std::ostream& out) {
                     "no such file; it is what render writes");
     const fs::path file = arguments.out.empty() ? folder / "report.html" : fs::path(arguments.out);
     const std::string page = report_html(result, images);
-    bench::write_files({{file, page}});
+    base::write_files({{file, page}});
     out << fmt::format("written: {} ({} KiB{})\n", file.string(), page.size() / 1024,
                        fs::exists(images / "images.json") ? "" : ", without pictures: see render");
 }

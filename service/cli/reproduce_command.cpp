@@ -1,16 +1,16 @@
 #include <algorithm>
 #include <ctime>
-#include <memory>
 #include <ostream>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "bench/build_info.h"
-#include "bench/machine.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
 #include "claims/paper.h"
 #include "claims/report.h"
+#include "results/machine.h"
+#include "results/program.h"
+#include "results/write_result.h"
 #include "service/cli/commands.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/scenario_files.h"
@@ -41,17 +41,11 @@ std::string today() {
 }
 
 claims::Conditions conditions_of(bool quick) {
-    const bench::Machine machine = bench::this_machine();
-    const bench::BuildInfo build = bench::build_info();
+    const results::Machine machine = results::this_machine();
+    const results::Program build = results::this_program();
     return {quick, fmt::format("{}, {} logical cores", machine.cpu, machine.logical_cores),
             fmt::format("shadowbench {} ({}, {}, {})", build.version, build.commit, build.compiler, build.build_type),
             today()};
-}
-
-const char* verdict_text(claims::Verdict verdict) {
-    return verdict == claims::Verdict::holds      ? "holds   "
-           : verdict == claims::Verdict::in_shape ? "in shape"
-                                                  : "FAILS   ";
 }
 
 }  // namespace
@@ -61,8 +55,8 @@ void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, s
     const fs::path folder = arguments.out.empty() ? fs::path("results") : fs::path(arguments.out);
     const std::string name =
         (papers.size() > 1 ? "papers" : papers.front()->id) + std::string(arguments.quick ? "_quick" : "");
-    bench::Undo made;
-    bench::make_writable(folder, made);
+    base::Undo made;
+    base::make_writable(folder, made);
 
     claims::Context context;
     context.scenarios = paper_scenarios();
@@ -71,16 +65,13 @@ void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, s
     context.threads = arguments.threads;
     std::vector<claims::PaperReport> reports;
     for (const claims::Paper* paper : papers) {
-        std::unique_ptr<ProgressBar> bar;
-        if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
-        context.progress = [&](const bench::Progress& progress) {
-            if (bar) bar->show(progress);
-        };
+        ProgressBar bar(err);
+        context.progress = [&](const bench::Progress& progress) { bar.show(progress); };
         reports.push_back(claims::measure(*paper, context));
-        bar.reset();
+        bar.end();
         out << reports.back().title << "\n";
         for (const claims::Claim& claim : reports.back().claims)
-            out << fmt::format("  {}  {}: {}; here {}\n", verdict_text(claim.verdict), claim.place, claim.says,
+            out << fmt::format("  {:<18}  {}: {}; here {}\n", to_string(claim.verdict), claim.place, claim.says,
                                claim.measured);
         out.flush();
     }

@@ -1,6 +1,5 @@
 #include <deque>
 #include <map>
-#include <memory>
 #include <optional>
 #include <ostream>
 #include <utility>
@@ -10,11 +9,12 @@
 
 #include "base/error.h"
 #include "base/pending_file.h"
-#include "bench/document.h"
-#include "bench/report.h"
-#include "bench/report_verdicts.h"
+#include "base/write_files.h"
 #include "bench/run.h"
-#include "bench/write_result.h"
+#include "document/document.h"
+#include "results/report.h"
+#include "results/report_verdicts.h"
+#include "results/write_result.h"
 #include "service/cli/commands.h"
 #include "service/cli/job.h"
 #include "service/cli/progress_bar.h"
@@ -53,7 +53,7 @@ void refuse_equal_names(const std::vector<Planned>& plan) {
 }
 
 // All that are asked for. Of several, each is checked first: a fault in one is found before the first is run.
-std::vector<Planned> make_plan(const RunArguments& arguments, bool& several) {
+std::vector<Planned> make_plan(const RunArguments& arguments, bool& several, std::ostream& err) {
     std::vector<fs::path> files;
     several = arguments.scenarios.size() > 1;
     for (const std::string& name : arguments.scenarios) {
@@ -68,7 +68,9 @@ std::vector<Planned> make_plan(const RunArguments& arguments, bool& several) {
         plan.push_back({files[0], std::move(job), std::move(folder)});
         return plan;
     }
+    ProgressBar bar(err);
     for (const fs::path& file : files) {
+        bar.show({file.filename().string(), "check", plan.size(), files.size()});
         try {
             Job job = read_job(arguments, file);
             bench::validate(*job.document, job.options);
@@ -82,19 +84,17 @@ std::vector<Planned> make_plan(const RunArguments& arguments, bool& several) {
     return plan;
 }
 
-bench::Result run_one(const Planned& planned, const std::string& place, std::ostream& err) {
-    std::unique_ptr<ProgressBar> bar;
-    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
+results::Result run_one(const Planned& planned, const std::string& place, std::ostream& err) {
+    ProgressBar bar(err);
     return bench::run(*planned.job.document, planned.job.options, [&](bench::Progress progress) {
-        if (!bar) return;
         if (!place.empty()) progress.place = place + (progress.place.empty() ? "" : " ") + progress.place;
-        bar->show(progress);
+        bar.show(progress);
     });
 }
 
 // What is known of a scenario that could not be run.
-bench::ScenarioOutcome not_run(const nlohmann::json& document, const base::Error& error) {
-    bench::ScenarioOutcome outcome;
+results::ScenarioOutcome not_run(const nlohmann::json& document, const base::Error& error) {
+    results::ScenarioOutcome outcome;
     outcome.result.name = document.at("name").get<std::string>();
     outcome.result.purpose = document.value("purpose", "");
     outcome.error = error.what();
@@ -113,7 +113,7 @@ bench::Validated check(const Job& job, std::ostream& err) {
         return bench::validate(*job.document, job.options);
     } catch (const base::Error& error) {
         if (error.code() != base::ErrorCode::bad_input) throw;
-        const std::vector<base::Error> faults = bench::all_faults(*job.document, error);
+        const std::vector<base::Error> faults = document::all_faults(*job.document, error);
         for (std::size_t i = 0; i + 1 < faults.size(); ++i) err << fmt::format("shadowbench: {}\n", faults[i].what());
         throw faults.back();
     }
@@ -123,18 +123,18 @@ bench::Validated check(const Job& job, std::ostream& err) {
 
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
     bool several = false;
-    const std::vector<Planned> plan = make_plan(arguments, several);
+    const std::vector<Planned> plan = make_plan(arguments, several, err);
     // Before hours are spent on what goes there. A run that fails leaves no folder.
-    bench::Undo made_for_verdicts;
+    base::Undo made_for_verdicts;
     const fs::path verdicts = verdicts_file(arguments, several);
-    if (verdicts.has_parent_path()) bench::make_writable(verdicts.parent_path(), made_for_verdicts);
+    if (verdicts.has_parent_path()) base::make_writable(verdicts.parent_path(), made_for_verdicts);
     if (!verdicts.empty()) {
         const base::PendingFile writable(verdicts);
     }
-    std::deque<bench::Undo> made;
-    for (const Planned& planned : plan) bench::make_writable(planned.folder, made.emplace_back());
+    std::deque<base::Undo> made;
+    for (const Planned& planned : plan) base::make_writable(planned.folder, made.emplace_back());
 
-    std::vector<bench::ScenarioOutcome> outcomes;
+    std::vector<results::ScenarioOutcome> outcomes;
     std::optional<base::Error> first_error;
     bool kept = true;
     for (std::size_t i = 0; i < plan.size(); ++i) {
@@ -150,16 +150,18 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
             outcomes.push_back(not_run(*one.job.document, error));
             continue;
         }
-        const bench::Result& result = outcomes.back().result;
-        bench::write_result(one.folder, result);
+        const results::Result& result = outcomes.back().result;
+        results::write_result(one.folder, result);
         made[i].keep();
-        kept = kept && !bench::any_failed(result);
-        out << bench::to_table(result) << fmt::format("written: {0}/result.json, {0}/result.csv\n", one.folder.string())
-            << std::flush;
+        kept = kept && !results::any_failed(result);
+        out << results::to_table(result)
+            << fmt::format("written: {0}/result.json, {0}/result.csv\n", one.folder.string()) << std::flush;
     }
-    if (several) out << bench::verdicts_text(outcomes);
+    std::vector<std::string> columns;
+    for (const techniques::Technique& row : techniques::all()) columns.push_back(row.id);
+    if (several) out << results::verdicts_text(outcomes, columns);
     if (!verdicts.empty()) {
-        bench::write_files({{verdicts, bench::verdicts_markdown(outcomes)}});
+        base::write_files({{verdicts, results::verdicts_markdown(outcomes, columns)}});
         made_for_verdicts.keep();
         out << fmt::format("written: {}\n", verdicts.string());
     }
@@ -173,6 +175,7 @@ void validate_command(const ScenarioArguments& arguments, std::ostream& out, std
     out << fmt::format("OK {}: {} variant{} of {} light{} and {} technique{}\n", validated.name, validated.variants,
                        validated.variants == 1 ? "" : "s", validated.lights, validated.lights == 1 ? "" : "s",
                        validated.techniques, validated.techniques == 1 ? "" : "s");
+    for (const std::string& note : validated.notes) out << "note: " << note << "\n";
     for (const std::string& light : validated.blind)
         out << fmt::format(
             "note: light {} sees nothing that casts a shadow: no caster is inside its map and behind its "

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "service/cli/this_program.h"
 
 namespace shadowbench::service {
 namespace {
@@ -20,6 +21,11 @@ std::vector<fs::path> folders_of(const char* variable) {
     for (std::string folder; std::getline(list, folder, ':');)
         if (!folder.empty()) folders.emplace_back(folder);
     return folders;
+}
+
+// Where `cmake --install` puts scenarios, seen from the program's own file: any prefix will do.
+fs::path installed_scenarios() {
+    return (fs::path(this_program()).parent_path() / SHADOWBENCH_SHARE_FROM_PROGRAM / "scenarios").lexically_normal();
 }
 
 std::vector<fs::path> scenarios_in(const fs::path& folder) {
@@ -45,6 +51,9 @@ fs::path scenario_folder(const std::string& name) {
 std::vector<fs::path> scenario_folders() {
     std::vector<fs::path> folders{"scenarios"};
     for (const fs::path& folder : folders_of("SHADOWBENCH_SCENARIOS")) folders.push_back(folder);
+    std::error_code ignored;
+    const fs::path installed = installed_scenarios();
+    if (fs::is_directory(installed, ignored)) folders.push_back(installed);
     return folders;
 }
 
@@ -95,7 +104,7 @@ scene::SearchPath data_path(const std::vector<std::string>& given, const fs::pat
     }
     for (const fs::path& folder : folders_of("SHADOWBENCH_DATA")) path.folders.push_back(folder);
     const fs::path own = scenario.has_parent_path() ? scenario.parent_path() : fs::path(".");
-    path.folders.insert(path.folders.end(), {own, own / "data", "scenarios/data", "../shared/data"});
+    path.folders.insert(path.folders.end(), {own, own / "data", "scenarios/data"});
     return path;
 }
 

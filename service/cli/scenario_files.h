@@ -9,7 +9,8 @@
 
 namespace shadowbench::service {
 
-// ./scenarios, then the folders of $SHADOWBENCH_SCENARIOS (separated by colons).
+// ./scenarios, then the folders of $SHADOWBENCH_SCENARIOS (separated by colons), then the scenarios installed with the
+// program: ../share/shadowbench/scenarios from the folder of its executable, where that is a folder.
 std::vector<std::filesystem::path> scenario_folders();
 
 // The folder papers/ of the first scenario folder that has one. Throws Error{no_such_file}.
@@ -26,8 +27,8 @@ struct FoundScenarios {
 };
 FoundScenarios find_scenarios(const std::string& name);
 
-// The folders given, $SHADOWBENCH_DATA (separated by colons), the scenario's own folder and its data/, scenarios/data,
-// ../shared/data. Throws Error{no_such_file} when one of those given is not there.
+// The folders given, $SHADOWBENCH_DATA (separated by colons), the scenario's own folder and its data/, scenarios/data.
+// Throws Error{no_such_file} when one of those given is not there.
 scene::SearchPath data_path(const std::vector<std::string>& given, const std::filesystem::path& scenario);
 
 }  // namespace shadowbench::service

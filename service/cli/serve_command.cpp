@@ -11,7 +11,8 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
+#include "results/write_result.h"
 #include "service/api/helper_side.h"
 #include "service/api/service.h"
 #include "service/cli/scenario_files.h"
@@ -114,7 +115,7 @@ std::string read_token(const std::string& file) {
     return token;
 }
 
-void serve_command(const ServeArguments& arguments, std::ostream& out) {
+void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostream& err) {
     const StopSignals signals;
     std::signal(SIGPIPE, SIG_IGN);  // a client or a child that went
     const HeldProgram held;
@@ -123,10 +124,11 @@ void serve_command(const ServeArguments& arguments, std::ostream& out) {
     const ServiceOptions options = service_options(arguments, program);
     std::vector<std::string> data;
     for (const fs::path& folder : options.data) data.push_back(folder.string());
-    Jobs jobs(arguments.state, program, data, job_limits(arguments));
+    Jobs jobs(arguments.state, program, data, job_limits(arguments),
+              [&](const std::string& line) { err << fmt::format("shadowbench: {}\n", line) << std::flush; });
     Service service(jobs, options);
     HttpServer server(service, options.event_streams, http);
-    if (!arguments.port_file.empty()) bench::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});
+    if (!arguments.port_file.empty()) base::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});
     out << fmt::format("shadowbench serves {} (state: {})\n", server.url(), arguments.state) << std::flush;
     std::atomic<bool> done = false;
     std::thread stopper([&] {

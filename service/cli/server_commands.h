@@ -39,8 +39,8 @@ struct HelperArguments {
     std::size_t variant = 0;
 };
 
-// Until SIGTERM or SIGINT.
-void serve_command(const ServeArguments& arguments, std::ostream& out);
+// Until SIGTERM or SIGINT. What else its watcher should know goes to `err`, a line each: see Jobs.
+void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostream& err);
 // Whether every technique kept its promises, as far as it was waited for.
 bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::ostream& err);
 // The server's helpers: see service/api/helper_side.h.

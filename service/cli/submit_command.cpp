@@ -1,6 +1,5 @@
 #include <chrono>
 #include <functional>
-#include <memory>
 #include <ostream>
 #include <random>
 #include <thread>
@@ -10,8 +9,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
-#include "bench/document.h"
-#include "bench/report.h"
+#include "document/document.h"
 #include "scene/scenario.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/scenario_files.h"
@@ -68,7 +66,7 @@ std::string without_slash(const std::string& url) {
 std::string request_body(const SubmitArguments& arguments) {
     const auto file = find_scenario(arguments.scenario);
     nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
-    for (const std::string& assignment : arguments.set) bench::set_value(document, assignment);
+    for (const std::string& assignment : arguments.set) document::set_value(document, assignment);
     const nlohmann::json body = {
         {"scenario", std::move(document)},
         {"options", {{"cache", arguments.fresh ? "fresh" : "reuse"}, {"pictures", !arguments.no_pictures}}}};
@@ -104,10 +102,9 @@ Reply patiently(const std::function<Reply()>& ask, const std::string& server, st
 
 json wait_for(Client& client, json job, const std::string& server, std::ostream& err) {
     const std::string self = job.at("links").at("self");
-    std::unique_ptr<ProgressBar> bar;
-    if (is_terminal(err)) bar = std::make_unique<ProgressBar>(err);
+    ProgressBar bar(err);
     while (job.at("state") == "queued" || job.at("state") == "running") {
-        if (bar) show(job, *bar);
+        show(job, bar);
         std::this_thread::sleep_for(between_looks);
         job = take(patiently([&] { return client.get(self); }, server, err), 200, server);
     }
@@ -148,10 +145,11 @@ bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::os
     }
     job = wait_for(client, std::move(job), server, err);
     refuse_failed(job);
-    const bench::Result result =
-        bench::from_json(take(patiently([&] { return client.get(self + "/result"); }, server, err), 200, server));
-    out << bench::to_table(result) << fmt::format("result: {}{}/result\n", server, self);
-    return !bench::any_failed(result);
+    // The table that run prints; jobs of earlier servers have none.
+    const Reply table = patiently([&] { return client.get(self + "/artifacts/table.txt"); }, server, err);
+    if (table.status == 200) out << table.body;
+    out << fmt::format("result: {}{}/result\n", server, self);
+    return job.at("promises_kept").get<bool>();
 }
 
 }  // namespace shadowbench::service

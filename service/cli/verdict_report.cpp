@@ -10,8 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "bench/write_result.h"
+#include "base/write_files.h"
 #include "compare/report.h"
+#include "results/write_result.h"
 
 namespace shadowbench::service {
 namespace {
@@ -69,7 +70,7 @@ int report_verdict(const compare::Comparison& comparison, const VerdictArguments
         {arguments.markdown, compare::to_markdown(comparison)},
         {arguments.junit, compare::to_junit(comparison)},
         {arguments.json, json + "\n"}};
-    std::vector<bench::NewFile> files;
+    std::vector<base::NewFile> files;
     bool printed = false;
     for (const auto& [file, content] : forms) {
         if (file == "-") {
@@ -80,9 +81,9 @@ int report_verdict(const compare::Comparison& comparison, const VerdictArguments
         }
     }
     if (!printed) out << compare::to_text(comparison, arguments.all);
-    bench::write_files(files);
+    base::write_files(files);
     if (!printed)
-        for (const bench::NewFile& file : files) out << fmt::format("written: {}\n", file.path.string());
+        for (const base::NewFile& file : files) out << fmt::format("written: {}\n", file.path.string());
     return compare::exit_code(comparison);
 }
 

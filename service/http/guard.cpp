@@ -1,19 +1,13 @@
 #include "service/http/guard.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 
 #include "service/api/problem.h"
+#include "service/http/head.h"
 
 namespace shadowbench::service {
 namespace {
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
 
 // "[::1]:8080" -> "::1", "localhost:8080" -> "localhost".
 std::string without_port(const std::string& host) {

@@ -28,6 +28,8 @@ struct HeadFault {
 // `text` ends with the empty line. What it holds up to a fault is in `head` all the same, as far as it was understood.
 std::optional<HeadFault> parse_head(std::string_view text, Head& head);
 
+std::string lower(std::string_view text);  // ASCII letters
+
 // "%41b+c" -> "Ab+c", or "Ab c" where `plus_is_space`. Nothing for a broken escape or one of a control character.
 std::optional<std::string> decode_percent(std::string_view text, bool plus_is_space);
 

@@ -69,6 +69,21 @@ bool JobBoard::wait_for_change(std::uint64_t seen, Clock::time_point until) cons
     return changed_.wait_until(lock, until, [&] { return stopping_ || changes_ != seen; }) && !stopping_;
 }
 
+bool JobBoard::begin_storage_fault() {
+    const Lock lock(mutex_);
+    return ++storage_faults_ == 1;
+}
+
+bool JobBoard::end_storage_fault() {
+    const Lock lock(mutex_);
+    return --storage_faults_ == 0;
+}
+
+bool JobBoard::storage_fails() const {
+    const Lock lock(mutex_);
+    return storage_faults_ > 0;
+}
+
 void JobBoard::add_work() {
     {
         const Lock lock(mutex_);

@@ -46,6 +46,12 @@ public:
     // Returns false once the time is up or the server stops.
     bool wait_for_change(std::uint64_t seen, Clock::time_point until) const;
 
+    // A worker waits because the server's storage fails; each begin has its end. Whether it is the first that waits, or
+    // the last that did.
+    bool begin_storage_fault();
+    bool end_storage_fault();
+    bool storage_fails() const;
+
     void add_work();  // a job was queued
     std::uint64_t work() const;
     void wait_for_work(std::uint64_t seen) const;  // or for the end
@@ -60,6 +66,7 @@ private:
     mutable std::condition_variable changed_;
     std::map<std::string, std::shared_ptr<Run>> runs_;
     std::uint64_t queue_revision_, changes_ = 0, work_ = 0;
+    int storage_faults_ = 0;
     bool stopping_ = false;
     Clock::time_point deadline_{};
 };

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +12,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "service/process/bound_group.h"
 
 namespace shadowbench::service {
 namespace {
@@ -52,10 +52,8 @@ void write_text(const char* file, std::string_view text) {
 }
 
 // In the new process, where the memory is a copy and other threads may have held any lock: system calls alone.
-[[noreturn]] void become(char* const* arguments, int out, int err, pid_t parent) {
-    ::setpgid(0, 0);
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(not_started);  // it died before it could be watched
+[[noreturn]] void become(char* const* arguments, int out, int err, const BoundGroup& group) {
+    group.join();
     sigset_t none;
     ::sigemptyset(&none);
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -68,15 +66,13 @@ void write_text(const char* file, std::string_view text) {
     ::_exit(not_started);
 }
 
-pid_t start(const std::vector<std::string>& arguments, const Pipe& out, const Pipe& err) {
+pid_t start(const std::vector<std::string>& arguments, const Pipe& out, const Pipe& err, const BoundGroup& group) {
     std::vector<char*> pointers;
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);
-    const pid_t parent = ::getpid();
     const pid_t child = ::fork();
     if (child < 0) fail("a job's process cannot be started");
-    if (child == 0) become(pointers.data(), out.ends[1], err.ends[1], parent);
-    ::setpgid(child, child);  // whichever of the two comes first
+    if (child == 0) become(pointers.data(), out.ends[1], err.ends[1], group);
     return child;
 }
 
@@ -152,15 +148,16 @@ private:
     int file_;
 };
 
-// Whether it has ended. It is not reaped: until then its number, and its group's, is nobody else's.
+// Whether it has ended. It is not reaped: until then its number is nobody else's.
 bool has_ended(pid_t child) {
     siginfo_t info{};
     return ::waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == child;
 }
 
 // Kills what is left of the group, and reaps the child.
-void reap(pid_t child, ChildReport& report) {
-    ::kill(-child, SIGKILL);
+void reap(pid_t child, const BoundGroup& group, ChildReport& report) {
+    group.kill();
+    ::kill(child, SIGKILL);  // which may have left the group
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
@@ -172,8 +169,9 @@ void reap(pid_t child, ChildReport& report) {
 
 ChildReport run_child(const std::vector<std::string>& arguments, const ChildLimits& limits,
                       const std::function<void(std::string_view)>& on_line, const std::function<bool()>& should_end) {
+    const BoundGroup group;
     Pipe out, err;
-    const pid_t child = start(arguments, out, err);
+    const pid_t child = start(arguments, out, err, group);
     out.close(1);
     err.close(1);
 
@@ -207,10 +205,10 @@ ChildReport run_child(const std::vector<std::string>& arguments, const ChildLimi
         }
         if (report.end == ChildEnd::exited) read_all();
     } catch (...) {
-        reap(child, report);
+        reap(child, group, report);
         throw;
     }
-    reap(child, report);
+    reap(child, group, report);
     return report;
 }
 

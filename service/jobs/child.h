@@ -27,7 +27,8 @@ inline constexpr int not_started = 127;            // exit code of a child whose
 inline constexpr std::size_t longest_line = 8192;  // of standard output; longer ones are left out
 
 // Runs arguments[0] in a process group of its own, with nothing on its standard input, and returns once it and its
-// group have ended. It dies with the calling thread, and so with this process. `on_line` gets each whole line of its
+// group have ended. The group dies with this process, however that ends (BoundGroup), and the program with the calling
+// thread too. `on_line` gets each whole line of its
 // standard output, without its end. `should_end` is asked every 50 ms: the group is killed once it answers true, as it
 // is beyond a limit.
 //

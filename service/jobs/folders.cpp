@@ -33,7 +33,7 @@ void sync_all(const fs::path& folder) {
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         const fs::file_type type = entry.symlink_status().type();
         if (type != fs::file_type::regular && type != fs::file_type::directory)
-            throw Error(ErrorCode::io, entry.path().filename().string(),
+            throw Error(ErrorCode::internal, entry.path().filename().string(),
                         "a job's results hold files and folders alone");
         sync(entry.path());
     }
@@ -52,7 +52,7 @@ JobFolders make_job_folders(const fs::path& state) {
     const JobFolders folders{state / "jobs", state / "work"};
     make_folder(folders.jobs);
     make_folder(folders.work);
-    sync(state);
+    sync(state / ".");  // which may be a link
     return folders;
 }
 
@@ -84,6 +84,34 @@ void link_files(const fs::path& from, const fs::path& work) {
     }
 }
 
+bool unpublish(const JobFolders& folders, const std::string& id) {
+    std::error_code failed;
+    fs::rename(folders.jobs / id, removed_folder(folders, id), failed);
+    if (failed == std::errc::no_such_file_or_directory) return false;
+    check(failed, folders.jobs / id, "the results cannot be removed");
+    return true;
+}
+
+void discard_results(const JobFolders& folders, const std::string& id) {
+    try {
+        if (unpublish(folders, id)) remove_folder(removed_folder(folders, id));
+    } catch (const Error&) {
+        // They stay, and the next start finds them.
+    }
+}
+
+fs::path removed_folder(const JobFolders& folders, const std::string& id) {
+    return folders.work / (id + "-removed");
+}
+
+fs::path copy_folder(const JobFolders& folders, const std::string& id) {
+    return folders.work / (id + "-copy");
+}
+
+fs::path attempt_folder(const JobFolders& folders, const std::string& id, int attempt) {
+    return folders.work / (id + "-" + std::to_string(attempt));
+}
+
 bool is_published(const JobFolders& folders, const std::string& id) {
     std::error_code ignored;
     return fs::is_directory(fs::symlink_status(folders.jobs / id, ignored));
@@ -94,13 +122,22 @@ void remove_folder(const fs::path& folder) {
     fs::remove_all(folder, ignored);
 }
 
-void sweep(const JobFolders& folders, const std::function<bool(const std::string& id)>& kept) {
-    std::vector<fs::path> gone;
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folders.work, ignored)) gone.push_back(entry.path());
-    for (const auto& entry : fs::directory_iterator(folders.jobs, ignored))
-        if (!kept(entry.path().filename().string())) gone.push_back(entry.path());
-    for (const fs::path& path : gone) remove_folder(path);
+void empty_folder(const fs::path& folder) {
+    std::error_code failed;
+    std::vector<fs::path> entries;
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
+        entries.push_back(entry->path());
+    for (const fs::path& entry : entries) remove_folder(entry);
+}
+
+std::vector<fs::path> entries_of(const fs::path& folder) {
+    std::vector<fs::path> entries;
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
+        entries.push_back(entry->path());
+    check(failed, folder, "cannot be read");
+    std::sort(entries.begin(), entries.end());
+    return entries;
 }
 
 std::vector<std::string> list_files(const fs::path& folder) {

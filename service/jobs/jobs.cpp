@@ -12,12 +12,15 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "bench/build_info.h"
-#include "bench/document.h"
+#include "base/hash_text.h"
+#include "results/program.h"
 #include "service/jobs/board.h"
 #include "service/jobs/folders.h"
+#include "service/jobs/record.h"
+#include "service/jobs/recover.h"
+#include "service/jobs/state_folder.h"
+#include "service/jobs/utc.h"
 #include "service/jobs/worker.h"
-#include "service/store/folder_lock.h"
 #include "service/store/job_store.h"
 
 namespace shadowbench::service {
@@ -27,7 +30,6 @@ namespace fs = std::filesystem;
 using base::Error;
 using base::ErrorCode;
 
-constexpr const char* database_name = "jobs.db";
 constexpr std::size_t longest_page = 1000;
 
 constexpr std::pair<JobState, const char*> state_names[] = {{JobState::queued, job_states::queued},
@@ -36,11 +38,13 @@ constexpr std::pair<JobState, const char*> state_names[] = {{JobState::queued, j
                                                             {JobState::failed, job_states::failed},
                                                             {JobState::cancelled, job_states::cancelled}};
 
-fs::path make_state_folder(const fs::path& state) {
-    std::error_code failed;
-    fs::create_directories(state, failed);
-    if (failed) throw Error(ErrorCode::io, state.string(), "the state folder cannot be made: " + failed.message());
-    return state;
+// One line at a time; nobody listens: lost.
+Say one_at_a_time(Say say) {
+    if (!say) return [](const std::string&) {};
+    return [say = std::move(say), mutex = std::make_shared<std::mutex>()](const std::string& line) {
+        const std::scoped_lock lock(*mutex);
+        say(line);
+    };
 }
 
 std::string check_program(const std::string& program) {
@@ -55,13 +59,13 @@ std::string new_id() {
 }
 
 std::string program_version() {
-    const bench::BuildInfo build = bench::build_info();
+    const results::Program build = results::this_program();
     return fmt::format("{} {}", build.version, build.commit);
 }
 
 // What must be the same when an idempotency key comes again.
 std::string request_hash(const JobRequest& request) {
-    return bench::hash_text(fmt::format("{} {} {}", request.pictures, request.reuse, request.scenario));
+    return base::hash_text(fmt::format("{} {} {}", request.pictures, request.reuse, request.scenario));
 }
 
 std::int64_t read_cursor(const std::string& cursor) {
@@ -124,39 +128,54 @@ std::optional<JobState> parse_job_state(const std::string& text) {
 }
 
 struct Jobs::State {
-    State(const fs::path& folder, std::string program, std::vector<std::string> data, JobLimits limits)
-        : lock(make_state_folder(folder)),
-          store(folder / database_name),
+    State(const fs::path& path, const std::string& program, const std::vector<std::string>& data, JobLimits limits,
+          const Say& say)
+        : checked_program(check_program(program)),
+          folder(path, say),
+          folders(make_job_folders(path)),
+          opened(open_store(folder, folders, say)),
+          store(*opened),
           board(store.next_revision()),
-          place{store,
-                board,
-                make_job_folders(folder),
-                check_program(program),
-                data,
-                limits,
-                hidden_folders(folder.string(), data)} {}
+          place{store, board, folders, checked_program, data, limits, hidden_folders(path.string(), data), say} {
+        recover(folder, store, folders, say);
+    }
 
-    // The result of an earlier job, as that of a new one: whether its promises were kept. Nothing: there is none.
-    std::optional<bool> reuse_result(const ResultKey& key, const std::string& id);
+    // Gives a new job the results of an earlier one of the same key: whether its promises were kept. Nothing: there is
+    // none.
+    std::optional<bool> reuse_result(const NewJob& job);
 
-    FolderLock lock;  // the first to come and the last to go
-    JobStore store;
+    std::string checked_program;
+    StateFolder folder;  // locked before anything, and until the last
+    JobFolders folders;
+    std::unique_ptr<JobStore> opened;
+    JobStore& store;
     JobBoard board;
     Workplace place;
     std::vector<std::thread> workers;
     std::mutex joining;
 };
 
-std::optional<bool> Jobs::State::reuse_result(const ResultKey& key, const std::string& id) {
-    const std::optional<StoredJob> earlier = store.find_result(key);
+std::optional<bool> Jobs::State::reuse_result(const NewJob& job) {
+    const std::optional<StoredJob> earlier = store.find_result(job.key);
     if (!earlier) return std::nullopt;
-    const fs::path work = place.folders.work / (id + "-0");
+    const fs::path work = copy_folder(folders, job.id);
     try {
         make_work_folder(work);
-        link_files(place.folders.jobs / earlier->id, work);
-        // Its row goes before its files do: where it still is, they all were there.
+        KeptJob kept;
+        kept.scenario = job.scenario;
+        kept.idempotency_key = job.idempotency_key;
+        kept.request = job.request;
+        kept.job.id = job.id;
+        kept.job.name = job.name;
+        kept.job.key = job.key;
+        kept.job.cached = true;
+        kept.job.created = kept.job.started = kept.job.ended = job.created;
+        kept.job.kept = earlier->kept;
+        write_record(work, kept);
+        link_files(folders.jobs / earlier->id, work);
+        // They leave as a whole and before their row does: where that still is, all were there.
         if (find_file_in(work, "result.json") && store.find(earlier->id)) {
-            publish(place.folders, work, id);
+            publish(folders, work, job.id);
             return earlier->kept;
         }
     } catch (const Error&) {
@@ -166,14 +185,10 @@ std::optional<bool> Jobs::State::reuse_result(const ResultKey& key, const std::s
     return std::nullopt;
 }
 
-Jobs::Jobs(fs::path state, std::string program, std::vector<std::string> data, JobLimits limits)
-    : state_(std::make_unique<State>(state, std::move(program), std::move(data), limits)) {
+Jobs::Jobs(fs::path state, std::string program, std::vector<std::string> data, JobLimits limits,
+           std::function<void(const std::string& line)> say)
+    : state_(std::make_unique<State>(state, program, data, limits, one_at_a_time(std::move(say)))) {
     State& all = *state_;
-    recover_running(all.place);
-    sweep(all.place.folders, [&](const std::string& id) {
-        const std::optional<StoredJob> job = all.store.find(id);
-        return job && job->state == job_states::succeeded;
-    });
     for (int i = 0; i < std::max(limits.parallel, 1); ++i)
         all.workers.emplace_back([&place = std::as_const(all.place)] { run_jobs(place); });
 }
@@ -195,11 +210,11 @@ Submitted Jobs::submit(const JobRequest& request) {
     job.scenario = request.scenario;
     job.created = now_utc();
     job.idempotency_key = request.idempotency_key;
-    if (request.reuse) job.kept = all.reuse_result(job.key, job.id);
+    if (request.reuse) job.kept = all.reuse_result(job);
 
     JobStore::Added added{};
     const auto forget_files = [&] {
-        if (job.kept) remove_folder(all.place.folders.jobs / job.id);
+        if (job.kept) discard_results(all.folders, job.id);
     };
     try {
         added = all.store.add(job, all.place.limits.queue);
@@ -247,10 +262,18 @@ Jobs::Change Jobs::cancel(const std::string& id) {
     return Change::done;
 }
 
+// Files first, and a start would go on from there: so a full disk can be emptied, and no result is left without its
+// job, which the next start would take back.
 Jobs::Change Jobs::remove(const std::string& id) {
     State& all = *state_;
+    const std::optional<StoredJob> job = all.store.find(id);
+    if (!job) return Change::not_found;
+    if (job->state == job_states::running) return Change::refused;
+    const bool had_results = job->state == job_states::succeeded && unpublish(all.folders, job->id);
+    const fs::path removed = removed_folder(all.folders, job->id);
+    if (had_results) empty_folder(removed);
     if (!all.store.remove(id)) return all.store.find(id) ? Change::refused : Change::not_found;
-    remove_folder(all.place.folders.jobs / id);
+    if (had_results) remove_folder(removed);
     all.board.announce(all.store.next_revision(), true);
     return Change::done;
 }
@@ -262,13 +285,13 @@ std::optional<std::string> Jobs::scenario(const std::string& id) const {
 std::optional<fs::path> Jobs::artifact(const std::string& id, const std::string& name) const {
     const std::optional<StoredJob> job = state_->store.find(id);
     if (!job || job->state != job_states::succeeded) return std::nullopt;
-    return find_file_in(state_->place.folders.jobs / job->id, name);
+    return find_file_in(state_->folders.jobs / job->id, name);
 }
 
 std::vector<std::string> Jobs::artifacts(const std::string& id) const {
     const std::optional<StoredJob> job = state_->store.find(id);
     if (!job || job->state != job_states::succeeded) return {};
-    return list_files(state_->place.folders.jobs / job->id);
+    return list_files(state_->folders.jobs / job->id);
 }
 
 std::optional<JobInfo> Jobs::wait(const std::string& id, std::uint64_t revision, double seconds) const {
@@ -279,6 +302,10 @@ std::optional<JobInfo> Jobs::wait(const std::string& id, std::uint64_t revision,
         std::optional<JobInfo> info = find(id);
         if (!info || info->revision > revision || !state_->board.wait_for_change(seen, until)) return info;
     }
+}
+
+bool Jobs::storage_fails() const {
+    return state_->board.storage_fails();
 }
 
 void Jobs::stop() {

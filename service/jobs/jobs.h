@@ -36,17 +36,17 @@ struct JobInfo {
     std::string created, started, ended;  // UTC, ISO 8601 with milliseconds; empty: not yet
     int attempts = 0;
     bool pictures = true;
-    bool cached = false;                  // answered from the result of an earlier job
-    std::optional<bool> promises_kept;    // once it succeeded
+    bool cached = false;                    // answered from the result of an earlier job
+    std::optional<bool> promises_kept;      // once it succeeded
     std::optional<std::uint64_t> position;  // of a queued job: jobs before it
-    std::optional<JobProgress> progress;  // while it runs
-    std::optional<JobFault> fault;        // of a failed job
-    std::uint64_t revision = 0;           // grows with every change of this job; the id of its events
+    std::optional<JobProgress> progress;    // while it runs
+    std::optional<JobFault> fault;          // of a failed job
+    std::uint64_t revision = 0;             // grows with every change of this job; the id of its events
 };
 
 struct JobRequest {
-    std::string scenario;         // JSON text, validated by the caller
-    std::string name, hash;       // of it
+    std::string scenario;    // JSON text, validated by the caller
+    std::string name, hash;  // of it
     std::uint64_t seed = 0;
     bool pictures = true;
     bool reuse = true;            // the result of an earlier job of the same scenario and program version may answer
@@ -54,17 +54,22 @@ struct JobRequest {
 };
 
 struct Submitted {
-    enum class Outcome { created, existing, conflict, queue_full } outcome;  // existing: same key, same request; conflict: same key, another
+    enum class Outcome {
+        created,
+        existing,
+        conflict,
+        queue_full
+    } outcome;  // existing: same key, same request; conflict: same key, another
     JobInfo job;
 };
 
 struct JobLimits {
-    std::size_t queue = 2000;         // jobs that wait; more are refused
-    double seconds = 3600.0;          // of one run
+    std::size_t queue = 2000;                    // jobs that wait; more are refused
+    double seconds = 3600.0;                     // of one run
     std::size_t memory = std::size_t{16} << 30;  // bytes a child may take
-    int attempts = 3;                 // runs of a job whose process or server died
+    int attempts = 3;                            // runs of a job whose process died by itself
     int parallel = 1;
-    double grace = 10.0;              // seconds that stop() waits before it requeues what runs
+    double grace = 10.0;  // seconds that stop() waits before it requeues what runs
 };
 
 struct JobPage {
@@ -74,10 +79,13 @@ struct JobPage {
 
 class Jobs {
 public:
-    // Opens or makes `state` (database and artifacts), queues again what ran when the last server died, removes
-    // half-written artifacts, starts the worker. `program` is run as `program job FOLDER --data DIR...`.
-    // Throws base::Error{io}: not writable, or another server holds it.
-    Jobs(std::filesystem::path state, std::string program, std::vector<std::string> data, JobLimits limits);
+    // Opens or makes `state` (see state_folder.h), queues again what ran when the last server died, takes back results
+    // that the database does not know, starts the worker. `program` is run as `program job FOLDER --data DIR...`.
+    // `say` gets what who watches the server should know, a line each, one at a time: what was found and moved away,
+    // results taken back, storage that fails and works again. Its lines name places of the machine.
+    // Throws base::Error{usage}: the folder is none of ours; {io}: not writable, or another server holds it.
+    Jobs(std::filesystem::path state, std::string program, std::vector<std::string> data, JobLimits limits,
+         std::function<void(const std::string& line)> say = {});
     ~Jobs();
     Jobs(const Jobs&) = delete;
     Jobs& operator=(const Jobs&) = delete;
@@ -101,6 +109,9 @@ public:
     // Blocks until the job's revision is above `revision`, it is gone, stop() was called, or `seconds` have passed;
     // the job then. Cheap for many waiting threads.
     std::optional<JobInfo> wait(const std::string& id, std::uint64_t revision, double seconds) const;
+
+    // While the state folder cannot be written, as on a full disk: jobs wait.
+    bool storage_fails() const;
 
     // No more is started; what runs has `grace` seconds to end, then is killed and queued again. Wakes all waits.
     void stop();

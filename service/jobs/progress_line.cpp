@@ -57,10 +57,17 @@ std::string error_line(const base::Error& error) {
                   {{"code", static_cast<int>(error.code())}, {"where", error.where()}, {"message", error.message()}}}});
 }
 
-std::variant<std::monostate, JobProgress, JobFault> read_line(std::string_view line) {
+std::string storage_line(const StorageFault& fault) {
+    return dump({{"storage", {{"message", fault.message}, {"bytes", fault.bytes}}}});
+}
+
+std::variant<std::monostate, JobProgress, JobFault, StorageFault> read_line(std::string_view line) {
     const json read = json::parse(line, nullptr, false);
     if (!read.is_object()) return {};
     if (read.contains("stage")) return progress_of(read);
+    const auto storage = read.find("storage");
+    if (storage != read.end() && storage->is_object())
+        return StorageFault{text(*storage, "message"), count(*storage, "bytes")};
     const auto error = read.find("error");
     if (error != read.end() && error->is_object()) return fault_of(*error);
     return {};

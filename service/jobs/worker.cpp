@@ -1,6 +1,6 @@
 #include "service/jobs/worker.h"
 
-#include <ctime>
+#include <algorithm>
 #include <fstream>
 #include <optional>
 #include <system_error>
@@ -13,6 +13,9 @@
 #include "base/error.h"
 #include "service/jobs/child.h"
 #include "service/jobs/progress_line.h"
+#include "service/jobs/record.h"
+#include "service/jobs/room.h"
+#include "service/jobs/utc.h"
 
 namespace shadowbench::service {
 namespace {
@@ -23,7 +26,7 @@ using base::ErrorCode;
 using Clock = JobBoard::Clock;
 
 constexpr std::chrono::milliseconds between_progress{100};
-constexpr std::chrono::milliseconds before_next_try{500};
+constexpr std::chrono::milliseconds first_wait{250}, longest_wait{10000};
 constexpr int promise_broken = 2;  // exit code: a result all the same
 
 // How a run ended.
@@ -33,21 +36,80 @@ struct Success {
 struct Again {
     bool uncounted;
 };
+// The server's own storage failed, with so many bytes of the job's in it: no fault of the job, which waits.
+struct Waits {
+    std::string why;
+    std::uintmax_t bytes;
+};
 struct Cancelled {};
-using Verdict = std::variant<Success, Again, Cancelled, JobFault>;
+using Verdict = std::variant<Success, Again, Waits, Cancelled, JobFault>;
 
-// Repeats what the store could not do, as on a full disk. Nothing: the server stops; the next one finds the job as it
-// is.
+// The server's storage fails, from begin() on until this goes. Who watches the server hears of it once, however often
+// it is tried again and by how many workers.
+class StorageAlarm {
+public:
+    explicit StorageAlarm(const Workplace& place) : place_(place) {}
+    ~StorageAlarm() {
+        if (begun_ && place_.board.end_storage_fault() && !place_.board.stopping())
+            place_.say("the state folder can be written again: jobs go on");
+    }
+    StorageAlarm(const StorageAlarm&) = delete;
+    StorageAlarm& operator=(const StorageAlarm&) = delete;
+
+    void begin(const std::string& why) {
+        if (!begun_ && place_.board.begin_storage_fault())
+            place_.say("the state folder cannot be written, jobs wait until it can: " + why);
+        begun_ = true;
+    }
+
+private:
+    const Workplace& place_;
+    bool begun_ = false;
+};
+
+// Waits longer and longer, until the server stops.
+class Patience {
+public:
+    void wait(const JobBoard& board) {
+        board.pause(next_);
+        next_ = std::min(next_ * 2, longest_wait);
+    }
+
+private:
+    std::chrono::milliseconds next_ = first_wait;
+};
+
+// Repeats what the storage does not let through, as a full disk. Nothing: the server stops; the next one finds the job
+// as it is.
 template <class Body>
 auto persist(const Workplace& place, const Body& body) -> std::optional<std::decay_t<decltype(body())>> {
-    for (;;) {
+    StorageAlarm alarm(place);
+    for (Patience patience;;) {
         try {
             return body();
-        } catch (const Error&) {
+        } catch (const std::exception& error) {
             if (place.board.stopping()) return std::nullopt;
-            place.board.pause(before_next_try);
+            alarm.begin(error.what());
+            patience.wait(place.board);
         }
     }
+}
+
+// Until there is room for what the job had written and more, it waits no longer, or the server stops.
+void wait_for_room(const Workplace& place, const StoredJob& job, const Waits& waits, Patience& patience) {
+    StorageAlarm alarm(place);
+    alarm.begin(job.id + ": " + waits.why);
+    const auto in_queue = [&] {
+        try {
+            const std::optional<StoredJob> now = place.store.find(job.id);
+            return now && now->state == job_states::queued;
+        } catch (const Error&) {
+            return true;
+        }
+    };
+    do {
+        patience.wait(place.board);
+    } while (!place.board.stopping() && in_queue() && !has_room(place.folders.work, waits.bytes + least_room));
 }
 
 void write_scenario(const fs::path& work, const std::string& text) {
@@ -80,6 +142,8 @@ public:
             fault->where = hide(fault->where, place_.hidden);
             fault->message = hide(fault->message, place_.hidden);
             fault_ = std::move(*fault);
+        } else if (auto* storage = std::get_if<StorageFault>(&heard)) {
+            storage_ = std::move(*storage);
         }
     }
 
@@ -96,12 +160,14 @@ public:
     }
 
     const std::optional<JobFault>& fault() const { return fault_; }
+    const std::optional<StorageFault>& storage_fault() const { return storage_; }
 
 private:
     const Workplace& place_;
     JobBoard::Run& run_;
     std::optional<JobProgress> latest_;
     std::optional<JobFault> fault_;
+    std::optional<StorageFault> storage_;
     Clock::time_point next_{};
 };
 
@@ -123,6 +189,30 @@ Verdict judge(const Workplace& place, const StoredJob& job, const JobBoard::Run&
     return fault_of_end(report, place.limits);
 }
 
+// What a job's process cannot do on a disk that takes nothing is not its fault, whatever it says.
+std::optional<Waits> storage_fault(const Workplace& place, const Verdict& verdict, const ChildReport& report,
+                                   const Listener& listener, const fs::path& work) {
+    const auto* again = std::get_if<Again>(&verdict);
+    const bool by_itself = report.end == ChildEnd::exited || report.end == ChildEnd::signalled;
+    if (!by_itself || !(std::holds_alternative<JobFault>(verdict) || (again && !again->uncounted))) return std::nullopt;
+    if (const auto& fault = listener.storage_fault()) return Waits{fault->message, bytes_in(work) + fault->bytes};
+    if (has_room(place.folders.work, least_room)) return std::nullopt;
+    return Waits{"nothing can be written to " + place.folders.work.string(), bytes_in(work)};
+}
+
+// All that makes the row of a job anew, beside its results, before these get their place.
+void keep_record(const Workplace& place, const StoredJob& job, bool kept, const std::string& scenario,
+                 const fs::path& work) {
+    KeptJob record{job, scenario, "", ""};
+    record.job.kept = kept;
+    record.job.ended = now_utc();
+    if (const auto key = place.store.key_of(job.id)) {
+        record.idempotency_key = key->key;
+        record.request = key->request;
+    }
+    write_record(work, record);
+}
+
 Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run, const fs::path& work) {
     const std::optional<std::string> scenario = place.store.scenario(job.id);
     if (!scenario) return Cancelled{};  // and removed
@@ -136,10 +226,18 @@ Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run
             return place.board.is_cancelled(run) || place.board.past_deadline();
         });
     Verdict verdict = judge(place, job, run, work, report, listener.fault());
+    if (auto waits = storage_fault(place, verdict, report, listener, work)) return std::move(*waits);
     if (const auto* success = std::get_if<Success>(&verdict)) {
-        fs::remove(work / "scenario.json");  // the store has it
+        remove_folder(work / "scenario.json");  // it is in the record
+        // Hours of work are not done again for want of a few bytes.
+        const auto state = persist(place, [&] {
+            keep_record(place, job, success->kept, *scenario, work);
+            const std::optional<StoredJob> now = place.store.find(job.id);
+            return now ? now->state : std::string();
+        });
+        if (!state) return Again{true};
+        if (*state != job_states::running) return Cancelled{};
         // From here on whoever finds the folder in its place knows all that is to know of the job.
-        if (!place.store.note_kept(job.id, success->kept)) return Cancelled{};
         publish(place.folders, work, job.id);
     }
     return verdict;
@@ -149,74 +247,67 @@ std::optional<std::uint64_t> settle(const Workplace& place, const StoredJob& job
     if (const auto* success = std::get_if<Success>(&verdict))
         return place.store.end_running(job.id, {job_states::succeeded, now_utc(), success->kept, {}});
     if (const auto* again = std::get_if<Again>(&verdict)) return place.store.requeue_running(job.id, again->uncounted);
+    if (std::holds_alternative<Waits>(verdict)) return place.store.requeue_running(job.id, true);
     if (const auto* fault = std::get_if<JobFault>(&verdict))
         return place.store.end_running(
             job.id, {job_states::failed, now_utc(), {}, StoredFault{fault->code, fault->where, fault->message}});
     return std::nullopt;
 }
 
-void run_one(const Workplace& place, const StoredJob& job) {
-    const auto run = place.board.begin(job.id);
-    place.board.announce(job.revision, true);
-    const fs::path work = place.folders.work / fmt::format("{}-{}", job.id, job.attempts);
-    Verdict verdict = Cancelled{};
+// Results that got their place in a run whose last step failed.
+std::optional<Verdict> finished_before(const Workplace& place, const StoredJob& job) {
+    if (!is_published(place.folders, job.id)) return std::nullopt;
+    const auto kept = read_record(place.folders.jobs / job.id, job.id);
+    return kept ? std::optional<Verdict>(Success{kept->job.kept.value_or(true)}) : std::nullopt;
+}
+
+Verdict attempt(const Workplace& place, const StoredJob& job, JobBoard::Run& run, const fs::path& work) {
     try {
         // A cancellation between the claim and the begin found nobody to tell.
         const std::optional<StoredJob> now = place.store.find(job.id);
-        if (now && now->state == job_states::running) {
-            make_work_folder(work);
-            verdict = execute(place, job, *run, work);
-        }
+        if (!now || now->state != job_states::running) return Cancelled{};
+        if (auto done = finished_before(place, job)) return std::move(*done);
+        make_work_folder(work);
+        return execute(place, job, run, work);
     } catch (const Error& error) {
-        verdict = JobFault{static_cast<int>(error.code()), "", hide(error.message(), place.hidden)};
+        if (error.code() == ErrorCode::io) return Waits{error.what(), bytes_in(work)};
+        return JobFault{static_cast<int>(error.code()), "", hide(error.message(), place.hidden)};
     } catch (const std::exception&) {
-        verdict = JobFault{static_cast<int>(ErrorCode::internal), "", "the job could not be run"};
+        return JobFault{static_cast<int>(ErrorCode::internal), "", "the job could not be run"};
     }
+}
+
+// What the job waits for, where it does.
+std::optional<Waits> run_one(const Workplace& place, const StoredJob& job) {
+    const auto run = place.board.begin(job.id);
+    place.board.announce(job.revision, true);
+    const fs::path work = attempt_folder(place.folders, job.id, job.attempts);
+    const Verdict verdict = attempt(place, job, *run, work);
+    remove_folder(work);  // first, for it may be what fills the disk
     const auto revision = persist(place, [&] { return settle(place, job, verdict); });
-    const bool succeeded = std::holds_alternative<Success>(verdict);
-    // Cancelled at the last moment, or its results got their place and then a fault came.
-    if (revision && (!*revision || !succeeded)) remove_folder(place.folders.jobs / job.id);
+    const auto* waits = std::get_if<Waits>(&verdict);
+    // Cancelled at the last moment.
+    if (revision && !*revision) discard_results(place.folders, job.id);
     place.board.end(run);
-    remove_folder(work);
     if (revision && *revision) place.board.announce(**revision, true);
+    return waits && revision && *revision ? std::optional(*waits) : std::nullopt;
 }
 
 }  // namespace
 
 void run_jobs(const Workplace& place) {
+    Patience patience;
     while (!place.board.stopping()) {
         const std::uint64_t seen = place.board.work();
         const auto job = persist(place, [&] { return place.store.claim(now_utc()); });
-        if (job && *job)
-            run_one(place, **job);
-        else
+        if (!job || !*job) {
             place.board.wait_for_work(seen);
-    }
-}
-
-void recover_running(const Workplace& place) {
-    for (const StoredJob& job : place.store.list(job_states::running, INT32_MAX, 0)) {
-        if (job.kept && is_published(place.folders, job.id)) {
-            place.store.end_running(job.id, {job_states::succeeded, now_utc(), job.kept, {}});
-        } else if (job.attempts >= place.limits.attempts) {
-            const StoredFault fault{
-                static_cast<int>(ErrorCode::internal), "",
-                fmt::format("the server died during this job's run, the last of {} that it may have", job.attempts)};
-            place.store.end_running(job.id, {job_states::failed, now_utc(), {}, fault});
+        } else if (const auto waits = run_one(place, **job)) {
+            wait_for_room(place, **job, *waits, patience);
         } else {
-            place.store.requeue_running(job.id, false);
+            patience = {};
         }
     }
-}
-
-std::string now_utc() {
-    std::timespec now{};
-    std::timespec_get(&now, TIME_UTC);
-    std::tm parts{};
-    gmtime_r(&now.tv_sec, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &parts);
-    return fmt::format("{}.{:03}Z", text, now.tv_nsec / 1000000);
 }
 
 }  // namespace shadowbench::service

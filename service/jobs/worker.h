@@ -7,6 +7,7 @@
 #include "service/jobs/fault.h"
 #include "service/jobs/folders.h"
 #include "service/jobs/jobs.h"
+#include "service/jobs/state_folder.h"
 #include "service/store/job_store.h"
 
 namespace shadowbench::service {
@@ -19,15 +20,12 @@ struct Workplace {
     std::vector<std::string> data;
     JobLimits limits;
     std::vector<HiddenFolder> hidden;
+    Say say;
 };
 
 // Takes the jobs from the queue, one after the other, and runs each to its end; returns once the board stops. Throws
-// nothing: while the store cannot be written, it tries again.
+// nothing: where the server's own storage fails, be it the store or the folders, the job keeps its place in the queue
+// and that run is not counted; it is tried again, less and less often, until there is room.
 void run_jobs(const Workplace& place);
-
-// What to do about a job that ran when its server died.
-void recover_running(const Workplace& place);
-
-std::string now_utc();  // ISO 8601 with milliseconds
 
 }  // namespace shadowbench::service

@@ -3,6 +3,7 @@
 #include <sqlite3.h>
 
 #include "base/error.h"
+#include "service/store/damaged_store.h"
 
 namespace shadowbench::service::sqlite {
 namespace {
@@ -20,9 +21,8 @@ bool has_tables(Database& database) {
 }
 
 void check_whole(Database& database) {
-    Rows rows(database, "PRAGMA quick_check(1)");
-    if (!rows.next() || rows.text(0) != "ok")
-        database.fail("the database is damaged; put back a copy, or move the state folder away to start anew");
+    Rows rows(database, "PRAGMA integrity_check(1)");
+    if (!rows.next() || rows.text(0) != "ok") database.fail_damaged("the database is damaged");
 }
 
 void write_ahead(Database& database) {
@@ -71,6 +71,11 @@ void Database::fail(const std::string& message) const {
     throw base::Error(base::ErrorCode::io, place_, message);
 }
 
+void Database::fail_damaged(const std::string& what) const {
+    throw DamagedStore(base::ErrorCode::io, place_,
+                       what + "; the next start sets it aside and makes a new one from the results");
+}
+
 void Database::check(int code) const {
     switch (code) {
         case SQLITE_OK:
@@ -78,9 +83,9 @@ void Database::check(int code) const {
         case SQLITE_DONE:
             return;
         case SQLITE_NOTADB:
-            fail("this is no database; use another folder, or move the file away to start anew");
+            fail_damaged("this is no database");
         case SQLITE_CORRUPT:
-            fail("the database is damaged; put back a copy, or move the state folder away to start anew");
+            fail_damaged("the database is damaged");
         default:
             fail(std::string("the database cannot be used: ") +
                  (handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code)));

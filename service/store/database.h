@@ -15,7 +15,8 @@ struct sqlite3_stmt;
 
 namespace shadowbench::service::sqlite {
 
-// One connection; whoever shares it between threads locks. Every fault is a base::Error{io} whose place is the file.
+// One connection; whoever shares it between threads locks. Every fault is a base::Error{io} whose place is the file; of
+// a broken file a DamagedStore.
 class Database {
 public:
     enum class Access { write, read };
@@ -30,6 +31,7 @@ public:
     void execute(const std::string& sql);  // several statements, without values
     std::int64_t changes() const;          // rows that the last statement changed
     [[noreturn]] void fail(const std::string& message) const;
+    [[noreturn]] void fail_damaged(const std::string& what) const;
 
 private:
     friend class Rows;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "service/store/database.h"
+#include "service/store/store_kind.h"
 
 namespace shadowbench::service {
 namespace {
@@ -11,7 +12,6 @@ namespace {
 using Outcome = JobStore::Added::Outcome;
 using sqlite::Database, sqlite::Rows, sqlite::Transaction, sqlite::Value, sqlite::run;
 
-constexpr std::int32_t application = 0x73626a31;  // "sbj1"
 constexpr std::int64_t schema_version = 1;
 
 // Sequence numbers are never used again: cursors and the queue rely on their order.
@@ -32,6 +32,10 @@ CREATE TABLE counter (revision INTEGER NOT NULL) STRICT;
 INSERT INTO counter VALUES (0);
 PRAGMA user_version = 1;
 )";
+
+constexpr const char* job_columns =
+    "sequence, id, state, name, hash, seed, program, pictures, cached, created, started, ended, attempts, kept, "
+    "fault_code, fault_where, fault_message, revision, scenario";
 
 // Revisions are taken from the file so many at a time: those of progress, which no disk keeps, cost no write each.
 constexpr std::uint64_t revisions_at_once = 1000;
@@ -117,6 +121,13 @@ constexpr std::string_view end_sql =
     "UPDATE jobs SET state = ?1, ended = ?2, kept = ?3, fault_code = ?4, fault_where = ?5, fault_message = ?6, "
     "revision = ?7 WHERE id = ?8 AND state IN (?9, ?10)";
 
+constexpr std::string_view adopt_sql =
+    "INSERT INTO jobs (id, state, name, hash, seed, program, pictures, cached, created, started, ended, attempts, "
+    "kept, "
+    "revision, scenario) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15) "
+    "ON CONFLICT (id) DO UPDATE SET state = ?2, started = ?10, ended = ?11, attempts = ?12, kept = ?13, revision = ?14 "
+    "WHERE state IN (?16, ?17)";
+
 std::optional<std::uint64_t> end_job(Database& database, const std::string& id, const Ending& ending,
                                      std::uint64_t revision, const char* also) {
     const auto& fault = ending.fault;
@@ -128,13 +139,25 @@ std::optional<std::uint64_t> end_job(Database& database, const std::string& id, 
     return changed == 1 ? std::optional(revision) : std::nullopt;
 }
 
+void check_tables(Database& database) {
+    for (const auto& [table, columns] :
+         {std::pair("jobs", job_columns), std::pair("keys", "key, request, job"), std::pair("counter", "revision")}) {
+        Rows rows(database, "SELECT group_concat(name, ', ') FROM pragma_table_info(?)", {std::string_view(table)});
+        if (!rows.next() || rows.text(0) != columns)
+            database.fail_damaged(std::string("the database lacks its table ") + table);
+    }
+}
+
 void make_schema(Database& database) {
     std::int64_t version = 0;
     {
         Rows rows(database, "PRAGMA user_version");
         if (rows.next()) version = rows.integer(0);
     }
-    if (version == schema_version) return;
+    if (version == schema_version) {
+        check_tables(database);
+        return;
+    }
     if (version != 0)
         database.fail("a newer shadowbench wrote this database; run that one, or use another folder for the state");
     Transaction all(database);
@@ -145,10 +168,10 @@ void make_schema(Database& database) {
 }  // namespace
 
 struct JobStore::State {
-    explicit State(const std::filesystem::path& file) : writer(file, Database::Access::write, application) {
+    explicit State(const std::filesystem::path& file) : writer(file, Database::Access::write, store_application) {
         make_schema(writer);
         Rows rows(writer, "SELECT revision FROM counter");
-        if (!rows.next()) writer.fail("the database is damaged: it counts no revisions");
+        if (!rows.next()) writer.fail_damaged("the database is damaged: it counts no revisions");
         last = reserved = static_cast<std::uint64_t>(rows.integer(0));
     }
 
@@ -182,7 +205,7 @@ struct JobStore::State {
 };
 
 JobStore::JobStore(const std::filesystem::path& file) : state_(std::make_unique<State>(file)) {
-    state_->reader.emplace(file, Database::Access::read, application);
+    state_->reader.emplace(file, Database::Access::read, store_application);
 }
 
 JobStore::~JobStore() = default;
@@ -250,16 +273,27 @@ std::optional<std::uint64_t> JobStore::requeue_running(const std::string& id, bo
     });
 }
 
-bool JobStore::note_kept(const std::string& id, bool kept) {
-    return state_->write([&] {
-        return run(state_->writer, "UPDATE jobs SET kept = ? WHERE id = ? AND state = ?",
-                   {std::int64_t{kept}, id, job_states::running}) == 1;
-    });
-}
-
 bool JobStore::remove(const std::string& id) {
     return state_->write([&] {
         return run(state_->writer, "DELETE FROM jobs WHERE id = ? AND state <> ?", {id, job_states::running}) == 1;
+    });
+}
+
+void JobStore::adopt(const std::vector<KeptJob>& jobs) {
+    Database& database = state_->writer;
+    state_->write([&] {
+        for (const auto& [job, scenario, key, request] : jobs) {
+            run(database, adopt_sql,
+                {job.id, job_states::succeeded, job.name, job.key.hash, value(job.key.seed), job.key.program,
+                 std::int64_t{job.key.pictures}, std::int64_t{job.cached}, job.created, job.started, job.ended,
+                 std::int64_t{job.attempts}, value(job.kept), value(state_->take_revision()), scenario,
+                 job_states::queued, job_states::running});
+            if (!key.empty())
+                run(database,
+                    "INSERT OR IGNORE INTO keys (key, request, job) SELECT ?, ?, sequence FROM jobs WHERE id = ?",
+                    {key, request, job.id});
+        }
+        return true;
     });
 }
 
@@ -272,6 +306,13 @@ std::optional<std::string> JobStore::scenario(const std::string& id) const {
     const std::scoped_lock lock(state_->read_mutex);
     Rows rows(*state_->reader, "SELECT scenario FROM jobs WHERE id = ?", {id});
     return rows.next() ? std::optional(rows.text(0)) : std::nullopt;
+}
+
+std::optional<JobStore::Key> JobStore::key_of(const std::string& id) const {
+    const std::scoped_lock lock(state_->read_mutex);
+    Rows rows(*state_->reader, "SELECT key, request FROM keys JOIN jobs ON jobs.sequence = keys.job WHERE id = ?",
+              {id});
+    return rows.next() ? std::optional(Key{rows.text(0), rows.text(1)}) : std::nullopt;
 }
 
 std::vector<StoredJob> JobStore::list(const std::string& state, std::size_t limit, std::int64_t before) const {

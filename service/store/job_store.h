@@ -1,6 +1,6 @@
 // The jobs that a server has accepted, in one SQLite file. A call that changes something returns once the change is on
 // the disk. Every call may come from any thread: changes go one after the other, and readers do not wait for the disk.
-// Each throws base::Error{io}.
+// Each throws base::Error{io}; DamagedStore where the file is broken.
 #pragma once
 
 #include <cstddef>
@@ -53,6 +53,12 @@ struct NewJob {
     std::optional<bool> kept;              // given: it has ended already, with the result of another
 };
 
+// A job that has succeeded, with all that the store knows of it. job: neither sequence, revision nor ahead are used.
+struct KeptJob {
+    StoredJob job;
+    std::string scenario, idempotency_key, request;
+};
+
 struct Ending {
     std::string state, ended;
     std::optional<bool> kept;
@@ -61,7 +67,7 @@ struct Ending {
 
 class JobStore {
 public:
-    // Makes the file, or checks that it is whole and of a known version.
+    // Makes the file, or checks that it is whole, ours and of a known version.
     explicit JobStore(const std::filesystem::path& file);
     ~JobStore();
     JobStore(const JobStore&) = delete;
@@ -85,12 +91,19 @@ public:
     std::optional<std::uint64_t> end_waiting(const std::string& id, const Ending& ending);  // queued or running
     // uncounted: the attempt is not one of those that it may have.
     std::optional<std::uint64_t> requeue_running(const std::string& id, bool uncounted);
-    bool note_kept(const std::string& id, bool kept);  // of a running job, before its results get their place
 
     bool remove(const std::string& id);  // one that does not run
 
+    // Takes jobs in whose results lie in their place, all of them or none: those that the store does not have, and
+    // those that it has as queued or running. A key that another job has stays with that one.
+    void adopt(const std::vector<KeptJob>& jobs);
+
     std::optional<StoredJob> find(const std::string& id) const;
     std::optional<std::string> scenario(const std::string& id) const;
+    struct Key {
+        std::string key, request;
+    };
+    std::optional<Key> key_of(const std::string& id) const;  // that the job came with, if any
     // Newest first, older than `before` (0: from the newest); state empty: any.
     std::vector<StoredJob> list(const std::string& state, std::size_t limit, std::int64_t before) const;
     std::size_t count(const std::string& state) const;

@@ -31,7 +31,7 @@ void add_picture(json& pictures, const fs::path& folder, const std::string& name
     const fs::path file = folder / name;
     // A name, not a path; and no link, which could lead to any file.
     if (fs::path(name).filename() != name || fs::symlink_status(file).type() != fs::file_type::regular) return;
-    if (file.extension() == ".png") pictures[name] = "data:image/png;base64," + base64(base::read_text(file));
+    if (file.extension() == ".png") pictures[name] = "data:image/png;base64," + base64(base::read_bytes(file));
 }
 
 void add_pictures(json& pictures, const fs::path& folder, const json& of) {

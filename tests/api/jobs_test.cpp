@@ -2,7 +2,8 @@
 #include <set>
 
 #include "api/fixture.h"
-#include "bench/document.h"
+#include "base/hash_text.h"
+#include "document/document.h"
 
 namespace shadowbench::service {
 namespace {
@@ -19,7 +20,7 @@ TEST_F(JobsApi, TakesAScenarioAndTellsWhereItsJobIs) {
     EXPECT_EQ(job["state"], "queued");
     EXPECT_EQ(job["name"], "tiny");
     EXPECT_EQ(job["seed"], 5);
-    EXPECT_EQ(job["scenario_hash"], bench::hash_text(tiny_scenario().dump()));
+    EXPECT_EQ(job["scenario_hash"], base::hash_text(tiny_scenario().dump()));
     EXPECT_EQ(job["position"], 0);
     EXPECT_TRUE(job["progress"].is_null());
     const JobRequest request = fake::last_request(*jobs_);
@@ -159,6 +160,19 @@ TEST_F(JobsApi, TakesNothingWhileItStops) {
     EXPECT_TRUE(response.header("Retry-After"));
     EXPECT_EQ(answer(request("GET", "/readyz")).status, 503);
     EXPECT_EQ(answer(request("GET", "/healthz")).status, 200);
+}
+
+TEST_F(JobsApi, IsNotReadyWhileItsStorageFails) {
+    EXPECT_NE(answer(request("GET", "/metrics")).body.find("shadowbench_storage_failing 0"), std::string::npos);
+    fake::fail_storage(*jobs_, true);
+    const ApiResponse response = answer(request("GET", "/readyz"));
+    EXPECT_EQ(response.status, 503);
+    EXPECT_NE(response.body.find("storage"), std::string::npos) << response.body;
+    EXPECT_TRUE(response.header("Retry-After"));
+    EXPECT_EQ(answer(request("GET", "/healthz")).status, 200);
+    EXPECT_NE(answer(request("GET", "/metrics")).body.find("shadowbench_storage_failing 1"), std::string::npos);
+    fake::fail_storage(*jobs_, false);
+    EXPECT_EQ(answer(request("GET", "/readyz")).status, 200);
 }
 
 TEST_F(JobsApi, ExaminesTheSameScenarioOnce) {

@@ -8,7 +8,7 @@
 
 #include "api/fixture.h"
 #include "base/error.h"
-#include "bench/document.h"
+#include "document/document.h"
 #include "service/api/openapi_text.h"
 #include "techniques/technique.h"
 
@@ -20,6 +20,14 @@ struct RoutesApi : ApiTest {};
 std::string documented_path(std::string pattern) {
     if (const std::size_t dots = pattern.find("..."); dots != std::string::npos) pattern.erase(dots, 3);
     return pattern;
+}
+
+TEST(Routes, AParameterThatAPatternDoesNotHaveIsAFaultOfTheProgram) {
+    const ApiRequest request{};
+    const PathParameters path{{"id", "7"}};
+    const Call call{request, path};
+    EXPECT_EQ(call.parameter("id"), "7");
+    EXPECT_THROW(call.parameter("name"), base::Error);
 }
 
 TEST(OpenApi, HasEveryRouteAndNoOther) {
@@ -181,7 +189,7 @@ TEST_F(RoutesApi, GiveScenariosThatAreTaken) {
 }
 
 TEST_F(RoutesApi, GiveTheSchemaAndThisDescription) {
-    EXPECT_EQ(json(request("GET", "/v1/schema"), 200), bench::full_schema());
+    EXPECT_EQ(json(request("GET", "/v1/schema"), 200), document::full_schema());
     EXPECT_EQ(json(request("GET", "/openapi.json"), 200), nlohmann::json::parse(openapi_text()));
     const ApiResponse schema = answer(request("GET", "/v1/schema"));
     EXPECT_EQ(answer(request("GET", "/v1/schema", {{"if-none-match", *schema.header("ETag")}})).status, 304);

@@ -22,6 +22,31 @@ TEST(ReadText, EveryByteComesBack) {
     std::filesystem::remove(file);
 }
 
+TEST(ReadText, TextComesWithoutTheMarkThatEditorsWrite) {
+    const auto file = folder / ("read_text_mark_" + std::to_string(getpid()));
+    std::ofstream(file, std::ios::binary) << "\xef\xbb\xbf"
+                                             "text";
+    EXPECT_EQ(read_text(file), "text");
+    EXPECT_EQ(read_bytes(file),
+              "\xef\xbb\xbf"
+              "text");
+    std::filesystem::remove(file);
+}
+
+TEST(ReadText, OtherEncodingsAreRefused) {
+    const auto file = folder / ("read_text_utf16_" + std::to_string(getpid()));
+    std::ofstream(file, std::ios::binary) << std::string("\xff\xfet\0e\0", 6);
+    try {
+        read_text(file);
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::bad_input);
+        EXPECT_EQ(error.where(), file.string());
+        EXPECT_NE(error.message().find("UTF-8"), std::string::npos);
+    }
+    std::filesystem::remove(file);
+}
+
 TEST(ReadText, FoldersAndMissingFilesAreToldApart) {
     const auto code = [](const std::filesystem::path& file) {
         try {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
+
 namespace shadowbench::base {
 namespace {
 
@@ -17,6 +19,20 @@ TEST(Utf8, RefusesWhatIsNoCharacter) {
          {"\x80", "\xbf", "\xc0\x80", "\xc1\xbf", "\xc2", "\xc2z", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xe2\x82",
           "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xf0\x9f\x98", "\xff", "ok\xfe"})
         EXPECT_FALSE(is_utf8(text)) << testing::PrintToString(text);
+}
+
+TEST(Utf8, TakesOneMarkOffTheFrontAlone) {
+    const std::string mark = "\xef\xbb\xbf";
+    EXPECT_EQ(without_mark(mark + "v" + mark, ""), "v" + mark);
+    EXPECT_EQ(without_mark("v" + mark, ""), "v" + mark);
+    EXPECT_EQ(without_mark(mark, ""), "");
+    EXPECT_EQ(without_mark("\xef\xbb", ""), "\xef\xbb");
+}
+
+TEST(Utf8, RefusesMarksOfWiderCharacters) {
+    for (const std::string& text : {std::string("\xff\xfe"), std::string("\xfe\xff\0v", 4),
+                                    std::string("\xff\xfe\0\0", 4), std::string("\0\0\xfe\xff", 4)})
+        EXPECT_THROW(without_mark(text, "place"), Error) << testing::PrintToString(text);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/document.h"
 #include "bench/run.h"
+#include "document/document.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 // One light's cells in this order: deep at two tolerances, avsm of 4, 8 and 16 nodes, uncompressed, ray_traced.
-LightResult measure(const std::string& name, const std::vector<std::string>& assignments) {
+results::LightResult measure(const std::string& name, const std::vector<std::string>& assignments) {
     const std::filesystem::path top = SHADOWBENCH_SOURCE_DIR;
     std::ifstream file(top / "scenarios" / (name + ".json"));
     json document = json::parse(file);
@@ -28,17 +28,18 @@ LightResult measure(const std::string& name, const std::vector<std::string>& ass
         {"type": "uncompressed"}, {"type": "ray_traced", "samples": 256}])");
     for (const char* assignment : {"timing.repetitions=1", "timing.lookups=64", "reference.queries=256",
                                    "reference.samples_per_pixel=256", "reference.spread_seeds=0"})
-        set_value(document, assignment);
-    for (const std::string& assignment : assignments) set_value(document, assignment);
+        document::set_value(document, assignment);
+    for (const std::string& assignment : assignments) document::set_value(document, assignment);
     RunOptions options;
     if (const char* data = std::getenv("SHADOWBENCH_DATA")) options.data.folders.emplace_back(data);
     options.data.folders.push_back(top / ".." / "shared" / "data");
     return run(document, options, {}).variants.at(0).lights.at(0);
 }
 
-void check_promises(const LightResult& light) {
+void check_promises(const results::LightResult& light) {
     ASSERT_EQ(light.cells.size(), 7u);
-    for (const Cell& cell : light.cells) EXPECT_EQ(cell.status, CellStatus::ok) << cell.technique << cell.reason;
+    for (const results::Cell& cell : light.cells)
+        EXPECT_EQ(cell.status, results::CellStatus::ok) << cell.technique << cell.reason;
     ASSERT_TRUE(light.agreement);
     EXPECT_LE(light.agreement->other_crossings, 3u);
 

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "bench/errors.h"
 #include "bench/fake_map.h"
 #include "bench/half_covered.h"
 #include "bench/memory.h"
 #include "curves/sweep.h"
+#include "errors.h"
 #include "rays/scenes.h"
 
 namespace shadowbench::bench {
@@ -20,7 +20,7 @@ namespace {
 // A fake technique on the half covered map with the layer over all of it, so that every pixel has the same function.
 class Contenders : public ::testing::Test {
 protected:
-    Cell judge(const FakeAnswers& answers) {
+    results::Cell judge(const FakeAnswers& answers) {
         fake_answers = answers;
         std::vector<Contender> contenders(1);
         contenders[0].row = &fake_technique();
@@ -41,8 +41,8 @@ protected:
 };
 
 TEST_F(Contenders, that_tell_the_truth_are_ok) {
-    const Cell cell = judge({.function = true_function_, .lookup = 0.45f});
-    EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+    const results::Cell cell = judge({.function = true_function_, .lookup = 0.45f});
+    EXPECT_EQ(cell.status, results::CellStatus::ok) << cell.reason;
     ASSERT_TRUE(cell.curve && cell.lookup);
     EXPECT_EQ(cell.curve->cells, 64u);
     EXPECT_NEAR(cell.curve->norms.max, 0.0, 1e-6);
@@ -55,8 +55,8 @@ TEST_F(Contenders, that_tell_the_truth_are_ok) {
 TEST_F(Contenders, within_their_promised_error_are_ok) {
     curves::Curve near = true_function_;
     near[1].value = near[2].value = 0.392f;
-    const Cell cell = judge({.function = near, .lookup = 0.4f});
-    EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+    const results::Cell cell = judge({.function = near, .lookup = 0.4f});
+    EXPECT_EQ(cell.status, results::CellStatus::ok) << cell.reason;
     EXPECT_NEAR(cell.curve->norms.rms, 0.008, 1e-6);
     EXPECT_NEAR(cell.curve->mean_l1, 0.016, 1e-5);
 }
@@ -64,8 +64,8 @@ TEST_F(Contenders, within_their_promised_error_are_ok) {
 TEST_F(Contenders, beyond_their_promised_error_fail_with_the_first_pixel) {
     curves::Curve wrong = true_function_;
     wrong[1].value = wrong[2].value = 0.3f;
-    const Cell cell = judge({.function = wrong, .lookup = 0.4f});
-    EXPECT_EQ(cell.status, CellStatus::failed);
+    const results::Cell cell = judge({.function = wrong, .lookup = 0.4f});
+    EXPECT_EQ(cell.status, results::CellStatus::failed);
     EXPECT_NE(cell.reason.find("cell (0, 0)"), std::string::npos) << cell.reason;
     EXPECT_NE(cell.reason.find("0.1"), std::string::npos) << cell.reason;
     ASSERT_TRUE(cell.curve);  // what was measured is still shown
@@ -74,20 +74,20 @@ TEST_F(Contenders, beyond_their_promised_error_fail_with_the_first_pixel) {
 }
 
 TEST_F(Contenders, whose_function_rises_fail) {
-    const Cell cell = judge({.function = {{1.0f, 0.4f}, {2.0f, 0.405f}}});
-    EXPECT_EQ(cell.status, CellStatus::failed);
+    const results::Cell cell = judge({.function = {{1.0f, 0.4f}, {2.0f, 0.405f}}});
+    EXPECT_EQ(cell.status, results::CellStatus::failed);
     EXPECT_NE(cell.reason.find("rises"), std::string::npos) << cell.reason;
 }
 
 TEST_F(Contenders, whose_function_leaves_the_unit_range_fail) {
-    const Cell cell = judge({.function = {{1.0f, 1.0f}, {2.0f, -0.001f}}});
+    const results::Cell cell = judge({.function = {{1.0f, 1.0f}, {2.0f, -0.001f}}});
     EXPECT_NE(cell.reason.find("outside [0, 1]"), std::string::npos) << cell.reason;
 }
 
 TEST_F(Contenders, that_answer_no_number_fail) {
     for (const float answer : {std::numeric_limits<float>::quiet_NaN(), 1.5f, -0.1f}) {
-        const Cell cell = judge({.function = true_function_, .lookup = answer});
-        EXPECT_EQ(cell.status, CellStatus::failed) << answer;
+        const results::Cell cell = judge({.function = true_function_, .lookup = answer});
+        EXPECT_EQ(cell.status, results::CellStatus::failed) << answer;
         EXPECT_NE(cell.reason.find("lookup"), std::string::npos) << cell.reason;
     }
 }
@@ -96,14 +96,14 @@ TEST_F(Contenders, whose_values_promise_no_range_may_leave_it) {
     const FakeAnswers raw{.function = {{1.0f, 1.0f}, {1.0f, 1.005f}, {1.0f, 0.4f}, {3.0f, 0.4f}, {3.0f, 0.0f}},
                           .lookup = 1.2f,
                           .promises = {.monotone = false, .unit_range = false}};
-    const Cell cell = judge(raw);
-    EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+    const results::Cell cell = judge(raw);
+    EXPECT_EQ(cell.status, results::CellStatus::ok) << cell.reason;
     ASSERT_TRUE(cell.lookup);
     EXPECT_NEAR(cell.lookup->norms.max, 0.8, 1e-6);
     EXPECT_NEAR(cell.curve->rise, 0.005, 1e-6);
     FakeAnswers infinite = raw;
     infinite.lookup = std::numeric_limits<float>::infinity();
-    EXPECT_EQ(judge(infinite).status, CellStatus::failed);
+    EXPECT_EQ(judge(infinite).status, results::CellStatus::failed);
 }
 
 // A series or slices are off between, which they may be, but not before and behind all.
@@ -112,16 +112,16 @@ TEST_F(Contenders, that_promise_the_ends_alone_fail_where_those_are_wrong) {
     const auto with = [&](curves::Curve function) {
         return judge({.function = std::move(function), .lookup = 0.4f, .promises = ends});
     };
-    const Cell right = with({{1.0f, 1.0f}, {1.0f, 0.4f}, {3.0f, 0.395f}, {3.0f, 0.0039f}});
-    EXPECT_EQ(right.status, CellStatus::ok) << right.reason;
-    const Cell leaks = with({{1.0f, 1.0f}, {1.0f, 0.4f}, {3.0f, 0.395f}, {3.0f, 0.0041f}});
-    EXPECT_EQ(leaks.status, CellStatus::failed);
+    const results::Cell right = with({{1.0f, 1.0f}, {1.0f, 0.4f}, {3.0f, 0.395f}, {3.0f, 0.0039f}});
+    EXPECT_EQ(right.status, results::CellStatus::ok) << right.reason;
+    const results::Cell leaks = with({{1.0f, 1.0f}, {1.0f, 0.4f}, {3.0f, 0.395f}, {3.0f, 0.0041f}});
+    EXPECT_EQ(leaks.status, results::CellStatus::failed);
     EXPECT_NE(leaks.reason.find("behind all that casts shadows it is 0.0041 instead of 0"), std::string::npos)
         << leaks.reason;
-    const Cell dark = with({{1.0f, 0.995f}, {1.0f, 0.4f}, {3.0f, 0.4f}, {3.0f, 0.0f}});
+    const results::Cell dark = with({{1.0f, 0.995f}, {1.0f, 0.4f}, {3.0f, 0.4f}, {3.0f, 0.0f}});
     EXPECT_NE(dark.reason.find("before all that casts shadows it is 0.995 instead of 1"), std::string::npos)
         << dark.reason;
-    EXPECT_EQ(with({}).status, CellStatus::failed) << "a function that is lit everywhere";
+    EXPECT_EQ(with({}).status, results::CellStatus::failed) << "a function that is lit everywhere";
 }
 
 TEST_F(Contenders, that_may_be_dark_early_are_held_to_what_is_behind) {
@@ -142,8 +142,8 @@ TEST_F(Contenders, that_may_be_dark_early_are_held_to_what_is_behind) {
 
 TEST_F(Contenders, that_are_not_lit_where_nothing_casts_a_shadow_fail) {
     std::vector<Contender> contenders(2);
-    contenders[0].cell.lookup = LookupErrors{};
-    contenders[1].cell.lookup = LookupErrors{{1e-3, 0, 0, 0}, 0};
+    contenders[0].cell.lookup = results::LookupErrors{};
+    contenders[1].cell.lookup = results::LookupErrors{{1e-3, 0, 0, 0}, 0};
     check_lit(contenders);
     EXPECT_TRUE(contenders[0].ok());
     EXPECT_FALSE(contenders[1].ok());
@@ -167,9 +167,9 @@ TEST_F(Contenders, that_refuse_the_layout_are_bad_input) {
     contenders[0].row = &fake_technique();
     contenders[0].cell.where = "/techniques/3";
     const techniques::BuildInput input{layout_, half_.view, nullptr};
-    error_of([&] { check_served(contenders, input); }, base::ErrorCode::bad_input, "/techniques/3");
-    error_of([&] { build_all(contenders, source_, input, MemoryLimits{}.all, {}); }, base::ErrorCode::bad_input,
-             "/techniques/3");
+    test::error_of([&] { check_served(contenders, input); }, base::ErrorCode::bad_input, "/techniques/3");
+    test::error_of([&] { build_all(contenders, source_, input, MemoryLimits{}.all, {}); }, base::ErrorCode::bad_input,
+                   "/techniques/3");
 }
 
 TEST_F(Contenders, are_judged_alike_when_the_rays_are_captured_anew) {
@@ -199,13 +199,13 @@ protected:
     curves::Curve function(float stray) const {
         curves::SweepScratch scratch;
         curves::Curve curve;
-        curves::visibility(capture_->tile(0, {}, 0), 0, 4, 0x1p-24, scratch, curve);
+        curves::visibility(capture_->tile(0), 0, 4, 0x1p-24, scratch, curve);
         const float end = curve.back().value, span = 1.0f - end;
         for (curves::Vertex& v : curve) v.value += stray * 4.0f * (1.0f - v.value) * (v.value - end) / (span * span);
         return curve;
     }
 
-    Cell judge(float stray, double error_bound) {
+    results::Cell judge(float stray, double error_bound) {
         fake_answers = {.function = function(stray), .error_bound = error_bound};
         std::vector<Contender> contenders(1);
         contenders[0].row = &fake_technique();
@@ -222,22 +222,22 @@ protected:
 };
 
 TEST_F(ContendersInAMedium, are_held_to_a_promise_far_below_what_lines_cost_a_coarse_reference) {
-    const Cell right = judge(0.0f, 1e-6);
-    EXPECT_EQ(right.status, CellStatus::ok) << right.reason;
+    const results::Cell right = judge(0.0f, 1e-6);
+    EXPECT_EQ(right.status, results::CellStatus::ok) << right.reason;
     ASSERT_TRUE(right.curve);
     EXPECT_EQ(right.curve->cells, 16u);
     EXPECT_LT(right.curve->reference_error, 1e-7);
     EXPECT_LT(right.curve->norms.max, 5e-7);
-    const Cell wrong = judge(1e-5f, 1e-6);
-    EXPECT_EQ(wrong.status, CellStatus::failed);
+    const results::Cell wrong = judge(1e-5f, 1e-6);
+    EXPECT_EQ(wrong.status, results::CellStatus::failed);
     EXPECT_NE(wrong.reason.find("above the promised 1e-06"), std::string::npos) << wrong.reason;
     ASSERT_TRUE(wrong.curve);
     EXPECT_NEAR(wrong.curve->norms.max, 1e-5, 1e-6);
 }
 
 TEST_F(ContendersInAMedium, with_wide_promises_have_the_coarse_reference) {
-    const Cell cell = judge(1e-5f, 0.01);
-    EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+    const results::Cell cell = judge(1e-5f, 0.01);
+    EXPECT_EQ(cell.status, results::CellStatus::ok) << cell.reason;
     ASSERT_TRUE(cell.curve);
     EXPECT_EQ(cell.curve->reference_error, 1e-4);
 }

@@ -1,10 +1,11 @@
 #include "bench/functions.h"
+#include "document/technique_choice.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "bench/errors.h"
+#include "errors.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -13,7 +14,7 @@ using base::ErrorCode;
 using curves::Curve;
 
 std::vector<FunctionResult> measure(const std::vector<Curve>& functions, const char* technique) {
-    const TechniqueChoice choices[] = {read_technique(technique)};
+    const document::TechniqueChoice choices[] = {document::read_technique(technique)};
     return measure_functions(functions, choices, 2);
 }
 
@@ -69,20 +70,20 @@ TEST(MeasureFunctions, tells_how_far_functions_rise_and_leave_their_range) {
 }
 
 TEST(MeasureFunctions, needs_functions) {
-    error_of([] { measure({}, "deep"); }, ErrorCode::bad_input, "");
+    test::error_of([] { measure({}, "deep"); }, ErrorCode::bad_input, "");
 }
 
 TEST(ReadTechnique, reads_names_numbers_and_words) {
-    const TechniqueChoice deep = read_technique("deep:tolerance=0.5");
+    const document::TechniqueChoice deep = document::read_technique("deep:tolerance=0.5");
     EXPECT_STREQ(deep.row->id, "deep");
     EXPECT_EQ(deep.values.number("tolerance"), 0.5);
-    EXPECT_TRUE(read_technique("deep:tolerance=noise").values.is_word("tolerance"));
-    EXPECT_EQ(read_technique("avsm:nodes=4,filter=point").values.integer("nodes"), 4);
+    EXPECT_TRUE(document::read_technique("deep:tolerance=noise").values.is_word("tolerance"));
+    EXPECT_EQ(document::read_technique("avsm:nodes=4,filter=point").values.integer("nodes"), 4);
 }
 
 TEST(ReadTechnique, refuses_what_cannot_be) {
     const auto refuses = [](const std::string& text, const std::string& below) {
-        return error_of([&] { read_technique(text); }, ErrorCode::usage, "--technique " + text + below);
+        return test::error_of([&] { document::read_technique(text); }, ErrorCode::usage, "--technique " + text + below);
     };
     EXPECT_NE(refuses("shallow", "").find("deep"), std::string::npos) << "lists the techniques";
     refuses("deep:tolerance", "");
@@ -94,7 +95,7 @@ TEST(ReadTechnique, refuses_what_cannot_be) {
 
 TEST(ReadTechnique, refuses_values_that_are_no_finite_numbers_and_names_given_twice) {
     const auto refuses = [](const std::string& text, const std::string& below) {
-        error_of([&] { read_any_technique(text); }, ErrorCode::usage, "--technique " + text + below);
+        test::error_of([&] { document::read_any_technique(text); }, ErrorCode::usage, "--technique " + text + below);
     };
     for (const char* value : {"nan", "inf", "1e999", "0x1p-3", "-1e-300", ""})
         refuses(std::string("deep:tolerance=") + value, "/tolerance");

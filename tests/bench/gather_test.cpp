@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "scene/scene.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -75,6 +76,8 @@ Moments one_by_one(const LightRays& tile, const MapLayout& layout, const Query& 
 TEST(Gather, walks_each_ray_to_what_the_oracle_says_at_every_depth) {
     for (const int channels : {1, 3}) {
         const MapLayout layout = layout_of(channels);
+        const rays::GridMedia no_grids(scene::Scene(), true);
+        const rays::LightView view;
         const LightRays tile = random_tile(layout, 17);
         base::Random random(5);
         std::vector<Query> queries;
@@ -87,7 +90,7 @@ TEST(Gather, walks_each_ray_to_what_the_oracle_says_at_every_depth) {
                                static_cast<float>(random.uniform(0.1, 3))});
             parts.push_back({q, {}});
         }
-        gather_footprints(tile, layout, queries, parts);
+        gather_footprints(tile, layout, queries, {no_grids, view}, parts);
         std::uint64_t found = 0;
         for (std::size_t q = 0; q < queries.size(); ++q) {
             const Moments expected = one_by_one(tile, layout, queries[q]);

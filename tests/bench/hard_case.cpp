@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/document.h"
+#include "document/document.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -17,11 +17,11 @@ using techniques::Query;
 
 const std::filesystem::path folder = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios" / "hard";
 
-Variant first_variant(const std::string& name, const std::vector<std::string>& assignments) {
+document::Variant first_variant(const std::string& name, const std::vector<std::string>& assignments) {
     std::ifstream file(folder / (name + ".json"));
     nlohmann::json document = nlohmann::json::parse(file);
-    for (const std::string& assignment : assignments) set_value(document, assignment);
-    return expand(document).at(0);
+    for (const std::string& assignment : assignments) document::set_value(document, assignment);
+    return document::expand(document).at(0);
 }
 
 void compare(const std::string& name, const auto& answers, const HardCase::Queries& queries,
@@ -44,7 +44,7 @@ void compare(const std::string& name, const auto& answers, const HardCase::Queri
 
 HardCase::HardCase(const std::string& name, const std::vector<std::string>& assignments, std::size_t light)
     : loader_({folder}) {
-    const Variant variant = first_variant(name, assignments);
+    const document::Variant variant = first_variant(name, assignments);
     scenario_ = &loader_.load(variant);
     view_ = rays::make_light_view(scenario_->lights.at(light), scenario_->scene, scenario_->rays.resolution, "/lights");
     layout_ = rays::make_layout(scenario_->scene, view_, scenario_->rays);

@@ -93,7 +93,7 @@ TEST(LookupPlan, keeps_one_time_and_one_floor_a_repetition) {
     for (int r = 0; r < 4; ++r) time_repetition(maps, plan, r % 2 == 1);
     EXPECT_EQ(plan.image.answers, std::vector<float>(100, 1.0f));
     EXPECT_EQ(plan.random.answers, std::vector<float>(plan.random.queries.size(), 1.0f));
-    const LookupTimes times = summarise(plan.random);
+    const results::LookupTimes times = summarise(plan.random);
     EXPECT_EQ(times.ns.raw.size(), 4u);
     ASSERT_TRUE(times.floor && times.ratio);
     EXPECT_EQ(times.floor->raw.size(), 4u);
@@ -116,7 +116,7 @@ TEST(LookupPlan, has_no_floor_for_a_technique_without_a_map) {
     const Maps maps = fake_maps(0);
     LookupPlan plan = plan_lookups(maps, some_queries(100), 100, 3);
     time_repetition(maps, plan, true);
-    const LookupTimes times = summarise(plan.image);
+    const results::LookupTimes times = summarise(plan.image);
     EXPECT_EQ(times.ns.raw.size(), 1u);
     EXPECT_FALSE(times.floor);
     EXPECT_FALSE(times.ratio);

@@ -8,9 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/errors.h"
 #include "bench/functions.h"
 #include "bench/one_light.h"
+#include "document/technique_choice.h"
+#include "errors.h"
 #include "rays/capture.h"
 
 namespace shadowbench::bench {
@@ -100,7 +101,7 @@ TEST(PixelCurves, are_those_of_the_whole_map) {
     ASSERT_EQ(curves.curves.size(), techniques::all().size());
     for (const TechniqueCurve& one : curves.curves) {
         if (!one.absent.empty()) continue;
-        const Contender whole = light.build(read_any_technique(one.technique), {});
+        const Contender whole = light.build(document::read_any_technique(one.technique), {});
         const std::vector<float> depths = even_depths(curves);
         const int nx = one.cells == techniques::Cells::sample ? 4 : 1;
         std::vector<double> mean(depths.size());
@@ -172,7 +173,7 @@ TEST(PixelCurves, refuse_places_lights_and_variants_that_are_not_there) {
     json document = scene_of(json::array({{{"type", "deep"}}}));
     PixelProbe probe(document, {}, "0", 0);
     const auto refused = [](const auto& action, const std::string& where) {
-        EXPECT_NE(error_of(action, base::ErrorCode::usage, where), "");
+        EXPECT_NE(test::error_of(action, base::ErrorCode::usage, where), "");
     };
     refused([&] { probe.at(-1, 0); }, "(-1, 0)");
     refused([&] { probe.at(0, -1); }, "(0, -1)");

@@ -98,18 +98,6 @@ TEST(QueriesOfPoints, move_along_the_ray_in_perspective) {
     EXPECT_NEAR(set.queries[0].z, 2.0 - 0.5 / std::sqrt(1.0 + 0.95 * 0.95), 1e-6);
 }
 
-TEST(CameraPoints, lie_on_the_nearest_surface_in_image_order) {
-    const HalfCovered half = half_covered();
-    scene::Receivers receivers;
-    receivers.camera = scene::Camera{{0, 1, 0}, {0, -1, 0}, {0, 0, -1}, 20.0};
-    receivers.resolution = {4, 2};
-    const std::vector<CameraPoint> points = camera_points(receivers, rays::Tracer(half.scene, false));
-    ASSERT_EQ(points.size(), 8u);
-    for (const CameraPoint& p : points) EXPECT_NEAR(p.position.y, p.position.x < 0 ? -1.0 : -3.0, 1e-5);
-    EXPECT_LT(points[0].position.x, points[1].position.x) << "left to right";
-    EXPECT_LT(points[0].position.z, points[4].position.z) << "top row first: up is -z";
-}
-
 // A plane, tilted to both axes, seen by the camera through 3 x 3 pixels.
 QuerySet seen_on_a_tilted_plane(const rays::LightView& view) {
     scene::Mesh mesh;  // y = -2 + 0.4 x - 0.3 z
@@ -171,49 +159,6 @@ TEST(QueriesOfPoints, keep_footprints_beside_their_queries_when_some_are_dropped
     const QuerySet one = pick(set.asked(), second);
     EXPECT_EQ(one.queries[0].x, set.queries[1].x);
     EXPECT_EQ(one.footprints[0].ux, 8.0f);
-}
-
-TEST(CameraPoints, show_what_moves_where_it_stands_at_mid_shutter) {
-    scene::Scene scene;
-    scene.objects.emplace_back();
-    scene.objects[0].shape = scene::Spheres{{{0, -4, 0}}, {1.0f}};
-    scene.objects[0].motion = {0, -2, 0};
-    scene.objects.emplace_back();
-    scene.objects[1].shape = scene::Particles{{{0, -2, 0}}, {0.5f}, {1.0f}};
-    scene.objects[1].motion = {0, 1, 0};
-    scene::Receivers receivers;
-    receivers.camera = scene::Camera{{0, 0, 0}, {0, -1, 0}, {0, 0, -1}, 0.01};
-    receivers.resolution = {1, 1};
-    receivers.media_lookups = 1;
-    const std::vector<CameraPoint> points = camera_points(receivers, rays::Tracer(scene, false));
-    ASSERT_EQ(points.size(), 2u);
-    EXPECT_NEAR(points[0].position.y, -1.5, 1e-3);
-    EXPECT_NEAR(points[1].position.y, -4.0, 1e-3);
-}
-
-TEST(CameraPoints, spread_over_the_media_before_the_surface) {
-    scene::Scene scene;
-    scene::Particles puffs;  // on the view ray from 1 to 2, and from 3 to 6
-    puffs.centres = {{0, -1.5f, 0}, {0, -4.5f, 0}};
-    puffs.radii = {0.5f, 1.5f};
-    puffs.density = {1.0f, 1.0f};
-    scene.objects.emplace_back();
-    scene.objects.back().shape = puffs;
-    scene::Receivers receivers;
-    receivers.camera = scene::Camera{{0, 0, 0}, {0, -1, 0}, {0, 0, -1}, 0.01};
-    receivers.resolution = {1, 1};
-    receivers.media_lookups = 4;
-    const std::vector<CameraPoint> points = camera_points(receivers, rays::Tracer(scene, false));
-    ASSERT_EQ(points.size(), 4u) << "no surface behind them";
-    const double depths[] = {1.5, 3.5, 4.5, 5.5};
-    for (int i = 0; i < 4; ++i) EXPECT_NEAR(points[i].position.y, -depths[i], 1e-3);
-    // A pixel of 0.01 degrees, on a plane that faces the ray.
-    const double pixel = 2 * std::tan(0.005 * std::acos(-1.0) / 180);
-    for (int i = 0; i < 4; ++i) {
-        EXPECT_NEAR(points[i].across.length(), pixel * depths[i], 1e-6);
-        EXPECT_NEAR(points[i].across.y, 0.0, 1e-9);
-        EXPECT_NEAR(points[i].across.dot(points[i].down), 0.0, 1e-9);
-    }
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/document.h"
-#include "bench/errors.h"
 #include "bench/load.h"
-#include "bench/report.h"
+#include "document/document.h"
+#include "errors.h"
+#include "results/report.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -26,7 +26,7 @@ json quickstart() {
     for (const char* assignment : {"rays.resolution=32", "receivers.resolution=[32,24]", "reference.queries=64",
                                    "reference.samples_per_pixel=16", "timing.repetitions=1", "timing.lookups=256",
                                    "scene.objects.0.strands=200"})
-        set_value(document, assignment);
+        document::set_value(document, assignment);
     return document;
 }
 
@@ -47,8 +47,34 @@ json two_layers() {
 
 nlohmann::ordered_json without_times(const json& document, const RunOptions& options) {
     nlohmann::ordered_json result = to_json(run(document, options, {}));
-    strip_times(result);
+    results::strip_times(result);
     return result;
+}
+
+TEST(Run, names_every_value_of_a_sweep_be_it_the_default) {
+    json document = two_layers();
+    document["techniques"] = {{{"type", "avsm"}, {"cells", "centre"}}, {{"type", "deep"}, {"kernel", "tent"}}};
+    document["sweeps"] = {{"/techniques/0/nodes", {4, 8, 16}},
+                          {"/techniques/0/order", {"sorted"}},
+                          {"/techniques/1/tolerance", {"noise", 0.01}}};
+    const results::Result result = run(document, {}, {});
+    const std::vector<std::string> expected{"avsm nodes=4 order=sorted cells=centre",
+                                            "avsm nodes=8 order=sorted cells=centre",
+                                            "avsm nodes=16 order=sorted cells=centre",
+                                            "deep tolerance=noise kernel=tent", "deep tolerance=0.01 kernel=tent"};
+    const std::vector<results::Cell>& cells = result.variants[0].lights[0].cells;
+    const std::string table = to_table(result), csv = results::to_csv(result);
+    const auto written = to_json(result)["variants"][0]["lights"][0]["cells"];
+    ASSERT_EQ(cells.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(results::title(cells[i]), expected[i]);
+        EXPECT_NE(table.find("    " + expected[i] + " "), std::string::npos) << expected[i];
+        EXPECT_NE(csv.find("," + cells[i].parameters + ","), std::string::npos) << expected[i];
+        EXPECT_EQ(written[i]["label"], cells[i].parameters);
+    }
+    RunOptions only;
+    only.only = {"deep"};
+    EXPECT_EQ(results::title(run(document, only, {}).variants[0].lights[0].cells[0]), expected[3]);
 }
 
 TEST(Run, gives_the_same_numbers_on_one_thread_and_on_two) {
@@ -69,11 +95,11 @@ TEST(Run, gives_the_same_numbers_when_rays_are_captured_anew) {
 }
 
 TEST(Run, checks_all_channels_of_a_coloured_scene_in_one_map_or_three) {
-    const Result result = run(two_layers(), {}, {});
-    const LightResult& light = result.variants[0].lights[0];
+    const results::Result result = run(two_layers(), {}, {});
+    const results::LightResult& light = result.variants[0].lights[0];
     EXPECT_EQ(light.layout.channels, 3);
-    for (const Cell& cell : light.cells) {
-        EXPECT_EQ(cell.status, CellStatus::ok) << cell.reason;
+    for (const results::Cell& cell : light.cells) {
+        EXPECT_EQ(cell.status, results::CellStatus::ok) << cell.reason;
         const bool one_map = techniques::find(cell.technique, "").coloured;
         EXPECT_EQ(cell.curve->cells, (one_map ? 3 : 1) * cell.nodes.cells) << cell.technique;
         EXPECT_LE(cell.curve->norms.max, cell.error_bound + 1e-6) << cell.technique;
@@ -87,7 +113,7 @@ TEST(Run, checks_all_channels_of_a_coloured_scene_in_one_map_or_three) {
 TEST(Run, expands_sweeps_and_says_what_they_set) {
     json document = two_layers();
     document["sweeps"] = {{"/rays/samples_per_pixel", {1, 4}}, {"/techniques/0/tolerance", {0.01, 0.1}}};
-    const Result result = run(document, {}, {});
+    const results::Result result = run(document, {}, {});
     ASSERT_EQ(result.variants.size(), 2u);
     EXPECT_EQ(result.variants[1].settings[0].value, "4");
     ASSERT_EQ(result.variants[1].lights[0].cells.size(), 3u);
@@ -111,9 +137,9 @@ TEST(Run, refuses_more_memory_than_allowed_before_it_works) {
     document["rays"] = {{"resolution", 4096}, {"samples_per_pixel", 64}};
     RunOptions options;
     options.limits.all = std::size_t{1} << 30;
-    const std::string message = error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/rays");
+    const std::string message = test::error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/rays");
     EXPECT_NE(message.find("GiB"), std::string::npos) << message;
-    error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/rays");
+    test::error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/rays");
 }
 
 TEST(Run, counts_the_maps_and_the_reference_against_the_memory_limit) {
@@ -121,17 +147,17 @@ TEST(Run, counts_the_maps_and_the_reference_against_the_memory_limit) {
     document["rays"] = {{"resolution", 16384}, {"samples_per_pixel", 1}};
     document["techniques"] = {{{"type", "shadow_map"}}};
     document["reference"]["samples_per_pixel"] = 65536;
-    error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
+    test::error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
     document["reference"]["samples_per_pixel"] = 16;
     EXPECT_NO_THROW(validate(document, {}));
     document["techniques"] = {{{"type", "avsm"}, {"nodes", 64}}};
-    error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
+    test::error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
 }
 
 TEST(Run, refuses_a_camera_that_looks_past_the_lights_map) {
     json document = two_layers();
     document["receivers"] = {{"type", "camera"}, {"position", {0, 5, 5}}, {"target", {0, 50, 5}}, {"up", {0, 0, 1}}};
-    error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
+    test::error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
 }
 
 // Every technique, opaque and translucent, with an aperture of its own or none, meets a map without a single segment.
@@ -149,13 +175,14 @@ TEST(Run, finds_all_lit_where_the_light_sees_nothing) {
         "timing": {"repetitions": 1, "lookups": 64}
     })");
     for (const techniques::Technique& row : techniques::all()) document["techniques"].push_back({{"type", row.id}});
-    const Result result = run(document, {}, {});
-    for (const LightResult& light : result.variants[0].lights) {
-        EXPECT_TRUE(sees_nothing(light));
+    const results::Result result = run(document, {}, {});
+    for (const results::LightResult& light : result.variants[0].lights) {
+        EXPECT_TRUE(results::sees_nothing(light));
         EXPECT_FALSE(light.translucent);
         EXPECT_EQ(light.reference.error_max, 0.0);
-        for (const Cell& cell : light.cells) {
-            EXPECT_EQ(cell.status, CellStatus::ok) << light.name << " " << cell.technique << ": " << cell.reason;
+        for (const results::Cell& cell : light.cells) {
+            EXPECT_EQ(cell.status, results::CellStatus::ok)
+                << light.name << " " << cell.technique << ": " << cell.reason;
             ASSERT_TRUE(cell.lookup) << cell.technique;
             EXPECT_EQ(cell.lookup->norms.max, 0.0) << light.name << " " << cell.technique;
             EXPECT_EQ(cell.curve ? cell.curve->norms.max : 0.0, 0.0) << light.name << " " << cell.technique;
@@ -173,9 +200,9 @@ TEST(Run, does_not_take_a_medium_for_opaque_where_no_light_leaves_it) {
         {{"type", "particles"}, {"centres", {{0, 0, 0}}}, {"radii", {4}}, {"density", {1e4}}}};
     document["lights"][0]["extent"] = {2, 2};
     document["techniques"] = {{{"type", "shadow_map"}}};
-    const LightResult light = run(document, {}, {}).variants[0].lights[0];
+    const results::LightResult light = run(document, {}, {}).variants[0].lights[0];
     EXPECT_TRUE(light.translucent);
-    EXPECT_EQ(light.cells[0].status, CellStatus::ok) << light.cells[0].reason;
+    EXPECT_EQ(light.cells[0].status, results::CellStatus::ok) << light.cells[0].reason;
     EXPECT_TRUE(light.cells[0].outside_promise);
     EXPECT_GT(light.cells[0].curve->norms.max, 0.9);
 }
@@ -185,13 +212,13 @@ TEST(Run, asks_at_given_points_and_refuses_points_that_are_all_outside_the_map) 
     document["receivers"] = {{"type", "points"},
                              {"positions", {{-0.5, 0.5, 0}, {0.5, 0.5, 0}, {-0.5, 1.5, 0}, {0, 0, 9}}}};
     document["techniques"] = {{{"type", "uncompressed"}}};
-    const LightResult light = run(document, {}, {}).variants[0].lights[0];
+    const results::LightResult light = run(document, {}, {}).variants[0].lights[0];
     EXPECT_EQ(light.receivers, 3u);
     EXPECT_EQ(light.dropped, 1u);
     EXPECT_EQ(light.reference.judged, 3u);
     EXPECT_LT(light.cells[0].lookup->norms.max, 1e-6) << "no edge is near them";
     document["receivers"]["positions"] = {{0, 0, 9}, {7, 0, 0}};
-    const std::string message = error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
+    const std::string message = test::error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
     EXPECT_NE(message.find("none of the 2 receivers"), std::string::npos) << message;
 }
 
@@ -202,8 +229,8 @@ TEST(Run, refuses_a_technique_that_a_deep_image_cannot_serve) {
         "receivers": {"type": "probes", "count": 100}, "techniques": [{"type": "deep"}, {"type": "ray_traced"}]})");
     RunOptions options;
     options.data = {data};
-    error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/techniques/1");
-    error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/techniques/1");
+    test::error_of([&] { validate(document, options); }, ErrorCode::bad_input, "/techniques/1");
+    test::error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/techniques/1");
 }
 
 TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
@@ -212,7 +239,7 @@ TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
     json document = two_layers();
     document["scene"] = {{"objects", {{{"type", "mesh"}, {"file", file}}}}};
     document["sweeps"] = {{"/rays/seed", {1, 2}}};
-    const std::vector<Variant> variants = expand(document);
+    const std::vector<document::Variant> variants = document::expand(document);
     ScenarioLoader loader({});
     const base::Vec3d target = loader.load(variants[0]).lights[0].target;
     std::remove(file.c_str());
@@ -225,8 +252,8 @@ TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
 TEST(Run, writes_results_that_read_back_as_they_were) {
     json document = quickstart();
     document["sweeps"] = {{"/rays/samples_per_pixel", {4, 9}}};
-    const Result result = run(document, {}, {});
-    const Result read = from_json(nlohmann::ordered_json::parse(to_json(result).dump()));
+    const results::Result result = run(document, {}, {});
+    const results::Result read = results::from_json(json::parse(to_json(result).dump()), "");
     EXPECT_EQ(to_json(read), to_json(result));
     EXPECT_EQ(to_table(read), to_table(result));
 }

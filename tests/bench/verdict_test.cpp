@@ -9,69 +9,63 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Rays of 16 samples a pixel: a noise tolerance of 0.125.
-LightResult light() {
-    LightResult result;
-    result.segments = 1;
-    result.reference.noise_tolerance = 0.125;
-    return result;
-}
+constexpr double noise_tolerance = 0.125;  // of 16 rays a pixel
 
-Cell cell(double curve_max, double bound) {
-    Cell made;
+results::Cell cell(double curve_max, double bound) {
+    results::Cell made;
     made.error_bound = bound;
-    made.curve = CurveErrors{};
+    made.curve = results::CurveErrors{};
     made.curve->norms = {curve_max, 0.01, 0.005, 0.02};
-    made.lookup = LookupErrors{{0.5, 0.2, 0.1, 0.4}, 0.0};
-    made.nodes.add(8);
+    made.lookup = results::LookupErrors{{0.5, 0.2, 0.1, 0.4}, 0.0};
+    made.nodes = {1, 8, 8, {}};
     return made;
 }
 
-void expect(const Cell& judged, Verdict verdict, const std::string& says) {
-    const Judgement judgement = judge(judged, light());
-    EXPECT_STREQ(to_string(judgement.verdict), to_string(verdict)) << judgement.why;
-    EXPECT_NE(judgement.why.find(says), std::string::npos) << judgement.why;
+void expect(results::Cell judged, results::Verdict verdict, const std::string& says,
+            const techniques::Promises& promises = {}) {
+    judge(judged, promises, noise_tolerance);
+    EXPECT_STREQ(to_string(judged.verdict), to_string(verdict)) << judged.verdict_why;
+    EXPECT_NE(judged.verdict_why.find(says), std::string::npos) << judged.verdict_why;
 }
 
 TEST(Verdict, of_a_broken_promise_is_failed_whatever_the_figures) {
-    Cell broken = cell(0.0, 0.5);
-    broken.status = CellStatus::failed;
+    results::Cell broken = cell(0.0, 0.5);
+    broken.status = results::CellStatus::failed;
     broken.reason = "cell (3, 4): the value rises";
-    expect(broken, Verdict::failed, "cell (3, 4): the value rises");
+    expect(broken, results::Verdict::failed, "cell (3, 4): the value rises");
 }
 
 // The check has held it to the bound: a loose promise, well above the noise, is kept all the same.
 TEST(Verdict, of_a_bound_that_held_is_kept) {
-    expect(cell(0.3, 0.4), Verdict::kept, "curve error 0.3, promised 0.4");
-    expect(cell(0.0, 0.0), Verdict::kept, "promised 0");
+    expect(cell(0.3, 0.4), results::Verdict::kept, "curve error 0.3, promised 0.4");
+    expect(cell(0.0, 0.0), results::Verdict::kept, "promised 0");
 }
 
 TEST(Verdict, without_a_bound_goes_by_the_noise_tolerance) {
-    expect(cell(0.125, infinity), Verdict::kept, "within the noise tolerance 0.125");
-    expect(cell(0.1251, infinity), Verdict::degraded, "at most 8 nodes");
-    expect(cell(0.1251, infinity), Verdict::degraded, "curve error 0.125, noise tolerance 0.125");
+    expect(cell(0.125, infinity), results::Verdict::kept, "within the noise tolerance 0.125");
+    expect(cell(0.1251, infinity), results::Verdict::degraded, "at most 8 nodes");
+    expect(cell(0.1251, infinity), results::Verdict::degraded, "curve error 0.125, noise tolerance 0.125");
 }
 
 TEST(Verdict, of_an_opaque_technique_in_a_translucent_scene_does_not_rest_on_its_bound) {
-    Cell opaque = cell(0.4, 0.0);
+    results::Cell opaque = cell(0.4, 0.0);
     opaque.outside_promise = true;
-    expect(opaque, Verdict::degraded, "made for opaque scenes");
+    expect(opaque, results::Verdict::degraded, "made for opaque scenes");
     opaque.curve->norms.max = 0.1;
-    expect(opaque, Verdict::kept, "within the noise tolerance");
+    expect(opaque, results::Verdict::kept, "within the noise tolerance");
 }
 
 TEST(Verdict, tells_the_rise_and_the_fall_of_what_promises_neither) {
-    Cell published = cell(0.3, 0.4);
-    published.promises = {.monotone = false, .unit_range = false};
+    results::Cell published = cell(0.3, 0.4);
     published.curve->rise = 0.25;
     published.curve->lowest = -0.125;
-    expect(published, Verdict::kept, "promised 0.4; rises by up to 0.25; falls to -0.125");
+    expect(published, results::Verdict::kept, "promised 0.4; rises by up to 0.25; falls to -0.125",
+           {.monotone = false, .unit_range = false});
 }
 
 TEST(Verdict, names_what_is_promised_before_and_behind_alone) {
-    Cell series = cell(0.4, infinity);
-    series.promises.localised = false;
-    expect(series, Verdict::degraded, "exact only before and behind");
+    results::Cell series = cell(0.4, infinity);
+    expect(series, results::Verdict::degraded, "exact only before and behind", {.localised = false});
 }
 
 TEST(Verdict, names_an_approximation) {
@@ -81,15 +75,15 @@ TEST(Verdict, names_an_approximation) {
 }
 
 TEST(Verdict, of_a_technique_that_stores_nothing_goes_by_the_rms_of_its_lookups) {
-    Cell traced = cell(0.0, infinity);
+    results::Cell traced = cell(0.0, infinity);
     traced.curve.reset();
-    expect(traced, Verdict::degraded, "lookup error rms 0.2");
+    expect(traced, results::Verdict::degraded, "lookup error rms 0.2");
     traced.lookup->norms.rms = 0.12;
-    expect(traced, Verdict::kept, "lookup error rms 0.12");
+    expect(traced, results::Verdict::kept, "lookup error rms 0.12");
     // A bound on the error of functions says nothing of one that has none.
     traced.error_bound = 1.0;
     traced.lookup->norms.rms = 0.2;
-    expect(traced, Verdict::degraded, "stores no function");
+    expect(traced, results::Verdict::degraded, "stores no function");
 }
 
 }  // namespace

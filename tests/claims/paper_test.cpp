@@ -9,19 +9,19 @@
 namespace shadowbench::claims {
 namespace {
 
-bench::Result two_variants() {
-    bench::Result result;
+results::Result two_variants() {
+    results::Result result;
     for (const char* value : {"1", "2"}) {
-        bench::VariantResult variant;
+        results::VariantResult variant;
         variant.settings = {{"/rays/samples_per_pixel", value}};
-        bench::LightResult light;
+        results::LightResult light;
         light.name = value;
-        bench::Cell cell;
+        results::Cell cell;
         cell.technique = "avsm";
         cell.parameters_json = R"({"type":"avsm","nodes":8,"order":"sorted"})";
         light.cells.push_back(cell);
         cell.parameters_json = R"({"type":"avsm","nodes":4,"order":"sorted"})";
-        cell.status = bench::CellStatus::failed;
+        cell.status = results::CellStatus::failed;
         cell.reason = "it fell over";
         light.cells.push_back(cell);
         variant.lights.push_back(light);
@@ -31,9 +31,9 @@ bench::Result two_variants() {
 }
 
 TEST(Paper, CellsAreFoundBySettingsAndParameters) {
-    const bench::Result result = two_variants();
+    const results::Result result = two_variants();
     EXPECT_EQ(light_of(result, {"/rays/samples_per_pixel=2"}).name, "2");
-    const bench::LightResult& light = light_of(result);
+    const results::LightResult& light = light_of(result);
     EXPECT_EQ(&cell_of(light, "avsm", {"nodes=8", "order=sorted"}), &light.cells[0]);
     EXPECT_THROW(light_of(result, {"/rays/samples_per_pixel=3"}), base::Error);
     EXPECT_THROW(cell_of(light, "avsm", {"nodes=16"}), base::Error);
@@ -41,7 +41,7 @@ TEST(Paper, CellsAreFoundBySettingsAndParameters) {
 }
 
 TEST(Paper, ACellThatFailedIsNotMeasured) {
-    const bench::Result result = two_variants();
+    const results::Result result = two_variants();
     try {
         cell_of(light_of(result), "avsm", {"nodes=4"});
         FAIL();

@@ -200,6 +200,29 @@ TEST(Compare, ASecondLookDecides) {
     EXPECT_EQ(exit_code(first), 1);
 }
 
+// A cell that runs alone is not swept, and not named after what the sweep had set.
+TEST(Compare, ASecondLookFindsACellOfASweepByItsTechnique) {
+    const auto looked = [](std::uint64_t seed, bool swept) {
+        std::vector<json> a(20, made_result()), b(20, made_result());
+        Noise noise(seed);
+        for (std::vector<json>* side : {&a, &b})
+            for (json& result : *side) {
+                cell_of(result, 0)["label"] = "";
+                if (swept) result["scenario"]["sweeps"] = {{"/techniques/0/tolerance", {0.02, 0.1}}};
+            }
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            make_times(a[i], noise);
+            make_times(b[i], noise, 0, 1.2);
+        }
+        return compare(side(a, "ab"), side(b, "ab"), {});
+    };
+    Comparison first = looked(1, true);
+    ASSERT_EQ(line(first, "deep", "build").cell, "deep tolerance=0.02");
+    confirm(first, looked(2, false));
+    EXPECT_EQ(line(first, "deep", "build").reason.rfind("confirmed by 20 fresh pairs", 0), 0u);
+    EXPECT_EQ(line(first, "deep", "build").cell, "deep tolerance=0.02") << "it keeps its name";
+}
+
 // --- fronts ----------------------------------------------------------------------------------------------------------
 
 TEST(Fronts, WhoLeavesIsNamedWithWhoBeatsIt) {

@@ -21,6 +21,9 @@ json lookup(double ns, double floor) {
 
 json made_cell(const std::string& technique, const std::string& label, int index, double bytes, double rms, double ns) {
     const json errors{{"max", 4 * rms}, {"rms", rms}, {"mean", 0.5 * rms}, {"p99", 3 * rms}};
+    json curve = errors, answers = errors;
+    curve.update({{"mean_l1", rms}, {"cells", 64}, {"worst_cell", {3, 4}}, {"reference_error", 0.0}});
+    answers["signed_mean"] = -0.1 * rms;
     return {{"technique", technique},
             {"version", 3},
             {"parameters", {{"tolerance", 0.02}}},
@@ -32,12 +35,53 @@ json made_cell(const std::string& technique, const std::string& label, int index
             {"bytes", bytes},
             {"working_bytes", 2 * bytes},
             {"nodes", {{"cells", 64}, {"total", 128}, {"mean", 2.0}, {"max", 5}, {"histogram", {0, 1}}}},
-            {"curve_error", errors},
-            {"lookup_error", errors},
+            {"outside_promise", false},
+            {"promised_curve_error", nullptr},
+            {"curve_error", curve},
+            {"lookup_error", answers},
             {"times",
              {{"build_ms", sample({3.0, 3.1, 3.2})},
+              {"build_ns_per_segment", 25.0},
+              {"lookups_a_pass", 4096},
+              {"on_time_error_front", true},
               {"lookup_image_order", lookup(ns, 1.0)},
               {"lookup_random_order", lookup(1.5 * ns, 1.2)}}}};
+}
+
+json made_light(const json& cells) {
+    return {{"light", "key"},
+            {"map",
+             {{"width", 8},
+              {"height", 8},
+              {"samples_x", 1},
+              {"samples_y", 1},
+              {"pattern", "jittered"},
+              {"seed", 1},
+              {"channels", 1},
+              {"media", false},
+              {"z_min", -1.0},
+              {"z_max", 1.0}}},
+            {"rays", 64},
+            {"segments", 100},
+            {"ray_bytes", 1600},
+            {"rays_kept", true},
+            {"translucent", true},
+            {"receivers", 500},
+            {"receivers_outside_map", 0},
+            {"capture",
+             {{"embree_check",
+               {{"rays", 64},
+                {"other_crossings", 0},
+                {"other_transmittance", 0},
+                {"times", {{"capture_rays_per_second", 8e6}, {"embree_rays_per_second", 2e6}, {"ratio", 4.0}}}}},
+              {"times", {{"seconds", 0.1}, {"setup_seconds", 0.0}, {"rays_per_second", 640.0}}}}},
+            {"reference",
+             {{"judged", 64},
+              {"samples_per_pixel", 256},
+              {"standard_error", {{"rms", 0.001}, {"max", 0.002}}},
+              {"noise_tolerance", 0.5},
+              {"spread_over_seeds", nullptr}}},
+            {"cells", cells}};
 }
 
 }  // namespace
@@ -55,12 +99,8 @@ json made_result() {
             {"variants",
              {{{"settings", json::object()},
                {"lights",
-                {{{"light", "key"},
-                  {"map", {{"seed", 1}}},
-                  {"capture", {{"embree_check", {{"times", {{"embree_rays_per_second", 2e6}}}}}}},
-                  {"cells",
-                   {made_cell("deep", "tolerance=0.02", 0, 1000.0, 0.05, 6.0),
-                    made_cell("uncompressed", "", 1, 4000.0, 0.04, 60.0)}}}}}}}}};
+                json::array({made_light(json::array({made_cell("deep", "tolerance=0.02", 0, 1000.0, 0.05, 6.0),
+                                                     made_cell("uncompressed", "", 1, 4000.0, 0.04, 60.0)}))})}}}}};
 }
 
 json& cell_of(json& result, std::size_t index) {

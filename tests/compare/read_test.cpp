@@ -93,6 +93,26 @@ TEST_F(Read, ACellOfTheStarRunsAlone) {
               "shadowbench run made --set 'techniques=[{\"type\":\"deep\"}]'");
 }
 
+// Older programs left a swept value that is the default out of the label, and put the others in their places.
+TEST_F(Read, ACellHasOneNameWhicheverProgramLabelledIt) {
+    json result = made_result();
+    result["scenario"]["sweeps"] = {{"/techniques/0/tolerance", {"noise", 0.02}}, {"/techniques/0/search", {"binary"}}};
+    json& first = cell_of(result, 0);
+    const auto name = [&](const char* label, const json& tolerance) {
+        first["label"] = label;
+        first["parameters"] = {{"tolerance", tolerance}, {"search", "binary"}, {"kernel", "tent"}};
+        Measured measured;
+        EXPECT_TRUE(add(measured, result, ""));
+        return measured.suites[0].cells[0].name;
+    };
+    EXPECT_EQ(name("kernel=tent", "noise"), "deep search=binary tolerance=noise kernel=tent");
+    EXPECT_EQ(name("search=binary tolerance=noise kernel=tent", "noise"),
+              "deep search=binary tolerance=noise kernel=tent");
+    EXPECT_EQ(name("kernel=tent tolerance=0.02", 0.02), "deep search=binary tolerance=0.02 kernel=tent");
+    result["scenario"]["sweeps"] = {{"/rays/seed", {1, 2}}};
+    EXPECT_EQ(name("kernel=tent", "noise"), "deep kernel=tent");
+}
+
 TEST_F(Read, KernelsAreCells) {
     const Measured measured = read(write("kernels.json", made_kernels().dump()));
     ASSERT_EQ(measured.suites.size(), 1u);

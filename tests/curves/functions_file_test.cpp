@@ -58,6 +58,11 @@ TEST(FunctionsFile, ReadsRecordsAndSkipsCommentsAndEmptyLines) {
     EXPECT_EQ(functions[2], (Curve{{-0.035f, 0.25f}}));
     EXPECT_TRUE(read("").empty());
     EXPECT_EQ(read("1\n0 1").size(), 1u) << "the last line may lack its end";
+    EXPECT_EQ(read("\xef\xbb\xbf"
+                   "1\n0 1\n")
+                  .size(),
+              1u)
+        << "editors write a byte-order mark";
 }
 
 TEST(FunctionsFile, SaysWhereAndWhatIsWrong) {

@@ -48,7 +48,7 @@ struct Shared {
     JobRequest last;
     fs::path folder;
     JobLimits limits;
-    bool stopping = false;
+    bool stopping = false, storage_fails = false;
     std::uint64_t next = 1;
 
     Kept* find(const std::string& id) {
@@ -83,7 +83,8 @@ Shared& shared(const Jobs& jobs) {
 
 struct Jobs::State : fake::Shared {};
 
-Jobs::Jobs(fs::path state, std::string, std::vector<std::string>, JobLimits limits)
+Jobs::Jobs(fs::path state, std::string, std::vector<std::string>, JobLimits limits,
+           std::function<void(const std::string&)>)
     : state_(std::make_unique<State>()) {
     state_->folder = std::move(state);
     state_->limits = limits;
@@ -226,7 +227,18 @@ bool Jobs::stopping() const {
     return state_->stopping;
 }
 
+bool Jobs::storage_fails() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->storage_fails;
+}
+
 namespace fake {
+
+void fail_storage(Jobs& jobs, bool fails) {
+    Shared& state = shared(jobs);
+    const std::scoped_lock lock(state.mutex);
+    state.storage_fails = fails;
+}
 
 void update(Jobs& jobs, const std::string& id, const std::function<void(JobInfo&)>& change) {
     Shared& state = shared(jobs);

@@ -19,6 +19,8 @@ void progress(Jobs& jobs, const std::string& id, const JobProgress& progress);
 // It succeeded, and left these files, by their names.
 void succeed(Jobs& jobs, const std::string& id, const std::map<std::string, std::string>& files);
 
+void fail_storage(Jobs& jobs, bool fails);
+
 // The folder of its files.
 std::filesystem::path folder(Jobs& jobs, const std::string& id);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 
 #include "scene/limits.h"
@@ -127,9 +128,12 @@ void expect_sound(const DeepImage& image) {
     const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height, samples = image.z_front.size();
     expect(image.begin.size() == pixels + 1, "an offset a pixel, and one more");
     expect_offsets(image.begin, samples, "pixels index samples");
-    expect(image.z_back.size() == samples && image.transmittance.size() == samples, "as many of each");
-    expect_finite(image.z_front, "depths are finite");
-    expect_finite(image.z_back, "depths are finite");
+    expect(image.channels == 1 || image.channels == 3, "one channel or three");
+    expect(image.z_back.size() == samples &&
+               image.transmittance.size() == samples * static_cast<std::size_t>(image.channels),
+           "as many of each");
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    expect_in(image.z_front, -static_cast<float>(max_coordinate), infinity, "a front may be far behind, not before");
     expect_in(image.transmittance, 0.0f, 1.0f, "transmittance is in [0, 1]");
     for (std::size_t i = 0; i < samples; ++i) expect(image.z_front[i] <= image.z_back[i], "a sample ends behind");
     for (std::size_t p = 0; p < pixels; ++p)

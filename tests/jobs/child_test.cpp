@@ -132,18 +132,20 @@ TEST(Children, DieWithTheirParent) {
     const std::string note = (folder.path() / "note").string();
     const pid_t server = ::fork();
     if (server == 0) {
-        run_shell("echo $$ >" + note + ".new; mv " + note + ".new " + note + "; exec sleep 1000");
+        run_shell("sleep 1000 & echo $$ $! >" + note + ".new; mv " + note + ".new " + note + "; wait");
         ::_exit(0);
     }
     for (int i = 0; i < 1000 && !std::filesystem::exists(note); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    pid_t child = 0;
-    std::ifstream(note) >> child;
-    ASSERT_GT(child, 0);
+    pid_t child = 0, grandchild = 0;
+    std::ifstream(note) >> child >> grandchild;
+    ASSERT_GT(grandchild, 0);
     EXPECT_TRUE(is_alive(child));
+    EXPECT_TRUE(is_alive(grandchild));
     ::kill(server, SIGKILL);
     ::waitpid(server, nullptr, 0);
     EXPECT_TRUE(dies(child));
+    EXPECT_TRUE(dies(grandchild));
 }
 
 TEST(Children, DoNotInheritWhichSignalsAreBlocked) {

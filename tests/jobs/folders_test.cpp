@@ -92,14 +92,16 @@ TEST_F(JobFolder, SharesItsFilesWithAnother) {
     EXPECT_EQ(base::read_text(folders.jobs / "j-2" / "images" / "a.png"), "picture of j-1");
 }
 
-TEST_F(JobFolder, LosesWhatIsHalfAndWhatIsNobodys) {
+TEST_F(JobFolder, LeavesItsPlaceAsAWhole) {
     publish_one("j-1");
+    EXPECT_TRUE(unpublish(folders, "j-1"));
+    EXPECT_FALSE(is_published(folders, "j-1"));
+    EXPECT_EQ(list_files(removed_folder(folders, "j-1")), (std::vector<std::string>{"images/a.png", "result.json"}));
+    EXPECT_FALSE(unpublish(folders, "j-1"));
     publish_one("j-2");
-    write(work("j-3-1") / "result.json", "half");
-    sweep(folders, [](const std::string& id) { return id == "j-1"; });
-    EXPECT_TRUE(is_published(folders, "j-1"));
+    discard_results(folders, "j-2");
     EXPECT_FALSE(is_published(folders, "j-2"));
-    EXPECT_TRUE(fs::is_empty(folders.work));
+    EXPECT_FALSE(fs::exists(removed_folder(folders, "j-2")));
 }
 
 TEST_F(JobFolder, CannotBeMadeInAFile) {

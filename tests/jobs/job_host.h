@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,17 @@ inline bool has_ended(const JobInfo& job) {
     return job.state != JobState::queued && job.state != JobState::running;
 }
 
+// A scenario that the program itself runs in a moment, pictures included.
+inline constexpr const char* tiny_scenario = R"({
+    "name": "tiny",
+    "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
+    "lights": [{"type": "directional", "direction": [0, -1, 0]}],
+    "rays": {"resolution": 8, "samples_per_pixel": 4},
+    "receivers": {"type": "camera", "position": [0, 1, 5], "target": [0, 0, 0], "resolution": [16, 12]},
+    "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
+    "timing": {"repetitions": 1, "lookups": 64},
+    "techniques": [{"type": "deep"}, {"type": "uncompressed"}]})";
+
 class JobHost : public ::testing::Test {
 protected:
     void SetUp() override {
@@ -46,10 +58,19 @@ protected:
         limits.grace = 0.0;
     }
 
-    Jobs& start() {
+    Jobs& start() { return start(program.string()); }
+    Jobs& start(const std::string& own_program) {
         jobs.reset();
-        jobs = std::make_unique<Jobs>(state(), program.string(), data, limits);
+        jobs = std::make_unique<Jobs>(state(), own_program, data, limits, [this](const std::string& line) {
+            const std::scoped_lock lock(said_mutex);
+            said_lines += line + "\n";
+        });
         return *jobs;
+    }
+    // All that servers of this test have said.
+    std::string said() const {
+        const std::scoped_lock lock(said_mutex);
+        return said_lines;
     }
     std::filesystem::path state() const { return folder.path() / "state"; }
 
@@ -89,7 +110,9 @@ protected:
     const std::filesystem::path program = folder.path() / "fake";
     std::vector<std::string> data;
     JobLimits limits;
-    std::unique_ptr<Jobs> jobs;
+    mutable std::mutex said_mutex;
+    std::string said_lines;
+    std::unique_ptr<Jobs> jobs;  // the first to go
 };
 
 // Says that it runs, and then runs until it is ended.

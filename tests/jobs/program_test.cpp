@@ -16,17 +16,7 @@ protected:
         data = {folder.path().string()};
         jobs = std::make_unique<Jobs>(state(), SHADOWBENCH_PROGRAM, data, limits);
     }
-    static nlohmann::json scenario() {
-        return nlohmann::json::parse(R"({
-            "name": "tiny",
-            "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
-            "lights": [{"type": "directional", "direction": [0, -1, 0]}],
-            "rays": {"resolution": 8, "samples_per_pixel": 4},
-            "receivers": {"type": "camera", "position": [0, 1, 5], "target": [0, 0, 0], "resolution": [16, 12]},
-            "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
-            "timing": {"repetitions": 1, "lookups": 64},
-            "techniques": [{"type": "deep"}, {"type": "uncompressed"}]})");
-    }
+    static nlohmann::json scenario() { return nlohmann::json::parse(tiny_scenario); }
 };
 
 TEST_F(JobProgram, MeasuresAndDrawsAScenario) {
@@ -49,7 +39,7 @@ TEST_F(JobProgram, LeavesThePicturesOutWhereTheyAreNotWanted) {
     JobRequest request = request_of(scenario().dump());
     request.pictures = false;
     const JobInfo job = wait_for_end(jobs->submit(request).job.id);
-    EXPECT_EQ(jobs->artifacts(job.id), (std::vector<std::string>{"result.csv", "result.json"}));
+    EXPECT_EQ(jobs->artifacts(job.id), (std::vector<std::string>{"result.csv", "result.json", "table.txt"}));
 }
 
 TEST_F(JobProgram, TellsWhichPartOfTheScenarioIsWrong) {

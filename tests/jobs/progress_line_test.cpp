@@ -39,6 +39,15 @@ TEST(ProgressLines, TellFaultsAsTheyWereThrown) {
     EXPECT_EQ(fault->message, "no ? such light");
 }
 
+TEST(ProgressLines, TellFaultsOfTheStorageFromThoseOfTheJob) {
+    const auto read = read_line(storage_line({"/state/work: no space left", 4096}));
+    const auto* fault = std::get_if<StorageFault>(&read);
+    ASSERT_TRUE(fault);
+    EXPECT_EQ(fault->message, "/state/work: no space left");
+    EXPECT_EQ(fault->bytes, 4096u);
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(read_line(R"({"storage":3})")));
+}
+
 TEST(ProgressLines, AreNothingWhereTheyAreGarbage) {
     for (const std::string& line :
          {std::string(""), std::string("hello"), std::string("{"), std::string("[1]"), std::string("null"),

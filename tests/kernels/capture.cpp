@@ -19,9 +19,9 @@ Subject prepare(Kind kind, int map, int samples) {
     const SharedInput input = make_input(kind, map, samples);
     const auto capture = std::make_shared<rays::Capture>(input->scene, input->view, input->layout);
     const rays::Tracer tracer(input->scene, true);
-    const bench::Agreement agreement =
+    const results::Agreement agreement =
         bench::compare_with_tracer(*capture, input->layout, input->view, tracer, traced_rays);
-    check(bench::agrees(agreement),
+    check(results::agrees(agreement),
           fmt::format("of {} rays {} cross other surfaces than Embree finds, {} let other "
                       "light through",
                       agreement.rays, agreement.other_crossings, agreement.other_transmittance));

@@ -49,7 +49,7 @@ struct Judged::State {
         bench::ask_for_needs(contender, layout);
     }
     techniques::BuildInput build_input() const { return {layout, input->view, &tracer}; }
-    const bench::Cell& cell() const { return contender[0].cell; }
+    const results::Cell& cell() const { return contender[0].cell; }
     void check_ok() const { check(contender[0].ok(), cell().reason); }
 };
 
@@ -123,7 +123,7 @@ void Judged::check_answers(const std::vector<techniques::Query>& queries, const 
     pass();
     check(first == answers, "the same lookups are answered differently");
     bench::Contender answering;
-    answering.cell.promises = state_->cell().promises;
+    answering.promises = state_->contender[0].promises;
     bench::check_answers(answering, queries, answers);
     check(answering.ok(), answering.cell.reason);
 }

@@ -104,10 +104,10 @@ std::string hair_of(const scene::Hair& hair) {
 Subject load_mesh(const char* name, std::string (*write_mesh)(const scene::Mesh& mesh)) {
     const scene::Mesh mesh = make_mesh(48);
     const fs::path file = write(name, write_mesh(mesh));
-    const scene::Mesh read = scene::read_mesh(file);
+    const scene::Mesh read = scene::read_mesh(file).mesh;
     check(read.positions == mesh.positions && read.triangles == mesh.triangles, "the mesh is not the one written");
     return subject_of(file, mesh.triangles.size(),
-                      [file] { benchmark::DoNotOptimize(scene::read_mesh(file).triangles.data()); });
+                      [file] { benchmark::DoNotOptimize(scene::read_mesh(file).mesh.triangles.data()); });
 }
 
 Subject load_hair() {

@@ -12,12 +12,12 @@
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
-#include "bench/build_info.h"
-#include "bench/machine.h"
 #include "kernels/exact.h"
 #include "kernels/inject.h"
 #include "kernels/kernel.h"
 #include "kernels/runner.h"
+#include "results/machine.h"
+#include "results/program.h"
 
 namespace shadowbench::kernels {
 namespace {
@@ -53,13 +53,13 @@ void check_hits(const Kernels& kernels, const std::vector<Injection>& injections
 }
 
 void describe(const std::vector<Injection>& injections) {
-    const bench::BuildInfo build = bench::build_info();
+    const results::Program build = results::this_program();
     benchmark::AddCustomContext("program", "shadowbench kernels");
     benchmark::AddCustomContext("version", build.version);
     benchmark::AddCustomContext("commit", build.commit);
     benchmark::AddCustomContext("compiler", build.compiler);
     benchmark::AddCustomContext("build_type", build.build_type);
-    benchmark::AddCustomContext("cpu", bench::this_machine().cpu);
+    benchmark::AddCustomContext("cpu", results::this_machine().cpu);
     std::string injected;
     for (const Injection& injection : injections) injected += (injected.empty() ? "" : " ") + injection.text;
     if (!injected.empty()) benchmark::AddCustomContext("injected", injected);

@@ -84,20 +84,27 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"curves", {"base", "rays", "curves"}},
         {"techniques", {"base", "rays", "curves", "techniques"}},
         {"metrics", {"base", "metrics"}},
-        {"compare", {"base", "metrics", "compare"}},
-        {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench"}},
-        {"render", {"base", "scene", "rays", "curves", "techniques", "metrics", "bench", "render"}},
-        {"claims", {"base", "scene", "rays", "curves", "techniques", "bench", "render", "claims"}},
+        {"document", {"base", "scene", "techniques", "document"}},
+        {"results", {"base", "document", "metrics", "results"}},
+        {"compare", {"base", "document", "metrics", "results", "compare"}},
+        {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "document", "results", "bench"}},
+        {"render",
+         {"base", "scene", "rays", "curves", "techniques", "metrics", "document", "results", "bench", "render"}},
+        {"claims",
+         {"base", "scene", "rays", "curves", "techniques", "document", "results", "bench", "render", "claims"}},
+        {"service/process", {"base", "service/process"}},
         {"service/store", {"base", "service/store"}},
-        {"service/jobs", {"base", "bench", "service/store", "service/jobs"}},
+        {"service/jobs", {"base", "bench", "results", "service/process", "service/store", "service/jobs"}},
         {"service/web", {"base", "service/web"}},
         {"service/api",
-         {"base", "scene", "techniques", "bench", "compare", "service/jobs", "service/web", "service/api"}},
+         {"base", "scene", "techniques", "document", "results", "bench", "compare", "service/process", "service/jobs",
+          "service/web", "service/api"}},
         {"service/http", {"base", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files.
         {"service/cli",
-         {"base", "scene", "curves", "techniques", "techniques/deep", "compare", "bench", "render", "claims",
-          "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
+         {"base", "scene", "curves", "techniques", "techniques/deep", "document", "results", "compare", "bench",
+          "render", "claims", "service/process", "service/jobs", "service/api", "service/http", "service/web",
+          "service/cli"}},
         {"service", {"service/cli"}},
     };
     for (const Include& include : includes()) {
@@ -115,6 +122,14 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
             EXPECT_TRUE(allowed.at(from).count(to)) << include.file << " includes " << include.path;
         }
     }
+}
+
+// results/ uses the plain struct of document/setting.h, and nothing that is compiled there.
+TEST(Layers, ResultsKnowOnlySettingsOfDocuments) {
+    for (const Include& include : includes())
+        if (layer_of_file(include.file) == "results" && starts_with(include.path, "document/")) {
+            EXPECT_EQ(include.path, "document/setting.h") << include.file;
+        }
 }
 
 TEST(Layers, OnlyTheHttpFrontKnowsSockets) {

@@ -195,12 +195,14 @@ TEST(Tracer, TheNearestHairTellsItsDirectionAndASurfaceNone) {
     scene::Scene scene;
     scene.objects = {testing::quad({-5, -5, 3}, {4, 0, 0}, {0, 10, 0}), strand};
     const Tracer tracer(scene, false);
-    SurfaceHit hit;
-    ASSERT_TRUE(tracer.nearest({0, 0.02, -5}, {0, 0, 1}, hit));
+    std::vector<SurfaceHit> hits;
+    ASSERT_TRUE(tracer.surfaces({0, 0.02, -5}, {0, 0, 1}, hits));
+    SurfaceHit hit = hits.at(0);
     EXPECT_NEAR(std::abs(hit.tangent.dot(base::Vec3d(1, 0, 1).normalized())), 1.0, 1e-6);
     EXPECT_NEAR(hit.normal.dot(hit.tangent), 0.0, 1e-6);
     EXPECT_NEAR(hit.normal.dot(base::Vec3d(1, 0, -1).normalized()), 1.0, 1e-6) << "towards the eye";
-    ASSERT_TRUE(tracer.nearest({-3, 0, -5}, {0, 0, 1}, hit));
+    ASSERT_TRUE(tracer.surfaces({-3, 0, -5}, {0, 0, 1}, hits));
+    hit = hits.at(0);
     EXPECT_EQ(hit.tangent, base::Vec3d(0, 0, 0));
     EXPECT_NEAR(hit.normal.z, -1.0, 1e-6);
 }
@@ -220,14 +222,15 @@ TEST(Tracer, HairRightAtTheStartOfARayIsNotPassedOver) {
         tracer.all_segments({0, 0.02, -away}, {0, 0, 1}, 0, 10, found);
         ASSERT_EQ(found.size(), 1u) << away;
         EXPECT_NEAR(found[0].front, away, 1e-6);
-        SurfaceHit hit;
-        ASSERT_TRUE(tracer.nearest({0, 0.02, -away}, {0, 0, 1}, hit)) << away;
-        EXPECT_NEAR(hit.t, away, 0.01);
+        std::vector<SurfaceHit> hits;
+        ASSERT_TRUE(tracer.surfaces({0, 0.02, -away}, {0, 0, 1}, hits)) << away;
+        EXPECT_NEAR(hits.at(0).t, away, 0.01);
     }
     tracer.all_segments({0, 0.02, 0.01}, {0, 0, 1}, 0, 10, found);
     EXPECT_TRUE(found.empty()) << "behind the start";
-    SurfaceHit hit;
-    EXPECT_FALSE(tracer.nearest({0, 0.02, 0.01}, {0, 0, 1}, hit));
+    std::vector<SurfaceHit> hits;
+    EXPECT_FALSE(tracer.surfaces({0, 0.02, 0.01}, {0, 0, 1}, hits));
+    EXPECT_TRUE(hits.empty());
 }
 
 TEST(Capture, DoesNotDependOnTheNumberOfThreads) {
@@ -319,20 +322,15 @@ TEST(Capture, AUniformSlabFollowsTheExponentialAtEveryDepth) {
     }
 }
 
-TEST(Capture, PixelsThatAreWantedGetTheSameRays) {
+TEST(Capture, GridsAreLeftOutForThoseWhoIntegrateThemThemselves) {
     scene::Scene scene;
     scene.objects.push_back(testing::curly_hair(100, 20, 0.02f, 2));
+    const Captured c = capture(scene, testing::directional(), testing::rays(16, 4));
     scene.objects.emplace_back();
     scene.objects[1].shape = testing::slab();
-    const Captured c = capture(scene, testing::directional(), testing::rays(16, 4));
-    std::vector<unsigned char> wanted(256, 0);
-    wanted[17] = wanted[200] = 1;
-    const LightRays part = Capture(scene, c.view, c.layout).tile(0, wanted);
-    EXPECT_LT(part.segments(), c.tiles[0].segments() / 2) << "the others are spared the march";
-    for (const std::size_t pixel : {17u, 200u})
-        for (std::size_t ray = 4 * pixel; ray < 4 * pixel + 4; ++ray)
-            for (const double z : {0.3, 0.8, 1.2, 9.0})
-                EXPECT_EQ(transmittance(part, ray, 0, z), transmittance(c.tiles[0], ray, 0, z));
+    const LightRays hair = Capture(scene, c.view, c.layout, Capture::Grids::left_out).tile(0);
+    EXPECT_EQ(hair.begin, c.tiles[0].begin);
+    EXPECT_EQ(hair.z_front, c.tiles[0].z_front);
 }
 
 TEST(Capture, AViewWithoutCastersHasRaysWithoutSegments) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/random.h"
 #include "scene/scene.h"
 
@@ -129,6 +132,144 @@ TEST(March, IsClippedToTheStretchAskedFor) {
     segments.clear();
     VolumeMarcher(g).march({5, 0, 0}, {0, 0, 1}, 1.0, 0, 1e30, segments);
     EXPECT_TRUE(segments.empty()) << "beside the box";
+}
+
+// Every kind of grid that the two exact functions are asked about: holes, empty blocks, single voxels along an axis.
+std::vector<scene::GridVolume> odd_grids() {
+    base::Random random(8);
+    std::vector<scene::GridVolume> grids;
+    for (const base::Vec3i& size : {base::Vec3i(5, 4, 3), base::Vec3i(1, 1, 4), base::Vec3i(2, 1, 1),
+                                    base::Vec3i(1, 1, 1), base::Vec3i(40, 37, 51)}) {
+        grids.push_back(grid(size, 0.4));
+        for (float& d : grids.back().density)
+            d = static_cast<float>(std::max(0.0, random.uniform(size.x > 8 ? -40.0 : -0.5, 1.5)));
+    }
+    return grids;
+}
+
+// A ray through the box, along an axis or a diagonal of voxels now and then.
+struct Line {
+    base::Vec3d origin, direction;
+};
+Line line_through(const scene::GridVolume& g, base::Random& random) {
+    base::Vec3d target, d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    for (int a = 0; a < 3; ++a) target[a] = random.uniform(g.lower[a], g.upper[a]);
+    switch (random.below(5)) {
+        case 0:
+            d[static_cast<int>(random.below(3))] = 0.0;
+            break;
+        case 1:
+            d = base::Vec3d(0, 0, 0);
+            d[static_cast<int>(random.below(3))] = random.below(2) ? 1.0 : -1.0;
+            break;
+        case 2:  // through corners of cells
+            for (int a = 0; a < 3; ++a) {
+                const double voxel = (g.upper[a] - g.lower[a]) / g.size[a];
+                target[a] = g.lower[a] + (std::floor((target[a] - g.lower[a]) / voxel) + 0.5) * voxel;
+                d[a] = voxel * (random.below(2) ? 1 : -1);
+            }
+            break;
+        default:
+            break;
+    }
+    d.normalize();
+    return {target - d * 9.0, d};
+}
+
+// The integral of a plain trilinear lookup up to t, by 100,000 steps.
+double by_steps(const scene::GridVolume& g, const Line& line, double t) {
+    double first = 0.0, last = t, sum = 0.0;
+    for (int a = 0; a < 3; ++a) {
+        if (line.direction[a] == 0.0) continue;
+        const double t0 = (g.lower[a] - line.origin[a]) / line.direction[a],
+                     t1 = (g.upper[a] - line.origin[a]) / line.direction[a];
+        first = std::max(first, std::min(t0, t1));
+        last = std::min(last, std::max(t0, t1));
+    }
+    constexpr int steps = 100000;
+    for (int k = 0; k < steps && first < last; ++k) {
+        const base::Vec3d p = line.origin + line.direction * (first + (last - first) * (k + 0.5) / steps);
+        double value = 0.0;
+        base::Vec3d i;
+        for (int a = 0; a < 3; ++a)
+            i[a] = std::clamp((p[a] - g.lower[a]) / (g.upper[a] - g.lower[a]) * g.size[a] - 0.5, 0.0, g.size[a] - 1.0);
+        for (int c = 0; c < 8; ++c) {
+            double weight = 1.0;
+            int at[3];
+            for (int a = 0; a < 3; ++a) {
+                const int low = static_cast<int>(i[a]);
+                weight *= c >> a & 1 ? i[a] - low : 1 - i[a] + low;
+                at[a] = std::min(low + (c >> a & 1), g.size[a] - 1);
+            }
+            value += weight * g.density[(static_cast<std::size_t>(at[2]) * g.size.y + at[1]) * g.size.x + at[0]];
+        }
+        sum += value * (last - first) / steps;
+    }
+    return sum;
+}
+
+TEST(March, OpticalDepthsAreExactAtEveryDepthInsideCellsToo) {
+    base::Random random(21);
+    for (const scene::GridVolume& g : odd_grids()) {
+        const VolumeMarcher marcher(g);
+        int met = 0;
+        for (int i = 0; i < 25; ++i) {
+            const Line line = line_through(g, random);
+            std::vector<double> t(6), depth(6);
+            for (double& place : t) place = random.uniform(2, 16);
+            std::sort(t.begin(), t.end());
+            marcher.optical_depths(line.origin, line.direction, 1.5, 0.0, t, depth);
+            for (std::size_t k = 0; k < t.size(); ++k) {
+                EXPECT_NEAR(depth[k], 1.5 * by_steps(g, line, t[k]), 1e-7) << g.size.x << " voxels, ray " << i;
+                met += depth[k] > 0.0;
+            }
+        }
+        EXPECT_GT(met, 30);
+    }
+}
+
+TEST(March, CellsHoldExactlyWhatLiesBetweenTheirWalls) {
+    base::Random random(22);
+    for (const scene::GridVolume& g : odd_grids()) {
+        const VolumeMarcher marcher(g);
+        std::size_t found = 0;
+        for (int i = 0; i < 100; ++i) {
+            const Line line = line_through(g, random);
+            std::vector<MediumSegment> cells;
+            const double end = i % 2 ? 1e30 : random.uniform(5, 12);
+            marcher.march_cells(line.origin, line.direction, 1.0, 0, end, cells);
+            found += cells.size();
+            double sum = 0.0;
+            for (std::size_t s = 0; s < cells.size(); ++s) {
+                EXPECT_LT(cells[s].front, cells[s].back);
+                if (s) {
+                    EXPECT_GE(cells[s].front, cells[s - 1].back);
+                }
+                sum += cells[s].depth;
+                double exact = 0.0;
+                const double back = cells[s].back;
+                marcher.optical_depths(line.origin, line.direction, 1.0, 0, {&back, 1}, {&exact, 1});
+                if (back < end) {
+                    EXPECT_NEAR(sum, exact, 1e-5) << "up to the rounding of the wall to a float";
+                }
+            }
+            double all = 0.0;
+            marcher.optical_depths(line.origin, line.direction, 1.0, 0, {&end, 1}, {&all, 1});
+            EXPECT_NEAR(sum, all, 1e-12);
+            EXPECT_LE(cells.size(), static_cast<std::size_t>(g.size.x + g.size.y + g.size.z + 3));
+        }
+        EXPECT_GT(found, 50u);
+    }
+}
+
+TEST(March, CellsShorterThanAFloatLoseNothing) {
+    scene::GridVolume g = grid({4, 4, 600}, 1.0);
+    for (float& d : g.density) d = 1;
+    std::vector<MediumSegment> segments;
+    VolumeMarcher(g).march_cells({0, 0, -1e6}, {0, 0, 1}, 1.0, 0, 1e30, segments);
+    EXPECT_NEAR(depth_of(segments), 6.0, 1e-6);
+    for (const MediumSegment& s : segments) EXPECT_LT(s.front, s.back);
+    EXPECT_LE(segments.size(), 97u) << "6 units of 16 floats, and one float more";
 }
 
 TEST(March, StepsShorterThanAFloatLoseNothing) {

@@ -225,17 +225,24 @@ struct Kind {
 class MovingKind : public ::testing::TestWithParam<Kind> {};
 
 // Compares every ray with Embree at the ray's time: as many segments, at the same depths, with the same transmittance.
-void expect_agreement(scene::Scene scene, const scene::Light& light) {
+void expect_agreement(scene::Scene scene, const scene::Light& light, scene::Media media = scene::Media::steps) {
     scene.objects.push_back(testing::quad({-3, -3, -1.5f}, {6, 0, 0.1f}, {0, 6, 0}, 0.5f));  // stands still, behind all
     const Tracer tracer(scene, true);
-    const Captured c = capture(scene, light, testing::rays(64, 16));
+    scene::RaySettings settings = testing::rays(64, 16);
+    settings.media = media;
+    const auto grids = media == scene::Media::cells ? Tracer::Grids::cells : Tracer::Grids::steps;
+    const Captured c = capture(scene, light, settings);
     ASSERT_GT(c.tiles.size(), 1u);
     std::vector<TracedSegment> traced;
     int rays = 0, met = 0, differing = 0;
     double worst = 0.0;
     for_each_ray(c, [&](const LightRays& t, std::size_t ray, int i, int j) {
         const SamplePosition p = sample_position(c.layout, i, j);
-        const double through = tracer.transmittance(c.view, p.x, p.y, 1e9, traced, sample_time(c.layout, i, j)).x;
+        const LightLine line = light_line(c.view, p.x, p.y);
+        tracer.all_segments(line.origin, line.direction, std::max(line.z_start, 0.0), 1e9, traced,
+                            sample_time(c.layout, i, j), grids);
+        double through = 1.0;
+        for (const TracedSegment& segment : traced) through *= segment.transmittance.x;
         ++rays;
         met += traced.size() > 1;
         if (traced.size() != segments_of(t, ray)) {
@@ -258,6 +265,7 @@ TEST_P(MovingKind, AgreesWithEmbreeRayByRay) {
             scene.objects.push_back(GetParam().make());
             scene.objects[0].motion = motion;
             expect_agreement(scene, light);
+            if (scene::has_media(scene)) expect_agreement(scene, light, scene::Media::cells);
         }
 }
 
@@ -295,12 +303,12 @@ TEST(Tracer, TheNearestSurfaceStandsWhereItsTimePutsIt) {
     scene.objects[1].opacity = Vec3f(1);
     for (scene::Object& object : scene.objects) object.motion = {0, 0, 4};
     const Tracer tracer(scene, false);
-    SurfaceHit hit;
-    ASSERT_TRUE(tracer.nearest({0.1, 0.2, -3}, {0, 0, 1}, hit, scene::mid_shutter));
-    EXPECT_NEAR(hit.t, 5.0, 1e-5);
-    ASSERT_TRUE(tracer.nearest({0, 0, 20}, {0, 0, -1}, hit, 0.25));
-    EXPECT_NEAR(hit.t, 13.0, 1e-5);
-    EXPECT_NEAR(hit.normal.z, 1.0, 1e-6);
+    std::vector<SurfaceHit> hits;
+    ASSERT_TRUE(tracer.surfaces({0.1, 0.2, -3}, {0, 0, 1}, hits, scene::mid_shutter));
+    EXPECT_NEAR(hits.at(0).t, 5.0, 1e-5);
+    ASSERT_TRUE(tracer.surfaces({0, 0, 20}, {0, 0, -1}, hits, 0.25));
+    EXPECT_NEAR(hits.at(0).t, 13.0, 1e-5);
+    EXPECT_NEAR(hits.at(0).normal.z, 1.0, 1e-6);
 }
 
 TEST(Motion, AStillSceneStoresNoTimes) {

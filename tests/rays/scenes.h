@@ -71,14 +71,14 @@ inline Captured capture(const scene::Scene& scene, const scene::Light& light, co
     c.layout = make_layout(scene, c.view, settings);
     c.layout.apron = apron;
     const Capture capture(scene, c.view, c.layout);
-    for (int t = 0; t < c.layout.tiles(); ++t) c.tiles.push_back(capture.tile(t, {}, apron));
+    for (int t = 0; t < c.layout.tiles(); ++t) c.tiles.push_back(capture.tile(t, apron));
     return c;
 }
 
 inline Captured capture_all(const scene::Scene& scene, const LightView& view, const MapLayout& layout, int apron = 0) {
     Captured c{view, layout, {}};
     const Capture capture(scene, view, layout);
-    for (int t = 0; t < layout.tiles(); ++t) c.tiles.push_back(capture.tile(t, {}, apron));
+    for (int t = 0; t < layout.tiles(); ++t) c.tiles.push_back(capture.tile(t, apron));
     return c;
 }
 

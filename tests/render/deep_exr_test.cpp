@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 
 #include "base/error.h"
@@ -120,6 +123,88 @@ TEST_F(DeepExr, SeveralRaysCompositeToTheVisibilityFunctionOfThePixel) {
                 ASSERT_NEAR(composite(samples, v.z, true), curves::evaluate_behind(function, v.z), 1e-5);
             }
         }
+}
+
+scene::Scene coloured() {
+    scene::Scene scene = hair_and_smoke();
+    scene.objects[0].opacity = {0.3f, 0.6f, 0.9f};
+    scene.objects[1].extinction = {2.0f, 1.0f, 0.1f};
+    return scene;
+}
+
+rays::testing::Captured captured_from(const std::filesystem::path& file) {
+    static scene::Scene scene;  // which the capture goes on to see
+    scene.deep_image = scene::read_deep_image(file);
+    scene::Light light;
+    light.type = scene::LightType::deep_image;
+    return rays::testing::capture(scene, light, rays::testing::rays(1, 1));
+}
+
+// Calls visit(tile of the written rays, its pixel, tile of the rays read back, its ray).
+template <class Visit>
+void for_each_pixel(const rays::testing::Captured& written, const rays::testing::Captured& back, const Visit& visit) {
+    for (const rays::LightRays& tile : written.tiles)
+        for (int p = 0; p < tile.width * tile.height; ++p) {
+            const int x = tile.x0 + p % tile.width, y = tile.y0 + p / tile.width;
+            for (const rays::LightRays& other : back.tiles)
+                if (x >= other.x0 && y >= other.y0 && x < other.x0 + other.width && y < other.y0 + other.height)
+                    visit(tile, static_cast<std::size_t>(p), other,
+                          static_cast<std::size_t>((y - other.y0) * other.width + x - other.x0));
+        }
+}
+
+TEST_F(DeepExr, OneColouredRayAPixelComesBackWithEachTransmittance) {
+    const auto written = rays::testing::capture(coloured(), rays::testing::directional(), rays::testing::rays(70, 1));
+    ASSERT_EQ(written.layout.channels, 3);
+    write_deep_exr(file, 70, 70, blocks_of(written), "");
+    const auto back = captured_from(file);
+    ASSERT_EQ(back.layout.channels, 3);
+    std::size_t segments = 0;
+    for_each_pixel(written, back, [&](const auto& tile, std::size_t p, const auto& other, std::size_t ray) {
+        const std::size_t a = tile.begin[p], b = other.begin[ray], count = tile.begin[p + 1] - a;
+        ASSERT_EQ(other.begin[ray + 1] - b, count);
+        for (std::size_t s = 0; s < count; ++s) {
+            ASSERT_EQ(other.z_front[b + s], tile.z_front[a + s]);
+            ASSERT_EQ(other.back(b + s), tile.back(a + s));
+            // As a deep image can hold it: 1 - (1 - t) is t.
+            for (std::size_t c = 0; c < 3; ++c)
+                ASSERT_EQ(other.transmittance[3 * (b + s) + c], 1.0f - (1.0f - tile.transmittance[3 * (a + s) + c]));
+        }
+        segments += count;
+    });
+    EXPECT_GT(segments, 1000u);
+}
+
+TEST_F(DeepExr, SeveralColouredRaysComeBackWithTheVisibilityOfEachColour) {
+    const auto written = rays::testing::capture(coloured(), rays::testing::directional(), rays::testing::rays(24, 16));
+    write_deep_exr(file, 24, 24, blocks_of(written), "");
+    const auto back = captured_from(file);
+    ASSERT_EQ(back.layout.channels, 3);
+    curves::SweepScratch scratch;
+    std::array<curves::Curve, 3> functions;
+    double apart = 0.0;  // of two colours
+    for_each_pixel(written, back, [&](const auto& tile, std::size_t p, const auto& other, std::size_t ray) {
+        for (int c = 0; c < 3; ++c) {
+            curves::Curve& function = functions[static_cast<std::size_t>(c)];
+            curves::visibility(rays::channel(tile, c), p * 16, 16, 1e-4, scratch, function);
+            for (const curves::Vertex& v : function) {
+                const double behind = std::nextafter(v.z, 1e9f);
+                ASSERT_NEAR(rays::transmittance(other, ray, c, v.z), curves::evaluate(function, v.z), 1e-5);
+                ASSERT_NEAR(rays::transmittance(other, ray, c, behind), curves::evaluate_behind(function, v.z), 1e-5);
+            }
+        }
+        for (const curves::Vertex& v : functions[0])
+            apart = std::max(apart, std::abs(double{v.value} - curves::evaluate(functions[2], v.z)));
+    });
+    EXPECT_GT(apart, 0.3);
+}
+
+TEST_F(DeepExr, EqualColoursComeBackAsOneChannel) {
+    DeepBlock block{0, 0, 1, 1, 3, {0, 1}, {2}, {3}, {0.25f, 0.25f, 0.25f}};
+    write_deep_exr(file, 1, 1, std::span(&block, 1), "");
+    const auto back = captured_from(file);
+    EXPECT_EQ(back.layout.channels, 1);
+    EXPECT_EQ(back.tiles[0].transmittance, std::vector<float>{0.75f});
 }
 
 TEST_F(DeepExr, ColouredSamplesHaveAnAlphaAChannelAndTheirMean) {

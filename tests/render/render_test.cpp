@@ -105,6 +105,64 @@ TEST(Render, of_a_uniform_slab_meets_the_closed_form_of_single_scattering) {
     EXPECT_NEAR(result.reference.shadow.at(1, 1).x, 1.0 - (1.0 - std::exp(-3.0)) + 0.5 * (1.0 - std::exp(-6.0)), 1e-3);
 }
 
+// Three translucent layers and a floor, each lit through those above it, seen and lit from straight above: layer i is
+// seen through what is above it and lit through the same.
+TEST(Render, composites_a_stack_of_layers_as_the_closed_form_has_it) {
+    const std::vector<Vec3f> opacities{{0.1f, 0.3f, 0.02f}, {0.49f, 0.2f, 1.0f}, {0.3f, 0.6f, 0.0f}, {1, 1, 1}};
+    json document = quad_over_plane();
+    json& objects = document["scene"]["objects"] = json::array();
+    for (std::size_t i = 0; i < opacities.size(); ++i)
+        objects.push_back({{"type", "quad"},
+                           {"corner", {-4, 1.0 - 0.25 * static_cast<double>(i), -4}},
+                           {"edge_u", {0, 0, 8}},
+                           {"edge_v", {8, 0, 0}},
+                           {"opacity", {opacities[i].x, opacities[i].y, opacities[i].z}}});
+    document["lights"] = json::parse(R"([{"type": "directional", "direction": [0, -1, 0]}])");
+    document["rays"]["resolution"] = 16;
+    document["receivers"]["resolution"] = {8, 6};
+    for (const std::size_t layers : {std::size_t{4}, std::size_t{3}}) {
+        if (layers == 3) objects.erase(3);
+        const Rendering result = render(document, {}, {});
+        EXPECT_EQ(result.points, 8u * 6 * layers);
+        for (int c = 0; c < 3; ++c) {
+            double left = 1.0, shaded = 0.0, taken = 0.0;
+            for (std::size_t i = 0; i < layers; ++i) {
+                const double opacity = opacities[i][c];
+                shaded += left * opacity * surface_albedo * left;
+                taken += left * opacity * (1.0 - left);
+                left *= 1.0 - opacity;
+            }
+            for (const Picture* picture : {&result.reference, &result.techniques[1].picture})
+                for (std::size_t p = 0; p < 48; ++p) {
+                    EXPECT_NEAR(picture->shaded.pixels[p][c], shaded, 1e-5) << c;
+                    EXPECT_NEAR(picture->shadow.pixels[p][c], 1.0 - taken, 1e-5) << c;
+                }
+            EXPECT_LT(result.techniques[1].shaded.max, 1e-5);
+        }
+    }
+}
+
+// What a technique answers wrong behind a faint layer shows in its picture as much as that layer lets it be seen.
+TEST(Render, shows_errors_through_the_layers_before_them) {
+    json document = quad_over_plane();
+    document["scene"]["objects"][0]["opacity"] = 0.4;  // a shadow map takes it as opaque
+    const Rendering result = render(document, {}, {});
+    const auto column = [](double x) {
+        return static_cast<int>(40.0 + 20.0 * x / (std::tan(1.5 * 3.14159265 / 180) * 100));
+    };
+    const double lit = surface_albedo * std::sqrt(0.5);
+    const Picture& wrong = result.techniques[0].picture;
+    // At -0.5 the plane lies in the quad's shadow and behind the quad; at 0.5 in its shadow alone.
+    EXPECT_NEAR(result.reference.shaded.at(column(-0.5), 20).x, lit * (0.4 + 0.6 * 0.6), 1e-3);
+    EXPECT_NEAR(wrong.shaded.at(column(-0.5), 20).x, lit * 0.4, 1e-3);
+    EXPECT_NEAR(difference_times_four(wrong.shaded, result.reference.shaded).at(column(-0.5), 20).x, 4 * lit * 0.36,
+                4e-3);
+    EXPECT_NEAR(pixel_errors(wrong.shadow, result.reference.shadow)[static_cast<std::size_t>(20 * 80 + column(-0.5))],
+                0.36, 1e-3);
+    EXPECT_NEAR(wrong.shaded.at(column(0.5), 20).x, 0.0, 1e-3);
+    EXPECT_NEAR(result.reference.shaded.at(column(0.5), 20).x, lit * 0.6, 1e-3);
+}
+
 TEST(Render, adds_the_lights_in_their_colours) {
     json document = quad_over_plane();
     document["lights"] = json::parse(R"([{"type": "directional", "direction": [1, -1, 0], "colour": [1, 0, 0]},

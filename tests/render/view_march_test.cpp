@@ -18,7 +18,7 @@ TracedSegment medium(double front, double back, double sigma) {
 
 ViewMarch march(const std::vector<TracedSegment>& segments, double step) {
     ViewMarch result;
-    march_view_ray(segments, step, result);
+    march_view_ray(segments, {}, step, result);
     return result;
 }
 
@@ -85,6 +85,48 @@ TEST(ViewMarch, keeps_channels_apart_and_passes_over_surfaces) {
     EXPECT_EQ(m.steps[0].share.x, 0.0);
     EXPECT_NEAR(m.steps[0].share.y, 0.5, 1e-7);
     EXPECT_NEAR(m.steps[0].share.z, 0.75, 1e-7);
+}
+
+rays::SurfaceHit surface(double t, Vec3d opacity) {
+    return {t, Vec3d(0.0), Vec3d(0.0), Vec3d(0.0), opacity};
+}
+
+TEST(ViewMarch, composites_surfaces_in_order_of_depth) {
+    ViewMarch m;
+    march_view_ray({}, std::vector{surface(1, Vec3d(0.25)), surface(2, Vec3d(0.5, 0, 1)), surface(3, Vec3d(0.8))}, 1.0,
+                   m);
+    ASSERT_EQ(m.surfaces.size(), 3u);
+    EXPECT_EQ(m.surfaces[0], Vec3d(0.25));
+    EXPECT_EQ(m.surfaces[1], Vec3d(0.375, 0, 0.75));
+    EXPECT_NEAR((m.surfaces[2] - Vec3d(0.3, 0.6, 0)).length(), 0.0, 1e-12);
+    EXPECT_NEAR((m.transmittance - Vec3d(0.075, 0.15, 0)).length(), 0.0, 1e-12);
+}
+
+// A slab from 2 to 4 with a surface at 3.1, inside one of its steps or between two, and others before and behind it.
+TEST(ViewMarch, dims_the_media_behind_a_surface_and_the_surface_behind_media_whatever_the_step) {
+    const double sigma = 0.7;
+    const auto media_to = [&](double t) { return std::exp(-sigma * (t - 2)); };
+    for (const double step : {0.01, 0.3, 5.0}) {
+        ViewMarch m;
+        march_view_ray(std::vector{medium(2, 4, sigma)},
+                       std::vector{surface(1, Vec3d(0.2)), surface(3.1, Vec3d(0.4)), surface(7, Vec3d(0.5))}, step, m);
+        EXPECT_NEAR(in_scattering(m, 2, 0.0), 0.8 * ((1 - media_to(3.1)) + 0.6 * (media_to(3.1) - media_to(4))), 1e-7)
+            << step;
+        ASSERT_EQ(m.surfaces.size(), 3u);
+        EXPECT_NEAR(m.surfaces[0].x, 0.2, 1e-12);
+        EXPECT_NEAR(m.surfaces[1].x, 0.8 * media_to(3.1) * 0.4, 1e-7);
+        EXPECT_NEAR(m.surfaces[2].x, 0.8 * 0.6 * media_to(4) * 0.5, 1e-7);
+    }
+}
+
+TEST(ViewMarch, ends_at_surfaces_behind_which_no_light_is_left) {
+    std::vector<rays::SurfaceHit> many;
+    for (int i = 0; i < 100; ++i) many.push_back(surface(1 + i, Vec3d(0.5)));
+    ViewMarch m;
+    march_view_ray(std::vector{medium(40, 50, 1.0)}, many, 1.0, m);
+    EXPECT_EQ(m.surfaces.size(), 14u) << "2^-14 is the first power below 1e-4";
+    EXPECT_TRUE(m.steps.empty());
+    EXPECT_EQ(m.transmittance.x, std::ldexp(1.0, -14));
 }
 
 TEST(ViewMarch, of_nothing_is_nothing) {

@@ -183,7 +183,7 @@ TEST(LoadMesh, RefusesAFileWithoutTriangles) {
     const auto folder = test::write_file("a.obj", "v 0 0 0\n").parent_path();
     const base::Error hollow = failure(R"({"type": "mesh", "file": "a.obj"})", {folder});
     EXPECT_THAT(hollow.message(), HasSubstr((folder / "a.obj").string()));
-    EXPECT_THAT(hollow.message(), HasSubstr("no triangles"));
+    EXPECT_THAT(hollow.message(), HasSubstr("a point cloud: 1 vertices and no faces"));
     EXPECT_EQ(hollow.where(), "/scene/objects/0/file") << "where an editor marks it";
     const base::Error missing = failure(R"({"type": "mesh", "file": "b.obj"})", {folder});
     EXPECT_EQ(missing.code(), base::ErrorCode::no_such_file);
@@ -224,7 +224,19 @@ TEST(LoadVolume, ReadsRawValuesIntoTheirBox) {
     EXPECT_EQ(volume.step, 0.5);  // half of the smallest voxel edge
     EXPECT_EQ(std::get<GridVolume>(load(raw + R"(, "step": 0.125})", {folder}).shape).step, 0.125);
     EXPECT_EQ(failure(raw + R"(, "step": 1e-8})", {folder}).where(), "/scene/objects/0/step");
-    EXPECT_EQ(failure(raw + R"(, "grid": "density"})", {folder}).where(), "/scene/objects/0/grid");
+    for (const char* grid : {"\"density\"", "0"})
+        EXPECT_EQ(failure(raw + ", \"grid\": " + grid + "}", {folder}).where(), "/scene/objects/0/grid");
+    EXPECT_TRUE(volume.notes.lines.empty());
+}
+
+TEST(LoadVolume, TakesOrRefusesDensitiesBelow0) {
+    const auto folder = test::write_file("a.raw", bytes_of(0.0f, -1.0f, 2.0f, 3.0f)).parent_path();
+    const std::string raw = R"({"type": "volume", "file": "a.raw", "format": "float32", "size": [4, 1, 1],
+                                "lower": [0, 0, 0], "upper": [8, 1, 1])";
+    for (const char* more : {"}", R"(, "negative": "clamp"})"})
+        EXPECT_EQ(std::get<GridVolume>(load(raw + more, {folder}).shape).notes.lines.size(), 1u);
+    EXPECT_THAT(failure(raw + R"(, "negative": "refuse"})", {folder}).message(), HasSubstr("below 0"));
+    EXPECT_THAT(failure(raw + R"(, "negative": "keep"})", {folder}).message(), HasSubstr("clamp, refuse"));
 }
 
 TEST(LoadVolume, PointsAtWhatIsMissingOrWrong) {
@@ -311,6 +323,33 @@ TEST_P(Procedural, SchemaDocumentsTheDefaultsOfTheStruct) {
 
 INSTANTIATE_TEST_SUITE_P(Objects, Procedural,
                          testing::Values("hair_ball", "cloud", "density_box", "crossed_rods", "smoke_column"));
+
+TEST(LoadObject, NamesAPointCloudAndWhatToDoWithIt) {
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+        "0 1 0\n1 1 0\n1 1 -1\n0 1 -1\n";
+    for (const auto& [name, text] :
+         {std::pair<std::string, std::string>{"points.ply", ply}, {"points.obj", "v 0 1 0\nv 1 1 0\n"}}) {
+        const auto file = test::write_file(name, text);
+        const base::Error error = failure(R"({"type": "mesh", "file": ")" + name + "\"}", {file.parent_path()});
+        EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
+        EXPECT_EQ(error.where(), "/scene/objects/0/file");
+        EXPECT_THAT(error.message(), HasSubstr("a point cloud"));
+        EXPECT_THAT(error.message(), HasSubstr("spheres or particles"));
+    }
+    const auto file = test::write_file("lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\nf 1 2\n");
+    EXPECT_THAT(failure(R"({"type": "mesh", "file": "lines.obj"})", {file.parent_path()}).message(),
+                HasSubstr("no triangles; passed over: lines (1), faces of fewer than 3 corners (1)"));
+}
+
+TEST(LoadObject, KeepsTheCountsOfWhatItsFileHeldBesides) {
+    const auto file = test::write_file("edge.obj", "v 0 1 0\nv 1 1 0\nv 1 1 -1\nv 0 1 -1\nf 1 2 3 4\nf 1 2\n");
+    const Object object = load(R"({"type": "mesh", "file": "edge.obj"})", {file.parent_path()});
+    ASSERT_EQ(object.passed_over.size(), 1u);
+    EXPECT_EQ(object.passed_over[0].what, "faces of fewer than 3 corners");
+    EXPECT_EQ(object.passed_over[0].count, 1u);
+    EXPECT_EQ(std::get<Mesh>(object.shape).triangles.size(), 2u);
+}
 
 }  // namespace
 }  // namespace shadowbench::scene

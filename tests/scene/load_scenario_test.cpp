@@ -32,6 +32,7 @@ void expect_same(const RaySettings& a, const RaySettings& b) {
     EXPECT_EQ(a.resolution, b.resolution);
     EXPECT_EQ(a.samples_per_pixel, b.samples_per_pixel);
     EXPECT_EQ(a.pattern, b.pattern);
+    EXPECT_EQ(a.media, b.media);
     EXPECT_EQ(a.seed, b.seed);
 }
 
@@ -105,8 +106,11 @@ TEST(LoadScenario, DefaultsAreThoseThatTheSchemaDocuments) {
 TEST(LoadScenario, ReadsEverySetting) {
     json document = minimal();
     document["purpose"] = "To see.";
-    document["rays"] = {
-        {"resolution", {64, 32}}, {"samples_per_pixel", 9}, {"pattern", "regular"}, {"seed", 9007199254740991}};
+    document["rays"] = {{"resolution", {64, 32}},
+                        {"samples_per_pixel", 9},
+                        {"pattern", "regular"},
+                        {"media", "cells"},
+                        {"seed", 9007199254740991}};
     document["receivers"] = {{"type", "camera"},    {"position", {1, 2, 3}}, {"target", {0, 1, 0}}, {"up", {0, 0, 1}},
                              {"fov", 60},           {"resolution", 100},     {"media_lookups", 3},  {"seed", 4},
                              {"filter_width", 2.5}, {"bias", 0.25}};
@@ -115,7 +119,7 @@ TEST(LoadScenario, ReadsEverySetting) {
     const Scenario scenario = load_scenario(document, {});
     EXPECT_EQ(scenario.name, "minimal");
     EXPECT_EQ(scenario.purpose, "To see.");
-    expect_same(scenario.rays, RaySettings{{64, 32}, 9, Pattern::regular, 9007199254740991});
+    expect_same(scenario.rays, RaySettings{{64, 32}, 9, Pattern::regular, Media::cells, 9007199254740991});
     EXPECT_EQ(scenario.receivers.camera->position, Vec3d(1, 2, 3));
     EXPECT_EQ(scenario.receivers.camera->target, Vec3d(0, 1, 0));
     EXPECT_EQ(scenario.receivers.camera->up, Vec3d(0, 0, 1));
@@ -222,10 +226,26 @@ TEST(LoadScenario, StatesTheLimitsOfPlacesInMediaAndOfMarching) {
     document["reference"] = {{"queries", 1}, {"samples_per_pixel", 4}};
     EXPECT_NO_THROW(load_scenario(document, {})) << "a million steps";
     EXPECT_EQ(error_with("/rays/resolution", "16384", document).where(), "/rays");
-    EXPECT_EQ(error_with("/reference/queries", "16777216", document).where(), "/reference");
+    document["reference"]["queries"] = 16777216;
+    EXPECT_NO_THROW(load_scenario(document, {})) << "the truth takes no steps";
     const base::Error step = error_with("/scene/objects/0/step", "1e-18", document);
     EXPECT_EQ(step.where(), "/scene/objects/0/step");
     EXPECT_THAT(step.message(), HasSubstr("make it at least 3.46e-07"));
+
+    document["scene"]["objects"] = {{{"type", "density_box"}, {"size", {1, 1, 4096}}}};
+    document["reference"] = {{"queries", 1}, {"samples_per_pixel", 256}};
+    EXPECT_NO_THROW(load_scenario(document, {}));
+    const base::Error cells = error_with("/reference/queries", "16777216", document);
+    EXPECT_EQ(cells.where(), "/reference");
+    EXPECT_THAT(cells.message(), HasSubstr("fewer voxels"));
+}
+
+TEST(LoadScenario, GridVolumesAreMarchedInStepsUnlessCellsAreAskedFor) {
+    json document = minimal();
+    EXPECT_EQ(load_scenario(document, {}).rays.media, Media::steps);
+    document["rays"] = {{"media", "cells"}};
+    EXPECT_EQ(load_scenario(document, {}).rays.media, Media::cells);
+    EXPECT_EQ(error_with("/rays/media", "\"voxels\"", document).where(), "/rays/media");
 }
 
 TEST(LoadScenario, RefusesCamerasThatSeeNothing) {

@@ -38,6 +38,15 @@ TEST(ParseJson, RefusesDuplicateKeysOfOneObjectOnly) {
     EXPECT_NO_THROW(parse_json(R"({"a": {"b": 1}, "b": {"a": 1}, "c": [{"b": 1}, {"b": 2}]})", "origin"));
 }
 
+// Requests hold such text as well as files do.
+TEST(ParseJson, TakesAByteOrderMarkOfUtf8Alone) {
+    const std::string mark = "\xef\xbb\xbf";
+    EXPECT_EQ(parse_json(mark + "{\"a\": 1}", "origin")["a"], 1);
+    EXPECT_EQ(parse_error(mark + "{\"a\": 1, \"a\": 2}").where(), "file.json:1:10");
+    for (const std::string& text : {std::string("\xff\xfe{\0}\0", 6), std::string("\xfe\xff\0{\0}", 6)})
+        EXPECT_THAT(parse_error(text).message(), HasSubstr("UTF-8"));
+}
+
 TEST(ParseJson, FindsADuplicateKeyWithAnEscapedQuote) {
     EXPECT_EQ(parse_error(R"({"x\"":1,"x\"":2})").where(), "file.json:1:10");
 }

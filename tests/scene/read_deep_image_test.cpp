@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "scene/files.h"
@@ -17,6 +18,8 @@ using test::error_of;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Sample {
     std::vector<float> values;  // one a channel
@@ -70,17 +73,149 @@ TEST(ReadDeepImage, ClampsAlphaThatIsOutsideByRounding) {
 
 TEST(ReadDeepImage, TellsThePixelOfABadSample) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const float infinity = std::numeric_limits<float>::infinity();
     const auto message = [](const Sample& sample) {
         return error_of([&] { read_deep_image(write({"A", "Z", "ZBack"}, {{{0.5f, 1, 1}}, sample})); }).message();
     };
     const auto pixel = HasSubstr("pixel (1, 0), sample 1");
     EXPECT_THAT(message({{nan, 1, 1}}), AllOf(pixel, HasSubstr("not finite")));
-    EXPECT_THAT(message({{0.5f, infinity, infinity}}), AllOf(pixel, HasSubstr("not finite")));
-    EXPECT_THAT(message({{0.5f, 2, nan}}), AllOf(pixel, HasSubstr("not finite")));
-    EXPECT_THAT(message({{0.5f, 2, 1}}), AllOf(pixel, HasSubstr("before Z")));
+    EXPECT_THAT(message({{infinity, 1, 1}}), AllOf(pixel, HasSubstr("not finite")));
+    EXPECT_THAT(message({{0.5f, 2, nan}}), AllOf(pixel, HasSubstr("not a number")));
+    EXPECT_THAT(message({{0.5f, nan, 2}}), AllOf(pixel, HasSubstr("not a number")));
+    EXPECT_THAT(message({{0.5f, -infinity, 2}}), AllOf(pixel, HasSubstr("Z -inf")));
+    EXPECT_THAT(message({{0.5f, -1e19f, 2}}), AllOf(pixel, HasSubstr("Z -1e+19")));
     EXPECT_THAT(message({{2, 1, 1}}), AllOf(pixel, HasSubstr("alpha 2")));
     EXPECT_THAT(message({{-1, 1, 1}}), AllOf(pixel, HasSubstr("alpha -1")));
+}
+
+// "Interpreting OpenEXR Deep Pixels": ZBack says where a volume ends; 0, or anything before Z, says nothing.
+TEST(ReadDeepImage, TakesABackThatIsNotBehindForASurface) {
+    const DeepImage image = read_deep_image(write(
+        {"A", "Z", "ZBack"}, {{{0.5f, 3, 0}}, {{0.25f, 1, 2}}, {{0.5f, 2, 1}}, {{1, 4, -infinity}}, {{0, -2, 0}}}));
+    EXPECT_THAT(image.z_front, ElementsAre(-2, 1, 2, 3, 4));
+    EXPECT_THAT(image.z_back, ElementsAre(0, 2, 2, 3, 4));
+    EXPECT_THAT(image.notes.lines, ElementsAre("3 of 5 samples have their ZBack before Z: taken as surfaces"));
+}
+
+TEST(ReadDeepImage, KeepsSamplesAtInfinityBehindEverything) {
+    const DeepImage image =
+        read_deep_image(write({"A", "Z"}, {{{1, infinity}}, {{0.5f, 1e30f}}, {{0.25f, 7}}, {{0.5f, 1.5e18f}}}));
+    EXPECT_THAT(image.z_front, ElementsAre(7, 1.5e18f, 1e30f, infinity));
+    EXPECT_EQ(image.z_back, image.z_front);
+    EXPECT_THAT(image.transmittance, ElementsAre(0.75f, 0.5f, 0.5f, 0));
+    for (std::size_t s = 0; s < 4; ++s) EXPECT_EQ(behind_everything(image, s), s > 0);
+    ASSERT_EQ(image.notes.lines.size(), 1u);
+    EXPECT_THAT(image.notes.lines[0], HasSubstr("3 of 4 samples are at infinity"));
+}
+
+// (1 - alpha)^(share of the way) is 1 at every place of an endless stretch, and 0 behind its front when alpha is 1.
+TEST(ReadDeepImage, AnEndlessStretchIsFarOrWhereItIsOpaqueASurface) {
+    const DeepImage image = read_deep_image(write({"A", "Z", "ZBack"}, {{{0.5f, 3, infinity}}, {{1, 4, 1e30f}}}));
+    EXPECT_THAT(image.z_front, ElementsAre(3, 4));
+    EXPECT_TRUE(behind_everything(image, 0));
+    EXPECT_EQ(image.z_back[1], 4.0f);
+    EXPECT_FALSE(behind_everything(image, 1));
+    const DeepImage red = read_deep_image(
+        write({"AR", "AG", "AB", "Z", "ZBack"}, {{{1, 0.5f, 0, 3, infinity}}, {{0.5f, 0.5f, 0, 4, infinity}}}));
+    EXPECT_THAT(red.transmittance, ElementsAre(0, 1, 1, 0.5f, 0.5f, 1));
+    EXPECT_FALSE(behind_everything(red, 0));
+    EXPECT_TRUE(behind_everything(red, 1));
+}
+
+TEST(ReadDeepImage, ReadsAnAlphaOfEachColour) {
+    const DeepImage image =
+        read_deep_image(write({"A", "AB", "AG", "AR", "Z"}, {{{0.5f, 0.75f, 0.5f, 0.25f, 4}}, {{9, 0, 1, 0.5f, 2}}}));
+    EXPECT_EQ(image.channels, 3);
+    EXPECT_THAT(image.z_front, ElementsAre(2, 4));
+    EXPECT_THAT(image.transmittance, ElementsAre(0.5f, 0, 1, 0.75f, 0.5f, 0.25f));
+    // A stands for a colour that has none of its own; without any of that it is not needed.
+    EXPECT_THAT(read_deep_image(write({"A", "AG", "Z"}, {{{0.5f, 0.25f, 4}}})).transmittance,
+                ElementsAre(0.5f, 0.75f, 0.5f));
+    EXPECT_THAT(read_deep_image(write({"AR", "AG", "AB", "Z"}, {{{0, 0.25f, 0.5f, 4}}})).transmittance,
+                ElementsAre(1, 0.75f, 0.5f));
+    EXPECT_THAT(error_of([] {
+                    read_deep_image(write({"AR", "AG", "Z"}, {{{0, 0.25f, 4}}}));
+                }).message(),
+                HasSubstr("A and Z are needed"));
+}
+
+TEST(ReadDeepImage, EqualAlphasAreOneChannel) {
+    const DeepImage image =
+        read_deep_image(write({"A", "AR", "AG", "AB", "Z"}, {{{0, 0.25f, 0.25f, 0.25f, 4}}, {{0, 1, 1, 1.001f, 5}}}));
+    EXPECT_EQ(image.channels, 1);
+    EXPECT_THAT(image.transmittance, ElementsAre(0.75f, 0));
+    EXPECT_THAT(image.notes.lines, ElementsAre(HasSubstr("1 of 2 samples have an alpha just outside [0, 1]")));
+}
+
+TEST(ReadDeepImage, TakesTheOnlyLayerThatHasAlphaAndZ) {
+    const std::vector<Sample> samples{{{0.5f, 4, 6, 9, 8}}};
+    const auto file = write({"rgba.A", "rgba.Z", "rgba.ZBack", "rgba.R", "other.Z"}, samples);
+    for (const DeepChoice& choice : {DeepChoice{}, DeepChoice{"rgba", {}}}) {
+        const DeepImage image = read_deep_image(file, choice);
+        EXPECT_THAT(image.z_front, ElementsAre(4));
+        EXPECT_THAT(image.z_back, ElementsAre(6));
+        EXPECT_TRUE(image.notes.lines.empty());
+    }
+    for (const char* layer : {"other", "", "rgba.A"})
+        EXPECT_THAT(error_of([&] {
+                        read_deep_image(file, {layer, {}});
+                    }).message(),
+                    AllOf(HasSubstr("no layer"), HasSubstr("that have them: rgba")));
+}
+
+TEST(ReadDeepImage, AsksWhichOfSeveralLayersIsMeant) {
+    const auto file = write({"a.A", "a.Z", "b.c.A", "b.c.Z"}, {{{0.5f, 4, 0.25f, 5}}});
+    EXPECT_THAT(error_of([&] { read_deep_image(file); }).message(), AllOf(HasSubstr("\"layer\""), HasSubstr("a, b.c")));
+    EXPECT_THAT(read_deep_image(file, {"b.c", {}}).z_front, ElementsAre(5));
+    EXPECT_THAT(read_deep_image(file, {"a", {}}).transmittance, ElementsAre(0.5f));
+    // Channels without a layer are the image itself.
+    const auto image = write({"A", "Z", "b.A", "b.Z"}, {{{0.5f, 4, 0.25f, 5}}});
+    EXPECT_THAT(read_deep_image(image).z_front, ElementsAre(4));
+    EXPECT_THAT(read_deep_image(image).notes.lines, ElementsAre(HasSubstr("passed over: b")));
+    EXPECT_THAT(read_deep_image(image, {"b", {}}).z_front, ElementsAre(5));
+    EXPECT_THAT(read_deep_image(image, {"", {}}).z_front, ElementsAre(4));
+}
+
+// Deep parts with one sample each, at depth 1, 2, ...
+std::filesystem::path write_parts(const std::vector<std::string>& names) {
+    const std::filesystem::path file = test::fresh_path("parts.exr");
+    std::vector<OIIO::ImageSpec> specs;
+    for (const std::string& name : names) {
+        OIIO::ImageSpec spec(2, 1, 2, OIIO::TypeDesc::FLOAT);
+        spec.channelnames = {"A", "Z"};
+        spec.deep = true;
+        spec.attribute("compression", "zips");
+        spec.attribute("oiio:subimagename", name);
+        specs.push_back(spec);
+    }
+    const auto output = OIIO::ImageOutput::create(file.string());
+    EXPECT_TRUE(output->open(file.string(), static_cast<int>(specs.size()), specs.data())) << output->geterror();
+    for (std::size_t part = 0; part < specs.size(); ++part) {
+        if (part > 0) {
+            EXPECT_TRUE(output->open(file.string(), specs[part], OIIO::ImageOutput::AppendSubimage))
+                << output->geterror();
+        }
+        OIIO::DeepData data;
+        data.init(specs[part]);
+        data.set_samples(0, 1);
+        data.set_deep_value(0, 0, 0, 0.5f);
+        data.set_deep_value(0, 1, 0, static_cast<float>(part + 1));
+        EXPECT_TRUE(output->write_deep_image(data)) << output->geterror();
+    }
+    output->close();
+    return file;
+}
+
+TEST(ReadDeepImage, TakesAPartByNumberOrNameAndAsksForOneOfSeveral) {
+    const auto file = write_parts({"left", "centre", "right"});
+    EXPECT_THAT(error_of([&] { read_deep_image(file); }).message(),
+                AllOf(HasSubstr("\"part\""), HasSubstr("0 \"left\", 1 \"centre\", 2 \"right\"")));
+    EXPECT_THAT(read_deep_image(file, {{}, 0}).z_front, ElementsAre(1));
+    EXPECT_THAT(read_deep_image(file, {{}, 2}).z_front, ElementsAre(3));
+    EXPECT_THAT(read_deep_image(file, {{}, "right"}).z_front, ElementsAre(3));
+    EXPECT_THAT(read_deep_image(file, {{}, "right"}).notes.lines, ElementsAre("of 3 parts 2 \"right\" is read"));
+    for (const DeepChoice& gone : {DeepChoice{{}, 3}, DeepChoice{{}, -1}, DeepChoice{{}, "middle"}})
+        EXPECT_THAT(error_of([&] { read_deep_image(file, gone); }).message(),
+                    AllOf(HasSubstr("not there"), HasSubstr("2 \"right\"")));
 }
 
 TEST(ReadDeepImage, NamesTheChannelsWhenOneIsMissing) {
@@ -103,6 +238,50 @@ TEST(ReadDeepImage, RefusesMipLevelsBeforePixelsAreRead) {
     const base::Error error = error_of([&] { read_deep_image(file); });
     EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
     EXPECT_THAT(error.message(), HasSubstr("mip levels"));
+}
+
+// The library reads some values at their own size, and takes what lies behind for attributes: one that is said to be
+// longer would hide a text of 2 GB there.
+TEST(ReadDeepImage, RefusesAttributesOfAnotherSizeThanTheirType) {
+    const std::string bytes = test::read_bytes(write({"A", "Z"}, {{{0.5f, 4}}}));
+    for (const std::string& mark :
+         {std::string("lineOrder\0lineOrder\0\x01", 21), std::string("pixelAspectRatio\0float\0\x04", 24),
+          std::string("dataWindow\0box2i\0\x10", 18), std::string("channels\0chlist\0\x25", 17)}) {
+        const std::size_t at = bytes.find(mark);
+        ASSERT_NE(at, std::string::npos) << mark;
+        for (const int by : {-1, 1, 40}) {
+            std::string other = bytes;
+            char& size = other[at + mark.size() - 1];
+            size = static_cast<char>(size + by);
+            const auto file = test::write_file("size.exr", other);
+            EXPECT_EQ(error_of([&] { read_deep_image(file); }).code(), base::ErrorCode::bad_input) << mark << by;
+            EXPECT_THAT(error_of([&] { read_deep_image(file); }).where(), testing::StartsWith(file.string() + ":"));
+        }
+    }
+}
+
+TEST(ReadDeepImage, ChecksPreviewsAndListsOfTexts) {
+    const std::string bytes = test::read_bytes(write({"A", "Z"}, {{{0.5f, 4}}}));
+    const auto with = [&](const std::string& name_and_type, const std::string& value) {
+        std::string other = bytes;
+        other.insert(8, name_and_type + test::bytes_of(static_cast<std::uint32_t>(value.size())) + value);
+        // The table of places lies behind the header: all move.
+        const std::size_t table = other.find(std::string("version\0int\0", 12)) + 12 + 8 + 1;
+        std::uint64_t place = 0;
+        std::memcpy(&place, other.data() + table, sizeof place);
+        place += other.size() - bytes.size();
+        std::memcpy(other.data() + table, &place, sizeof place);
+        return test::write_file("attribute.exr", other);
+    };
+    const std::string texts("names\0stringvector\0", 19), preview("preview\0preview\0", 16);
+    const std::string one = test::bytes_of(2u) + "ab";
+    EXPECT_EQ(read_deep_image(with(texts, one + one)).z_front.size(), 1u);
+    EXPECT_EQ(read_deep_image(with(preview, test::bytes_of(1u, 2u) + "12345678")).z_front.size(), 1u);
+    for (const auto& file :
+         {with(texts, one + test::bytes_of(0x7fffffffu) + "ab"), with(texts, one + "ab"),
+          with(preview, test::bytes_of(1u, 3u) + "12345678"), with(preview, test::bytes_of(0x8000u, 0x20000u)),
+          with(std::string("list\0floatvector\0", 17), "12345")})
+        EXPECT_EQ(error_of([&] { read_deep_image(file); }).code(), base::ErrorCode::bad_input);
 }
 
 TEST(ReadDeepImage, RefusesOtherFiles) {

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "scene/files.h"
 #include "scene/support.h"
@@ -14,6 +17,8 @@ using test::bytes_of;
 using test::error_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Pair;
 
 std::string header(const std::string& format, const std::string& vertices = "4", const std::string& faces = "1") {
     return "ply\nformat " + format + " 1.0\ncomment made by hand\nelement vertex " + vertices +
@@ -40,7 +45,14 @@ std::string binary(bool big) {
 }
 
 Mesh read(const std::string& bytes) {
-    return read_mesh(test::write_file("a.ply", bytes));
+    return read_mesh(test::write_file("a.ply", bytes)).mesh;
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> passed_over(const std::string& bytes) {
+    std::vector<std::pair<std::string, std::uint64_t>> list;
+    for (const PassedOver& each : read_mesh(test::write_file("a.ply", bytes)).passed_over)
+        list.emplace_back(each.what, each.count);
+    return list;
 }
 
 TEST(ReadPly, ReadsAllThreeEncodingsAlike) {
@@ -99,7 +111,8 @@ TEST(ReadPly, RefusesValuesThatMakeNoMesh) {
     EXPECT_THAT(message("1 1 0 9", "1 x 0 9"), HasSubstr("\"x\" is not a number"));
     EXPECT_THAT(message("4 0 1 2 3", "4 0 1 2 4"), HasSubstr("names vertex 4"));
     EXPECT_THAT(message("4 0 1 2 3", "4 0 1 2 -1"), HasSubstr("names vertex -1"));
-    EXPECT_THAT(message("4 0 1 2 3", "2 0 1"), HasSubstr("2 corners"));
+    EXPECT_THAT(message("4 0 1 2 3", "4 0 2 1 3"),
+                HasSubstr("face 0: the face crosses itself: its edge from corner 1"));
     EXPECT_THAT(message("property float z", "property float w"), HasSubstr("x, y and z"));
     EXPECT_THAT(message("format ascii", "format base64"), HasSubstr("base64"));
     EXPECT_THAT(message("property uchar red", "property colour red"), HasSubstr("not understood"));
@@ -112,6 +125,78 @@ TEST(ReadPly, RefusesVerticesTwice) {
     std::string twice = ascii;
     twice.insert(twice.find("end_header"), "element vertex 0\nproperty float x\nproperty float y\nproperty float z\n");
     EXPECT_THAT(error_of([&] { read(twice); }).message(), HasSubstr("second element"));
+}
+
+TEST(ReadPly, TakesAByteOrderMark) {
+    for (const std::string& bytes : {ascii, binary(false), binary(true)})
+        EXPECT_EQ(test::area(read("\xef\xbb\xbf" + bytes)), 1.0);
+    EXPECT_THAT(error_of([] { read(std::string("\xff\xfep\0l\0y\0", 8)); }).message(), HasSubstr("UTF-8"));
+}
+
+TEST(ReadPly, CoversAConcavePolygonOnce) {
+    std::string l = header("ascii", "6") + "2 0 0 9\n2 1 0 9\n1 1 0 9\n1 2 0 9\n0 2 0 9\n0 0 0 9\n6 0 1 2 3 4 5\n";
+    EXPECT_EQ(test::area(read(l)), 3.0);
+}
+
+TEST(ReadPly, PassesOverFacesThatAreNoneAndElementsItDoesNotKnow) {
+    std::string bytes =
+        header("ascii", "4", "4") + "0 0 0 9\n1 0 0 9\n1 1 0 9\n0 1 0 9\n2 0 1\n4 0 1 2 3\n0\n4 0 0 1 1\n7 8\n";
+    bytes.insert(bytes.find("end_header"), "element edge 1\nproperty int vertex1\nproperty int vertex2\n");
+    EXPECT_EQ(read(bytes).triangles.size(), 2u);
+    EXPECT_THAT(passed_over(bytes), ElementsAre(Pair("faces of fewer than 3 corners", 2), Pair("faces without area", 1),
+                                                Pair("elements \"edge\"", 1)));
+    EXPECT_THAT(passed_over(ascii), IsEmpty());
+}
+
+// Two strips: four vertices, then five of which the first three repeat one.
+std::string strips(const std::string& format, const std::string& type) {
+    return "ply\nformat " + format +
+           " 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+           "element tristrips 1\nproperty list int " +
+           type + " vertex_indices\nend_header\n";
+}
+const std::vector<int> strip_list{0, 1, 3, 2, -1, 2, 2, 1, 4, 3, -1, 0, 1, -1};
+
+TEST(ReadPly, TakesTriangleStripsOfAllEncodings) {
+    const std::vector<Vec3f> positions{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}};
+    std::string text = strips("ascii", "int"), numbers = std::to_string(strip_list.size());
+    for (const Vec3f& at : positions) text += fmt::format("{} {} {}\n", at.x, at.y, at.z);
+    for (const int index : strip_list) numbers += " " + std::to_string(index);
+    std::vector<std::string> all{text + numbers + "\n"};
+    for (const bool big : {false, true})
+        for (const char* type : {"int", "uint"}) {
+            std::string bytes = strips(big ? "binary_big_endian" : "binary_little_endian", type);
+            for (const Vec3f& at : positions) bytes += ordered(at.x, big) + ordered(at.y, big) + ordered(at.z, big);
+            bytes += ordered(static_cast<int>(strip_list.size()), big);
+            for (const int index : strip_list) bytes += ordered(index, big);
+            all.push_back(bytes);
+        }
+    for (const std::string& bytes : all) {
+        // All turn one way within a strip: every second triangle is listed the other way round.
+        EXPECT_THAT(read(bytes).triangles, ElementsAre(Vec3i(0, 1, 3), Vec3i(3, 1, 2), Vec3i(1, 2, 4), Vec3i(1, 4, 3)));
+        EXPECT_THAT(passed_over(bytes), ElementsAre(Pair("strips of fewer than 3 vertices", 1)));
+    }
+}
+
+TEST(ReadPly, RefusesStripsOfVerticesThatAreNotThere) {
+    for (const char* index : {"4", "-2", "0.5", "nan"})
+        EXPECT_THAT(
+            error_of([&] {
+                read(
+                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+                    "z\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 "
+                    "0\n3 0 1 " +
+                    std::string(index) + "\n");
+            }).message(),
+            HasSubstr("tristrips 0 names vertex"));
+}
+
+TEST(ReadPly, ReadsVerticesAlone) {
+    const Mesh mesh = read(
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+        "end_header\n0 1 0\n1 1 0\n");
+    EXPECT_EQ(mesh.positions.size(), 2u);
+    EXPECT_THAT(mesh.triangles, IsEmpty());
 }
 
 // Nothing in the file bounds how many of them there are: counting to the largest number in turn would take days.

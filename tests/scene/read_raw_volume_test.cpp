@@ -39,10 +39,22 @@ TEST(ReadRawVolume, RefusesASizeThatIsNotTheFiles) {
 }
 
 TEST(ReadRawVolume, PointsAtTheByteOfABadDensity) {
-    for (const float bad : {-1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity}) {
         const auto file = test::write_file("a.raw", bytes_of(0.0f, 1.0f, bad));
         EXPECT_EQ(error_of([&] { read_raw_volume(file, {3, 1, 1}, "float32"); }).where(), file.string() + ":8");
     }
+    const auto file = test::write_file("a.raw", bytes_of(0.0f, 1.0f, -1e-6f));
+    const base::Error error = error_of([&] { read_raw_volume(file, {3, 1, 1}, "float32", Negative::refuse); });
+    EXPECT_EQ(error.where(), file.string() + ":8");
+    EXPECT_THAT(error.message(), HasSubstr("below 0"));
+}
+
+TEST(ReadRawVolume, TakesDensitiesBelow0As0AndCountsThem) {
+    const GridVolume volume =
+        read_raw_volume(test::write_file("a.raw", bytes_of(-1e-6f, 1.0f, -3.0f)), {3, 1, 1}, "float32");
+    EXPECT_THAT(volume.density, ElementsAre(0.0f, 1.0f, 0.0f));
+    EXPECT_THAT(volume.notes.lines, ElementsAre("2 of 3 densities are below 0, the least -3: taken as 0"));
 }
 
 TEST(ReadRawVolume, ReadsTheBuckyBall) {

@@ -130,6 +130,31 @@ TEST(HasMedia, SeesSamplesWithDepthInADeepImage) {
     EXPECT_FALSE(has_media(scene));
     scene.deep_image->z_back[0] = 3.0f;
     EXPECT_TRUE(has_media(scene));
+    scene.deep_image->z_back[0] = 1e30f;
+    EXPECT_FALSE(has_media(scene)) << "no place is in it";
+}
+
+TEST(Channels, AreThoseOfADeepImage) {
+    Scene scene;
+    scene.deep_image = DeepImage{1, 1, {0, 1}, {2.0f}, {2.0f}, {0.5f}};
+    EXPECT_EQ(channels(scene), 1);
+    scene.deep_image->transmittance = {0.5f, 0.25f, 1.0f};
+    scene.deep_image->channels = 3;
+    EXPECT_EQ(channels(scene), 3);
+}
+
+TEST(ReadNotes, NameTheirPlacesAndQuoteFilesSafely) {
+    Scene scene;
+    scene.objects.push_back(object(Spheres{{{0, 0, 0}}, {1.0f}}));
+    scene.objects.push_back(object(GridVolume{}));
+    EXPECT_TRUE(read_notes(scene).empty());
+    std::get<GridVolume>(scene.objects[1].shape).notes.lines = {"a\n\xff", "b"};
+    scene.objects[0].passed_over = {{"faces without area", 2}, {"points", 1}};
+    scene.deep_image.emplace();
+    scene.deep_image->notes.lines = {"c"};
+    EXPECT_EQ(read_notes(scene),
+              (std::vector<std::string>{"/scene/objects/0: passed over: faces without area (2), points (1)",
+                                        "/scene/objects/1: a ?", "/scene/objects/1: b", "/scene/deep_image: c"}));
 }
 
 }  // namespace

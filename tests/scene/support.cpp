@@ -37,6 +37,13 @@ fs::path data_file(const std::string& name) {
     return {};
 }
 
+double area(const Mesh& mesh) {
+    double sum = 0.0;
+    const auto at = [&](int index) { return Vec3d(mesh.positions.at(static_cast<std::size_t>(index))); };
+    for (const Vec3i& t : mesh.triangles) sum += (at(t.y) - at(t.x)).cross(at(t.z) - at(t.x)).length() / 2.0;
+    return sum;
+}
+
 base::Error error_of(const std::function<void()>& action) {
     try {
         action();

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "scene/scene.h"
 
 namespace shadowbench::scene::test {
 
@@ -21,6 +22,9 @@ std::string read_bytes(const std::filesystem::path& file);
 
 // $SHADOWBENCH_DATA, or ../shared/data beside the source; empty when neither holds the file.
 std::filesystem::path data_file(const std::string& name);
+
+// Of all triangles together.
+double area(const Mesh& mesh);
 
 // The Error that `action` throws; a failure of the test when it throws none or something else.
 base::Error error_of(const std::function<void()>& action);

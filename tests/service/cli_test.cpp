@@ -176,6 +176,51 @@ TEST_F(Cli, validates_without_running) {
     EXPECT_EQ(outcome.out, "OK tiny: 1 variant of 1 light and 2 techniques\n");
 }
 
+TEST_F(Cli, validate_tells_what_readers_passed_over) {
+    fs::copy_file(fs::path(SHADOWBENCH_SOURCE_DIR) / "tests/cases/zback0.exr", folder_ / "zback0.exr");
+    write("deep.json", R"({"name": "deep", "scene": {"deep_image": {"file": "zback0.exr"}},
+        "receivers": {"type": "probes", "count": 20}, "techniques": [{"type": "deep"}]})");
+    const Outcome outcome = cli({"validate", path("deep.json")});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out,
+              "OK deep: 1 variant of 1 light and 1 technique\n"
+              "note: /scene/deep_image: 64 of 64 samples have their ZBack before Z: taken as surfaces\n");
+}
+
+// A coloured map leaves the program and comes back as a scene of its own, in colour.
+TEST_F(Cli, a_coloured_map_comes_back_in_colour) {
+    ASSERT_EQ(cli({"export", path("tiny.json"), "--set", "scene.objects.0.opacity=[0.2,0.5,0.8]", "--technique",
+                   "uncompressed", "--out", path("map.exr")})
+                  .code,
+              0);
+    write("again.json", R"({"name": "again", "scene": {"deep_image": {"file": "map.exr"}},
+        "receivers": {"type": "probes", "count": 20}, "techniques": [{"type": "deep"}]})");
+    const Outcome again = cli({"export", path("again.json"), "--rays", "--out", path("again.exr")});
+    ASSERT_EQ(again.code, 0) << again.err;
+    EXPECT_NE(again.out.find("3 channels"), std::string::npos) << again.out;
+    EXPECT_EQ(cli({"run", path("again.json"), "--out", path("results")}).code, 0);
+}
+
+TEST_F(Cli, validate_says_what_of_a_file_is_passed_over) {
+    write("edge.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\nf 1 2\nl 1 2\nl 3 4\n");
+    const Outcome outcome = cli({"validate", path("tiny.json"), "--set",
+                                 R"(scene.objects=[{"type": "mesh", "name": "edge", "file": "edge.obj"}])"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("note: /scene/objects/0: passed over: faces of fewer than 3 corners (1), lines (2)\n"),
+              std::string::npos)
+        << outcome.out;
+}
+
+// As Windows' editor writes it.
+TEST_F(Cli, takes_a_scenario_with_a_byte_order_mark) {
+    write("marked.json", "\xef\xbb\xbf" + read(path("tiny.json")));
+    EXPECT_EQ(cli({"validate", path("marked.json")}).out, cli({"validate", path("tiny.json")}).out);
+    write("wide.json", std::string("\xff\xfe{\0}\0", 6));
+    const Outcome outcome = cli({"validate", path("wide.json")});
+    EXPECT_EQ(outcome.code, 65);
+    EXPECT_NE(outcome.err.find("save it as UTF-8"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Cli, counts_what_each_variant_has) {
     const Outcome outcome = cli({"validate", path("tiny.json"), "--set", "sweeps={\"/rays/seed\":[1,2,3]}"});
     EXPECT_EQ(outcome.out, "OK tiny: 3 variants of 1 light and 2 techniques\n") << outcome.err;
@@ -320,6 +365,38 @@ TEST_F(Cli, finds_scenarios_by_name) {
     EXPECT_EQ(listed.code, 0);
     EXPECT_NE(listed.out.find("tiny.json"), std::string::npos);
     EXPECT_NE(listed.out.find("broken.json"), std::string::npos) << "one broken file does not hide the others";
+}
+
+TEST_F(Cli, looks_for_data_in_no_folder_outside_unless_it_is_named) {
+    fs::create_directories(folder_ / "project");
+    fs::create_directories(folder_ / "shared/data");
+    write("shared/data/quad.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+    write("project/quad.json", R"({"name": "q", "scene": {"objects": [{"type": "mesh", "file": "quad.obj"}]},
+        "lights": [{"type": "directional", "direction": [0, -1, 0]}], "techniques": [{"type": "deep"}]})");
+    const fs::path before = fs::current_path();
+    fs::current_path(folder_ / "project");
+    const char* data = std::getenv("SHADOWBENCH_DATA");
+    const std::string kept = data ? data : "";
+    unsetenv("SHADOWBENCH_DATA");
+    const Outcome alone = cli({"validate", "quad.json"});
+    const Outcome named = cli({"validate", "quad.json", "--data", "../shared/data"});
+    fs::current_path(before);
+    if (data) setenv("SHADOWBENCH_DATA", kept.c_str(), 1);
+    EXPECT_EQ(alone.code, 66) << alone.out;
+    EXPECT_EQ(alone.err.find("shared"), std::string::npos) << alone.err;
+    EXPECT_EQ(named.code, 0) << named.err;
+}
+
+TEST_F(Cli, lists_the_scenario_that_a_name_finds) {
+    for (const char* one : {"first", "second"}) {
+        fs::create_directories(folder_ / one);
+        write(std::string(one) + "/same.json", std::string(R"({"name": "same", "purpose": ")") + one + "\"}");
+    }
+    setenv("SHADOWBENCH_SCENARIOS", (path("first") + ":" + path("second")).c_str(), 1);
+    const Outcome listed = cli({"list", "scenarios"});
+    unsetenv("SHADOWBENCH_SCENARIOS");
+    EXPECT_NE(listed.out.find("first/same.json"), std::string::npos) << listed.out;
+    EXPECT_EQ(listed.out.find("second/same.json"), std::string::npos) << listed.out;
 }
 
 TEST_F(Cli, lists_every_technique_with_its_parameters) {

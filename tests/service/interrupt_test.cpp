@@ -29,8 +29,8 @@ class Interrupt : public ::testing::Test {
 protected:
     void SetUp() override {
         // A build that never ends, behind a shell that would not pass a signal on.
-        std::ofstream(path("build")) << "#!/bin/sh\nsleep 1000 &\necho $! > " << path("made") << "\nmv " << path("made")
-                                     << " " << path("sleeper") << "\nwait\n";
+        std::ofstream(path("build")) << "#!/bin/sh\necho $$ > " << path("shell") << "\nsleep 1000 &\necho $! > "
+                                     << path("made") << "\nmv " << path("made") << " " << path("sleeper") << "\nwait\n";
         fs::permissions(path("build"), fs::perms::owner_all);
         fs::create_directory(path("tmp"));
     }
@@ -56,14 +56,15 @@ protected:
     }
 
     // A process that has ended stays known until somebody asks for it, which here may take its time.
-    bool sleeps() const {
-        std::ifstream stat("/proc/" + std::to_string(sleeper_) + "/stat");
+    static bool lives(pid_t process) {
+        std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
         std::string number, name, state;
         return stat >> number >> name >> state && state != "Z";
     }
+    bool sleeps() const { return lives(sleeper_); }
 
     const TemporaryFolder folder_;
-    pid_t sleeper_ = 0;
+    pid_t sleeper_ = 0, shell_ = 0;
 };
 
 TEST_F(Interrupt, LeavesNothingBehind) {
@@ -81,6 +82,19 @@ TEST_F(Interrupt, LeavesNothingBehind) {
         EXPECT_TRUE(fs::is_empty(path("tmp")));
         fs::remove(path("sleeper"));
     }
+}
+
+// Which no program can see coming: its files stay, its processes do not.
+TEST_F(Interrupt, LeavesNoProcessWhenItIsKilled) {
+    const pid_t ab = start(false);
+    ASSERT_GT(ab, 0);
+    std::ifstream(path("shell")) >> shell_;
+    EXPECT_TRUE(lives(sleeper_));
+    EXPECT_TRUE(lives(shell_));
+    ::kill(ab, SIGKILL);
+    ASSERT_EQ(::waitpid(ab, nullptr, 0), ab);
+    EXPECT_TRUE(soon([&] { return !lives(shell_); }));
+    EXPECT_TRUE(soon([&] { return !lives(sleeper_); }));
 }
 
 TEST_F(Interrupt, AnIgnoredSignalStaysIgnored) {

@@ -1,6 +1,7 @@
 #include "service/cli/job_process_command.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
@@ -33,7 +34,10 @@ protected:
     // Runs it, and reads what it says.
     int run(std::vector<std::string> more = {}) {
         std::ofstream(folder.path() / "scenario.json") << scenario;
-        std::vector<std::string> arguments{"shadowbench", "job", folder.path().string()};
+        return run_in(folder.path(), std::move(more));
+    }
+    int run_in(const fs::path& place, std::vector<std::string> more = {}) {
+        std::vector<std::string> arguments{"shadowbench", "job", place.string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         std::vector<const char*> pointers;
         for (const std::string& argument : arguments) pointers.push_back(argument.c_str());
@@ -49,6 +53,22 @@ protected:
     const TemporaryFolder folder;
     std::vector<json> lines;
 };
+
+// Of which there is more on another disk, where a name that is too long stays too long.
+TEST_F(JobCommand, TellsAFaultOfItsStorageFromItsOwn) {
+    fs::create_directory(folder.path() / "result.json");
+    EXPECT_EQ(run(), 74);
+    EXPECT_EQ(lines.back()["error"]["code"], 74);
+    fs::remove(folder.path() / "result.json");
+    const fs::path full = folder.path() / (".result.json." + std::to_string(::getpid()) + ".tmp");
+    fs::create_symlink("/dev/full", full);
+    EXPECT_EQ(run(), 74);
+    ASSERT_TRUE(lines.back().contains("storage")) << lines.back();
+    EXPECT_GT(lines.back()["storage"]["bytes"], 4096);
+    EXPECT_NE(lines.back()["storage"]["message"].get<std::string>().find("No space left"), std::string::npos);
+    EXPECT_EQ(run_in(folder.path() / "nowhere"), 66);
+    EXPECT_TRUE(lines.back().contains("storage")) << "the server put its scenario there";
+}
 
 TEST_F(JobCommand, TellsHowFarItIs) {
     EXPECT_EQ(run(), 0);

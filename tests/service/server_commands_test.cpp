@@ -226,6 +226,11 @@ TEST_F(ServerCommands, TokensAreOneLongWordForOneReader) {
     const fs::perms mine = fs::perms::owner_read | fs::perms::owner_write;
     EXPECT_EQ(code_of("0123456789abcdef\nmore\n", mine), 0);
     EXPECT_EQ(code_of("0123456789abcde\n", mine), 65);
+    EXPECT_EQ(code_of("\xef\xbb\xbf"
+                      "0123456789abcde\n",
+                      mine),
+              65)
+        << "a byte-order mark is no part of the token";
     EXPECT_EQ(code_of("0123456789 abcdef\n", mine), 65);
     EXPECT_EQ(code_of("", mine), 65);
     EXPECT_EQ(code_of("0123456789abcdef\n", mine | fs::perms::group_read), 65);
@@ -238,6 +243,77 @@ TEST_F(ServerCommands, ServeRefusesWhatItCannotDo) {
     EXPECT_EQ(cli({"serve", "--data", path("none"), "--port", "0", "--state", path("state")}).code, 66);
     EXPECT_EQ(cli({"serve", "--port", "70000"}).code, 64);
     EXPECT_EQ(cli({"serve", "--token-file", path("none"), "--state", path("state")}).code, 66);
+}
+
+TEST_F(ServerCommands, ServeLeavesTheFoldersOfOthersAlone) {
+    fs::create_directories(folder_ / "mine" / "jobs");
+    fs::create_directories(folder_ / "mine" / "work");
+    write("mine/work/a", "a\n");
+    const Outcome refused = cli({"serve", "--port", "0", "--state", path("mine")});
+    EXPECT_EQ(refused.code, 64);
+    EXPECT_NE(refused.err.find(path("mine")), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("--state"), std::string::npos) << refused.err;
+    EXPECT_EQ(read(folder_ / "mine" / "work" / "a"), "a\n");
+    std::size_t entries = 0;
+    for ([[maybe_unused]] const auto& entry : fs::recursive_directory_iterator(folder_ / "mine")) ++entries;
+    EXPECT_EQ(entries, 3u);
+}
+
+TEST_F(ServerCommands, ServeSaysWhatItMovedAway) {
+    serve();
+    EXPECT_EQ(stop(), 0);
+    write("state/work/a", "a\n");
+    const std::string command = std::string(SHADOWBENCH_PROGRAM) + " serve --port 0 --port-file " + path("again") +
+                                " --state " + path("state") + " >" + path("out") + " 2>" + path("err") +
+                                " & echo $! >" + path("number");
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+    while (!fs::exists(path("again")) && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ::kill(std::stoi(read(path("number"))), SIGTERM);
+    const std::string said = read(path("err"));
+    EXPECT_EQ(said.find("shadowbench: " + path("state/work/a") + ": "), 0u) << said;
+    EXPECT_NE(said.find(path("state/lost+found/")), std::string::npos) << said;
+}
+
+// The children of a process, and theirs; threads have children of their own.
+std::vector<pid_t> descendants(pid_t process) {
+    std::vector<pid_t> all;
+    std::error_code ended;
+    for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(process) + "/task", ended)) {
+        std::ifstream children(task.path() / "children");
+        for (pid_t child = 0; children >> child;) {
+            all.push_back(child);
+            for (const pid_t grandchild : descendants(child)) all.push_back(grandchild);
+        }
+    }
+    return all;
+}
+
+TEST_F(ServerCommands, AServerThatIsKilledTakesItsProcessesAlong) {
+    serve();
+    const Outcome submitted = cli({"submit", path("tiny.json"), "--server", url_, "--no-pictures", "--set",
+                                   "timing.repetitions=200", "--set", "timing.lookups=1000000"});
+    ASSERT_EQ(submitted.code, 0) << submitted.err;
+    Client client(url_, "");
+    const auto soon = [&](const auto& holds) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+        while (!holds() && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return holds();
+    };
+    EXPECT_TRUE(soon([&] { return client.get("/v1/jobs").body.find("\"stage\"") != std::string::npos; }));
+    const std::vector<pid_t> children = descendants(server_);
+    EXPECT_GE(children.size(), 2u) << "a job and its keeper";
+    ::kill(server_, SIGKILL);
+    ::waitpid(server_, nullptr, 0);
+    server_ = 0;
+    const auto is_gone = [](pid_t process) {
+        std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+        std::string number, name, state;
+        return !(stat >> number >> name >> state) || state == "Z" || state == "X";
+    };
+    for (const pid_t child : children) EXPECT_TRUE(soon([&] { return is_gone(child); })) << child;
 }
 
 TEST_F(ServerCommands, HelpersAreNotForPeople) {

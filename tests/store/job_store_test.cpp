@@ -7,7 +7,9 @@
 #include <thread>
 
 #include "base/error.h"
+#include "service/store/damaged_store.h"
 #include "service/store/database.h"
+#include "service/store/store_kind.h"
 #include "temporary_folder.h"
 
 namespace shadowbench::service {
@@ -112,10 +114,8 @@ TEST_F(JobStores, ChangeAJobOnlyInTheStateThatIsMeant) {
     add("j-1");
     const Ending success{job_states::succeeded, "then", true, {}};
     EXPECT_FALSE(store->end_running("j-1", success));
-    EXPECT_FALSE(store->note_kept("j-1", true));
     store->claim("now");
     EXPECT_FALSE(store->remove("j-1"));
-    EXPECT_TRUE(store->note_kept("j-1", false));
     EXPECT_TRUE(store->end_waiting("j-1", {job_states::cancelled, "then", {}, {}}));
     EXPECT_FALSE(store->end_running("j-1", success)) << "cancelled while it ran";
     EXPECT_FALSE(store->end_waiting("j-1", success));
@@ -249,8 +249,77 @@ TEST_F(JobStores, RefuseAnotherProgramsDatabase) {
 
 TEST_F(JobStores, RefuseADatabaseOfANewerVersion) {
     store.reset();
-    sqlite::Database(file, sqlite::Database::Access::write, 0x73626a31).execute("PRAGMA user_version = 99");
+    sqlite::Database(file, sqlite::Database::Access::write, store_application).execute("PRAGMA user_version = 99");
     EXPECT_NE(error_of(file).find("newer"), std::string::npos) << error_of(file);
+}
+
+TEST_F(JobStores, RefuseADatabaseThatLacksATable) {
+    store.reset();
+    sqlite::Database(file, sqlite::Database::Access::write, store_application).execute("DROP TABLE keys");
+    EXPECT_NE(error_of(file).find("lacks its table keys"), std::string::npos) << error_of(file);
+}
+
+TEST_F(JobStores, TakeInJobsThatHaveResults) {
+    for (const char* id : {"j-ran", "j-waits", "j-over"}) add(id);
+    store->claim("now");
+    store->end_waiting("j-over", {job_states::cancelled, "then", {}, {}});
+    NewJob other = job_named("j-other");
+    other.idempotency_key = "taken";
+    store->add(other, many);
+    std::vector<KeptJob> kept;
+    for (const char* id : {"j-ran", "j-waits", "j-over", "j-new", "j-newer"}) {
+        const NewJob job = job_named(id);
+        KeptJob one;
+        one.job.id = id;
+        one.job.name = job.name;
+        one.job.key = job.key;
+        one.job.created = "created";
+        one.job.started = "started";
+        one.job.ended = "ended";
+        one.job.attempts = 2;
+        one.job.kept = false;
+        one.scenario = job.scenario;
+        one.request = "request";
+        kept.push_back(one);
+    }
+    kept[3].idempotency_key = "free";
+    kept[4].idempotency_key = "taken";
+    store->adopt(kept);
+    reopen();
+    for (const char* id : {"j-ran", "j-waits", "j-new", "j-newer"}) {
+        const auto job = store->find(id);
+        ASSERT_TRUE(job) << id;
+        EXPECT_EQ(job->state, job_states::succeeded) << id;
+        EXPECT_EQ(job->ended, "ended");
+        EXPECT_EQ(job->attempts, 2);
+        EXPECT_EQ(job->kept, false);
+        EXPECT_EQ(job->key.seed, 0xffffffffffffffffull);
+        EXPECT_EQ(store->scenario(id), job_named(id).scenario);
+    }
+    EXPECT_EQ(state("j-over"), job_states::cancelled) << "what has ended stays as it did";
+    EXPECT_EQ(store->find_key("free", "request")->job.id, "j-new");
+    EXPECT_EQ(store->find_key("taken", "")->job.id, "j-other");
+    ASSERT_TRUE(store->key_of("j-new"));
+    EXPECT_EQ(store->key_of("j-new")->request, "request");
+    EXPECT_FALSE(store->key_of("j-newer"));
+    EXPECT_EQ(store->list("", 1, 0).at(0).id, "j-newer") << "as if it had come last";
+}
+
+TEST_F(JobStores, AreKnownByTheirFirstBytes) {
+    add("j-1");
+    EXPECT_EQ(kind_of_store(file), StoreKind::ours) << "while it is open too";
+    const fs::path other = folder.path() / "other.db";
+    EXPECT_EQ(kind_of_store(other), StoreKind::none);
+    std::ofstream(other) << "";
+    EXPECT_EQ(kind_of_store(other), StoreKind::none);
+    for (const std::string& text : {std::string("SQLite format 3"), std::string(5000, 'x'), std::string(4096, '\0')}) {
+        std::ofstream(other) << text;
+        EXPECT_EQ(kind_of_store(other), StoreKind::no_database);
+    }
+    fs::remove(other);
+    sqlite::Database(other, sqlite::Database::Access::write, 7).execute("CREATE TABLE jobs (x)");
+    EXPECT_EQ(kind_of_store(other), StoreKind::another_programs);
+    EXPECT_THROW(kind_of_store(folder.path()), base::Error);
 }
 
 TEST_F(JobStores, RefuseADamagedDatabase) {
@@ -261,6 +330,7 @@ TEST_F(JobStores, RefuseADamagedDatabase) {
     stream << std::string(4096 * 3, '\x5a');
     stream.close();
     EXPECT_NE(error_of(file).find("damaged"), std::string::npos) << error_of(file);
+    EXPECT_THROW(JobStore{file}, DamagedStore);
 }
 
 TEST_F(JobStores, LeaveNothingOfATransactionThatFails) {

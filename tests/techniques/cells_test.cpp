@@ -2,31 +2,37 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace shadowbench::techniques {
 namespace {
 
-TEST(Footprint, HoldsTheCellsWhoseCentresLieInIt) {
-    const CellGrid grid{16, 16, 2.0f, 2.0f};
-    for (const float width : {0.1f, 0.5f, 1.0f, 1.7f, 3.0f, 20.0f})
-        for (float px = 0.03f; px < 8; px += 0.217f) {
-            const CellRange r = footprint(grid, {px, 4.1f, 0, width});
-            int inside = 0;
-            for (int x = 0; x < 16; ++x) {
-                const bool in = std::abs((static_cast<float>(x) + 0.5f) / 2 - px) <= 0.5f * width;
-                inside += in;
-                if (in) {
-                    EXPECT_TRUE(x >= r.x0 && x < r.x1) << px << " " << width;
+TEST(Stretch, CoversTheCellsThatAFootprintReachesByTheirParts) {
+    for (const double filled : {16.0, 15.25})
+        for (const double width : {0.1, 0.5, 1.0, 1.7, 3.0, 20.0, 1e30})
+            for (double at = 0.0; at < filled; at += 0.217) {
+                const Stretch s = stretch(at, width, filled);
+                double sum = 0.0;
+                for (int x = 0; x < 16; ++x) {
+                    const double low = std::max<double>(x, at - 0.5 * width);
+                    const double part = std::min({x + 1.0, at + 0.5 * width, filled}) - low;
+                    const bool in = x >= s.begin && x < s.end;
+                    ASSERT_EQ(in, part > 0.0) << at << " " << width << " cell " << x;
+                    if (in) {
+                        ASSERT_NEAR(s.weight(x), part, 1e-12) << at << " " << width << " cell " << x;
+                    }
+                    sum += in ? s.weight(x) : 0.0;
                 }
+                ASSERT_NEAR(sum, std::min(at + 0.5 * width, filled) - std::max(at - 0.5 * width, 0.0), 1e-12);
             }
-            EXPECT_EQ(r.x1 - r.x0, std::max(inside, 1)) << px << " " << width;
-        }
 }
 
-TEST(Footprint, IsEmptyOutsideTheMap) {
-    const CellGrid grid{8, 8, 1.0f, 1.0f};
-    for (const float x : {-0.1f, 8.0f, 1e30f, std::numeric_limits<float>::quiet_NaN()}) {
-        const CellRange r = footprint(grid, {x, 4, 0, 1});
-        EXPECT_TRUE(r.x0 >= r.x1 || r.y0 >= r.y1);
+TEST(Stretch, ThatCoversNothingIsTheCellOfItsCentre) {
+    for (const double at : {0.0, 3.0, 7.99, 12.5}) {
+        const Stretch s = stretch(at, 0.0, 13.0);
+        EXPECT_EQ(s.begin, static_cast<int>(at));
+        EXPECT_EQ(s.end, s.begin + 1);
+        EXPECT_EQ(s.weight(s.begin), 1.0);
     }
 }
 

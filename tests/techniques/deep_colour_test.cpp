@@ -137,7 +137,8 @@ TEST(DeepColour, AnswersLieChannelAfterChannel) {
     std::vector<Query> queries;
     for (int i = 0; i < 300; ++i)
         queries.push_back({static_cast<float>(random.uniform(-1, 17)), static_cast<float>(random.uniform(-1, 17)),
-                           static_cast<float>(random.uniform(0.3, 1.7)), i % 2 ? 1.0f : 3.0f});
+                           static_cast<float>(random.uniform(0.3, 1.7)),
+                           i % 2 ? 0.0f : 3.0f});  // 0 asks the nearest pixel
     std::vector<float> answers(3 * queries.size());
     b.map->lookup(queries, answers);
     curves::Curve stored;

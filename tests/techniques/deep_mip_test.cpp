@@ -225,22 +225,22 @@ TEST(DeepMip, BlendedLookupsDoNotJumpWhereLevelsChange) {
 TEST(DeepMip, WideLookupsReadAFewPixelsHoweverWide) {
     const DeepMap map = make_map(capture(testing::hairy_scene(false), directional(), oblong(64, 43, 1)), 0.1f);
     base::Random random(9);
-    for (const bool tent : {false, true})
+    for (const Kernel kernel : {Kernel::box, Kernel::tent, Kernel::pixels})
         for (int i = 0; i < 3000; ++i) {
-            const LookupRule rule{tent, Mip::blend, Search::binary};
+            const LookupRule rule{kernel, Mip::blend, Search::binary};
             const Query q{static_cast<float>(random.uniform(0, 64)), static_cast<float>(random.uniform(0, 43)), 1.0f,
                           static_cast<float>(std::exp(random.uniform(-1, 6)))};
             const LevelChoice choice = choose_levels(rule, q.width, map.levels.size());
             for (int l = choice.fine; l <= choice.fine + (choice.coarser > 0.0f); ++l) {
                 int pixels = 0;
-                float weights = 0.0f;
-                for_each_pixel(map.levels, l, rule, q, [&](std::size_t pixel, float weight) {
+                double weights = 0.0;
+                for_each_pixel(map.levels, l, rule, q, [&](std::size_t pixel, double weight) {
                     ASSERT_LT(pixel + 1, map.levels[static_cast<std::size_t>(l)].offsets.size());
                     ++pixels;
                     weights += weight;
                 });
                 ASSERT_LE(pixels, l == choice.fine ? 16 : 9) << "level " << l << " width " << q.width;
-                ASSERT_GT(weights, 0.0f);
+                ASSERT_GT(weights, 0.0);
             }
         }
 }

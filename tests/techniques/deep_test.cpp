@@ -59,7 +59,7 @@ TEST(Deep, ALookupOfOnePixelIsItsStoredFunction) {
     curves::Curve stored;
     base::Random random(5);
     for (int i = 0; i < 2000; ++i) {
-        const float x = static_cast<float>(random.uniform(0, 16)), y = static_cast<float>(random.uniform(0, 16));
+        const float x = static_cast<float>(random.below(16)) + 0.5f, y = static_cast<float>(random.below(16)) + 0.5f;
         const float z = static_cast<float>(random.uniform(0, 2));
         b.map->stored(static_cast<int>(x), static_cast<int>(y), 0, {}, stored);
         EXPECT_NEAR(b.lookup(x, y, z), curves::evaluate(stored, z), 1e-6f);

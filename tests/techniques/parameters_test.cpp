@@ -85,5 +85,35 @@ TEST(Registry, AnUnknownTechniqueIsAnErrorThatListsThoseThereAre) {
     }
 }
 
+// A technique that asks for what it has not declared has a fault; it must not read past the end of the values.
+TEST(Parameters, ANameThatIsNotDeclaredIsAnErrorThatListsThoseThereAre) {
+    const Parameter declared[] = {{"size", ParameterKind::integer, "", 3, 1, 9},
+                                  {"way", ParameterKind::choice, "", 0, 0, 0, "up", {"up", "down"}}};
+    const ParameterValues values = read_parameters(declared, json::object(), "");
+    const auto message = [](const auto& ask) {
+        try {
+            ask();
+        } catch (const base::Error& error) {
+            EXPECT_EQ(error.code(), base::ErrorCode::internal) << error.what();
+            return std::string(error.what());
+        }
+        ADD_FAILURE() << "no error";
+        return std::string();
+    };
+    const std::string expected = "sise: no such parameter; there are: size, way";
+    EXPECT_EQ(message([&] { values.number("sise"); }), expected);
+    EXPECT_EQ(message([&] { values.integer("sise"); }), expected);
+    EXPECT_EQ(message([&] { values.word("sise"); }), expected);
+    EXPECT_EQ(message([&] { values.is_word("sise"); }), expected);
+    EXPECT_EQ(message([&] { values.at("sise"); }), expected);
+    EXPECT_EQ(message([&] { ParameterValues().number("size"); }), "size: no such parameter: there are none");
+    const Parameter others[] = {{"depth", ParameterKind::number, "", 1, 0, 2}};
+    EXPECT_EQ(message([&] { to_string(values, others, true); }), "depth: no such parameter; there are: size, way");
+    EXPECT_EQ(message([&] { values.number("way"); }), "way: no number, but the word \"up\"");
+    EXPECT_EQ(message([&] { values.word("size"); }), "size: no word, but 3");
+    EXPECT_EQ(values.integer("size"), 3);
+    EXPECT_EQ(values.word("way"), "up");
+}
+
 }  // namespace
 }  // namespace shadowbench::techniques

@@ -48,12 +48,13 @@ const Parameter parameters[] = {
      {"none", "nearest", "blend"}},
     {"kernel",
      ParameterKind::choice,
-     "how a lookup weighs the pixels of its footprint",
+     "how a lookup weighs pixels: box, by the part of each that its footprint covers; tent, twice as wide, bilinear at "
+     "one pixel's width; pixels, the paper's box: whole pixels, those whose centres lie within the filter radius",
      0,
      0,
      0,
      "box",
-     {"box", "tent"}},
+     {"box", "tent", "pixels"}},
     {"search",
      ParameterKind::choice,
      "how a lookup finds the segment of a function: cached starts at the one that the same batch used last in that "
@@ -82,8 +83,10 @@ PixelFilter filter_of(const ParameterValues& values) {
 }
 
 LookupRule rule_of(const ParameterValues& values) {
-    const std::string &mip = values.word("mip"), &search = values.word("search");
-    return {values.word("kernel") == "tent",
+    const std::string &kernel = values.word("kernel"), &mip = values.word("mip"), &search = values.word("search");
+    return {kernel == "box"    ? Kernel::box
+            : kernel == "tent" ? Kernel::tent
+                               : Kernel::pixels,
             mip == "none"      ? Mip::none
             : mip == "nearest" ? Mip::nearest
                                : Mip::blend,
@@ -166,7 +169,7 @@ Technique deep() {
     return {.id = "deep",
             .title = "deep shadow map: visibility functions compressed within a tolerance",
             .paper = "Lokovic, Veach 2000",
-            .version = 3,
+            .version = 4,
             .parameters = parameters,
             .create = create_map<Deep>,
             .error_bound =

@@ -40,29 +40,24 @@ public:
 
     void run(std::span<const Query> queries, std::span<float> visibility) {
         // Queries go in blocks: the lines of a whole block are asked for before the first is used, so that their misses
-        // overlap. First the offsets, then the nodes that they point to.
+        // overlap. First the offsets, then the nodes that they point to. This pays where a lookup reads few pixels.
         constexpr std::size_t block = 32;
-        const DeepLevel& map = levels_[0];
-        const CellGrid grid = grid_of(map);
-        std::uint32_t cell[block];
-        bool single[block];
+        Few few[block];
         for (std::size_t start = 0; start < queries.size(); start += block) {
             const std::size_t count = std::min(block, queries.size() - start);
             for (std::size_t k = 0; k < count; ++k) {
-                const Query& q = queries[start + k];
-                int x, y;
-                single[k] = q.width <= 1.0f && !rule_.tent && grid.find(q.x, q.y, x, y);
-                cell[k] = single[k] ? static_cast<std::uint32_t>(map.pixel(x, y)) : 0;
-                __builtin_prefetch(&map.offsets[cell[k]]);
+                few[k] = few_pixels(queries[start + k]);
+                for_each_row(few[k], [&](std::size_t first) { __builtin_prefetch(&levels_[0].offsets[first]); });
             }
-            for (std::size_t k = 0; k < count; ++k) {
-                const float* first = map.floats.data() + map.offsets[cell[k]];
-                __builtin_prefetch(first);
-                __builtin_prefetch(first + 16);
-            }
+            for (std::size_t k = 0; k < count; ++k)
+                for_each_row(few[k], [&](std::size_t first) {
+                    const float* nodes = levels_[0].floats.data() + levels_[0].offsets[first];
+                    __builtin_prefetch(nodes);
+                    __builtin_prefetch(nodes + 16);
+                });
             for (std::size_t k = 0; k < count; ++k) {
                 const Query& q = queries[start + k];
-                const Values values = single[k] ? evaluate<channels>(map, cell[k], q.z, search_) : filter(grid, q);
+                const Values values = few[k].any ? average(few[k], q.z) : filter(q);
                 for (std::size_t c = 0; c < channels; ++c) visibility[c * queries.size() + start + k] = values[c];
             }
         }
@@ -71,11 +66,46 @@ public:
 private:
     using Values = std::array<float, channels>;
 
-    [[gnu::noinline]] Values filter(const CellGrid& grid, const Query& q) {
+    // A footprint of 2 x 2 pixels of the map at most.
+    struct Few {
+        bool any = false;  // else it is wider, or reads other levels, or asks outside the map
+        Stretch across, down;
+    };
+
+    Few few_pixels(const Query& q) const {
+        const DeepLevel& map = levels_[0];
+        int x, y;
+        const float widest = rule_.mip == Mip::none ? 2.0f : narrowest_mip(rule_);
+        if (rule_.kernel == Kernel::tent || !(width_of(q) <= widest) || !grid_of(map).find(q.x, q.y, x, y)) return {};
+        if (rule_.kernel == Kernel::pixels) {
+            // Of a pixel's width the nearest one, whose centre is within half of that.
+            if (width_of(q) > 1.0f) return {};
+            return {true, {x, x + 1}, {y, y + 1}};
+        }
+        const Few few{true, stretch(q.x, width_of(q), map.width), stretch(q.y, width_of(q), map.height)};
+        return few.across.end - few.across.begin <= 2 && few.down.end - few.down.begin <= 2 ? few : Few{};
+    }
+
+    // Calls visit(pixel) for the first pixel of each row.
+    template <class Visit>
+    void for_each_row(const Few& few, const Visit& visit) const {
+        if (!few.any) return;
+        for (int y = few.down.begin; y < few.down.end; ++y) visit(levels_[0].pixel(few.across.begin, y));
+    }
+
+    Values average(const Few& few, float z) {
+        WeightedMean<channels> mean;
+        for_each_of(few.across, few.down, [&](int x, int y, double weight) {
+            mean.add(evaluate<channels>(levels_[0], levels_[0].pixel(x, y), z, search_), weight);
+        });
+        return mean.value();
+    }
+
+    [[gnu::noinline]] Values filter(const Query& q) {
         Values values;
         values.fill(1.0f);
         int x, y;
-        if (!grid.find(q.x, q.y, x, y)) return values;
+        if (!grid_of(levels_[0]).find(q.x, q.y, x, y)) return values;
         const LevelChoice choice = choose_levels(rule_, q.width, levels_.size());
         values = average(choice.fine, q);
         if (choice.coarser <= 0.0f) return values;
@@ -85,16 +115,11 @@ private:
     }
 
     Values average(int level, const Query& q) {
-        std::array<double, channels> sum{};  // of up to a million pixels: sums of float would lose digits
-        double weights = 0.0;
-        for_each_pixel(levels_, level, rule_, q, [&](std::size_t pixel, float weight) {
-            const Values one = evaluate<channels>(levels_[static_cast<std::size_t>(level)], pixel, q.z, search_);
-            for (int c = 0; c < channels; ++c) sum[c] += weight * one[c];
-            weights += weight;
+        WeightedMean<channels> mean;
+        for_each_pixel(levels_, level, rule_, q, [&](std::size_t pixel, double weight) {
+            mean.add(evaluate<channels>(levels_[static_cast<std::size_t>(level)], pixel, q.z, search_), weight);
         });
-        Values mean;
-        for (int c = 0; c < channels; ++c) mean[c] = std::min(static_cast<float>(sum[c] / weights), 1.0f);
-        return mean;
+        return mean.value();
     }
 
     std::span<const DeepLevel> levels_;
@@ -159,7 +184,7 @@ void touched(std::span<const DeepLevel> levels, const LookupRule& rule, const Qu
     const std::size_t before = lines.size();
     const LevelChoice choice = choose_levels(rule, q.width, levels.size());
     for (int l = choice.fine; l <= choice.fine + (choice.coarser > 0.0f); ++l)
-        for_each_pixel(levels, l, rule, q, [&](std::size_t pixel, float) {
+        for_each_pixel(levels, l, rule, q, [&](std::size_t pixel, double) {
             touch_pixel(levels[static_cast<std::size_t>(l)], pixel, q.z, rule.search, lines);
         });
     keep_unique(lines, before);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "techniques/cells.h"
@@ -15,8 +16,13 @@ struct LevelChoice {
     float coarser = 0.0f;
 };
 
+// The widest footprint, in pixels of the map, that is the map's own matter.
+inline float narrowest_mip(const LookupRule& rule) {
+    return rule.kernel == Kernel::tent ? 1.0f : 1.5f;
+}
+
 inline LevelChoice choose_levels(const LookupRule& rule, float width, std::size_t levels) {
-    const float narrowest = rule.tent ? 1.0f : 1.5f;
+    const float narrowest = narrowest_mip(rule);
     if (rule.mip == Mip::none || !(width > narrowest)) return {};
     const float l = std::min(std::log2(width / narrowest), static_cast<float>(levels - 1));
     const int fine = static_cast<int>(l);
@@ -27,23 +33,28 @@ inline CellGrid grid_of(const DeepLevel& level) {
     return {level.width, level.height, 1.0f, 1.0f};
 }
 
-// Along one side of a level: pixels [begin, end) and their weights.
+// Along one side of a level: pixels [begin, end) and the weights that a kernel gives their centres.
 class Side {
 public:
     // Around `centre`, `width` wide, in the level's pixels, of which the map fills the first `filled`.
-    Side(float centre, float width, float filled, bool tent)
-        : centre_(centre), width_(width), filled_(filled), tent_(tent) {
-        // A tent reaches the pixels whose centres lie in it, a box those that it overlaps.
-        const float reach = tent ? width : 0.5f * width, inwards = tent ? 0.5f : 0.0f;
-        const float last = std::ceil(filled);
-        begin = static_cast<int>(std::floor(std::max(centre - reach, 0.0f) + inwards));
-        end = static_cast<int>(std::min(std::ceil(centre + reach - inwards), last));
+    Side(Kernel kernel, float centre, float width, float filled)
+        : centre_(centre), width_(width), filled_(filled), tent_(kernel == Kernel::tent) {
+        const float reach = tent_ ? width : 0.5f * width, last = std::ceil(filled);
+        // Cut to the map while they are floats, which hold any width.
+        if (tent_) {
+            begin = static_cast<int>(std::max(centre - reach, 0.0f) + 0.5f);
+            end = static_cast<int>(std::min(std::ceil(centre + reach - 0.5f), last));
+            return;
+        }
+        begin = static_cast<int>(std::max(centre - reach + 0.5f, 0.0f));
+        end = static_cast<int>(std::min(centre + reach + 0.5f, last));
+        if (begin < end) return;
+        begin = static_cast<int>(centre);
+        end = begin + 1;
     }
-    float weight(int pixel) const {
-        const float x = static_cast<float>(pixel);
-        if (tent_) return std::min(filled_ - x, 1.0f) * std::max(1.0f - std::abs(x + 0.5f - centre_) / width_, 0.0f);
-        const float low = std::max(x, centre_ - 0.5f * width_);
-        return std::max(std::min({x + 1.0f, centre_ + 0.5f * width_, filled_}) - low, 0.0f);
+    double weight(int pixel) const {
+        const float x = static_cast<float>(pixel), inside = std::min(filled_ - x, 1.0f);
+        return tent_ ? inside * std::max(1.0f - std::abs(x + 0.5f - centre_) / width_, 0.0f) : inside;
     }
     int begin, end;
 
@@ -52,32 +63,41 @@ private:
     bool tent_;
 };
 
-// Calls visit(pixel, weight) for pixels of the map itself.
+// Calls visit(x, y, weight) for each pixel of level `number` of a map of so many pixels. The query lies in the map.
 template <class Visit>
-void for_each_map_pixel(const DeepLevel& map, const LookupRule& rule, const Query& q, const Visit& visit) {
-    const float width = rule.tent ? std::max(1.0f, q.width) : q.width;
-    const CellRange r = footprint(grid_of(map), {q.x, q.y, q.z, rule.tent ? 2.0f * width : width});
-    const auto weigh = [&](int pixel, float centre) {
-        return rule.tent ? std::max(1.0f - std::abs(static_cast<float>(pixel) + 0.5f - centre) / width, 0.0f) : 1.0f;
-    };
-    for (int y = r.y0; y < r.y1; ++y)
-        for (int x = r.x0; x < r.x1; ++x) visit(map.pixel(x, y), weigh(x, q.x) * weigh(y, q.y));
+void for_each_pixel(int map_width, int map_height, int number, Kernel kernel, const Query& q, const Visit& visit) {
+    const float scale = 1.0f / static_cast<float>(1u << number);
+    const float x = q.x * scale, y = q.y * scale, width = width_of(q) * scale;
+    const float filled_x = static_cast<float>(map_width) * scale, filled_y = static_cast<float>(map_height) * scale;
+    if (kernel == Kernel::box) return for_each_of(stretch(x, width, filled_x), stretch(y, width, filled_y), visit);
+    const float wide = kernel == Kernel::tent ? std::max(1.0f, width) : width;
+    for_each_of(Side(kernel, x, wide, filled_x), Side(kernel, y, wide, filled_y), visit);
 }
 
-// Calls visit(pixel of the level, weight) for each pixel of level `number`. The query lies in the map.
+// Calls visit(pixel of the level, weight) for each pixel of level `number`.
 template <class Visit>
 void for_each_pixel(std::span<const DeepLevel> levels, int number, const LookupRule& rule, const Query& q,
                     const Visit& visit) {
-    if (number == 0) return for_each_map_pixel(levels[0], rule, q, visit);
     const DeepLevel& level = levels[static_cast<std::size_t>(number)];
-    const float scale = 1.0f / static_cast<float>(1u << number);
-    const float width = rule.tent ? std::max(q.width * scale, 1.0f) : q.width * scale;
-    const Side across(q.x * scale, width, static_cast<float>(levels[0].width) * scale, rule.tent);
-    const Side down(q.y * scale, width, static_cast<float>(levels[0].height) * scale, rule.tent);
-    for (int y = down.begin; y < down.end; ++y) {
-        const float wy = down.weight(y);
-        for (int x = across.begin; x < across.end; ++x) visit(level.pixel(x, y), wy * across.weight(x));
-    }
+    for_each_pixel(levels[0].width, levels[0].height, number, rule.kernel, q,
+                   [&](int x, int y, double weight) { visit(level.pixel(x, y), weight); });
 }
+
+// The weighted mean of values in each channel.
+template <int channels>
+struct WeightedMean {
+    std::array<double, channels> sum{};  // of up to a million pixels: sums of float would lose digits
+    double weights = 0.0;
+
+    void add(const std::array<float, channels>& values, double weight) {
+        for (int c = 0; c < channels; ++c) sum[c] += weight * values[c];
+        weights += weight;
+    }
+    std::array<float, channels> value() const {
+        std::array<float, channels> mean;
+        for (int c = 0; c < channels; ++c) mean[c] = std::min(static_cast<float>(sum[c] / weights), 1.0f);
+        return mean;
+    }
+};
 
 }  // namespace shadowbench::techniques

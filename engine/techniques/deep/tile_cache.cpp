@@ -1,9 +1,9 @@
 #include "techniques/deep/tile_cache.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
-#include "techniques/cells.h"
+#include "techniques/deep/footprint.h"
 
 namespace shadowbench::techniques {
 
@@ -67,25 +67,37 @@ std::uint32_t TileCache::load(std::size_t tile) {
     return slot;
 }
 
-void lookup(TileCache& cache, int level, std::span<const Query> queries, std::span<float> visibility) {
-    const DeepTiling& tiling = cache.file().levels()[static_cast<std::size_t>(level)];
-    const CellGrid grid{tiling.width, tiling.height, 1.0f, 1.0f};
-    const int channels = cache.file().channels();
-    const float scale = std::ldexp(1.0f, -level);
+namespace {
+
+template <int channels>
+void lookup_channels(TileCache& cache, int level, std::span<const Query> queries, std::span<float> visibility) {
+    const DeepTiling& map = cache.file().levels()[0];
+    const CellGrid grid{map.width, map.height, 1.0f, 1.0f};
     for (std::size_t i = 0; i < queries.size(); ++i) {
         const Query& q = queries[i];
-        const CellRange r = footprint(grid, {q.x * scale, q.y * scale, q.z, q.width * scale});
-        double sum[3] = {0.0, 0.0, 0.0};  // as the map in memory sums, to the bit
-        for (int y = r.y0; y < r.y1; ++y)
-            for (int x = r.x0; x < r.x1; ++x) {
+        std::array<float, channels> values;
+        values.fill(1.0f);
+        int cx, cy;
+        if (grid.find(q.x, q.y, cx, cy)) {
+            WeightedMean<channels> mean;  // as the map in memory, to the bit
+            for_each_pixel(map.width, map.height, level, Kernel::box, q, [&](int x, int y, double weight) {
                 const DeepFunction function = cache.function(x, y, level);
-                for (int c = 0; c < channels; ++c) sum[c] += evaluate(function, c, q.z);
-            }
-        const int pixels = (r.x1 - r.x0) * (r.y1 - r.y0);
-        for (int c = 0; c < channels; ++c)
-            visibility[static_cast<std::size_t>(c) * queries.size() + i] =
-                pixels > 0 ? std::min(static_cast<float>(sum[c] / pixels), 1.0f) : 1.0f;
+                for (int c = 0; c < channels; ++c) values[c] = evaluate(function, c, q.z);
+                mean.add(values, weight);
+            });
+            values = mean.value();
+        }
+        for (int c = 0; c < channels; ++c) visibility[static_cast<std::size_t>(c) * queries.size() + i] = values[c];
     }
+}
+
+}  // namespace
+
+void lookup(TileCache& cache, int level, std::span<const Query> queries, std::span<float> visibility) {
+    if (cache.file().channels() == 3)
+        lookup_channels<3>(cache, level, queries, visibility);
+    else
+        lookup_channels<1>(cache, level, queries, visibility);
 }
 
 }  // namespace shadowbench::techniques

@@ -65,9 +65,9 @@ private:
     std::size_t tile_bytes_ = 0;
 };
 
-// Answers queries, which are in pixels of level 0, from one level: the mean over the level's pixels under the
-// footprint, weighed by a box. Channel after channel: visibility[c * queries.size() + i] is the answer to queries[i].
-// Outside the map: lit. Throws what TileCache::function throws.
+// Answers queries, which are in pixels of level 0, from one level: the mean over the level's pixels that the footprint
+// covers, each weighed by the part that is covered (Kernel::box in deep_lookup.h). Channel after channel: visibility[c
+// * queries.size() + i] is the answer to queries[i]. Outside the map: lit. Throws what TileCache::function throws.
 void lookup(TileCache& cache, int level, std::span<const Query> queries, std::span<float> visibility);
 
 }  // namespace shadowbench::techniques

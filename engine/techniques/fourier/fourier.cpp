@@ -96,7 +96,7 @@ Technique fourier() {
     return {.id = "fourier",
             .title = "Fourier opacity map: a truncated series of the absorption",
             .paper = "Jansen, Bavoil 2010",
-            .version = 2,
+            .version = 3,
             .promises = {.monotone = false, .localised = false, .leak = std::exp(-5.545)},
             .parameters = parameters,
             .create = create_map<Fourier>,

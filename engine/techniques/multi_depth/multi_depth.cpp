@@ -27,7 +27,9 @@ const Parameter parameters[] = {
      16},
     {"region",
      ParameterKind::choice,
-     "of the kernel: adjacent cells, or spread evenly over the width that a lookup asks for",
+     "of the kernel: adjacent cells, those outside the map lit, or spread evenly over what the width that a lookup "
+     "asks "
+     "for has inside the map",
      0,
      0,
      0,
@@ -115,22 +117,25 @@ private:
         }
     };
 
-    // A regular grid of side x side places, its middle where the lookup asks. False outside the map: lit.
+    // A regular grid of side x side places: adjacent cells, the middle one where the lookup asks, those outside the map
+    // left out; or the middles of equal parts of what the footprint has inside the map. False outside the map: lit.
     bool find(const Query& q, Kernel& kernel) const {
         const CellGrid& grid = store_.grid();
         int x, y;
         if (!grid.find(q.x, q.y, x, y)) return false;
-        const float side = static_cast<float>(side_);
-        // Beyond twice the map a step, only the middle place is inside; its digits must not be lost in the width.
-        const float width =
-            spread_ ? std::min(width_of(q), 2.0f * side * static_cast<float>(std::max(grid.width, grid.height))) : 0.0f;
-        const auto line = [&](float middle, float per_pixel, int cells, int* places) {
-            const float step = spread_ ? width * per_pixel / side : 1.0f;
-            const float first = middle * per_pixel - 0.5f * (side - 1.0f) * step;
+        const auto line = [&](double middle, double per_pixel, int cells, int* places) {
+            middle *= per_pixel;
+            double first = middle - 0.5 * (side_ - 1), step = 1.0;
+            if (spread_) {
+                const double half = 0.5 * width_of(q) * per_pixel;
+                const double low = std::max(middle - half, 0.0), high = std::min<double>(middle + half, cells);
+                step = (high - low) / side_;
+                first = low + 0.5 * step;
+            }
             int count = 0;
             for (int i = 0; i < side_; ++i) {
-                const float at = first + static_cast<float>(i) * step;
-                if (at >= 0.0f && at < static_cast<float>(cells)) places[count++] = static_cast<int>(at);
+                const double at = first + i * step;
+                if (at >= 0.0 && at < cells) places[count++] = static_cast<int>(at);
             }
             return count;
         };
@@ -150,7 +155,7 @@ private:
         return -1;
     }
 
-    // Samples outside the map are lit.
+    // Cells outside the map are lit.
     template <class Depths>
     int count_shadowed(const Depths& depths, const Kernel& kernel, float z) const {
         if (const int sum = known(depths, kernel, z); sum >= 0) return sum;
@@ -182,7 +187,7 @@ Technique multi_depth() {
         .id = "multi_depth",
         .title = "several depths a cell, and a shadow test with as many steps",
         .paper = "Pagot, Comba, Oliveira 2004",
-        .version = 1,
+        .version = 2,
         .promises = {.opaque_only = true},
         .parameters = parameters,
         .create = create_map<MultiDepth>,

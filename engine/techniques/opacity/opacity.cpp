@@ -69,7 +69,7 @@ public:
 
     void touched(const Query& q, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();
-        texels_.for_each(q, [&](std::size_t cell, float) {
+        texels_.for_each(q, [&](std::size_t cell, double) {
             const float* texel = texels_.at(cell);
             const Slices slices = slices_of(texel);
             const int i = slices.interval(slices.place(q.z));
@@ -135,7 +135,7 @@ Technique opacity() {
     return {.id = "opacity",
             .title = "opacity shadow map: optical depth at uniform slices",
             .paper = "Kim, Neumann 2001",
-            .version = 2,
+            .version = 3,
             .promises = {.localised = false, .leak = std::exp(-5.545)},
             .parameters = parameters,
             .create = create_map<Opacity>,

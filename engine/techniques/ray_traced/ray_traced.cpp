@@ -90,7 +90,7 @@ Technique ray_traced() {
     return {.id = "ray_traced",
             .title = "shadow rays through the scene, no map",
             .paper = "none: the cost of doing without",
-            .version = 2,
+            .version = 3,
             .parameters = parameters,
             .create = create_map<RayTraced>,
             .traits = {.traces = true, .draws_samples = true, .filters = false}};

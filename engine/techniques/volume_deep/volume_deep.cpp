@@ -103,7 +103,7 @@ Technique volume_deep() {
     return {.id = "volume_deep",
             .title = "deep shadow map of volumes: depths at 10, 50 and 90 % opacity, and the maximum opacity",
             .paper = "Deep Shadow Maps from Volumetric Data",
-            .version = 2,
+            .version = 3,
             .promises = {.localised = false},
             .parameters = parameters,
             .create = create_map<VolumeDeep>,

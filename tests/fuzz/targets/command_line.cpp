@@ -1,7 +1,8 @@
 #include <nlohmann/json.hpp>
 
-#include "bench/document.h"
 #include "bench/functions.h"
+#include "document/document.h"
+#include "document/technique_choice.h"
 #include "fuzz/expect.h"
 #include "fuzz/few_variants.h"
 #include "fuzz/target.h"
@@ -26,13 +27,13 @@ void command_line(std::string_view bytes) {
     while (!bytes.empty()) {
         const std::string line(take_line(bytes));
         if (line.starts_with(':'))
-            attempt(codes, [&] { bench::read_any_technique(line.substr(1)); });
+            attempt(codes, [&] { document::read_any_technique(line.substr(1)); });
         else
-            attempt(codes, [&] { bench::set_value(document, line); });
+            attempt(codes, [&] { document::set_value(document, line); });
     }
     if (!few_variants(document)) return;
     attempt(codes, [&] {
-        for (const bench::Variant& variant : bench::expand(document))
+        for (const document::Variant& variant : document::expand(document))
             expect(!variant.document->contains("sweeps"), "a variant has no sweeps");
         expect(nlohmann::json::parse(document.dump()) == document, "a valid document can be written");
     });

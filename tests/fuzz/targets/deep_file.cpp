@@ -104,8 +104,9 @@ void read_all(const std::string& bytes) {
             lookup(cache, level, queries, visibility);
             expect_in(visibility, 0.0f, 1.0f, "lookups through tiles are in [0, 1]");
         }
-        for (const LookupRule& rule : {LookupRule{}, LookupRule{true, Mip::blend, Search::linear},
-                                       LookupRule{false, Mip::nearest, Search::cached}}) {
+        for (const LookupRule& rule : {LookupRule{}, LookupRule{Kernel::tent, Mip::blend, Search::linear},
+                                       LookupRule{Kernel::pixels, Mip::nearest, Search::binary},
+                                       LookupRule{Kernel::box, Mip::nearest, Search::cached}}) {
             if (rule.mip != Mip::none && levels.size() == 1) continue;
             lookup(levels, rule, queries, visibility);
             expect_in(visibility, 0.0f, 1.0f, "lookups are in [0, 1]");

@@ -4,5 +4,9 @@
 
 void shadowbench::fuzz::deep_image(std::string_view bytes) {
     const InputFile file(bytes, ".exr");
-    attempt({base::ErrorCode::bad_input}, [&] { expect_sound(scene::read_deep_image(file.path())); });
+    const auto read = [&](const scene::DeepChoice& choice) {
+        attempt({base::ErrorCode::bad_input}, [&] { expect_sound(scene::read_deep_image(file.path(), choice)); });
+    };
+    read({});
+    read({"rgba", 0});
 }

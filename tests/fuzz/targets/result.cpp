@@ -1,4 +1,4 @@
-#include "bench/report.h"
+#include "results/report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -10,12 +10,12 @@ namespace shadowbench::fuzz {
 
 void result(std::string_view bytes) {
     attempt({base::ErrorCode::bad_input}, [&] {
-        scene::parse_json(std::string(bytes), "result");
-        const bench::Result read = bench::from_json(nlohmann::ordered_json::parse(bytes));
-        bench::to_table(read);
-        bench::to_csv(read);
-        const nlohmann::ordered_json written = bench::to_json(read);
-        expect(bench::to_json(bench::from_json(written)) == written, "what is written is read back");
+        const results::Result read = results::from_json(scene::parse_json(std::string(bytes), "result"), "");
+        results::to_table(read);
+        results::to_csv(read);
+        const nlohmann::ordered_json written = results::to_json(read);
+        const results::Result again = results::from_json(nlohmann::json::parse(written.dump()), "");
+        expect(results::to_json(again) == written, "what is written is read back");
     });
 }
 

@@ -1,4 +1,5 @@
 #include "scene/scenario.h"
+#include "document/document.h"
 
 #include <nlohmann/json.hpp>
 
@@ -39,7 +40,7 @@ void scenario(std::string_view bytes) {
     attempt({base::ErrorCode::bad_input, base::ErrorCode::no_such_file}, [&] {
         const nlohmann::json document = scene::parse_json(std::string(bytes), "scenario.json");
         if (!few_variants(document)) return;
-        for (const bench::Variant& variant : bench::expand(document)) {
+        for (const document::Variant& variant : document::expand(document)) {
             if (!small_scene(*variant.document)) return;
             bench::ScenarioLoader loader({});
             expect_sound(loader.load(variant));

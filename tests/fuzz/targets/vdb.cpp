@@ -7,5 +7,10 @@
 void shadowbench::fuzz::vdb(std::string_view bytes) {
     constexpr std::uint64_t most_voxels = 1 << 22;
     const InputFile file(bytes, ".vdb");
-    attempt({base::ErrorCode::bad_input}, [&] { expect_sound(scene::read_vdb(file.path(), "density", most_voxels)); });
+    const auto read = [&](const scene::GridChoice& grid, scene::Negative negative) {
+        attempt({base::ErrorCode::bad_input},
+                [&] { expect_sound(scene::read_vdb(file.path(), grid, negative, most_voxels)); });
+    };
+    read({}, scene::Negative::clamp);
+    read(1, scene::Negative::refuse);
 }

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {bytes, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
 import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
-import {frontOf, lightMapOf, quoted, rerunOf, worstPixelOf} from '../../../service/web/page/result/model.js';
+import {frontOf, lightMapOf, quoted, rerunOf, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
 import {linearAxis, logAxis, logPlace} from '../../../service/web/page/plots/axes.js';
 import {placeLabels} from '../../../service/web/page/plots/labels.js';
 
@@ -44,6 +44,15 @@ test('random changes of a scenario are judged as JSON.parse does', () => {
     try { places(changed); } catch (error) { assert.ok(error instanceof JsonFault); seen = false; }
     assert.equal(seen, valid, changed);
   }
+});
+
+test('a group whose floors drifted says why, and no other does', () => {
+  const result = {times: {settled: false, unsettled: [{variant: 1, light: 'key', why: '3 of 14 floors spread'}]}};
+  const group = (variant, light) => ({variant, light: {light}});
+  assert.equal(unsettledOf(result, group(1, 'key')), '3 of 14 floors spread');
+  assert.equal(unsettledOf(result, group(0, 'key')), null);
+  assert.equal(unsettledOf(result, group(1, 'fill')), null);
+  assert.equal(unsettledOf({times: {started: ''}}, group(1, 'key')), null, 'older results do not tell');
 });
 
 test('the front holds what nothing beats in both', () => {

@@ -39,6 +39,11 @@ export function groupsOf(result) {
   }));
 }
 
+// Why the times of a group cannot be relied on: what the floors say of the machine. Nothing where it was quiet.
+export function unsettledOf(result, group) {
+  return result.times?.unsettled?.find((u) => u.variant === group.variant && u.light === group.light.light)?.why ?? null;
+}
+
 // The points that no other beats in both: from left to right, ever lower. Equal ones are all on it.
 export function frontOf(points) {
   const sorted = [...points].sort((a, b) => a.x - b.x || a.y - b.y);

@@ -7,7 +7,7 @@ import {onThemeChange} from '../plots/palette.js';
 import {cellView} from './cell.js';
 import {compareView} from './compare.js';
 import {curvesView} from './curves.js';
-import {groupsOf, imagesAreOf, picturesOf, seriesOf} from './model.js';
+import {groupsOf, imagesAreOf, picturesOf, seriesOf, unsettledOf} from './model.js';
 import {cellTable} from './table.js';
 import {tradeView} from './trade.js';
 
@@ -79,7 +79,11 @@ function groupView({source, result, images, imagesFault, group, series, signal})
   if (group.cells.length) pick(chosen, false);
   onThemeChange(() => { if (group.cells.length) pick(chosen, false); }, signal);
 
+  const unsettled = unsettledOf(result, group);
   return h('div', {class: 'stack'},
+    unsettled && h('p', {class: 'unsettled', role: 'note'}, h('strong', {}, 'Unsettled. '),
+      `${unsettled}. The machine was busy or changed its pace: times may be off by as much, and the front of time and error ` +
+      'and rankings by time with them. Run it again on a quiet machine.'),
     h('section', {class: 'panel quiet-panel', 'aria-label': 'Capture'}, captureOf(group.light),
       group.light.sees_nothing && h('p', {class: 'note'}, 'This light sees nothing that casts a shadow.')),
     trade.element,

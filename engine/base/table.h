@@ -1,0 +1,27 @@
+// Columns of text, aligned.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace shadowbench::base {
+
+// The first and the last column stand to the left, the others to the right.
+class Table {
+public:
+    explicit Table(std::vector<std::string> header);
+    void add(std::vector<std::string> row);  // as many fields as the header
+    std::string text(const std::string& indent) const;
+
+private:
+    std::vector<std::vector<std::string>> rows_;
+};
+
+// Two digits; "-" for what is not finite.
+std::string error_text(double value);
+
+// "512 B", "1.5 KiB", "23 MiB".
+std::string bytes_text(std::size_t bytes);
+
+}  // namespace shadowbench::base

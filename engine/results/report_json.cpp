@@ -1,0 +1,204 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "results/report.h"
+#include "results/settled.h"
+
+namespace shadowbench::results {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json number(double value) {
+    return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json to_json(const Sample& sample) {
+    return {
+        {"median", sample.median}, {"interval95", {sample.interval.low, sample.interval.high}}, {"raw", sample.raw}};
+}
+
+json to_json(const std::optional<Sample>& sample) {
+    return sample ? to_json(*sample) : json(nullptr);
+}
+
+json to_json(const LookupTimes& times) {
+    return {{"ns", to_json(times.ns)}, {"floor_ns", to_json(times.floor)}, {"ratio_to_floor", to_json(times.ratio)}};
+}
+
+json to_json(const std::optional<CellTimes>& times) {
+    if (!times) return nullptr;
+    return {{"build_ms", to_json(times->build_ms)},
+            {"build_ns_per_segment", times->ns_per_segment},
+            {"lookups_a_pass", times->lookups},
+            {"lookup_image_order", to_json(times->image_order)},
+            {"lookup_random_order", to_json(times->random_order)},
+            {"on_time_error_front", times->on_front}};
+}
+
+json to_json(const metrics::ErrorNorms& norms) {
+    return {{"max", number(norms.max)},
+            {"rms", number(norms.rms)},
+            {"mean", number(norms.mean)},
+            {"p99", number(norms.p99)}};
+}
+
+json to_json(const std::optional<CurveErrors>& errors) {
+    if (!errors) return nullptr;
+    json out = to_json(errors->norms);
+    out["mean_l1"] = number(errors->mean_l1);
+    out["cells"] = errors->cells;
+    out["worst_cell"] = {errors->worst_x, errors->worst_y};
+    out["reference_error"] = errors->reference_error;
+    out["rise"] = number(errors->rise);
+    out["lowest"] = number(errors->lowest);
+    return out;
+}
+
+json to_json(const std::optional<LookupErrors>& errors) {
+    if (!errors) return nullptr;
+    json out = to_json(errors->norms);
+    out["signed_mean"] = errors->signed_mean;
+    return out;
+}
+
+json to_json(const NodeCounts& nodes) {
+    return {{"cells", nodes.cells},
+            {"total", nodes.total},
+            {"mean", nodes.mean()},
+            {"max", nodes.max},
+            {"histogram", nodes.histogram}};
+}
+
+json to_json(const Cell& cell) {
+    return {{"technique", cell.technique},
+            {"version", cell.version},
+            {"parameters", json::parse(cell.parameters_json)},
+            {"label", cell.parameters},
+            {"defaults", cell.defaults},
+            {"where", cell.where},
+            {"status", cell.status == CellStatus::ok ? "ok" : "failed"},
+            {"reason", cell.reason},
+            {"verdict", to_string(cell.verdict)},
+            {"verdict_why", cell.verdict_why},
+            {"outside_promise", cell.outside_promise},
+            {"promised_curve_error", number(cell.error_bound)},
+            {"bytes", cell.bytes},
+            {"working_bytes", cell.working_bytes},
+            {"nodes", to_json(cell.nodes)},
+            {"curve_error", to_json(cell.curve)},
+            {"lookup_error", to_json(cell.lookup)},
+            {"on_bytes_error_front", cell.on_bytes_front},
+            {"times", to_json(cell.times)}};
+}
+
+json to_json(const MapDescription& layout) {
+    return {{"width", layout.width},
+            {"height", layout.height},
+            {"samples_per_pixel", layout.samples()},
+            {"samples_x", layout.samples_x},
+            {"samples_y", layout.samples_y},
+            {"pattern", layout.jittered ? "jittered" : "regular"},
+            {"seed", layout.seed},
+            {"channels", layout.channels},
+            {"media", layout.media},
+            {"z_min", layout.z_min},
+            {"z_max", layout.z_max}};
+}
+
+json to_json(const std::optional<Agreement>& agreement) {
+    if (!agreement) return nullptr;
+    return {{"agrees", agrees(*agreement)},
+            {"rays", agreement->rays},
+            {"other_crossings", agreement->other_crossings},
+            {"other_transmittance", agreement->other_transmittance},
+            {"times",
+             {{"capture_rays_per_second", agreement->times.capture_rays_per_second},
+              {"embree_rays_per_second", agreement->times.tracer_rays_per_second},
+              {"ratio", agreement->times.ratio}}}};
+}
+
+json to_json(const ReferenceReport& reference) {
+    return {
+        {"judged", reference.judged},
+        {"samples_per_pixel", reference.samples_per_pixel},
+        {"standard_error", {{"rms", reference.error_rms}, {"max", reference.error_max}}},
+        {"noise_tolerance", reference.noise_tolerance},
+        {"spread_over_seeds",
+         reference.spread_rms ? json{{"rms", *reference.spread_rms}, {"max", *reference.spread_max}} : json(nullptr)}};
+}
+
+json to_json(const LightResult& light) {
+    json cells = json::array();
+    for (const Cell& cell : light.cells) cells.push_back(to_json(cell));
+    return {{"light", light.name},
+            {"map", to_json(light.layout)},
+            {"rays", light.rays},
+            {"segments", light.segments},
+            {"ray_bytes", light.ray_bytes},
+            {"rays_kept", light.kept},
+            {"sees_nothing", sees_nothing(light)},
+            {"translucent", light.translucent},
+            {"receivers", light.receivers},
+            {"receivers_outside_map", light.dropped},
+            {"capture",
+             {{"embree_check", to_json(light.agreement)},
+              {"times",
+               {{"seconds", light.times.seconds},
+                {"setup_seconds", light.times.setup_seconds},
+                {"rays_per_second", light.times.rays_per_second}}}}},
+            {"reference", to_json(light.reference)},
+            {"cells", std::move(cells)}};
+}
+
+// What the floors say of the machine: whether it was quiet, and where it was not.
+json to_json(const RunTimes& times, const Result& result) {
+    json unsettled = json::array();
+    for (std::size_t v = 0; v < result.variants.size(); ++v)
+        for (const LightResult& light : result.variants[v].lights)
+            if (std::string why = unsettled_text(settling(light)); !why.empty())
+                unsettled.push_back({{"variant", v}, {"light", light.name}, {"why", std::move(why)}});
+    const std::optional<bool> quiet = settled(result);
+    return {{"started", times.started},
+            {"seconds", times.seconds},
+            {"threads", times.threads},
+            {"settled", quiet ? json(*quiet) : json(nullptr)},
+            {"unsettled", std::move(unsettled)}};
+}
+
+json to_json(const VariantResult& variant) {
+    json settings = json::object(), lights = json::array();
+    for (const document::Setting& setting : variant.settings) settings[setting.pointer] = json::parse(setting.value);
+    for (const LightResult& light : variant.lights) lights.push_back(to_json(light));
+    return {{"settings", std::move(settings)}, {"lights", std::move(lights)}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Result& result) {
+    json variants = json::array();
+    for (const VariantResult& variant : result.variants) variants.push_back(to_json(variant));
+    return {{"schema_version", result_schema_version},
+            {"name", result.name},
+            {"purpose", result.purpose},
+            {"scenario_hash", result.hash},
+            {"scenario", json::parse(result.document)},
+            {"only", result.only},
+            {"program",
+             {{"version", result.program.version},
+              {"commit", result.program.commit},
+              {"compiler", result.program.compiler},
+              {"build_type", result.program.build_type}}},
+            {"machine", {{"cpu", result.machine.cpu}, {"logical_cores", result.machine.logical_cores}}},
+            {"times", to_json(result.times, result)},
+            {"variants", std::move(variants)}};
+}
+
+void strip_times(nlohmann::ordered_json& result) {
+    if (result.is_object()) result.erase("times");
+    if (result.is_structured())
+        for (auto& part : result) strip_times(part);
+}
+
+}  // namespace shadowbench::results

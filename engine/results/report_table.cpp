@@ -1,0 +1,163 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/table.h"
+#include "results/report.h"
+#include "results/settled.h"
+
+namespace shadowbench::results {
+namespace {
+
+using base::bytes_text;
+using base::error_text;
+
+constexpr const char* legend =
+    "ns/seg: build time a segment of the light rays. image ns, random ns: one lookup, in image and in random order;\n"
+    "x floor: against reading the same cache lines. curve max: largest |stored - uncompressed|. lookup: error against\n"
+    "the truth. front: T no other is both faster (random order) and more accurate; B none is smaller and more "
+    "accurate.\n";
+
+std::string count(std::uint64_t n) {
+    std::string digits = fmt::format("{}", n);
+    for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
+        digits.insert(static_cast<std::size_t>(at), ",");
+    return digits;
+}
+
+std::string time_text(double value) {
+    const int decimals = value < 10 ? 2 : value < 1000 ? 1 : 0;
+    return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string front_text(const Cell& cell) {
+    std::string marks;
+    if (cell.times && cell.times->on_front) marks += 'T';
+    if (cell.on_bytes_front) marks += 'B';
+    return marks;
+}
+
+std::string status_text(const Cell& cell) {
+    if (cell.status == CellStatus::failed) return "failed: " + cell.reason;
+    return cell.outside_promise ? "ok, but promised for opaque scenes only" : "ok";
+}
+
+std::vector<std::string> row_of(const Cell& cell) {
+    const auto ratio = [](const LookupTimes& times) {
+        return times.ratio ? fmt::format("{:.1f}", times.ratio->median) : "-";
+    };
+    std::vector<std::string> row{title(cell)};
+    if (cell.times) {
+        const CellTimes& t = *cell.times;
+        row.insert(row.end(),
+                   {time_text(t.build_ms.median), time_text(t.ns_per_segment), time_text(t.image_order.ns.median),
+                    ratio(t.image_order), time_text(t.random_order.ns.median), ratio(t.random_order)});
+    } else {
+        row.insert(row.end(), 6, "-");
+    }
+    row.insert(row.end(),
+               {bytes_text(cell.bytes), fmt::format("{:.1f}", cell.nodes.mean()), fmt::format("{}", cell.nodes.max)});
+    row.push_back(cell.curve ? error_text(cell.curve->norms.max) : "-");
+    if (cell.lookup) {
+        const metrics::ErrorNorms& e = cell.lookup->norms;
+        row.insert(row.end(), {error_text(e.rms), error_text(e.p99), error_text(e.max)});
+    } else {
+        row.insert(row.end(), 3, "-");
+    }
+    row.insert(row.end(), {front_text(cell), status_text(cell)});
+    return row;
+}
+
+std::string capture_lines(const LightResult& light, int threads) {
+    std::string text = fmt::format(
+        "  light {}: map {} x {}, {} ray{} a pixel ({}){}; {} rays, {} segments, {}{}\n", light.name,
+        light.layout.width, light.layout.height, light.layout.samples(), light.layout.samples() == 1 ? "" : "s",
+        light.deep_image        ? "deep image"
+        : light.layout.jittered ? "jittered"
+                                : "regular",
+        light.layout.channels == 3 ? ", 3 channels" : "", count(light.rays), count(light.segments),
+        bytes_text(light.ray_bytes), light.kept ? "" : ", captured anew for each pass");
+    text += fmt::format("    capture: {:.2f} s on {} thread{} after {:.2f} s of setup", light.times.seconds, threads,
+                        threads == 1 ? "" : "s", light.times.setup_seconds);
+    if (light.agreement) {
+        const Agreement& a = *light.agreement;
+        text += fmt::format(
+            "; one thread {:.3g} M rays/s, {:.1f} x {}; of {} rays {} differ in crossings, {} in transmittance",
+            a.times.capture_rays_per_second * 1e-6, a.times.ratio,
+            light.layout.media ? "the same rays traced one by one" : "Embree's all-hits query", count(a.rays),
+            a.other_crossings, a.other_transmittance);
+    }
+    return text + "\n";
+}
+
+// Empty where the light sees something.
+std::string nothing_line(const LightResult& light) {
+    if (!sees_nothing(light)) return "";
+    return "    note: the light sees nothing that casts a shadow: its map is empty, and every answer has to be 1\n";
+}
+
+// Empty where the capture and Embree agree.
+std::string warning_line(const LightResult& light) {
+    if (!light.agreement || agrees(*light.agreement)) return "";
+    const Agreement& a = *light.agreement;
+    return fmt::format(
+        "    WARNING: the captured rays are not those that Embree traces: of {} compared, {} differ in crossings and "
+        "{} "
+        "in transmittance. Do not rely on this light's numbers.\n",
+        count(a.rays), count(a.other_crossings), count(a.other_transmittance));
+}
+
+// Empty where every stored function was compared.
+std::string share_line(const LightResult& light) {
+    std::string names;
+    for (const Cell& cell : light.cells)
+        if (cell.curve && cell.curve->cells < cell.nodes.cells)
+            names += fmt::format("{}{} ({} of {})", names.empty() ? "" : ", ", title(cell), count(cell.curve->cells),
+                                 count(cell.nodes.cells));
+    return names.empty() ? "" : "    curve max of a share of the cells: " + names + "\n";
+}
+
+// Empty where the machine was quiet, or nothing is known of it.
+std::string unsettled_line(const LightResult& light) {
+    const std::string why = unsettled_text(settling(light));
+    if (why.empty()) return "";
+    return "    UNSETTLED: " + why +
+           ". The machine was busy or changed its pace: times may be off by as much, and front T\n"
+           "    and rankings by time with them. Run it again on a quiet machine.\n";
+}
+
+std::string reference_line(const LightResult& light) {
+    const ReferenceReport& r = light.reference;
+    std::string text = fmt::format(
+        "    truth: {} of {} receivers, {} ray{} a pixel, standard error rms {:.2g} max {:.2g}; noise tolerance "
+        "0.5/sqrt(N) {:.2g}",
+        count(r.judged), count(light.receivers), r.samples_per_pixel, r.samples_per_pixel == 1 ? "" : "s", r.error_rms,
+        r.error_max, r.noise_tolerance);
+    if (r.spread_rms) text += fmt::format("; spread over seeds rms {:.2g} max {:.2g}", *r.spread_rms, *r.spread_max);
+    if (light.dropped > 0) text += fmt::format("; {} receivers are outside the map", count(light.dropped));
+    return text + "\n";
+}
+
+}  // namespace
+
+std::string to_table(const Result& result) {
+    std::string text = result.name + (result.purpose.empty() ? "" : ": " + result.purpose) + "\n";
+    for (const VariantResult& variant : result.variants) {
+        for (const document::Setting& setting : variant.settings)
+            text += fmt::format("{} = {}\n", setting.pointer, setting.value);
+        for (const LightResult& light : variant.lights) {
+            text += capture_lines(light, result.times.threads) + nothing_line(light) + warning_line(light) +
+                    reference_line(light);
+            base::Table table({"technique", "build ms", "ns/seg", "image ns", "x floor", "random ns", "x floor",
+                               "bytes", "nodes mean", "max", "curve max", "lookup rms", "p99", "max", "front",
+                               "status"});
+            for (const Cell& cell : light.cells) table.add(row_of(cell));
+            text += table.text("    ") + share_line(light) + unsettled_line(light);
+        }
+    }
+    return text + legend;
+}
+
+}  // namespace shadowbench::results

@@ -1,0 +1,12 @@
+// Moments as jobs have them: UTC, ISO 8601 with milliseconds, "2026-11-25T01:02:03.004Z".
+#pragma once
+
+#include <ctime>
+#include <string>
+
+namespace shadowbench::service {
+
+std::string utc_text(std::timespec moment);
+std::string now_utc();
+
+}  // namespace shadowbench::service

@@ -1,0 +1,32 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "service/api/describe.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Scenarios, OfOneNameTheFirstFoldersIsListed) {
+    const fs::path top = fs::path(::testing::TempDir()) / "shadowbench_api_scenarios";
+    for (const char* one : {"first", "second"}) {
+        fs::create_directories(top / one);
+        std::ofstream(top / one / "same.json") << R"({"name": "same", "purpose": ")" << one << "\"}";
+    }
+    std::ofstream(top / "second" / "other.json") << R"({"name": "other"})";
+    const nlohmann::json list = nlohmann::json::parse(read_scenarios({top / "first", top / "second"}))["scenarios"];
+    fs::remove_all(top);
+    ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(list[0]["name"], "other");
+    EXPECT_EQ(list[1]["name"], "same");
+    EXPECT_EQ(list[1]["purpose"], "first");
+}
+
+}  // namespace
+}  // namespace shadowbench::service

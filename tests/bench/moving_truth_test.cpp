@@ -1,0 +1,167 @@
+// The truth of what moves while the shutter is open lies about its closed form as its stated errors say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/reference.h"
+#include "bench/run.h"
+#include "document/document.h"
+#include "rays/scenes.h"
+
+namespace shadowbench::bench {
+namespace {
+
+using base::Vec2d;
+using base::Vec3d;
+using techniques::Query;
+
+// Share of the unit cube where a . u < b: the corners by inclusion and exclusion.
+double half_space_in_cube(std::array<double, 3> a, double b) {
+    double divisor = 6.0;
+    for (double& v : a) {
+        if (v < 0.0) {  // u becomes 1 - u
+            b -= v;
+            v = -v;
+        }
+        divisor *= v;
+    }
+    double sum = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+        double rest = b, sign = 1.0;
+        for (int k = 0; k < 3; ++k)
+            if (corner >> k & 1) {
+                rest -= a[static_cast<std::size_t>(k)];
+                sign = -sign;
+            }
+        if (rest > 0.0) sum += sign * rest * rest * rest;
+    }
+    return sum / divisor;
+}
+
+TEST(MovingTruth, AHalfSpaceInACubeIsKnown) {
+    EXPECT_NEAR(half_space_in_cube({1, 1, 1}, 1), 1.0 / 6, 1e-15);
+    EXPECT_NEAR(half_space_in_cube({-1, -1, -1}, -1), 5.0 / 6, 1e-15);
+    EXPECT_NEAR(half_space_in_cube({0.3, -0.8, 0.1}, -0.2), 0.5, 1e-12) << "through the middle";
+    EXPECT_NEAR(half_space_in_cube({1, 1, 1}, 7), 1, 1e-12);
+}
+
+// A strip across the map between two parallel edges, at z = 0 of the world: n . p in [low, high] + speed t.
+struct Strip {
+    Vec2d n;
+    double low, high, speed;
+};
+
+scene::Object quad_of(const Strip& s, const Vec2d& drift) {
+    const Vec2d along(-s.n.y, s.n.x);
+    const auto at = [&](double across, double on) {
+        const Vec2d p = s.n * across + along * on;
+        return base::Vec3f(static_cast<float>(p.x), static_cast<float>(p.y), 0.0f);
+    };
+    const base::Vec3f corner = at(s.low, -6);
+    scene::Object object = rays::testing::quad(corner, at(s.high, -6) - corner, at(s.low, 6) - corner);
+    object.motion = {static_cast<float>(drift.x), static_cast<float>(drift.y), 0.0f};
+    return object;
+}
+
+// Share of the strip in the box [x0, x1] x [y0, y1] of the world and the shutter.
+double coverage(const Strip& s, const Vec2d& low, const Vec2d& high) {
+    const auto below = [&](double edge) {  // n . (low + u (high - low)) - speed t < edge
+        return half_space_in_cube({s.n.x * (high.x - low.x), s.n.y * (high.y - low.y), -s.speed}, edge - s.n.dot(low));
+    };
+    return below(s.high) - below(s.low);
+}
+
+TEST(MovingTruth, TenThousandTruthsOfAMovingQuadLieAboutTheClosedFormAsTheirStatedErrorsSay) {
+    constexpr int resolution = 8, wanted = 10000;
+    double sum = 0.0, squares = 0.0, worst = 0.0;
+    int truths = 0;
+    for (std::uint64_t seed = 0; truths < wanted; ++seed) {
+        ASSERT_LT(seed, 5000u);
+        base::Random random(base::hash(seed, 17));
+        Strip s;
+        double angle = random.uniform(0.0, 6.2831853);
+        if (std::abs(std::sin(2 * angle)) < 0.02) angle += 0.05;  // the closed form divides by both parts of n
+        s.n = {std::cos(angle), std::sin(angle)};
+        s.low = random.uniform(-1.2, 0.6);
+        s.high = s.low + random.uniform(0.1, 1.0);
+        s.speed = std::exp(random.uniform(std::log(0.02), std::log(3.0)));
+        if (random.uniform() < 0.5) s.low -= s.speed, s.high -= s.speed;
+        const double slide = random.uniform(-1, 1);  // along its own edges: changes nothing
+
+        scene::Scene scene;
+        scene.objects.push_back(quad_of(s, s.n * s.speed + Vec2d(-s.n.y, s.n.x) * slide));
+        const scene::Light light =
+            seed % 2 ? rays::testing::directional() : rays::testing::spot({0, 0, 2}, random.uniform(20, 60));
+        scene::RaySettings settings = rays::testing::rays(resolution, seed % 3 ? 1024 : 1000);
+        settings.seed = seed;
+        const rays::LightView view = rays::make_light_view(light, scene, settings.resolution, "/lights/0");
+        const Vec3d zero = rays::to_light(view, {0, 0, 0}), one = rays::to_light(view, {1, 1, 0});
+        const Vec2d scale(one.x - zero.x, one.y - zero.y);
+
+        std::vector<Query> queries;
+        std::vector<double> expected;
+        for (int pixel = 0; pixel < resolution * resolution; ++pixel) {
+            // Each footprint has rays of its own: one pixel's, or a part of them.
+            const double width = pixel % 2 ? 1.0 : random.uniform(0.3, 1.0), free = 0.5 * (1.0 - width);
+            const Vec2d middle(pixel % resolution + 0.5 + random.uniform(-free, free),
+                               pixel / resolution + 0.5 + random.uniform(-free, free));
+            const Vec2d a = (middle - Vec2d(0.5 * width) - Vec2d(zero.x, zero.y)) / scale,
+                        b = (middle + Vec2d(0.5 * width) - Vec2d(zero.x, zero.y)) / scale;
+            const double covered =
+                coverage(s, {std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)});
+            if (covered < 0.1 || covered > 0.9) continue;  // few rays that differ do not know their own spread
+            queries.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y),
+                               static_cast<float>(zero.z + 1.0), static_cast<float>(width)});
+            expected.push_back(1.0 - covered);
+        }
+        if (queries.empty()) continue;
+        const Truth truth = reference_visibility(scene, view, settings, queries, {});
+        for (std::size_t q = 0; q < queries.size(); ++q) {
+            const double z = (truth.value[q] - expected[q]) / truth.standard_error[q];
+            sum += z;
+            squares += z * z;
+            worst = std::max(worst, std::abs(z));
+            EXPECT_LT(std::abs(z), 5.0) << "seed " << seed << ": " << truth.value[q] << " instead of " << expected[q]
+                                        << ", stated error " << truth.standard_error[q] << ", width "
+                                        << queries[q].width;
+        }
+        truths += static_cast<int>(queries.size());
+    }
+    RecordProperty("worst", std::to_string(worst));
+    RecordProperty("rms", std::to_string(std::sqrt(squares / truths)));
+    // Of 10,000 normal draws one in 200 sets has a value beyond 5. The stated error is an upper bound: rays are spread.
+    EXPECT_LT(std::sqrt(squares / truths), 1.0 + 4.0 / std::sqrt(2.0 * truths));
+    EXPECT_LT(std::abs(sum / truths), 4.0 / std::sqrt(truths)) << "no side is favoured";
+}
+
+// Moving quads, spheres, particles and layers, and one receiver.
+nlohmann::json shutter_times() {
+    std::ifstream file(std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "tests" / "bench" / "shutter_times.json");
+    return nlohmann::json::parse(file);
+}
+
+TEST(MovingTruth, IsTheSameAtEverySeedAndForTracedRays) {
+    nlohmann::json document = shutter_times();
+    for (const char* setting : {"timing.repetitions=1", "timing.lookups=64", "reference.spread_seeds=0"})
+        document::set_value(document, setting);
+    for (const int seed : {1, 35, 36, 37, 1234567}) {
+        document::set_value(document, "reference.seed=" + std::to_string(seed));
+        const results::LightResult light = run(document, {}, {}).variants.at(0).lights.at(0);
+        ASSERT_EQ(light.cells.size(), 1u);
+        const results::Cell& traced = light.cells[0];
+        ASSERT_EQ(traced.status, results::CellStatus::ok) << traced.reason;
+        EXPECT_GT(light.reference.error_max, 0.0);
+        EXPECT_LT(light.reference.error_max, 0.015);
+        // Three channels; shadow rays are 64 times as many as the truth's.
+        EXPECT_LT(traced.lookup->norms.max, 4.0 * light.reference.error_max) << "seed " << seed;
+    }
+}
+
+}  // namespace
+}  // namespace shadowbench::bench

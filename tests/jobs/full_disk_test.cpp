@@ -1,0 +1,216 @@
+// A server whose disk is full: its jobs wait, and go on when there is space. The disk is a small one in memory; where
+// none can be mounted these tests are skipped.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <sys/mount.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+#include "base/error.h"
+#include "jobs/job_host.h"
+#include "service/jobs/room.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr std::size_t disk = std::size_t{4} << 20;
+
+class FullDisk : public JobHost {
+protected:
+    void SetUp() override {
+        JobHost::SetUp();
+        fs::create_directories(state());
+        const std::string options = "size=" + std::to_string(disk);
+        if (::mount("tmpfs", state().c_str(), "tmpfs", 0, options.c_str()) != 0)
+            GTEST_SKIP() << "no file system can be mounted here: " << std::strerror(errno);
+        mounted = true;
+    }
+    void TearDown() override {
+        jobs.reset();
+        if (mounted) ::umount2(state().c_str(), MNT_DETACH);
+    }
+
+    // Takes all space but so many bytes.
+    void fill(std::uintmax_t left = 0) const {
+        const int file = ::open((state() / "filler").c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+        const std::string page(4096, 'x');
+        while (fs::space(state()).available > left && ::write(file, page.data(), page.size()) > 0) {
+        }
+        ::close(file);
+    }
+    void empty() const { fs::remove(state() / "filler"); }
+
+    void wait_for_fault(bool fails) const {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+        while (jobs->storage_fails() != fails && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        EXPECT_EQ(jobs->storage_fails(), fails);
+    }
+    std::string path(const std::string& name) const { return (folder.path() / name).string(); }
+    static std::size_t count(const std::string& text, const std::string& part) {
+        std::size_t found = 0;
+        for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++found;
+        return found;
+    }
+    // Does what it should, or says as the program does that its folder takes nothing.
+    std::string writes(std::size_t bytes) const {
+        return "echo x >>" + path("runs") + "; head -c " + std::to_string(bytes) +
+               " /dev/zero >big && echo {} >result.json || " +
+               "{ echo '{\"storage\":{\"message\":\"full\"}}'; exit 74; }";
+    }
+    std::size_t runs() const { return fs::exists(path("runs")) ? count(base::read_text(path("runs")), "x") : 0; }
+
+    bool mounted = false;
+};
+
+TEST_F(FullDisk, LetsJobsWaitAndGoOn) {
+    limits.parallel = 2;
+    start();
+    EXPECT_FALSE(jobs->storage_fails());
+    std::vector<std::string> ids;
+    for (int i = 0; i < 2; ++i)
+        ids.push_back(submit("echo '{\"stage\":\"build\"}'; while [ ! -e " + path("gate") +
+                             " ]; do sleep 0.02; done; " + success));
+    for (const std::string& id : ids) wait_for_run(id);
+    for (int i = 0; i < 5; ++i) ids.push_back(submit(success));
+    fill();
+    std::ofstream(path("gate")) << "x";
+    wait_for_fault(true);
+    std::this_thread::sleep_for(std::chrono::seconds(2));  // for what should not happen
+    EXPECT_EQ(jobs->count(JobState::failed), 0u);
+    EXPECT_EQ(jobs->count(JobState::succeeded), 0u);
+    EXPECT_THROW(submit(success), base::Error);
+    EXPECT_EQ(count(said(), "cannot be written"), 1u) << said();
+    empty();
+    for (const std::string& id : ids) {
+        const JobInfo job = wait_for_end(id);
+        EXPECT_EQ(job.state, JobState::succeeded);
+        EXPECT_EQ(job.attempts, 1) << "it is no fault of the job";
+        EXPECT_EQ(text_of(id, "result.json"), "{}\n");
+    }
+    wait_for_fault(false);
+    EXPECT_THAT(said(), HasSubstr("written again"));
+    EXPECT_EQ(run(success).state, JobState::succeeded);
+    EXPECT_TRUE(work_is_empty());
+}
+
+// It is not run again and again while there is no more room than it had.
+TEST_F(FullDisk, LetsAJobWaitThatNeedsMoreThanThereIs) {
+    start();
+    fill(std::size_t{1} << 20);
+    const std::string id = submit(writes(std::size_t{2} << 20)), next = submit(success);
+    wait_for_fault(true);
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    EXPECT_EQ(jobs->find(id)->state, JobState::queued);
+    EXPECT_EQ(jobs->find(id)->attempts, 0);
+    EXPECT_EQ(jobs->find(id)->position, 0u) << "at its old place";
+    EXPECT_EQ(jobs->find(next)->state, JobState::queued);
+    EXPECT_EQ(runs(), 1u);
+    EXPECT_THAT(said(), HasSubstr("full"));
+    empty();
+    EXPECT_EQ(wait_for_end(id).state, JobState::succeeded);
+    EXPECT_EQ(wait_for_end(next).state, JobState::succeeded);
+    EXPECT_EQ(runs(), 2u);
+}
+
+TEST_F(FullDisk, WaitsNoLongerForAJobThatIsCancelled) {
+    start();
+    fill(std::size_t{1} << 20);
+    const std::string id = submit(writes(std::size_t{2} << 20)), next = submit(success);
+    wait_for_fault(true);
+    while (jobs->find(id)->state == JobState::running) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_EQ(jobs->cancel(id), Jobs::Change::done);
+    EXPECT_EQ(wait_for_end(next).state, JobState::succeeded);
+    wait_for_fault(false);
+}
+
+TEST_F(FullDisk, StopsWhileItWaits) {
+    start();
+    fill(std::size_t{1} << 20);
+    const std::string id = submit(writes(std::size_t{2} << 20));
+    wait_for_fault(true);
+    jobs->stop();
+    EXPECT_EQ(jobs->find(id)->state, JobState::queued);
+    empty();
+    start();
+    EXPECT_EQ(wait_for_end(id).state, JobState::succeeded);
+}
+
+TEST_F(FullDisk, IsEmptiedByRemovingResults) {
+    start();
+    const std::string id = submit(writes(std::size_t{2} << 20));
+    ASSERT_EQ(wait_for_end(id).state, JobState::succeeded);
+    fill();
+    EXPECT_EQ(jobs->remove(id), Jobs::Change::done);
+    EXPECT_GT(fs::space(state()).available, std::size_t{1} << 20);
+    EXPECT_EQ(run(success).state, JobState::succeeded);
+    start();
+    EXPECT_FALSE(jobs->find(id));
+}
+
+TEST_F(FullDisk, LosesNothingWhereAServerCannotStart) {
+    start();
+    const JobInfo done = run(success);
+    const std::string blocks = submit(endless), waits = submit(success);
+    wait_for_run(blocks);
+    jobs.reset();
+    std::ofstream(state() / "work" / "unknown") << "x";
+    fill();
+    try {
+        start();
+    } catch (const base::Error& error) {
+        EXPECT_EQ(error.code(), base::ErrorCode::io);
+    }
+    jobs.reset();
+    empty();
+    start();
+    EXPECT_EQ(jobs->find(done.id)->state, JobState::succeeded);
+    EXPECT_EQ(text_of(done.id, "result.json"), "{}\n");
+    EXPECT_TRUE(jobs->find(blocks));
+    EXPECT_EQ(jobs->find(waits)->state, JobState::queued);
+    EXPECT_FALSE(fs::exists(state() / "work" / "unknown"));
+    EXPECT_THAT(said(), HasSubstr("lost+found"));
+}
+
+// The program itself, whose results and pictures are more than there is room for.
+TEST_F(FullDisk, LetsTheProgramsJobsWait) {
+    for (const std::size_t left : {std::size_t{48} << 10, std::size_t{100} << 10}) {
+        start(SHADOWBENCH_PROGRAM);
+        const std::string id = submit(std::string(tiny_scenario) + std::string(left % 7, ' '));
+        fill(left);
+        wait_for_fault(true);
+        std::this_thread::sleep_for(std::chrono::seconds(2));
+        EXPECT_EQ(jobs->find(id)->state, JobState::queued) << "it is not run again before there is room";
+        EXPECT_THAT(said(), HasSubstr("No space left"));
+        empty();
+        const JobInfo end = wait_for_end(id);
+        EXPECT_EQ(end.state, JobState::succeeded) << (end.fault ? end.fault->message : "");
+        EXPECT_EQ(end.attempts, 1);
+        EXPECT_TRUE(jobs->artifact(id, "images/images.json"));
+        jobs.reset();
+    }
+}
+
+TEST_F(FullDisk, RoomIsWhatCanBeWritten) {
+    EXPECT_TRUE(has_room(state(), least_room));
+    EXPECT_TRUE(has_room(state(), disk / 2));
+    EXPECT_FALSE(has_room(state(), disk * 2));
+    EXPECT_EQ(bytes_in(state()), 0u) << "and it is given back";
+    fill(std::size_t{16} << 10);
+    EXPECT_FALSE(has_room(state(), 0));
+    EXPECT_GE(bytes_in(state()), disk - (std::size_t{64} << 10));
+    EXPECT_FALSE(has_room(state() / "nowhere", 0));
+    empty();
+    EXPECT_EQ(::mount("tmpfs", state().c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr), 0);
+    EXPECT_FALSE(has_room(state(), 0)) << "it takes nothing";
+}
+
+}  // namespace
+}  // namespace shadowbench::service

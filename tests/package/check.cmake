@@ -1,0 +1,63 @@
+# cmake -DBUILD= -DWORK= -DVERSION= -DGENERATOR= -DCOMPILER= -DBUILD_TYPE= -P: what BUILD holds is installed below WORK, then
+# moved, so that no path of the installation can be in it. The program runs from / and finds its scenarios; a project
+# outside the tree finds the engine, and runs.
+cmake_minimum_required(VERSION 3.25)
+set(prefix "${WORK}/moved")
+
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE failed OUTPUT_VARIABLE text ERROR_VARIABLE text
+                  WORKING_DIRECTORY /)
+  if(failed)
+    list(JOIN ARGV " " command)
+    message(FATAL_ERROR "${command}\nended with ${failed}:\n${text}")
+  endif()
+  set(text "${text}" PARENT_SCOPE)
+endfunction()
+
+function(expect text part)
+  string(FIND "${text}" "${part}" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "\"${part}\" is not in:\n${text}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE "${WORK}")
+run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/installed")
+file(RENAME "${WORK}/installed" "${prefix}")
+
+# --- the program ------------------------------------------------------------------------------------------------------
+set(program "${CMAKE_COMMAND}" -E env --unset=SHADOWBENCH_SCENARIOS --unset=SHADOWBENCH_DATA
+    "${prefix}/bin/shadowbench")
+run(${program} --version)
+expect("${text}" "shadowbench ${VERSION} ")
+run(${program} list scenarios)
+expect("${text}" "${prefix}/share/shadowbench/scenarios/quickstart.json")
+expect("${text}" "${prefix}/share/shadowbench/scenarios/hard/")
+run(${program} run quickstart --only deep --set rays.resolution=16 --set reference.queries=16 --out "${WORK}/results")
+expect("${text}" "${WORK}/results/result.json")
+run(${program} validate hard/one_hair)
+foreach(file IN ITEMS share/shadowbench/scenario.schema.json share/doc/shadowbench/LICENSE
+                      share/doc/shadowbench/README.md share/doc/shadowbench/CHANGELOG.md)
+  if(NOT EXISTS "${prefix}/${file}")
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
+
+# --- the engine -------------------------------------------------------------------------------------------------------
+file(GLOB_RECURSE pc "${prefix}/*/shadowbench.pc")
+cmake_path(GET pc PARENT_PATH pc)
+run("${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${pc}" "${CMAKE_COMMAND}" -G "${GENERATOR}"
+    "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}" "-DCMAKE_PREFIX_PATH=${prefix}"
+    -S "${CMAKE_CURRENT_LIST_DIR}" -B "${WORK}/build")
+expect("${text}" "Generating done")
+run("${CMAKE_COMMAND}" --build "${WORK}/build")
+foreach(user IN ITEMS by_cmake by_pkg_config)
+  run("${WORK}/build/${user}")
+  expect("${text}" "visibility 0.2500, expected 0.2500")
+endforeach()
+
+# --- the version, which CMake's project() states ------------------------------------------------------------------------
+file(READ "${prefix}/share/doc/shadowbench/CITATION.cff" text)
+expect("${text}" "\nversion: ${VERSION}\n")
+file(READ "${prefix}/share/doc/shadowbench/CHANGELOG.md" text)
+expect("${text}" "\n## [${VERSION}] - ")

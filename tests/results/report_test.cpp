@@ -1,0 +1,173 @@
+#include "results/report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "errors.h"
+
+namespace shadowbench::results {
+namespace {
+
+Result small_result() {
+    Result result;
+    result.name = "small";
+    result.purpose = "says, \"why\"";
+    result.document = R"({"name": "small"})";
+    Cell good;
+    good.technique = "deep";
+    good.parameters = "tolerance=0.02";
+    good.parameters_json = R"({"tolerance": 0.02})";
+    good.error_bound = std::numeric_limits<double>::infinity();
+    good.lookup = LookupErrors{{0.5, 0.25, 0.125, 0.4}, -0.1};
+    good.curve = CurveErrors{3, 1e-5, {0.5, 0.25, 0.125, 0.4}, 0.75, 1, 2, 0.0625, -0.03125};
+    good.verdict = Verdict::degraded;
+    good.verdict_why = "rises by up to 0.0625";
+    good.nodes = {3, 7, 4, {0, 1, 1, 0, 1}};
+    good.times = CellTimes{};
+    good.times->build_ms = summarise({3.0, 1.0, 2.0});
+    good.times->image_order.ns = summarise({2.5});
+    good.times->random_order.ns = summarise({7.5});
+    Cell bad = good;
+    bad.status = CellStatus::failed;
+    bad.reason = "cell (3, 4): it \"rises\", a lot";
+    bad.verdict = Verdict::failed;
+    bad.verdict_why = bad.reason;
+    bad.times.reset();
+    bad.lookup.reset();
+    LightResult light;
+    light.name = "key";
+    light.cells = {good, bad};
+    result.variants = {{{{"/rays/seed", "[1,2]"}}, {light}}};
+    return result;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+TEST(ResultJson, keeps_raw_times_and_shows_none_of_a_failed_cell) {
+    const nlohmann::ordered_json json = to_json(small_result());
+    const auto& cells = json["variants"][0]["lights"][0]["cells"];
+    EXPECT_EQ(cells[0]["times"]["build_ms"]["median"], 2.0);
+    EXPECT_EQ(cells[0]["times"]["build_ms"]["raw"], (std::vector<double>{3.0, 1.0, 2.0}));
+    EXPECT_TRUE(cells[0]["promised_curve_error"].is_null()) << "infinity is no JSON number";
+    EXPECT_TRUE(cells[0]["times"]["lookup_random_order"]["floor_ns"].is_null());
+    EXPECT_TRUE(cells[1]["times"].is_null());
+    EXPECT_EQ(cells[1]["status"], "failed");
+    EXPECT_EQ(json["variants"][0]["settings"]["/rays/seed"], (std::vector<int>{1, 2}));
+}
+
+TEST(ResultJson, gives_every_cell_a_verdict) {
+    const nlohmann::ordered_json json = to_json(small_result());
+    const auto& cells = json["variants"][0]["lights"][0]["cells"];
+    EXPECT_EQ(cells[0]["verdict"], "degraded");
+    EXPECT_EQ(cells[0]["verdict_why"], "rises by up to 0.0625");
+    EXPECT_EQ(cells[1]["verdict"], "failed");
+    EXPECT_EQ(cells[1]["verdict_why"], cells[1]["reason"]);
+    EXPECT_EQ(json["schema_version"], 1) << "keys were added; those that were there mean what they meant";
+    EXPECT_NE(to_csv(small_result()).find(",verdict,verdict_why,settled\n"), std::string::npos);
+}
+
+TEST(ResultJson, holds_the_clock_under_times_only) {
+    Result one = small_result(), other = small_result();
+    other.times = {"2026-01-01T00:00:00Z", 5.0, 8};
+    LightResult& light = other.variants[0].lights[0];
+    light.times = {1.0, 2.0, 3.0};
+    light.cells[0].times->build_ms = summarise({30.0});
+    light.cells[0].times->lookups = 64;
+    light.cells[0].times->on_front = true;
+    nlohmann::ordered_json a = to_json(one), b = to_json(other);
+    EXPECT_NE(a, b);
+    strip_times(a);
+    strip_times(b);
+    EXPECT_EQ(a, b);
+    EXPECT_EQ(a.dump().find("\"times\""), std::string::npos);
+}
+
+TEST(ResultJson, comes_back_as_the_same_result) {
+    const nlohmann::ordered_json written = to_json(small_result());
+    const Result read = from_json(nlohmann::json::parse(written.dump()), "");
+    EXPECT_EQ(to_json(read), written);
+    EXPECT_EQ(to_table(read), to_table(small_result()));
+    EXPECT_EQ(to_csv(read), to_csv(small_result()));
+}
+
+TEST(ResultJson, that_is_none_is_refused_at_its_place) {
+    const auto refused = [](const char* pointer, const nlohmann::json& value, const std::string& where) {
+        nlohmann::json json = to_json(small_result());
+        json[nlohmann::json::json_pointer(pointer)] = value;
+        test::error_of([&] { from_json(json, "file"); }, base::ErrorCode::bad_input, "file: " + where);
+    };
+    const std::string light = "/variants/0/lights/0";
+    refused("/variants/0/lights/0/cells/1/bytes", "many", light + "/cells/1/bytes");
+    refused("/variants/0/lights/0/map", 3, light + "/map");
+    refused("/variants", "none", "/variants");
+    refused("/schema_version", 2, "/schema_version");
+    test::error_of([] { from_json(nlohmann::json::array(), ""); }, base::ErrorCode::bad_input, "");
+}
+
+TEST(ResultCsv, has_a_row_a_cell_and_quotes_what_needs_it) {
+    const std::vector<std::string> lines = lines_of(to_csv(small_result()));
+    ASSERT_EQ(lines.size(), 3u);
+    EXPECT_EQ(lines[0].rfind("scenario,", 0), 0u);
+    EXPECT_NE(lines[1].find(",\"/rays/seed=[1,2]\",key,"), std::string::npos) << lines[1];
+    EXPECT_NE(lines[2].find(",\"cell (3, 4): it \"\"rises\"\", a lot\","), std::string::npos) << lines[2];
+    // Outside of quotes, every line has as many commas as the header.
+    const auto commas = [](const std::string& line) {
+        bool quoted = false;
+        return std::count_if(line.begin(), line.end(), [&](char c) {
+            if (c == '"') quoted = !quoted;
+            return c == ',' && !quoted;
+        });
+    };
+    for (const std::string& line : lines) EXPECT_EQ(commas(line), commas(lines[0])) << line;
+}
+
+TEST(ResultTable, shows_dashes_for_the_times_of_a_failed_cell) {
+    const std::string table = to_table(small_result());
+    const std::vector<std::string> lines = lines_of(table);
+    const auto line = std::find_if(lines.begin(), lines.end(), [](const std::string& l) {
+        return l.find("failed: cell (3, 4)") != std::string::npos;
+    });
+    ASSERT_NE(line, lines.end()) << table;
+    EXPECT_NE(line->find(" -  "), std::string::npos) << *line;
+    EXPECT_EQ(line->find("7.50"), std::string::npos) << *line;
+}
+
+TEST(ResultTable, warns_where_the_capture_and_embree_disagree) {
+    Result result = small_result();
+    LightResult& light = result.variants[0].lights[0];
+    const auto agreed = [&] {
+        return to_json(result)["variants"][0]["lights"][0]["capture"]["embree_check"]["agrees"].get<bool>();
+    };
+    light.agreement = Agreement{20000, 20, 3, {}};
+    EXPECT_TRUE(agreed());
+    EXPECT_EQ(to_table(result).find("WARNING"), std::string::npos);
+    light.agreement->other_transmittance = 21;
+    EXPECT_FALSE(agreed());
+    EXPECT_NE(to_table(result).find("WARNING"), std::string::npos);
+    light.agreement = Agreement{100, 3, 3, {}};
+    EXPECT_TRUE(agreed()) << "three rays are few, whatever their share";
+}
+
+TEST(ResultTable, says_which_errors_are_of_a_share_of_the_cells) {
+    Result result = small_result();
+    Cell& cell = result.variants[0].lights[0].cells[0];
+    cell.curve = CurveErrors{};
+    cell.curve->cells = cell.nodes.cells = 1000;
+    EXPECT_EQ(to_table(result).find("of a share"), std::string::npos);
+    cell.nodes.cells = 4000;
+    EXPECT_NE(to_table(result).find("of a share of the cells: deep tolerance=0.02 (1,000 of 4,000)"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace shadowbench::results
