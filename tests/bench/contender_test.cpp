@@ -131,12 +131,12 @@ TEST_F(Contenders, that_may_be_dark_early_are_held_to_what_is_behind) {
                       .promises = promises});
     };
     EXPECT_EQ(with({.localised = false, .approximate = true, .early = true, .leak = 0.1}, 0.09f).status,
-              CellStatus::ok);
+              results::CellStatus::ok);
     EXPECT_EQ(with({.localised = false, .approximate = true, .early = true, .leak = 0.1}, 0.11f).status,
-              CellStatus::failed);
-    EXPECT_EQ(with({.approximate = true, .early = true, .leak = 0.1}, 0.11f).status, CellStatus::failed)
+              results::CellStatus::failed);
+    EXPECT_EQ(with({.approximate = true, .early = true, .leak = 0.1}, 0.11f).status, results::CellStatus::failed)
         << "what approximates is held to its ends, localised or not";
-    EXPECT_EQ(with({.localised = false, .approximate = true, .leak = 0.1}, 0.09f).status, CellStatus::failed)
+    EXPECT_EQ(with({.localised = false, .approximate = true, .leak = 0.1}, 0.09f).status, results::CellStatus::failed)
         << "dark before the first surface";
 }
 

@@ -69,9 +69,8 @@ TEST(Verdict, names_what_is_promised_before_and_behind_alone) {
 }
 
 TEST(Verdict, names_an_approximation) {
-    Cell moments = cell(0.4, infinity);
-    moments.promises = {.localised = false, .approximate = true, .leak = 1.0 / 9.0};
-    expect(moments, Verdict::degraded, "approximates, by up to 0.11 even behind all");
+    expect(cell(0.4, infinity), results::Verdict::degraded, "approximates, by up to 0.11 even behind all",
+           {.localised = false, .approximate = true, .leak = 1.0 / 9.0});
 }
 
 TEST(Verdict, of_a_technique_that_stores_nothing_goes_by_the_rms_of_its_lookups) {
