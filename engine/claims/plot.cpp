@@ -1,6 +1,4 @@
-// Plots by gnuplot, script and drawing in temporary files.
-#include <unistd.h>
-
+// Plots by gnuplot, script and drawing in a temporary folder.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/temporary_folder.h"
 #include "claims/report.h"
 
 namespace shadowbench::claims {
@@ -49,21 +48,14 @@ std::string script_of(const Plot& plot, const std::filesystem::path& file) {
 }  // namespace
 
 std::string to_svg(const Plot& plot) {
-    const std::filesystem::path svg =
-        std::filesystem::temp_directory_path() / fmt::format("shadowbench-{}-{}.svg", getpid(), plot.name);
-    const std::filesystem::path script = svg.string() + ".gnuplot";
+    const base::TemporaryFolder folder;
+    const std::filesystem::path svg = folder.path() / "plot.svg", script = folder.path() / "script";
     std::ofstream(script) << script_of(plot, svg);
     const int status = std::system(fmt::format("gnuplot '{}' > /dev/null 2>&1", script.string()).c_str());
-    std::error_code ignored;
-    std::filesystem::remove(script, ignored);
-    if (status != 0 || !std::filesystem::exists(svg, ignored)) {
-        std::filesystem::remove(svg, ignored);
+    if (status != 0 || !std::filesystem::exists(svg))
         throw Error(ErrorCode::internal, "gnuplot",
                     "could not draw " + plot.name + ": is gnuplot installed (Debian package gnuplot-nox)?");
-    }
-    std::string text = base::read_text(svg);
-    std::filesystem::remove(svg, ignored);
-    return text;
+    return base::read_text(svg);
 }
 
 }  // namespace shadowbench::claims

@@ -5,16 +5,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.h"
-#include "service/process/bound_group.h"
+#include "service/process/child_process.h"
 
 namespace shadowbench::service {
 namespace {
@@ -22,13 +19,6 @@ namespace {
 using base::Error;
 using base::ErrorCode;
 using Clock = std::chrono::steady_clock;
-
-// Sanitizers reserve terabytes of address space.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool limit_memory = false;
-#else
-constexpr bool limit_memory = true;
-#endif
 
 constexpr const char* dead = "it ended the process that looked at it; it may need more memory than this server allows";
 constexpr std::size_t longest_answer = std::size_t{64} << 20;
@@ -40,25 +30,6 @@ constexpr std::size_t longest_answer = std::size_t{64} << 20;
 [[noreturn]] void refuse(const char* why) {
     throw Error(ErrorCode::bad_input, "", why);
 }
-
-struct Pipe {
-    int read = -1, write = -1;
-    Pipe() {
-        int ends[2];
-        if (::pipe2(ends, O_CLOEXEC) != 0) fail("pipe");
-        read = ends[0];
-        write = ends[1];
-    }
-    ~Pipe() {
-        close(read);
-        close(write);
-    }
-    static void close(int& end) {
-        if (end >= 0) ::close(end);
-        end = -1;
-    }
-    static int take(int& end) { return std::exchange(end, -1); }
-};
 
 // A child that has gone is an error of write(), and no signal, for this thread.
 class NoPipeSignal {
@@ -82,46 +53,13 @@ private:
     sigset_t pipe_{}, before_{};
 };
 
-// Between fork and exec: calls that are safe there alone.
-[[noreturn]] void become(const Pipe& in, const Pipe& out, std::size_t memory, char* const* argv,
-                         const BoundGroup& group) {
-    group.join();
-    ::dup2(in.read, 0);
-    ::dup2(out.write, 1);
-    ::close_range(3, ~0u, CLOSE_RANGE_CLOEXEC);  // at exec: the program's name may be one of them
-    const rlimit none{0, 0}, bytes{memory, memory};
-    ::setrlimit(RLIMIT_CORE, &none);
-    if (limit_memory) ::setrlimit(RLIMIT_AS, &bytes);
-    sigset_t all;
-    sigemptyset(&all);
-    sigprocmask(SIG_SETMASK, &all, nullptr);
-    ::execv(argv[0], argv);
-    ::_exit(127);
-}
-
 class Process final : public Helper {
 public:
-    Process(const std::string& program, const std::vector<std::string>& arguments, std::size_t memory) {
-        std::vector<std::string> words{program};
-        words.insert(words.end(), arguments.begin(), arguments.end());
-        std::vector<char*> argv;
-        for (std::string& word : words) argv.push_back(word.data());
-        argv.push_back(nullptr);
-        Pipe in, out;
-        child_ = ::fork();
-        if (child_ < 0) fail("fork");
-        if (child_ == 0) become(in, out, memory, argv.data(), group_);
-        to_ = Pipe::take(in.write);
-        from_ = Pipe::take(out.read);
+    Process(const std::string& program, const std::vector<std::string>& arguments, std::size_t memory)
+        : child_(program, arguments, {in_.read.number(), out_.write.number(), STDERR_FILENO}, memory) {
+        in_.read.close();
+        out_.write.close();
         for (const int end : {to_, from_}) ::fcntl(end, F_SETFL, O_NONBLOCK);
-    }
-    ~Process() override {
-        ::close(to_);
-        ::close(from_);
-        group_.kill();
-        ::kill(child_, SIGKILL);  // which may have left the group
-        while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
-        }
     }
 
     std::string ask(const std::string& line, double seconds) override {
@@ -179,9 +117,9 @@ private:
         return n > 0;
     }
 
-    BoundGroup group_;
-    pid_t child_ = -1;
-    int to_ = -1, from_ = -1;
+    Pipe in_, out_;
+    ChildProcess child_;
+    const int to_ = in_.write.number(), from_ = out_.read.number();
     std::string buffer_;
 };
 

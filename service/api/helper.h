@@ -21,7 +21,8 @@ public:
 // Starts a subcommand of this program.
 using StartHelper = std::function<std::unique_ptr<Helper>(const std::vector<std::string>& arguments)>;
 
-// `program arguments...` with a limit on its memory, killed when the Helper goes. Throws Error{io}.
+// `program arguments...` with a limit in bytes on its address space, killed when the Helper goes; its standard error is
+// this process's. Throws as ChildProcess does.
 std::unique_ptr<Helper> start_process(const std::string& program, const std::vector<std::string>& arguments,
                                       std::size_t memory);
 

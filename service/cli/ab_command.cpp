@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/temporary_folder.h"
 #include "compare/compare.h"
 #include "service/cli/child.h"
 #include "service/cli/gate_commands.h"
@@ -55,7 +56,7 @@ int ab_command(const AbArguments& arguments, std::ostream& out, std::ostream& er
     const compare::Options options = verdict_options(arguments);
     Turns turns = turns_of(arguments);
     const EndingSignals signals;
-    const TemporaryFolder temporary;
+    const base::TemporaryFolder temporary;
     const std::filesystem::path folder =
         arguments.out.empty() ? temporary.path() : std::filesystem::path(arguments.out);
     run_turns(turns, folder, err);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/temporary_folder.h"
 #include "base/write_files.h"
 #include "bench/run.h"
 #include "results/portable.h"
@@ -55,7 +56,7 @@ bool add_scenario(const fs::path& scenario, int threads, const fs::path& folder,
 bool add_kernels(const std::string& told, const fs::path& folder, std::vector<base::NewFile>& files) {
     const std::string program = kernel_program(told);
     const EndingSignals signals;
-    const TemporaryFolder temporary;
+    const base::TemporaryFolder temporary;
     const fs::path counts = temporary.path() / "kernels.json", log = temporary.path() / "log";
     const int code = run_child(program, {"--exact=" + counts.string()}, log);
     if (code != 0 && code != wrong_answer)

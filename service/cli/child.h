@@ -1,4 +1,4 @@
-// Child processes, and a folder for what they leave.
+// The child processes of commands, and the signals that end a command meanwhile.
 #pragma once
 
 #include <signal.h>
@@ -8,19 +8,6 @@
 #include <vector>
 
 namespace shadowbench::service {
-
-// A new empty folder of its own, gone with all that is in it.
-class TemporaryFolder {
-public:
-    TemporaryFolder();  // throws Error{io}
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 // Throws Error{no_such_file} where it is not there, {usage} where it cannot be executed.
 void check_program(const std::string& program);
@@ -35,7 +22,6 @@ public:
     EndingSignals(const EndingSignals&) = delete;
     EndingSignals& operator=(const EndingSignals&) = delete;
 
-    sigset_t let_through() const;  // the mask of a child
     // The signal that came, or 0: a child may have ended, or some time has gone by.
     int wait() const;
 
@@ -48,9 +34,9 @@ struct Interrupted {
     int signal;
 };
 
-// Runs a program to its end, with nothing on its standard input and what it writes in `log`; it and what it started
-// die with this process, however that ends (BoundGroup). Its exit code; throws
-// Error{io} where it cannot be started and {internal} where a signal ended it, place: the program; Interrupted.
+// Runs a program to its end, with nothing on its standard input and all its output in the file `log`. Returns its exit
+// code. Throws as ChildProcess does, Error{io} where the log cannot be written, Error{internal}, place: the program,
+// where a signal ended it, and Interrupted.
 int run_child(const std::string& program, const std::vector<std::string>& arguments, const std::filesystem::path& log);
 
 }  // namespace shadowbench::service

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/temporary_folder.h"
 #include "base/write_files.h"
 #include "results/write_result.h"
 #include "service/cli/callgrind_counts.h"
@@ -105,7 +106,7 @@ std::string kernel_program(const std::string& told) {
 bool instructions_command(const InstructionArguments& arguments, std::ostream& out) {
     const std::string program = fs::absolute(kernel_program(arguments.kernels)).string();
     const EndingSignals signals;
-    const TemporaryFolder folder;
+    const base::TemporaryFolder folder;
     const fs::path log = folder.path() / "log";
     const int code = run_child("/usr/bin/env", arguments_of(arguments, program, find_valgrind(), folder.path()), log);
     const std::string said = base::read_text(log);

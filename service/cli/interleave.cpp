@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/temporary_folder.h"
 #include "base/write_files.h"
 #include "results/write_result.h"
 #include "service/cli/child.h"
@@ -128,7 +129,7 @@ void confirm_with_turns(compare::Comparison& first, Turns turns, const compare::
     again.interleaved = true;
     int count = 0;
     for (const auto& [key, group] : groups) {
-        const TemporaryFolder folder;
+        const base::TemporaryFolder folder;
         std::vector<compare::Rerun> reruns;
         for (const auto& [name, rerun] : group.cells) reruns.push_back(rerun);
         if (!turns.kernels) reruns[0].source = scenario_of(reruns[0].source, folder.path());

@@ -1,4 +1,4 @@
-// A process of its own for a piece of work: started, watched and ended.
+// The child process of a job: its lines and its limits.
 #pragma once
 
 #include <cstddef>
@@ -23,21 +23,14 @@ struct ChildReport {
     std::string errors;  // the last of what it wrote to standard error
 };
 
-inline constexpr int not_started = 127;            // exit code of a child whose program could not be run
 inline constexpr std::size_t longest_line = 8192;  // of standard output; longer ones are left out
 
-// Runs arguments[0] in a process group of its own, with nothing on its standard input, and returns once it and its
-// group have ended. The group dies with this process, however that ends (BoundGroup), and the program with the calling
-// thread too. `on_line` gets each whole line of its
-// standard output, without its end. `should_end` is asked every 50 ms: the group is killed once it answers true, as it
-// is beyond a limit.
+// Runs the program with nothing on its standard input, and returns once it and all that it started have ended.
+// `on_line` gets each whole line of its standard output, without its end. `should_end` is asked every 50 ms: the
+// program is killed once it answers true, or goes beyond a limit.
 //
-// The memory limit watches the resident bytes of the process, by the same clock: RLIMIT_AS and RLIMIT_DATA count what
-// is reserved and never touched, terabytes under a sanitizer. Should the machine run out in between, the kernel is told
-// to take the child before this process.
-//
-// Throws Error{io} when no process can be made.
-ChildReport run_child(const std::vector<std::string>& arguments, const ChildLimits& limits,
+// The memory limit watches the resident bytes of the process, by the same clock. Throws as ChildProcess does.
+ChildReport run_child(const std::string& program, const std::vector<std::string>& arguments, const ChildLimits& limits,
                       const std::function<void(std::string_view line)>& on_line,
                       const std::function<bool()>& should_end);
 

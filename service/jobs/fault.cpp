@@ -74,7 +74,6 @@ std::string how_it_ended(const ChildReport& report, const JobLimits& limits) {
         case ChildEnd::told:
             break;
     }
-    if (report.code == not_started) return "the job's process could not be started";
     if (report.code == 0) return "the job's process ended without a result";
     return fmt::format("the job's process ended with exit code {}", report.code);
 }

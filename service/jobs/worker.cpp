@@ -120,7 +120,7 @@ void write_scenario(const fs::path& work, const std::string& text) {
 }
 
 std::vector<std::string> arguments_of(const Workplace& place, const StoredJob& job, const fs::path& work) {
-    std::vector<std::string> arguments{place.program, "job", work.string()};
+    std::vector<std::string> arguments{"job", work.string()};
     for (const std::string& folder : place.data) arguments.insert(arguments.end(), {"--data", folder});
     arguments.insert(arguments.end(), {"--memory-limit", fmt::format("{}", static_cast<double>(place.limits.memory) /
                                                                                (1024.0 * 1024.0 * 1024.0))});
@@ -220,7 +220,7 @@ Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run
     Listener listener(place, run);
     const ChildLimits limits{place.limits.seconds, place.limits.memory};
     const ChildReport report = run_child(
-        arguments_of(place, job, work), limits, [&](std::string_view line) { listener.hear(line); },
+        place.program, arguments_of(place, job, work), limits, [&](std::string_view line) { listener.hear(line); },
         [&] {
             listener.pass_on();
             return place.board.is_cancelled(run) || place.board.past_deadline();

@@ -3,11 +3,13 @@
 
 #include <sys/types.h>
 
+#include "service/process/descriptor.h"
+
 namespace shadowbench::service {
 
-// The group's leader is a keeper, a process that does nothing but wait for the end of this one, which the closing of a
-// pipe tells it, also after SIGKILL; it then kills the group. Whatever a program of the group starts belongs to it too,
-// unless it leaves for a group of its own.
+// The group's leader is a keeper: a process that only waits for the end of this one, which it sees by the closing of a
+// pipe, also after SIGKILL. It then kills the group. Whatever a program of the group starts belongs to the group too,
+// unless it leaves for another one.
 class BoundGroup {
 public:
     BoundGroup();   // throws Error{io} where no process can be made
@@ -15,18 +17,16 @@ public:
     BoundGroup(const BoundGroup&) = delete;
     BoundGroup& operator=(const BoundGroup&) = delete;
 
-    // Its number, as posix_spawn() takes it. Nobody else's while this object lives.
-    pid_t id() const { return keeper_; }
-
     // For a new process of this one, between fork() and exec(): it joins the group, and dies with the thread that
-    // started it, should the keeper be gone. Ends it where this process has died already. System calls alone.
-    void join() const;
+    // started it, should the keeper be gone. False, and errno, where it cannot, or this process has died already. Makes
+    // system calls only.
+    bool join() const;
 
-    void kill() const;  // all of it; who started a process of it waits for that one
+    void kill() const;  // all of it; whoever started a process of it waits for that one
 
 private:
     pid_t parent_, keeper_ = -1;
-    int line_ = -1;  // closed by the end of this process
+    Pipe line_;  // whose writing end the end of this process closes
 };
 
 }  // namespace shadowbench::service

@@ -147,6 +147,15 @@ TEST(Layers, TheApiHasNoSockets) {
     }
 }
 
+// One set of rules for all children: service/process/child_process.h.
+TEST(Layers, OnlyTheProcessLayerStartsAndAwaitsProcesses) {
+    for (const Include& include : includes())
+        for (const char* header : {"sys/wait.h", "spawn.h"})
+            if (include.path == header) {
+                EXPECT_TRUE(starts_with(include.file, "service/process")) << include.file << " includes " << header;
+            }
+}
+
 TEST(Layers, OnlyTheStoreKnowsTheDatabase) {
     for (const Include& include : includes())
         if (include.path.find("sqlite") != std::string::npos || include.path == "service/store/database.h") {
