@@ -83,9 +83,7 @@ ApiRequest post(const std::string& target, const std::string& body, std::vector<
     return made;
 }
 
-ApiTest::ApiTest()
-    : folder_(fs::path(testing::TempDir()) / (std::string("shadowbench_api_") + std::to_string(::getpid()) + "_" +
-                                              testing::UnitTest::GetInstance()->current_test_info()->name())) {
+ApiTest::ApiTest() {
     fs::create_directories(folder_ / "data");
     start(standard_options());
 }
@@ -93,7 +91,6 @@ ApiTest::ApiTest()
 ApiTest::~ApiTest() {
     service_.reset();
     jobs_.reset();
-    fs::remove_all(folder_);
 }
 
 ServiceOptions ApiTest::standard_options() const {

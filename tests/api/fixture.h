@@ -11,6 +11,7 @@
 
 #include "fake_jobs/fake_jobs.h"
 #include "service/api/service.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::service {
 
@@ -41,7 +42,8 @@ protected:
     std::string submit();
     std::string body_of(const ApiResponse& response) const;
 
-    const std::filesystem::path folder_;
+    const TemporaryFolder temporary_;
+    const std::filesystem::path folder_ = temporary_.path();
     std::unique_ptr<Jobs> jobs_;
     std::unique_ptr<Service> service_;
     int helpers_ = 0;  // started so far

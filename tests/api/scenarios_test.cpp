@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "service/api/describe.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::service {
 namespace {
@@ -14,14 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(Scenarios, OfOneNameTheFirstFoldersIsListed) {
-    const fs::path top = fs::path(::testing::TempDir()) / "shadowbench_api_scenarios";
+    const TemporaryFolder temporary;
+    const fs::path& top = temporary.path();
     for (const char* one : {"first", "second"}) {
         fs::create_directories(top / one);
         std::ofstream(top / one / "same.json") << R"({"name": "same", "purpose": ")" << one << "\"}";
     }
     std::ofstream(top / "second" / "other.json") << R"({"name": "other"})";
     const nlohmann::json list = nlohmann::json::parse(read_scenarios({top / "first", top / "second"}))["scenarios"];
-    fs::remove_all(top);
     ASSERT_EQ(list.size(), 2u);
     EXPECT_EQ(list[0]["name"], "other");
     EXPECT_EQ(list[1]["name"], "same");

@@ -1,12 +1,12 @@
 #include "base/pending_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::base {
 namespace {
@@ -15,12 +15,11 @@ namespace fs = std::filesystem;
 
 class PendingFiles : public ::testing::Test {
 protected:
-    void SetUp() override { fs::create_directories(folder); }
-    void TearDown() override { fs::remove_all(folder); }
     std::size_t files() const {
         return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
     }
-    const fs::path folder = fs::path(::testing::TempDir()) / ("pending_file_" + std::to_string(getpid()));
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.path();
 };
 
 TEST_F(PendingFiles, AppearWholeAtTheirPlace) {

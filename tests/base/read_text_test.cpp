@@ -1,40 +1,42 @@
 #include "base/read_text.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "base/error.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::base {
 namespace {
 
-const std::filesystem::path folder = ::testing::TempDir();
+class ReadText : public ::testing::Test {
+protected:
+    const TemporaryFolder temporary;
+    const std::filesystem::path folder = temporary.path();
+};
 
-TEST(ReadText, EveryByteComesBack) {
-    const auto file = folder / ("read_text_" + std::to_string(getpid()));
+TEST_F(ReadText, EveryByteComesBack) {
+    const auto file = folder / "text";
     const std::string bytes("a\r\n\0\xff b", 8);
     std::ofstream(file, std::ios::binary) << bytes;
     EXPECT_EQ(read_text(file), bytes);
     std::ofstream(file, std::ios::trunc).flush();
     EXPECT_EQ(read_text(file), "");
-    std::filesystem::remove(file);
 }
 
-TEST(ReadText, TextComesWithoutTheMarkThatEditorsWrite) {
-    const auto file = folder / ("read_text_mark_" + std::to_string(getpid()));
+TEST_F(ReadText, TextComesWithoutTheMarkThatEditorsWrite) {
+    const auto file = folder / "text";
     std::ofstream(file, std::ios::binary) << "\xef\xbb\xbf"
                                              "text";
     EXPECT_EQ(read_text(file), "text");
     EXPECT_EQ(read_bytes(file),
               "\xef\xbb\xbf"
               "text");
-    std::filesystem::remove(file);
 }
 
-TEST(ReadText, OtherEncodingsAreRefused) {
-    const auto file = folder / ("read_text_utf16_" + std::to_string(getpid()));
+TEST_F(ReadText, OtherEncodingsAreRefused) {
+    const auto file = folder / "text";
     std::ofstream(file, std::ios::binary) << std::string("\xff\xfet\0e\0", 6);
     try {
         read_text(file);
@@ -44,10 +46,9 @@ TEST(ReadText, OtherEncodingsAreRefused) {
         EXPECT_EQ(error.where(), file.string());
         EXPECT_NE(error.message().find("UTF-8"), std::string::npos);
     }
-    std::filesystem::remove(file);
 }
 
-TEST(ReadText, FoldersAndMissingFilesAreToldApart) {
+TEST_F(ReadText, FoldersAndMissingFilesAreToldApart) {
     const auto code = [](const std::filesystem::path& file) {
         try {
             read_text(file);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "errors.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::base {
 namespace {
@@ -14,9 +15,6 @@ namespace fs = std::filesystem;
 
 class WriteFiles : public ::testing::Test {
 protected:
-    void SetUp() override { fs::create_directories(folder_); }
-    void TearDown() override { fs::remove_all(folder_); }
-
     std::string read(const fs::path& file) const {
         std::ifstream stream(file);
         return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -25,9 +23,8 @@ protected:
         return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(folder_), {}));
     }
 
-    const fs::path folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("shadowbench_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    const TemporaryFolder temporary_;
+    const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(WriteFiles, makes_folders_and_replaces_what_was_there) {

@@ -13,6 +13,7 @@
 #include "document/document.h"
 #include "errors.h"
 #include "results/report.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -234,7 +235,8 @@ TEST(Run, refuses_a_technique_that_a_deep_image_cannot_serve) {
 }
 
 TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
-    const std::string file = ::testing::TempDir() + "shadowbench_loader.obj";
+    const TemporaryFolder folder;
+    const std::string file = folder.path("loader.obj");
     std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
     json document = two_layers();
     document["scene"] = {{"objects", {{{"type", "mesh"}, {"file", file}}}}};

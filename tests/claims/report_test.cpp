@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -54,8 +55,8 @@ TEST(Report, NumbersSurviveInJson) {
 }
 
 TEST(Report, PlotsAreDrawnAndWrittenBesideTheText) {
-    const std::filesystem::path folder =
-        std::filesystem::path(::testing::TempDir()) / ("claims_" + std::to_string(getpid()));
+    const TemporaryFolder temporary;
+    const std::filesystem::path& folder = temporary.path();
     const std::vector<PaperReport> reports{report()};
     write_reports(folder, "papers", reports, conditions);
     const std::string svg = base::read_text(folder / "plots/x2000_figure1.svg");
@@ -63,7 +64,6 @@ TEST(Report, PlotsAreDrawnAndWrittenBesideTheText) {
     EXPECT_NE(svg.find("s a title"), std::string::npos) << "a quote in the title does not end it";
     EXPECT_EQ(base::read_text(folder / "papers.md"), to_markdown(reports, conditions));
     EXPECT_EQ(base::read_text(folder / "papers.json"), to_json(reports, conditions));
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

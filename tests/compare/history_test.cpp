@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "compare/made.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::compare {
 namespace {
@@ -20,9 +21,6 @@ using Ordered = nlohmann::ordered_json;
 
 class History : public ::testing::Test {
 protected:
-    void SetUp() override { fs::create_directories(folder_); }
-    void TearDown() override { fs::remove_all(folder_); }
-
     // A result of the day; days are written in an order that is not theirs.
     void write(int day, json result) const {
         const std::string text = std::to_string(day);
@@ -39,9 +37,8 @@ protected:
         return {};
     }
 
-    const fs::path folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("shadowbench_history_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    const TemporaryFolder temporary_;
+    const fs::path folder_ = temporary_.path();
 };
 
 const char* const deep = "made / key / deep tolerance=0.02";

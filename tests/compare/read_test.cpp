@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "compare/compare.h"
 #include "compare/made.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::compare {
 namespace {
@@ -18,9 +19,6 @@ using nlohmann::json;
 
 class Read : public ::testing::Test {
 protected:
-    void SetUp() override { fs::create_directories(folder_); }
-    void TearDown() override { fs::remove_all(folder_); }
-
     fs::path write(const std::string& name, const std::string& text) const {
         fs::create_directories((folder_ / name).parent_path());
         std::ofstream(folder_ / name, std::ios::binary) << text;
@@ -42,9 +40,8 @@ protected:
         fails(write("result.json", result.dump()), base::ErrorCode::bad_input, says);
     }
 
-    const fs::path folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("shadowbench_read_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    const TemporaryFolder temporary_;
+    const fs::path folder_ = temporary_.path();
 };
 
 using Pointer = json::json_pointer;

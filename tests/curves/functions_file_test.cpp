@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cases.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::curves {
 namespace {
@@ -16,21 +17,11 @@ using base::ErrorCode;
 using testing::EndsWith;
 using testing::HasSubstr;
 
-// A folder of its own, removed in the end.
-class Folder {
-public:
-    Folder() {
-        std::string name = (std::filesystem::temp_directory_path() / "shadowbench-XXXXXX").string();
-        path_ = mkdtemp(name.data());
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    std::filesystem::path file() const { return path_ / "functions.txt"; }
+struct Folder : TemporaryFolder {
+    std::filesystem::path file() const { return path() / "functions.txt"; }
     std::ptrdiff_t entries() const {
-        return std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator());
+        return std::distance(std::filesystem::directory_iterator(path()), std::filesystem::directory_iterator());
     }
-
-private:
-    std::filesystem::path path_;
 };
 
 std::vector<Curve> read(const std::string& text) {

@@ -1,7 +1,5 @@
 #include "fuzz/target.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <fstream>
 
@@ -10,16 +8,11 @@
 namespace shadowbench::fuzz {
 
 InputFile::InputFile(std::string_view bytes, const std::string& extension)
-    : path_(std::filesystem::temp_directory_path() / ("shadowbench_fuzz_" + std::to_string(getpid()) + extension)) {
+    : path_(folder_.path() / ("input" + extension)) {
     std::ofstream stream(path_, std::ios::binary);
     stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     stream.close();
     expect(bool(stream), "the input can be written to a file");
-}
-
-InputFile::~InputFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
 }
 
 void attempt(std::initializer_list<base::ErrorCode> codes, const std::function<void()>& read) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::fuzz {
 
@@ -33,14 +34,12 @@ void vdb(std::string_view bytes);
 class InputFile {
 public:
     InputFile(std::string_view bytes, const std::string& extension);
-    ~InputFile();
-    InputFile(const InputFile&) = delete;
-    InputFile& operator=(const InputFile&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
 
 private:
-    std::filesystem::path path_;
+    const TemporaryFolder folder_;
+    const std::filesystem::path path_;
 };
 
 // Takes what a reader documents: an Error of one of these codes, whose text is one printable line that names a place.

@@ -2,8 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <unistd.h>
-
 namespace shadowbench::service {
 namespace {
 
@@ -16,10 +14,7 @@ struct GoodHelper : Helper {
 
 }  // namespace
 
-HttpTest::HttpTest()
-    : folder_(std::filesystem::path(testing::TempDir()) /
-              (std::string("shadowbench_http_") + std::to_string(::getpid()) + "_" +
-               testing::UnitTest::GetInstance()->current_test_info()->name())) {
+HttpTest::HttpTest() {
     service_options_.start_helper = [](const std::vector<std::string>&) { return std::make_unique<GoodHelper>(); };
     service_options_.limits.body = 10'000;
     service_options_.event_streams = 4;
@@ -31,7 +26,6 @@ HttpTest::~HttpTest() {
     stop();
     service_.reset();
     jobs_.reset();
-    std::filesystem::remove_all(folder_);
 }
 
 void HttpTest::restart() {

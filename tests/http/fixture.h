@@ -12,6 +12,7 @@
 #include "http/raw.h"
 #include "service/api/service.h"
 #include "service/http/server.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::service {
 
@@ -33,7 +34,8 @@ protected:
 
     ServiceOptions service_options_;  // with a helper that finds every scenario good
     HttpOptions http_options_;
-    const std::filesystem::path folder_;
+    const TemporaryFolder temporary_;
+    const std::filesystem::path folder_ = temporary_.path();
     std::unique_ptr<Jobs> jobs_;
     std::unique_ptr<Service> service_;
     std::unique_ptr<HttpServer> server_;

@@ -2,17 +2,12 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cerrno>
-#include <chrono>
 #include <fstream>
-#include <thread>
 
 #include "base/error.h"
+#include "processes.h"
 #include "temporary_folder.h"
 
 namespace shadowbench::service {
@@ -29,21 +24,9 @@ Outcome run_shell(const std::string& script, const ChildLimits& limits = {},
                   const std::function<bool()>& should_end = never) {
     Outcome outcome;
     outcome.report = run_child(
-        {"/bin/sh", "-c", script}, limits, [&](std::string_view line) { outcome.lines.emplace_back(line); },
+        "/bin/sh", {"-c", script}, limits, [&](std::string_view line) { outcome.lines.emplace_back(line); },
         should_end);
     return outcome;
-}
-
-bool is_alive(pid_t process) {
-    // A process that is dead and waits to be reaped by who is no child of ours counts as dead.
-    std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-    std::string number, name, state;
-    return file >> number >> name >> state && state != "Z" && state != "X";
-}
-
-bool dies(pid_t process) {
-    for (int i = 0; i < 500 && is_alive(process); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return !is_alive(process);
 }
 
 TEST(Children, TellTheirLinesAndTheirExitCode) {
@@ -58,16 +41,6 @@ TEST(Children, TellTheSignalThatEndedThem) {
     const Outcome outcome = run_shell("kill -SEGV $$");
     EXPECT_EQ(outcome.report.end, ChildEnd::signalled);
     EXPECT_EQ(outcome.report.code, SIGSEGV);
-}
-
-TEST(Children, HaveNothingToReadAndNoFilesOfTheirParent) {
-    EXPECT_EQ(run_shell("cat; echo end").lines, std::vector<std::string>{"end"});
-    int open[2];
-    ASSERT_EQ(::pipe(open), 0);  // passed on unless somebody sees to it
-    const Outcome files = run_shell("ls /proc/self/fd | wc -l");
-    EXPECT_EQ(files.lines, std::vector<std::string>{"4"}) << "the usual three, and the folder that ls reads";
-    ::close(open[0]);
-    ::close(open[1]);
 }
 
 TEST(Children, LoseLinesThatHaveNoEnd) {
@@ -107,7 +80,7 @@ TEST(Children, AreEndedWhenTheyAreTold) {
     const Outcome outcome = [&] {
         Outcome result;
         result.report = run_child(
-            {"/bin/sh", "-c", "echo ready; sleep 1000"}, {}, [&](std::string_view) { told = true; },
+            "/bin/sh", {"-c", "echo ready; sleep 1000"}, {}, [&](std::string_view) { told = true; },
             [&] { return told.load(); });
         return result;
     }();
@@ -124,46 +97,7 @@ TEST(Children, TakeTheirOwnChildrenWithThem) {
     pid_t grandchild = 0;
     std::ifstream(note) >> grandchild;
     ASSERT_GT(grandchild, 0);
-    EXPECT_TRUE(dies(grandchild));
-}
-
-TEST(Children, DieWithTheirParent) {
-    const TemporaryFolder folder;
-    const std::string note = (folder.path() / "note").string();
-    const pid_t server = ::fork();
-    if (server == 0) {
-        run_shell("sleep 1000 & echo $$ $! >" + note + ".new; mv " + note + ".new " + note + "; wait");
-        ::_exit(0);
-    }
-    for (int i = 0; i < 1000 && !std::filesystem::exists(note); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    pid_t child = 0, grandchild = 0;
-    std::ifstream(note) >> child >> grandchild;
-    ASSERT_GT(grandchild, 0);
-    EXPECT_TRUE(is_alive(child));
-    EXPECT_TRUE(is_alive(grandchild));
-    ::kill(server, SIGKILL);
-    ::waitpid(server, nullptr, 0);
-    EXPECT_TRUE(dies(child));
-    EXPECT_TRUE(dies(grandchild));
-}
-
-TEST(Children, DoNotInheritWhichSignalsAreBlocked) {
-    sigset_t blocked, before;
-    ::sigemptyset(&blocked);
-    ::sigaddset(&blocked, SIGTERM);
-    ::pthread_sigmask(SIG_BLOCK, &blocked, &before);
-    const Outcome outcome = run_shell("kill -TERM $$; echo still here");
-    ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    EXPECT_EQ(outcome.report.code, SIGTERM);
-    EXPECT_TRUE(outcome.lines.empty());
-}
-
-TEST(Children, SayByTheirExitCodeThatTheProgramIsNotThere) {
-    const ChildReport report = run_child(
-        {"/nowhere/at/all"}, {}, [](std::string_view) {}, never);
-    EXPECT_EQ(report.end, ChildEnd::exited);
-    EXPECT_EQ(report.code, not_started);
+    EXPECT_TRUE(soon([&] { return !lives(grandchild); }));
 }
 
 TEST(Children, AreEndedWhenTheirListenerThrows) {
@@ -172,8 +106,8 @@ TEST(Children, AreEndedWhenTheirListenerThrows) {
         child = static_cast<pid_t>(std::stol(std::string(line)));
         throw base::Error(base::ErrorCode::io, "", "enough");
     };
-    EXPECT_THROW(run_child({"/bin/sh", "-c", "echo $$; exec sleep 1000"}, {}, listen, never), base::Error);
-    EXPECT_TRUE(dies(child));
+    EXPECT_THROW(run_child("/bin/sh", {"-c", "echo $$; exec sleep 1000"}, {}, listen, never), base::Error);
+    EXPECT_TRUE(soon([&] { return !lives(child); }));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "rays/scenes.h"
 #include "render/recomposite.h"
 #include "scene/files.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::render {
 namespace {
@@ -26,11 +27,8 @@ using testing::Sample;
 
 class DeepExr : public ::testing::Test {
 protected:
-    ~DeepExr() override { std::filesystem::remove(file); }
-    const std::filesystem::path file =
-        std::filesystem::path(::testing::TempDir()) /
-        (std::string("shadowbench_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
-         std::to_string(getpid()) + ".exr");
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "deep.exr";
 };
 
 struct ReadBack {

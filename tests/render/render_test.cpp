@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "render/shading.h"
 #include "render/write_pictures.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::render {
 namespace {
@@ -78,8 +79,8 @@ TEST(Render, leaves_the_background_black_and_lit) {
 // is what the eye sees of it; in-scattering is albedo / 2 (1 - exp(-2 * 1.5 * 2)).
 TEST(Render, of_a_uniform_slab_meets_the_closed_form_of_single_scattering) {
     // A box of constant density, as a raw volume.
-    const fs::path folder = fs::temp_directory_path() / "shadowbench_render_slab";
-    fs::create_directories(folder);
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.path();
     std::ofstream(folder / "ones.raw", std::ios::binary) << std::string(8, '\xff');
     json slab = {{"name", "slab"}, {"lights", {{{"type", "directional"}, {"direction", {0, -1, 0}}}}}};
     slab["scene"]["objects"] = json::parse(R"([{"type": "volume", "file": "ones.raw", "format": "uint8",
@@ -93,7 +94,6 @@ TEST(Render, of_a_uniform_slab_meets_the_closed_form_of_single_scattering) {
     options.run.data = {folder};
     options.media_lookups = 256;
     const Rendering result = render(slab, options, {});
-    fs::remove_all(folder);
     const double red = medium_albedo * 0.5 * (1.0 - std::exp(-6.0)),
                  green = medium_albedo * 0.5 * (1.0 - std::exp(-2.0));
     for (const Picture* picture : {&result.reference, &result.techniques[0].picture})
@@ -300,8 +300,8 @@ TEST(WritePictures, leaves_every_file_that_images_json_names_and_no_other) {
     json document = quad_over_plane();
     document["techniques"].push_back({{"type", "uncompressed"}});
     const Rendering result = render(document, {}, {});
-    const fs::path folder = fs::temp_directory_path() / "shadowbench_write_pictures";
-    fs::remove_all(folder);
+    const TemporaryFolder temporary;
+    const fs::path folder = temporary.path();
     write_pictures(folder, result);
     std::ifstream stream(folder / "images.json");
     const json written = json::parse(stream);
@@ -314,7 +314,6 @@ TEST(WritePictures, leaves_every_file_that_images_json_names_and_no_other) {
         found.insert(entry.path().filename().string());
         EXPECT_GT(entry.file_size(), 0u) << entry.path();
     }
-    fs::remove_all(folder);
     EXPECT_EQ(found, named);
     EXPECT_EQ(found.size(), 1u + 4 + 2 + 3 * 8);
     EXPECT_TRUE(found.contains("uncompressed_2.heat.png"));

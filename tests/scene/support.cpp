@@ -4,14 +4,16 @@
 #include <fstream>
 #include <sstream>
 
+#include "temporary_folder.h"
+
 namespace shadowbench::scene::test {
 
 namespace fs = std::filesystem;
 
 fs::path fresh_path(const std::string& name) {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    const fs::path folder = fs::path(testing::TempDir()) / "shadowbench_scene" /
-                            (std::string(info->test_suite_name()) + "." + info->name());
+    static const TemporaryFolder all;
+    const fs::path folder = all.path() / (std::string(info->test_suite_name()) + "." + info->name());
     fs::create_directories(folder);
     fs::remove(folder / name);
     return folder / name;

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "service/cli/child.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::service {
 namespace {

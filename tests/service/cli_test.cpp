@@ -12,6 +12,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "temporary_folder.h"
+
 namespace shadowbench::service {
 namespace {
 
@@ -35,11 +37,7 @@ const char* const tiny = R"({
 
 class Cli : public ::testing::Test {
 protected:
-    void SetUp() override {
-        fs::create_directories(folder_);
-        write("tiny.json", tiny);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
+    void SetUp() override { write("tiny.json", tiny); }
 
     std::string write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name) << text;
@@ -61,9 +59,8 @@ protected:
         fails({"validate", path("tiny.json"), "--set", assignment}, code, says);
     }
 
-    const fs::path folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("shadowbench_cli_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    const TemporaryFolder temporary_;
+    const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Cli, helps) {

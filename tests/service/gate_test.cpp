@@ -14,6 +14,7 @@
 #include "base/read_text.h"
 #include "service/cli/child.h"
 #include "service/run_cli.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::service {
 namespace {
@@ -42,11 +43,9 @@ const char* const tiny = R"({
 class Gate : public ::testing::Test {
 protected:
     void SetUp() override {
-        fs::create_directories(folder_);
         write("tiny.json", tiny);
         ASSERT_EQ(cli({"run", path("tiny.json"), "--out", path("base")}).code, 0);
     }
-    void TearDown() override { fs::remove_all(folder_); }
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
     std::string write(const std::string& name, const std::string& text) const {
@@ -76,9 +75,8 @@ protected:
         EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
     }
 
-    const fs::path folder_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("shadowbench_gate_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    const TemporaryFolder temporary_;
+    const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Gate, CompareTellsByItsExitCode) {
@@ -283,17 +281,6 @@ TEST(Child, HasNoInputAndLeavesItsOutput) {
     std::getline(stream, second);
     EXPECT_EQ(first, "said");
     EXPECT_EQ(second, "complained");
-}
-
-TEST(Child, ATemporaryFolderIsGoneAfterwards) {
-    fs::path place;
-    {
-        const TemporaryFolder folder;
-        place = folder.path();
-        std::ofstream(place / "file") << "text";
-        EXPECT_TRUE(fs::is_directory(place));
-    }
-    EXPECT_FALSE(fs::exists(place));
 }
 
 }  // namespace

@@ -11,19 +11,13 @@
 #include <string>
 #include <thread>
 
-#include "service/cli/child.h"
+#include "processes.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::service {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool soon(const auto& holds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-    while (!holds() && std::chrono::steady_clock::now() < end)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    return holds();
-}
 
 class Interrupt : public ::testing::Test {
 protected:
@@ -55,12 +49,6 @@ protected:
         return ab;
     }
 
-    // A process that has ended stays known until somebody asks for it, which here may take its time.
-    static bool lives(pid_t process) {
-        std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
-        std::string number, name, state;
-        return stat >> number >> name >> state && state != "Z";
-    }
     bool sleeps() const { return lives(sleeper_); }
 
     const TemporaryFolder folder_;

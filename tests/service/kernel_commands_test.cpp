@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "service/cli/child.h"
 #include "service/run_cli.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::service {
 namespace {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "service/cli/cli.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::service {
 namespace {
@@ -18,9 +19,6 @@ using ::testing::HasSubstr;
 
 class ReportCommand : public ::testing::Test {
 protected:
-    void SetUp() override { fs::create_directories(folder_); }
-    void TearDown() override { fs::remove_all(folder_); }
-
     void write(const std::string& name, const std::string& text) const {
         fs::create_directories((folder_ / name).parent_path());
         std::ofstream(folder_ / name) << text;
@@ -32,7 +30,8 @@ protected:
         return cli_main(static_cast<int>(argv.size()), argv.data(), out_, err_);
     }
 
-    fs::path folder_ = fs::temp_directory_path() / ("shadowbench_report_command_" + std::to_string(::getpid()));
+    const TemporaryFolder temporary_;
+    const fs::path folder_ = temporary_.path();
     std::ostringstream out_, err_;
 };
 

@@ -22,8 +22,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "processes.h"
 #include "service/http/client.h"
 #include "service/run_cli.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::service {
 namespace {
@@ -48,14 +50,8 @@ std::string read(const fs::path& file) {
 
 class ServerCommands : public testing::Test {
 protected:
-    void SetUp() override {
-        fs::create_directories(folder_);
-        write("tiny.json", tiny);
-    }
-    void TearDown() override {
-        stop();
-        fs::remove_all(folder_);
-    }
+    void SetUp() override { write("tiny.json", tiny); }
+    void TearDown() override { stop(); }
 
     std::string write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name) << text;
@@ -97,9 +93,8 @@ protected:
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
 
-    const fs::path folder_ =
-        fs::path(testing::TempDir()) / (std::string("shadowbench_serve_") + std::to_string(::getpid()) + "_" +
-                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+    const TemporaryFolder temporary_;
+    const fs::path folder_ = temporary_.path();
     std::string program_ = SHADOWBENCH_PROGRAM, port_ = "0";
     pid_t server_ = 0;
     std::string url_;
@@ -296,24 +291,13 @@ TEST_F(ServerCommands, AServerThatIsKilledTakesItsProcessesAlong) {
                                    "timing.repetitions=200", "--set", "timing.lookups=1000000"});
     ASSERT_EQ(submitted.code, 0) << submitted.err;
     Client client(url_, "");
-    const auto soon = [&](const auto& holds) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-        while (!holds() && std::chrono::steady_clock::now() < end)
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        return holds();
-    };
     EXPECT_TRUE(soon([&] { return client.get("/v1/jobs").body.find("\"stage\"") != std::string::npos; }));
     const std::vector<pid_t> children = descendants(server_);
     EXPECT_GE(children.size(), 2u) << "a job and its keeper";
     ::kill(server_, SIGKILL);
     ::waitpid(server_, nullptr, 0);
     server_ = 0;
-    const auto is_gone = [](pid_t process) {
-        std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
-        std::string number, name, state;
-        return !(stat >> number >> name >> state) || state == "Z" || state == "X";
-    };
-    for (const pid_t child : children) EXPECT_TRUE(soon([&] { return is_gone(child); })) << child;
+    for (const pid_t child : children) EXPECT_TRUE(soon([&] { return !lives(child); })) << child;
 }
 
 TEST_F(ServerCommands, HelpersAreNotForPeople) {

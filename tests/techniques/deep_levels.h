@@ -1,8 +1,6 @@
 // Deep shadow maps of random functions, and files of them.
 #pragma once
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -14,20 +12,15 @@
 #include "base/random.h"
 #include "curves/curve.h"
 #include "techniques/deep/deep_file.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::techniques::testing {
 
 struct TestFile {
-    explicit TestFile(const char* extension = ".dsm") {
-        std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::replace(name.begin(), name.end(), '/', '_');
-        path = std::filesystem::path(::testing::TempDir()) / (name + "_" + std::to_string(getpid()) + extension);
-    }
-    ~TestFile() { std::filesystem::remove(path); }
-    TestFile(const TestFile&) = delete;
-    TestFile& operator=(const TestFile&) = delete;
+    explicit TestFile(const char* extension = ".dsm") : path(folder.path(std::string("map") + extension)) {}
 
-    std::filesystem::path path;
+    const TemporaryFolder folder;
+    const std::filesystem::path path;
 };
 
 // Takes the old file away first: file systems wait for the disk when one is written over.

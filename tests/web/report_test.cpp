@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "service/web/history_page.h"
+#include "temporary_folder.h"
 #include "web/external.h"
 
 namespace shadowbench::service {
@@ -24,7 +25,6 @@ using nlohmann::json;
 class Report : public ::testing::Test {
 protected:
     void SetUp() override { fs::create_directories(images()); }
-    void TearDown() override { fs::remove_all(folder_); }
 
     fs::path images() const { return folder_ / "images"; }
     void write(const std::string& name, const std::string& text) const { std::ofstream(images() / name) << text; }
@@ -33,7 +33,8 @@ protected:
         write("images.json", files.dump());
     }
 
-    fs::path folder_ = fs::temp_directory_path() / ("shadowbench_report_" + std::to_string(::getpid()));
+    const TemporaryFolder temporary_;
+    const fs::path folder_ = temporary_.path();
 };
 
 // The data as the page's script reads it.

@@ -10,6 +10,7 @@
 #include "kernels/measure.h"
 #include "kernels/runner.h"
 #include "kernels/test/program.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::kernels {
 namespace {
@@ -109,7 +110,7 @@ TEST(Inject, AWrongKernelIsNotTimedAndSaysWhy) {
     EXPECT_FALSE(reports.runs[1].error_occurred);
     EXPECT_GT(made, 0);
 
-    const testing::Folder folder;
+    const TemporaryFolder folder;
     EXPECT_EQ(write_exact(kernels, "", {}, folder.path("exact.json")), 1u);
     const json entries = testing::read_json(folder.path("exact.json")).at("benchmarks");
     EXPECT_EQ(entries[0].at("error_message"), "it is 3 too dark");
@@ -118,7 +119,7 @@ TEST(Inject, AWrongKernelIsNotTimedAndSaysWhy) {
 }
 
 TEST(Inject, AFilterThatNamesNothingWritesNothing) {
-    const testing::Folder folder;
+    const TemporaryFolder folder;
     for (const auto& [filter, says] : {std::pair{"nothing", "no kernel has such a name"}, {"(", "is not valid"}}) {
         const testing::Outcome outcome =
             testing::run(std::string("--benchmark_filter='") + filter + "' --exact=" + folder.path("exact.json"));
@@ -129,7 +130,7 @@ TEST(Inject, AFilterThatNamesNothingWritesNothing) {
 }
 
 TEST(Inject, TheProgramChangesWhatItIsToldAndNothingElse) {
-    const testing::Folder folder;
+    const TemporaryFolder folder;
     const std::string filter = "--benchmark_filter='^compress/hair|^reference' ";
     ASSERT_EQ(testing::run(filter + "--exact=" + folder.path("a.json")).code, 0);
     ASSERT_EQ(testing::run(filter + "--exact=" + folder.path("b.json") +

@@ -12,12 +12,12 @@
 #include "kernels/kernel.h"
 #include "kernels/test/program.h"
 #include "techniques/technique.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::kernels {
 namespace {
 
 using nlohmann::json;
-using testing::Folder;
 
 bool starts_with(const std::string& text, const std::string& start) {
     return text.rfind(start, 0) == 0;
@@ -68,7 +68,7 @@ std::set<std::string> counters_of(const std::string& name) {
 
 // One run of each kernel, and its counts without a clock, from another process.
 TEST(Kernels, RunAndCountTheSameInEveryProcess) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto timed = testing::run("--benchmark_min_time=0 --benchmark_out=" + folder.path("timed.json"));
     ASSERT_EQ(timed.code, 0) << timed.said;
     const auto exact = testing::run("--exact=" + folder.path("exact.json"));

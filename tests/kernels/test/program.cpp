@@ -3,24 +3,10 @@
 #include <sys/wait.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <iterator>
 #include <stdexcept>
 
 namespace shadowbench::kernels::testing {
-
-namespace fs = std::filesystem;
-
-Folder::Folder() {
-    std::string name = (fs::temp_directory_path() / "shadowbench-kernels-test-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make " + name);
-    path_ = name;
-}
-
-Folder::~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
 
 Outcome run(const std::string& arguments) {
     std::FILE* pipe = popen(("'" SHADOWBENCH_KERNELS "' " + arguments + " 2>&1").c_str(), "r");

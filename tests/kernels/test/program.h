@@ -1,26 +1,12 @@
 // The program of the kernels, as its users start it.
 #pragma once
 
-#include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 namespace shadowbench::kernels::testing {
-
-// Gone with what is in it when the test ends.
-class Folder {
-public:
-    Folder();
-    ~Folder();
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string path(const std::string& name) const { return (path_ / name).string(); }
-
-private:
-    std::filesystem::path path_;
-};
 
 struct Outcome {
     int code;
