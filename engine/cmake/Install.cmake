@@ -5,10 +5,14 @@ get_property(layers GLOBAL PROPERTY shadowbench_engine_layers)
 # --- the program ------------------------------------------------------------------------------------------------------
 set(share "${CMAKE_INSTALL_DATADIR}/shadowbench")
 install(TARGETS shadowbench RUNTIME COMPONENT program)
-install(DIRECTORY scenarios DESTINATION "${share}" COMPONENT program)
+install(DIRECTORY scenarios DESTINATION "${share}" COMPONENT program PATTERN README.md EXCLUDE)
 install(FILES engine/scene/scenario.schema.json service/api/openapi.json DESTINATION "${share}" COMPONENT program)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE "${CMAKE_CURRENT_BINARY_DIR}/web/licences.txt"
         DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
+# The manuals keep their folders, so that the links between them hold.
+foreach(folder IN ITEMS engine/compare engine/techniques results scenarios service)
+  install(FILES ${folder}/README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}" COMPONENT program)
+endforeach()
 
 # The program finds its scenarios from its own folder.
 file(RELATIVE_PATH share_from_program "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_DATADIR}/shadowbench")

@@ -55,7 +55,7 @@ json technique_of(const json& scenario, const results::Cell& cell) {
     try {
         technique = scenario.at(json::json_pointer(cell.where));
         if (!technique.is_object()) return nullptr;
-        if (technique.value("type", "") == "*") return {{"type", cell.at("technique").text()}};  // its defaults
+        if (technique.value("type", "") == "*") return json{{"type", cell.technique}};  // its defaults
         if (const auto sweeps = scenario.find("sweeps"); sweeps != scenario.end() && sweeps->is_object())
             for (const auto& [pointer, values] : sweeps->items())
                 if (pointer.rfind(cell.where + "/", 0) == 0) {

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "curves/sweep.h"
-#include "techniques/cells.h"
+#include "techniques/store/cells.h"
 
 namespace shadowbench::render {
 namespace {

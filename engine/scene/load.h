@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "scene/files.h"
+#include "scene/readers/files.h"
 #include "scene/scenario.h"
 #include "scene/scene.h"
 

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "scene/files.h"
 #include "scene/json_read.h"
 #include "scene/limits.h"
 #include "scene/load.h"
+#include "scene/readers/files.h"
 
 namespace shadowbench::scene {
 namespace {

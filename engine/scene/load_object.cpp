@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "scene/files.h"
 #include "scene/json_read.h"
 #include "scene/limits.h"
 #include "scene/load.h"
 #include "scene/procedural.h"
+#include "scene/readers/files.h"
 
 namespace shadowbench::scene {
 namespace {

@@ -16,7 +16,7 @@
 #include "document/document.h"
 #include "rays/scenes.h"
 #include "rays/tracer.h"
-#include "scene/files.h"
+#include "scene/readers/files.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::bench {

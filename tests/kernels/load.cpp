@@ -18,7 +18,7 @@
 #include "kernels/inputs.h"
 #include "kernels/judged.h"
 #include "kernels/kernel.h"
-#include "scene/files.h"
+#include "scene/readers/files.h"
 #include "scene/scenario.h"
 #include "techniques/deep/deep.h"
 #include "techniques/deep/deep_file.h"

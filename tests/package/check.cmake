@@ -37,7 +37,10 @@ run(${program} run quickstart --only deep --set rays.resolution=16 --set referen
 expect("${text}" "${WORK}/results/result.json")
 run(${program} validate hard/one_hair)
 foreach(file IN ITEMS share/shadowbench/scenario.schema.json share/doc/shadowbench/LICENSE
-                      share/doc/shadowbench/README.md share/doc/shadowbench/CHANGELOG.md)
+                      share/doc/shadowbench/README.md share/doc/shadowbench/CHANGELOG.md
+                      share/doc/shadowbench/engine/compare/README.md share/doc/shadowbench/engine/techniques/README.md
+                      share/doc/shadowbench/results/README.md share/doc/shadowbench/scenarios/README.md
+                      share/doc/shadowbench/service/README.md)
   if(NOT EXISTS "${prefix}/${file}")
     message(FATAL_ERROR "${file} is not installed")
   endif()

@@ -16,7 +16,7 @@
 #include "curves/sweep.h"
 #include "rays/scenes.h"
 #include "render/recomposite.h"
-#include "scene/files.h"
+#include "scene/readers/files.h"
 #include "temporary_folder.h"
 
 namespace shadowbench::render {

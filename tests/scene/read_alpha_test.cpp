@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "scene/files.h"
+#include "scene/readers/files.h"
 #include "scene/support.h"
 
 namespace shadowbench::scene {

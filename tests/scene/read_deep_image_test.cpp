@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-#include "scene/files.h"
+#include "scene/readers/files.h"
 #include "scene/support.h"
 
 namespace shadowbench::scene {

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "scene/files.h"
+#include "scene/readers/files.h"
 #include "scene/support.h"
 
 namespace shadowbench::scene {

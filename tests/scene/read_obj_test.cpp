@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/files.h"
+#include "scene/readers/files.h"
 #include "scene/support.h"
 
 namespace shadowbench::scene {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/files.h"
+#include "scene/readers/files.h"
 #include "scene/support.h"
 
 namespace shadowbench::scene {

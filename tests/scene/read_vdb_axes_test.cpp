@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "scene/files.h"
+#include "scene/readers/files.h"
 #include "scene/support.h"
 
 namespace shadowbench::scene {

@@ -1,4 +1,4 @@
-#include "scene/sweep_polygon.h"
+#include "scene/polygon/sweep_polygon.h"
 
 #include <algorithm>
 #include <cmath>

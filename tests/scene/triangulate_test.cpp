@@ -1,4 +1,4 @@
-#include "scene/triangulate.h"
+#include "scene/polygon/triangulate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "techniques/cells.h"
+#include "techniques/store/cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "techniques/depth_store.h"
+#include "techniques/store/depth_store.h"
 
 #include <gtest/gtest.h>
 

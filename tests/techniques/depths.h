@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 #include "rays/light_view.h"
-#include "techniques/depth_store.h"
+#include "techniques/store/depth_store.h"
 
 namespace shadowbench::techniques::testing {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "techniques/built.h"
-#include "techniques/cells.h"
 #include "techniques/deep/deep.h"
 #include "techniques/deep/tile_cache.h"
 #include "techniques/deep_levels.h"
+#include "techniques/store/cells.h"
 
 namespace shadowbench::techniques {
 namespace {

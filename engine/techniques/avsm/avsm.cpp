@@ -3,7 +3,7 @@
 #include "techniques/avsm/order.h"
 #include "techniques/avsm/stream.h"
 #include "techniques/avsm/texel.h"
-#include "techniques/texel_map.h"
+#include "techniques/store/texel_map.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "techniques/cells.h"
 #include "techniques/deep/deep_lookup.h"
+#include "techniques/store/cells.h"
 
 namespace shadowbench::techniques {
 

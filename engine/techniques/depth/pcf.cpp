@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "techniques/depth/pcf_samples.h"
-#include "techniques/depth_map.h"
+#include "techniques/store/depth_map.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "base/random.h"
-#include "techniques/cells.h"
+#include "techniques/store/cells.h"
 
 namespace shadowbench::techniques {
 
@@ -65,8 +65,8 @@ struct GaussianTable {
 };
 const GaussianTable& gaussian_table();
 
-// The next 64 random bits of a key that is random itself: wyrand (Wang Yi, wyhash final version 4), one multiplication a
-// sample, where base::mix takes two.
+// The next 64 random bits of a key that is random itself: wyrand (Wang Yi, wyhash final version 4), one multiplication
+// a sample, where base::mix takes two.
 inline std::uint64_t sample_bits(std::uint64_t& key) {
     __extension__ using Wide = unsigned __int128;
     key += 0xa0761d6478bd642full;

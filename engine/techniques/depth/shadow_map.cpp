@@ -1,5 +1,5 @@
 // The plain shadow map: Williams, Casting Curved Shadows on Curved Surfaces, 1978.
-#include "techniques/depth_map.h"
+#include "techniques/store/depth_map.h"
 
 namespace shadowbench::techniques {
 namespace {

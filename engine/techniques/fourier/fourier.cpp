@@ -1,7 +1,7 @@
 // Fourier opacity maps: Jansen and Bavoil, Fourier Opacity Mapping, 2010.
 #include "techniques/fourier/series.h"
-#include "techniques/slices.h"
-#include "techniques/texel_map.h"
+#include "techniques/store/slices.h"
+#include "techniques/store/texel_map.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -2,8 +2,8 @@
 #include <limits>
 #include <utility>
 
-#include "techniques/depth_map.h"
 #include "techniques/multi_depth/select_depths.h"
+#include "techniques/store/depth_map.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "techniques/cells.h"
+#include "techniques/store/cells.h"
 
 namespace shadowbench::techniques {
 

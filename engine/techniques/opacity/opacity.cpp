@@ -1,8 +1,8 @@
 // Opacity shadow maps: Kim and Neumann, Opacity Shadow Maps, 2001, as Salvi et al. 2010 compare them.
 #include <array>
 
-#include "techniques/slices.h"
-#include "techniques/texel_map.h"
+#include "techniques/store/slices.h"
+#include "techniques/store/texel_map.h"
 
 namespace shadowbench::techniques {
 namespace {

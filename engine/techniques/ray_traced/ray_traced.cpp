@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "rays/light_view.h"
 #include "rays/tracer.h"
-#include "techniques/cells.h"
+#include "techniques/store/cells.h"
 
 namespace shadowbench::techniques {
 namespace {

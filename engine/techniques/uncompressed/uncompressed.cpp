@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "curves/composite.h"
-#include "techniques/cells.h"
-#include "techniques/texels.h"
+#include "techniques/store/cells.h"
+#include "techniques/store/texels.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "curves/composite.h"
-#include "techniques/texel_map.h"
+#include "techniques/store/texel_map.h"
 
 namespace shadowbench::techniques {
 namespace {

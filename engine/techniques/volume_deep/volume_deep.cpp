@@ -2,8 +2,8 @@
 // it loses in all.
 #include <cstring>
 
-#include "techniques/slices.h"
-#include "techniques/texel_map.h"
+#include "techniques/store/slices.h"
+#include "techniques/store/texel_map.h"
 #include "techniques/volume_deep/crossings.h"
 
 namespace shadowbench::techniques {

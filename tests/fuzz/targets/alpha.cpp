@@ -1,6 +1,6 @@
 #include "fuzz/expect.h"
 #include "fuzz/target.h"
-#include "scene/files.h"
+#include "scene/readers/files.h"
 
 // The first byte says what the file is called: the name and the content need not agree.
 void shadowbench::fuzz::alpha(std::string_view bytes) {

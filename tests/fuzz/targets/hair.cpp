@@ -1,7 +1,7 @@
 #include "fuzz/expect.h"
 #include "fuzz/target.h"
-#include "scene/files.h"
 #include "scene/load.h"
+#include "scene/readers/files.h"
 
 void shadowbench::fuzz::hair(std::string_view bytes) {
     const InputFile file(bytes, ".hair");

@@ -2,7 +2,7 @@
 
 #include "fuzz/expect.h"
 #include "fuzz/target.h"
-#include "scene/files.h"
+#include "scene/readers/files.h"
 
 // The first bytes are what a scenario says of the file: type and size.
 void shadowbench::fuzz::raw_volume(std::string_view bytes) {

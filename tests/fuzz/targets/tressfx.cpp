@@ -1,6 +1,6 @@
 #include "fuzz/expect.h"
 #include "fuzz/target.h"
-#include "scene/files.h"
+#include "scene/readers/files.h"
 
 void shadowbench::fuzz::tressfx(std::string_view bytes) {
     const InputFile file(bytes, ".tfx");

@@ -2,7 +2,7 @@
 
 #include "fuzz/expect.h"
 #include "fuzz/target.h"
-#include "scene/files.h"
+#include "scene/readers/files.h"
 
 void shadowbench::fuzz::vdb(std::string_view bytes) {
     constexpr std::uint64_t most_voxels = 1 << 22;

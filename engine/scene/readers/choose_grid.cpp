@@ -1,0 +1,111 @@
+#include "scene/readers/choose_grid.h"
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace shadowbench::scene {
+namespace {
+
+struct Chooser {
+    const std::filesystem::path& file;
+    std::span<const VdbGridName> grids;
+
+    [[noreturn]] void refuse(const std::string& message) const {
+        std::string names;
+        for (const VdbGridName& grid : grids) names += (names.empty() ? "" : ", ") + shown(grid);
+        throw base::Error(base::ErrorCode::bad_input, file.string(),
+                          fmt::format("{}; the grids are: {}", message, names.empty() ? "none" : names));
+    }
+
+    template <class Wanted>
+    std::vector<std::size_t> all_that(const Wanted& wanted) const {
+        std::vector<std::size_t> found;
+        for (std::size_t i = 0; i < grids.size(); ++i)
+            if (wanted(grids[i])) found.push_back(i);
+        return found;
+    }
+
+    std::size_t by_number(int number) const {
+        if (number < 0 || static_cast<std::size_t>(number) >= grids.size())
+            refuse(fmt::format("there is no grid number {}, counted from 0", number));
+        return static_cast<std::size_t>(number);
+    }
+
+    std::size_t by_name(const std::string& name) const {
+        const auto found = all_that([&](const VdbGridName& grid) {
+            return grid.name == name || grid.unique_name == name || shown(grid) == name;
+        });
+        if (found.empty()) refuse(fmt::format("there is no grid \"{}\"", name));
+        if (found.size() > 1)
+            refuse(fmt::format("{} grids are called \"{}\": give \"grid\" as a number, from 0 on", found.size(), name));
+        return found[0];
+    }
+
+    std::size_t without_key() const {
+        if (!all_that([](const VdbGridName& grid) { return grid.name == usual_grid; }).empty())
+            return by_name(usual_grid);
+        const auto floats = all_that([](const VdbGridName& grid) { return grid.type == vdb_float_tree; });
+        if (floats.empty()) refuse("the file has no grid of float values");
+        if (floats.size() > 1)
+            refuse(
+                fmt::format("there is no grid \"{}\", and several others: give \"grid\", a name or a number from 0 "
+                            "on",
+                            usual_grid));
+        return floats[0];
+    }
+};
+
+}  // namespace
+
+std::string shown(const VdbGridName& grid) {
+    if (grid.name.empty()) return "(no name)";
+    const std::size_t end = grid.unique_name.find(vdb_suffix);
+    return end == std::string::npos ? grid.name : fmt::format("{}[{}]", grid.name, grid.unique_name.substr(end + 1));
+}
+
+std::size_t choose_grid(const std::filesystem::path& file, std::span<const VdbGridName> grids,
+                        const GridChoice& choice) {
+    const Chooser chooser{file, grids};
+    std::size_t chosen = 0;
+    if (const int* number = std::get_if<int>(&choice))
+        chosen = chooser.by_number(*number);
+    else if (const auto* name = std::get_if<std::string>(&choice))
+        chosen = chooser.by_name(*name);
+    else
+        chosen = chooser.without_key();
+    return chosen;
+}
+
+// File::findDescriptor: of the grids with the name that it is given, or, where there are none, with that name up to its
+// suffix, it takes the first. Only "name[number]" makes it look at the number too, unless a grid is called just so.
+std::optional<std::string> library_name(std::span<const VdbGridName> grids, std::size_t grid) {
+    const VdbGridName& wanted = grids[grid];
+    for (std::size_t i = 0; i < grids.size(); ++i)
+        if (i != grid && grids[i].unique_name == wanted.unique_name) return std::nullopt;
+    if (wanted.name == wanted.unique_name) {
+        for (std::size_t i = 0; i < grid; ++i)
+            if (grids[i].name == wanted.name) return std::nullopt;
+        return wanted.name;
+    }
+    const std::string number = wanted.unique_name.substr(wanted.name.size() + 1);
+    const bool digits = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+    const std::string asked = fmt::format("{}[{}]", wanted.name, number);
+    const bool taken = std::any_of(grids.begin(), grids.end(), [&](const auto& each) { return each.name == asked; });
+    if (!digits || taken || wanted.name.find_first_of("[]") != std::string::npos) return std::nullopt;
+    return asked;
+}
+
+std::size_t library_parent(std::span<const VdbGridName> grids, const std::string& unique_name) {
+    const std::string name = unique_name.substr(0, unique_name.find(vdb_suffix));
+    std::size_t first = 0;
+    while (first < grids.size() && grids[first].name != name) ++first;
+    const bool found = first < grids.size() && grids[first].unique_name == unique_name && !unique_name.ends_with(']');
+    return found ? first : grids.size();
+}
+
+}  // namespace shadowbench::scene

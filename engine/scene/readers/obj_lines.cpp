@@ -1,0 +1,251 @@
+#include "scene/readers/obj_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "scene/limits.h"
+#include "scene/readers/read_mesh.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+
+// What else a line may begin with; what it is called when it is passed over, or nothing when no surface is lost by it.
+struct Keyword {
+    std::string_view word, lost;
+};
+constexpr std::string_view free_form = "free-form curves and surfaces", other_files = "calls of other files";
+constexpr std::array keywords{
+    Keyword{"l", "lines"},
+    Keyword{"p", "points"},
+    Keyword{"curv", free_form},
+    Keyword{"curv2", free_form},
+    Keyword{"surf", free_form},
+    Keyword{"bzp", free_form},
+    Keyword{"bsp", free_form},
+    Keyword{"cdc", free_form},
+    Keyword{"cdp", free_form},
+    Keyword{"call", other_files},
+    Keyword{"csh", other_files},
+    // Normals, parameters, names, materials, and how to show things.
+    Keyword{"vn", ""},
+    Keyword{"vp", ""},
+    Keyword{"g", ""},
+    Keyword{"s", ""},
+    Keyword{"o", ""},
+    Keyword{"mg", ""},
+    Keyword{"usemtl", ""},
+    Keyword{"mtllib", ""},
+    Keyword{"usemap", ""},
+    Keyword{"maplib", ""},
+    Keyword{"bevel", ""},
+    Keyword{"c_interp", ""},
+    Keyword{"d_interp", ""},
+    Keyword{"lod", ""},
+    Keyword{"shadow_obj", ""},
+    Keyword{"trace_obj", ""},
+    Keyword{"ctech", ""},
+    Keyword{"stech", ""},
+    // Parts of free-form curves and surfaces.
+    Keyword{"cstype", ""},
+    Keyword{"deg", ""},
+    Keyword{"bmat", ""},
+    Keyword{"step", ""},
+    Keyword{"res", ""},
+    Keyword{"parm", ""},
+    Keyword{"trim", ""},
+    Keyword{"hole", ""},
+    Keyword{"scrv", ""},
+    Keyword{"sp", ""},
+    Keyword{"end", ""},
+    Keyword{"con", ""},
+};
+
+// The words of a line, taken one by one; empty at its end.
+std::string_view next_word(std::string_view& line) {
+    const std::size_t from = line.find_first_not_of(" \t\r");
+    if (from == std::string_view::npos) return {};
+    const std::size_t to = std::min(line.find_first_of(" \t\r", from), line.size());
+    const std::string_view word = line.substr(from, to - from);
+    line.remove_prefix(to);
+    return word;
+}
+
+// Whether the line goes on in the next one; the mark of that is taken off. Comments do not.
+bool take_continuation(std::string_view& line) {
+    std::string_view words = line;
+    if (next_word(words).starts_with('#')) return false;
+    std::string_view text = line;
+    if (text.ends_with('\r')) text.remove_suffix(1);
+    if (!text.ends_with('\\')) return false;
+    line = text.substr(0, text.size() - 1);
+    return true;
+}
+
+class LineCheck {
+public:
+    LineCheck(const std::filesystem::path& name, MeshFile& file) : name_(name), file_(file) {}
+
+    void check(std::string_view line, std::size_t number) {
+        number_ = number;
+        const std::string_view keyword = next_word(line);
+        if (keyword.empty() || keyword.front() == '#') return;
+        if (keyword == "v") {
+            numbers(keyword, line, 3);
+            ++vertices_;
+        } else if (keyword == "vt") {
+            numbers(keyword, line, 1);
+            ++uvs_;
+        } else if (keyword == "f") {
+            corners(line);
+        } else {
+            pass(keyword);
+        }
+    }
+
+    // Faces may stand before their vertices, so whether all of these are there is known at the end only.
+    ObjLines finish() {
+        if (vertices_ == 0 && unknown_ > 0)
+            throw Error(ErrorCode::bad_input, name_.string(),
+                        fmt::format("not a Wavefront OBJ file: no line begins with v, and {} with words that OBJ does "
+                                    "not know",
+                                    unknown_));
+        if (static_cast<std::uint64_t>(vertices_) > max_mesh_elements)
+            throw Error(ErrorCode::bad_input, name_.string(), fmt::format("over {} vertices", max_mesh_elements));
+        vertex_.check(vertices_, "vertex", *this);
+        uv_.check(uvs_, "texture coordinate", *this);
+        return std::move(result_);
+    }
+
+private:
+    // The highest index that a face names, and the line of that face.
+    struct Highest {
+        std::int64_t index = 0;
+        std::size_t line = 0;
+
+        void see(std::int64_t named, std::size_t at) {
+            if (named <= index) return;
+            index = named;
+            line = at;
+        }
+        void check(std::int64_t count, const char* what, LineCheck& lines) const {
+            if (index <= count) return;
+            lines.number_ = line;
+            lines.fail(fmt::format("a face names {} {}, but there are {}", what, index, count));
+        }
+    };
+
+    [[noreturn]] void fail(const std::string& message) const {
+        throw Error(ErrorCode::bad_input, fmt::format("{}:{}", name_.string(), number_), message);
+    }
+
+    void pass(std::string_view keyword) {
+        const auto known =
+            std::find_if(keywords.begin(), keywords.end(), [&](const Keyword& each) { return each.word == keyword; });
+        if (known != keywords.end()) {
+            if (!known->lost.empty()) pass_over(file_, known->lost);
+            return;
+        }
+        if (!is_word(keyword))
+            fail(fmt::format("\"{}\" is not a keyword: the file is damaged, or not a Wavefront OBJ file",
+                             keyword.substr(0, 40)));
+        ++unknown_;
+        pass_over(file_, fmt::format("lines of the unknown keyword \"{}\"", keyword));
+    }
+
+    void numbers(std::string_view keyword, std::string_view line, int least) {
+        result_.kept += keyword;
+        int count = 0;
+        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++count) {
+            if (word.front() == '+') word.remove_prefix(1);
+            double value = 0.0;
+            const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+            if (fault != std::errc() || end != word.data() + word.size() || !(std::abs(value) <= max_coordinate))
+                fail(fmt::format("\"{}\" is not a finite number below {}", word.substr(0, 40), max_coordinate));
+            result_.kept.append(1, ' ').append(word);
+        }
+        if (count < least) fail(fmt::format("{} numbers where {} are needed", count, least));
+        result_.kept += '\n';
+    }
+
+    void corners(std::string_view line) {
+        const std::size_t before = result_.kept.size();
+        const std::pair highest{vertex_, uv_};
+        result_.kept += 'f';
+        int count = 0;
+        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++count) corner(word);
+        result_.kept += '\n';
+        if (count >= 3) {
+            result_.line_of_face.push_back(number_);
+            return;
+        }
+        result_.kept.resize(before);
+        std::tie(vertex_, uv_) = highest;
+        pass_over(file_, fewer_corners);
+    }
+
+    void corner(std::string_view word) {
+        std::int64_t vertex = 0, uv = 0;
+        const char* const last = word.data() + word.size();
+        std::from_chars_result read = std::from_chars(word.data(), last, vertex);
+        const bool has_uv = read.ec == std::errc() && last - read.ptr > 1 && read.ptr[0] == '/' && read.ptr[1] != '/';
+        if (has_uv) read = std::from_chars(read.ptr + 1, last, uv);
+        // The index of a normal may follow.
+        if (read.ec != std::errc() || (read.ptr != last && *read.ptr != '/') ||
+            word.find_first_not_of("0123456789-/") != std::string_view::npos)
+            fail(fmt::format("\"{}\" is not a face's corner", word.substr(0, 40)));
+        // Negative numbers count back from the last one so far.
+        check_back(vertex, vertices_, "vertex");
+        if (has_uv) check_back(uv, uvs_, "texture coordinate");
+        result_.kept += has_uv ? fmt::format(" {}/{}", vertex, uv) : fmt::format(" {}", vertex);
+        vertex_.see(vertex, number_);
+        uv_.see(uv, number_);
+    }
+
+    void check_back(std::int64_t index, std::int64_t count, const char* what) const {
+        if (index == 0 || index < -count)
+            fail(fmt::format("a face names {} {}, but there are {} so far", what, index, count));
+    }
+
+    const std::filesystem::path& name_;
+    MeshFile& file_;
+    ObjLines result_;
+    std::size_t number_ = 0;
+    std::int64_t vertices_ = 0, uvs_ = 0;
+    Highest vertex_, uv_;
+    std::uint64_t unknown_ = 0;
+};
+
+}  // namespace
+
+ObjLines check_obj(const std::string& text, const std::filesystem::path& name, MeshFile& file) {
+    LineCheck check(name, file);
+    std::string joined;
+    std::size_t number = 0, first = 0;
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t to = std::min(text.find('\n', from), text.size());
+        std::string_view line = std::string_view(text).substr(from, to - from);
+        from = to + 1;
+        ++number;
+        if (joined.empty()) first = number;
+        const bool goes_on = take_continuation(line);
+        if (goes_on || !joined.empty()) joined.append(line).append(1, ' ');
+        if (goes_on && from < text.size()) continue;
+        check.check(joined.empty() ? line : std::string_view(joined), first);
+        joined.clear();
+    }
+    return check.finish();
+}
+
+}  // namespace shadowbench::scene

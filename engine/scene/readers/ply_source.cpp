@@ -1,0 +1,217 @@
+#include "scene/readers/ply_source.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/utf8.h"
+#include "scene/limits.h"
+#include "scene/readers/file_reader.h"
+
+namespace shadowbench::scene {
+namespace {
+
+struct TypeName {
+    std::string_view name;
+    PlyType type;
+};
+// Both spellings that are in use.
+constexpr std::array type_names{
+    TypeName{"char", PlyType::int8},      TypeName{"int8", PlyType::int8},       TypeName{"uchar", PlyType::uint8},
+    TypeName{"uint8", PlyType::uint8},    TypeName{"short", PlyType::int16},     TypeName{"int16", PlyType::int16},
+    TypeName{"ushort", PlyType::uint16},  TypeName{"uint16", PlyType::uint16},   TypeName{"int", PlyType::int32},
+    TypeName{"int32", PlyType::int32},    TypeName{"uint", PlyType::uint32},     TypeName{"uint32", PlyType::uint32},
+    TypeName{"float", PlyType::float32},  TypeName{"float32", PlyType::float32}, TypeName{"double", PlyType::float64},
+    TypeName{"float64", PlyType::float64}};
+
+std::optional<PlyType> type_of(std::string_view name) {
+    for (const TypeName& row : type_names)
+        if (row.name == name) return row.type;
+    return std::nullopt;
+}
+
+std::uint64_t size_of(PlyType type) {
+    switch (type) {
+        case PlyType::int8:
+        case PlyType::uint8:
+            return 1;
+        case PlyType::int16:
+        case PlyType::uint16:
+            return 2;
+        case PlyType::float64:
+            return 8;
+        default:
+            return 4;
+    }
+}
+
+template <typename T>
+double as(const char* bytes) {
+    T value;
+    std::memcpy(&value, bytes, sizeof(T));
+    return static_cast<double>(value);
+}
+
+double decode(PlyType type, const char* bytes) {
+    switch (type) {
+        case PlyType::int8:
+            return as<std::int8_t>(bytes);
+        case PlyType::uint8:
+            return as<std::uint8_t>(bytes);
+        case PlyType::int16:
+            return as<std::int16_t>(bytes);
+        case PlyType::uint16:
+            return as<std::uint16_t>(bytes);
+        case PlyType::int32:
+            return as<std::int32_t>(bytes);
+        case PlyType::uint32:
+            return as<std::uint32_t>(bytes);
+        case PlyType::float32:
+            return static_cast<double>(as<float>(bytes));
+        case PlyType::float64:
+            return as<double>(bytes);
+    }
+    return 0.0;
+}
+
+bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+}  // namespace
+
+PlySource::PlySource(const std::filesystem::path& file) : file_(file.string()) {
+    FileReader reader(file);
+    const std::vector<char> bytes = reader.array<char>(reader.size(), "file");
+    bytes_.assign(bytes.begin(), bytes.end());
+    read_header();
+}
+
+void PlySource::fail(const std::string& message) const {
+    throw base::Error(base::ErrorCode::bad_input, fmt::format("{}:{}", file_, position_), message);
+}
+
+std::string PlySource::line() {
+    const std::size_t end = bytes_.find('\n', position_);
+    if (end == std::string::npos) fail("the file ends inside its header");
+    std::string text = bytes_.substr(position_, end - position_);
+    if (!text.empty() && text.back() == '\r') text.pop_back();
+    position_ = end + 1;
+    return text;
+}
+
+void PlySource::read_header() {
+    position_ = bytes_.size() - base::without_mark(bytes_, file_).size();
+    if (bytes_.compare(position_, 3, "ply") != 0) fail("the file does not begin with ply");
+    line();
+    bool has_format = false;
+    for (std::string text = line(); text != "end_header"; text = line()) {
+        std::istringstream words(text);
+        std::string keyword, name;
+        words >> keyword >> name;
+        if (keyword == "format") {
+            has_format = true;
+            if (name == "ascii")
+                encoding_ = Encoding::ascii;
+            else if (name == "binary_little_endian")
+                encoding_ = Encoding::little_endian;
+            else if (name == "binary_big_endian")
+                encoding_ = Encoding::big_endian;
+            else
+                fail(fmt::format("the format \"{}\" is unknown", name));
+        } else if (keyword == "element") {
+            PlyElement element;
+            element.name = name;
+            if (!(words >> element.count)) fail("an element without a count");
+            elements_.push_back(element);
+        } else if (keyword == "property") {
+            read_property(text);
+        } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+            fail(fmt::format("the header line \"{}\" is unknown", keyword.substr(0, 40)));
+        }
+    }
+    if (!has_format) fail("the header names no format");
+}
+
+// "property float x" or "property list uchar int vertex_indices".
+void PlySource::read_property(const std::string& text) {
+    if (elements_.empty()) fail("a property before the first element");
+    std::istringstream words(text);
+    std::string keyword, type, count_type;
+    PlyProperty property;
+    words >> keyword >> type;
+    if (type == "list") {
+        property.is_list = true;
+        words >> count_type >> type;
+        const std::optional<PlyType> known = type_of(count_type);
+        if (!known || *known == PlyType::float32 || *known == PlyType::float64)
+            fail(fmt::format("a list is counted by \"{}\", which is no integer type", count_type));
+        property.count_type = *known;
+    }
+    const std::optional<PlyType> known = type_of(type);
+    if (!known || !(words >> property.name))
+        fail(fmt::format("the property \"{}\" is not understood", text.substr(0, 60)));
+    property.type = *known;
+    elements_.back().properties.push_back(property);
+}
+
+std::uint64_t PlySource::least_bytes(PlyType type) const {
+    // A digit and what parts it from the next one; the last of the file needs no such thing.
+    return encoding_ == Encoding::ascii ? 2 : size_of(type);
+}
+
+void PlySource::check_length(const PlyElement& element) const {
+    std::uint64_t bytes = 0;
+    for (const PlyProperty& property : element.properties)
+        bytes += least_bytes(property.is_list ? property.count_type : property.type);
+    if (element.count > max_mesh_elements)
+        fail(fmt::format("{} elements \"{}\"; the limit is {}", element.count, element.name, max_mesh_elements));
+    // max_mesh_elements times the properties of a header that is in memory fits 64 bits.
+    if (element.count * bytes > left() + 1)
+        fail(fmt::format("the file is too short for {} elements \"{}\"", element.count, element.name));
+}
+
+double PlySource::value(PlyType type) {
+    if (encoding_ == Encoding::ascii) {
+        while (position_ < bytes_.size() && is_space(bytes_[position_])) ++position_;
+        const char* begin = bytes_.data() + position_;
+        const char* end = std::find_if(begin, static_cast<const char*>(bytes_.data() + bytes_.size()), is_space);
+        if (begin == end) fail("the file ends inside its numbers");
+        double result = 0.0;
+        const auto [stop, fault] = std::from_chars(*begin == '+' ? begin + 1 : begin, end, result);
+        if (fault != std::errc() || stop != end)
+            fail(fmt::format("\"{}\" is not a number", std::string(begin, std::min(end, begin + 40))));
+        position_ += static_cast<std::size_t>(end - begin);
+        return result;
+    }
+    const std::uint64_t size = size_of(type);
+    if (left() < size) fail("the file ends inside its numbers");
+    std::array<char, 8> raw{};
+    std::memcpy(raw.data(), bytes_.data() + position_, size);
+    if (encoding_ == Encoding::big_endian) std::reverse(raw.data(), raw.data() + size);
+    position_ += size;
+    return decode(type, raw.data());
+}
+
+std::uint64_t PlySource::list_size(const PlyProperty& property) {
+    const double count = value(property.count_type);
+    if (!(count >= 0.0) || count != std::floor(count) ||
+        count * static_cast<double>(least_bytes(property.type)) > static_cast<double>(left() + 1))
+        fail(fmt::format("a list of {} items, for which the file is too short", count));
+    return static_cast<std::uint64_t>(count);
+}
+
+void PlySource::skip(const PlyProperty& property) {
+    const std::uint64_t count = property.is_list ? list_size(property) : 1;
+    for (std::uint64_t i = 0; i < count; ++i) value(property.type);
+}
+
+}  // namespace shadowbench::scene

@@ -1,0 +1,237 @@
+// Deep images: Interpreting OpenEXR Deep Pixels (Hillman, Welford 2013). A sample spans Z to ZBack (Z alone: a surface)
+// and takes alpha of the light.
+#include <OpenImageIO/deepdata.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "scene/limits.h"
+#include "scene/readers/deep_channels.h"
+#include "scene/readers/files.h"
+#include "scene/readers/read_image.h"
+
+namespace shadowbench::scene {
+namespace {
+
+// Alpha of half precision, filtered by a renderer, misses the range by less than this.
+constexpr float alpha_slack = 1e-2f;
+constexpr float farthest = static_cast<float>(max_coordinate);
+
+struct Sample {
+    float z_front, z_back;
+    std::array<float, 3> transmittance;
+};
+
+struct Part {
+    int number = 0;
+    std::string name;
+    bool deep = false;
+};
+
+std::vector<Part> list_parts(OIIO::ImageInput& input) {
+    std::vector<Part> parts;
+    for (int number = 0; input.seek_subimage(number, 0); ++number) {
+        const OIIO::ImageSpec spec = input.spec(number, 0);
+        parts.push_back({number, spec.get_string_attribute("oiio:subimagename"), spec.deep});
+    }
+    return parts;
+}
+
+std::string shown(const Part& part) {
+    return part.name.empty() ? fmt::format("{}", part.number) : fmt::format("{} \"{}\"", part.number, part.name);
+}
+
+std::string list(const std::vector<Part>& parts) {
+    std::string text;
+    for (const Part& part : parts)
+        if (part.deep) text += (text.empty() ? "" : ", ") + shown(part);
+    return text.empty() ? "none" : text;
+}
+
+bool is_meant(const Part& part, const DeepChoice& choice) {
+    if (const int* number = std::get_if<int>(&choice.part)) return part.number == *number;
+    if (const auto* name = std::get_if<std::string>(&choice.part)) return part.name == *name;
+    return part.deep;
+}
+
+int choose_part(OIIO::ImageInput& input, const DeepChoice& choice, const std::filesystem::path& file,
+                ReadNotes& notes) {
+    const std::vector<Part> parts = list_parts(input);
+    std::vector<Part> meant;
+    for (const Part& part : parts)
+        if (is_meant(part, choice)) meant.push_back(part);
+    const bool named = !std::holds_alternative<std::monostate>(choice.part);
+    if (meant.empty() && !named) refuse_image(file, "not a deep image");
+    if (meant.empty()) refuse_image(file, fmt::format("the \"part\" is not there; the deep ones are: {}", list(parts)));
+    if (meant.size() > 1)
+        refuse_image(file, fmt::format("{} parts {}: give \"part\", the number (or name) of one of: {}", meant.size(),
+                                       named ? "have this name" : "are deep images", list(parts)));
+    if (!meant[0].deep)
+        refuse_image(
+            file, fmt::format("the part {} is not a deep image; the deep ones are: {}", shown(meant[0]), list(parts)));
+    if (parts.size() > 1) notes.lines.push_back(fmt::format("of {} parts {} is read", parts.size(), shown(meant[0])));
+    return meant[0].number;
+}
+
+// Moves to the part.
+OIIO::ImageSpec open_part(OIIO::ImageInput& input, int part, const std::filesystem::path& file) {
+    OIIO::ImageSpec spec = input.spec(part, 0);
+    // Reading the pixels of a deep file with levels damages the heap in OpenImageIO 2.4.
+    if (spec.get_int_attribute("openexr:levelmode", 0) != 0 || input.seek_subimage(part, 1))
+        refuse_image(file, "a deep image with mip levels; only the plain kind is read");
+    const std::uint64_t pixels = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+    const std::uint64_t bytes = std::filesystem::file_size(file);
+    if (pixels > max_texels || pixels / max_values_per_byte > bytes)
+        refuse_image(file, fmt::format("{} x {} pixels in a file of {} bytes; the limit is {} pixels, and {} a byte",
+                                       spec.width, spec.height, bytes, max_texels, max_values_per_byte));
+    return spec;
+}
+
+Sample read_sample(const OIIO::DeepData& data, const DeepChannels& channels, std::int64_t pixel, int index) {
+    const float z = data.deep_value(pixel, channels.z, index);
+    Sample sample{z, channels.z_back < 0 ? z : data.deep_value(pixel, channels.z_back, index), {}};
+    for (std::size_t c = 0; c < 3; ++c)
+        sample.transmittance[c] = 1.0f - data.deep_value(pixel, channels.alpha[c], index);
+    return sample;
+}
+
+// Empty when nothing is wrong.
+std::string fault_of(const Sample& sample) {
+    if (std::isnan(sample.z_front) || std::isnan(sample.z_back)) return "a depth is not a number";
+    if (sample.z_front < -farthest) return fmt::format("Z {} is before {}", sample.z_front, -farthest);
+    for (const float transmittance : sample.transmittance) {
+        if (!std::isfinite(transmittance)) return "alpha is not finite";
+        if (transmittance < -alpha_slack || transmittance > 1.0f + alpha_slack)
+            return fmt::format("alpha {} is outside [0, 1]", 1.0f - transmittance);
+    }
+    return "";
+}
+
+// Makes samples what DeepImage promises, and counts what it changes.
+class Mender {
+public:
+    void mend(Sample& sample) {
+        if (sample.z_back < sample.z_front) {
+            sample.z_back = sample.z_front;
+            ++flat_;
+        }
+        bool clamped = false;
+        for (float& transmittance : sample.transmittance) {
+            const float within = std::clamp(transmittance, 0.0f, 1.0f);
+            clamped = clamped || within != transmittance;
+            transmittance = within;
+        }
+        clamped_ += clamped;
+        if (sample.z_back <= farthest) return;
+        ++far_;
+        // An endless stretch holds nothing near its front, however much it does in all, unless it lets nothing through.
+        const auto& through = sample.transmittance;
+        if (sample.z_front > farthest || std::find(through.begin(), through.end(), 0.0f) == through.end()) return;
+        for (float& transmittance : sample.transmittance) transmittance = transmittance == 0.0f ? 0.0f : 1.0f;
+        sample.z_back = sample.z_front;
+        --far_;
+        ++endless_;
+    }
+
+    void note(std::size_t samples, ReadNotes& notes) const {
+        const auto add = [&](std::uint64_t count, const std::string& what) {
+            if (count > 0) notes.lines.push_back(fmt::format("{} of {} samples {}", count, samples, what));
+        };
+        add(flat_, "have their ZBack before Z: taken as surfaces");
+        add(clamped_, "have an alpha just outside [0, 1]: taken as its nearer end");
+        add(far_, fmt::format("are at infinity, or reach beyond {}: they lie behind everything", max_coordinate));
+        add(endless_, "are opaque and reach to infinity: taken as surfaces");
+    }
+
+private:
+    std::uint64_t flat_ = 0, clamped_ = 0, far_ = 0, endless_ = 0;
+};
+
+// Three channels that are the same everywhere become one.
+void drop_equal_channels(DeepImage& image) {
+    std::vector<float>& t = image.transmittance;
+    for (std::size_t i = 0; i < t.size(); i += 3)
+        if (t[i] != t[i + 1] || t[i] != t[i + 2]) return;
+    for (std::size_t i = 0; i < t.size(); i += 3) t[i / 3] = t[i];
+    t.resize(t.size() / 3);
+    t.shrink_to_fit();
+    image.channels = 1;
+}
+
+DeepImage convert(const OIIO::DeepData& data, const OIIO::ImageSpec& spec, const DeepChannels& channels,
+                  const std::filesystem::path& file) {
+    const bool coloured = channels.alpha[0] != channels.alpha[1] || channels.alpha[0] != channels.alpha[2];
+    DeepImage image;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.channels = coloured ? 3 : 1;
+    image.begin.push_back(0);
+    const std::int64_t pixels = static_cast<std::int64_t>(spec.width) * spec.height;
+    std::uint64_t total = 0;
+    for (std::int64_t pixel = 0; pixel < pixels; ++pixel) total += static_cast<std::uint64_t>(data.samples(pixel));
+    if (total > max_deep_samples)
+        refuse_image(file, fmt::format("{} samples; the limit is {}", total, max_deep_samples));
+    image.begin.reserve(static_cast<std::size_t>(pixels) + 1);
+    image.z_front.reserve(total);
+    image.z_back.reserve(total);
+    image.transmittance.reserve(total * static_cast<std::uint64_t>(image.channels));
+
+    Mender mender;
+    std::vector<Sample> samples;
+    for (std::int64_t pixel = 0; pixel < pixels; ++pixel) {
+        samples.clear();
+        for (int i = 0; i < data.samples(pixel); ++i) {
+            Sample sample = read_sample(data, channels, pixel, i);
+            if (const std::string fault = fault_of(sample); !fault.empty())
+                refuse_image(file, fmt::format("pixel ({}, {}), sample {}: {}", pixel % spec.width, pixel / spec.width,
+                                               i, fault));
+            mender.mend(sample);
+            samples.push_back(sample);
+        }
+        std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
+            return a.z_front < b.z_front || (a.z_front == b.z_front && a.z_back < b.z_back);
+        });
+        for (const Sample& sample : samples) {
+            image.z_front.push_back(sample.z_front);
+            image.z_back.push_back(sample.z_back);
+            image.transmittance.insert(image.transmittance.end(), sample.transmittance.begin(),
+                                       sample.transmittance.begin() + image.channels);
+        }
+        image.begin.push_back(image.z_front.size());
+    }
+    if (coloured) drop_equal_channels(image);
+    mender.note(image.z_front.size(), image.notes);
+    return image;
+}
+
+}  // namespace
+
+DeepImage read_deep_image(const std::filesystem::path& file, const DeepChoice& choice) {
+    try {
+        const std::unique_ptr<OIIO::ImageInput> input = open_image(file);
+        ReadNotes notes;
+        const int part = choose_part(*input, choice, file, notes);
+        const OIIO::ImageSpec spec = open_part(*input, part, file);
+        const DeepChannels channels = find_deep_channels(spec.channelnames, choice.layer, file, notes);
+        OIIO::DeepData data;
+        if (!input->read_native_deep_image(part, 0, data))
+            refuse_image(file, "damaged or cut short: " + input->geterror());
+        DeepImage image = convert(data, spec, channels, file);
+        image.notes.lines.insert(image.notes.lines.begin(), notes.lines.begin(), notes.lines.end());
+        return image;
+    } catch (const base::Error&) {
+        throw;
+    } catch (const std::exception& fault) {
+        refuse_image(file, fmt::format("not a readable deep image: {}", fault.what()));
+    }
+}
+
+}  // namespace shadowbench::scene

@@ -1,0 +1,216 @@
+// The only file that includes OpenVDB: it takes long to compile.
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Dense.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "scene/limits.h"
+#include "scene/readers/densities.h"
+#include "scene/readers/files.h"
+#include "scene/readers/vdb_check.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& message) {
+    throw Error(ErrorCode::bad_input, file.string(), message);
+}
+
+// Number of voxels in a box, which must not be over the limit.
+double check_box(const openvdb::CoordBBox& box, std::uint64_t most_voxels, const std::filesystem::path& file) {
+    double voxels = 1.0;
+    for (int axis = 0; axis < 3; ++axis) voxels *= static_cast<double>(box.max()[axis]) - box.min()[axis] + 1.0;
+    if (voxels > static_cast<double>(most_voxels))
+        fail(file, fmt::format("the active box has {} voxels; the limit is {}", voxels, most_voxels));
+    return voxels;
+}
+
+openvdb::FloatGrid::Ptr read_grid(const std::filesystem::path& file, const VdbGrid& grid) {
+    openvdb::io::File vdb(file.string());
+    vdb.open(false);
+    const openvdb::FloatGrid::Ptr result = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(grid.library_name));
+    if (!result) fail(file, fmt::format("the grid \"{}\" is not float", shown(grid)));
+    if (result->getGridClass() == openvdb::GRID_LEVEL_SET)
+        fail(file, fmt::format("the grid \"{}\" is a level set, not a fog volume", shown(grid)));
+    return result;
+}
+
+// The world axis along which each of the grid's runs, and whether it runs backwards.
+struct Axes {
+    std::array<int, 3> to{0, 1, 2};
+    std::array<bool, 3> mirrored{false, false, false};
+
+    bool as_they_are() const { return to == std::array{0, 1, 2} && mirrored == std::array{false, false, false}; }
+};
+
+// What is left of right angles by float matrices and short values of pi: entries next to the one of the axis, relative
+// to it, and how far they move a voxel of the box at most, in voxels.
+constexpr double most_skew = 1e-5, most_shift = 0.1;
+
+Axes find_axes(const openvdb::math::Transform& transform, const openvdb::Coord& size,
+               const std::filesystem::path& file) {
+    if (!transform.isLinear()) fail(file, "the grid is not a box in the world: its transform is a frustum");
+    const openvdb::math::Mat4d matrix = transform.baseMap()->getAffineMap()->getMat4();  // row i: a step along axis i
+    Axes axes;
+    for (int i = 0; i < 3; ++i)
+        for (int world = 0; world < 3; ++world) {
+            if (!std::isfinite(matrix[i][world])) fail(file, "the grid's transform is not finite");
+            int& to = axes.to[static_cast<std::size_t>(i)];
+            if (std::abs(matrix[i][world]) > std::abs(matrix[i][to])) to = world;
+        }
+    const auto along = [&](int i) { return matrix[i][axes.to[static_cast<std::size_t>(i)]]; };
+    bool skew = false;
+    for (int i = 0; i < 3; ++i) {
+        if (along(i) == 0.0) fail(file, "the grid's transform flattens it");
+        axes.mirrored[static_cast<std::size_t>(i)] = along(i) < 0.0;
+        for (int k = 0; k < 3; ++k) {
+            if (k == i) continue;
+            const double beside = std::abs(matrix[i][axes.to[static_cast<std::size_t>(k)]]);
+            skew =
+                skew || beside > most_skew * std::abs(along(i)) || beside * size[i] > most_shift * std::abs(along(k));
+        }
+    }
+    if (skew)
+        fail(file,
+             "the grid's transform shears it or turns it by other than right angles, where only axes that are "
+             "swapped or mirrored are read: resample it to the world's axes in the program that wrote it");
+    return axes;
+}
+
+// x fastest along the world's axes. A slab of the grid at a time, so that turning it takes little memory.
+void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& box, const Axes& axes,
+                    GridVolume& volume) {
+    using Dense = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
+    if (axes.as_they_are()) {
+        Dense dense(box, volume.density.data());
+        openvdb::tools::copyToDense(grid, dense);
+        return;
+    }
+    const openvdb::Coord size = box.dim();
+    const std::array<std::ptrdiff_t, 3> strides{1, volume.size.x, std::ptrdiff_t{volume.size.x} * volume.size.y};
+    std::array<std::ptrdiff_t, 3> step{};
+    std::ptrdiff_t first = 0;  // where the voxel at the box's lower corner goes
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::ptrdiff_t stride = strides[static_cast<std::size_t>(axes.to[i])];
+        step[i] = axes.mirrored[i] ? -stride : stride;
+        if (axes.mirrored[i]) first += stride * (size[static_cast<int>(i)] - 1);
+    }
+    constexpr int thick = 8;  // voxels, as leaves are
+    std::vector<float> slab;
+    for (int z = 0; z < size.z(); z += thick) {
+        const int layers = std::min(thick, size.z() - z);
+        const openvdb::Coord lower = box.min().offsetBy(0, 0, z);
+        slab.resize(static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()) *
+                    static_cast<std::size_t>(layers));
+        Dense dense({lower, {box.max().x(), box.max().y(), lower.z() + layers - 1}}, slab.data());
+        openvdb::tools::copyToDense(grid, dense);
+        const float* from = slab.data();
+        for (int k = z; k < z + layers; ++k)
+            for (int j = 0; j < size.y(); ++j)
+                for (int i = 0; i < size.x(); ++i)
+                    volume.density[static_cast<std::size_t>(first + i * step[0] + j * step[1] + k * step[2])] = *from++;
+    }
+}
+
+GridVolume convert(const openvdb::FloatGrid& grid, std::uint64_t most_voxels, const std::filesystem::path& file) {
+    const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+    if (box.empty()) fail(file, "the grid has no active voxels");
+    const double voxels = check_box(box, most_voxels, file);
+    const openvdb::Coord size = box.dim();
+    const Axes axes = find_axes(grid.transform(), size, file);
+
+    GridVolume volume;
+    for (std::size_t i = 0; i < 3; ++i) volume.size[axes.to[i]] = size[static_cast<int>(i)];
+    volume.density.resize(static_cast<std::size_t>(voxels));
+    copy_densities(grid, box, axes, volume);
+
+    // Index coordinates are voxel centres.
+    const openvdb::Vec3d half(0.5);
+    const openvdb::Vec3d first = grid.transform().indexToWorld(box.min().asVec3d() - half);
+    const openvdb::Vec3d last = grid.transform().indexToWorld(box.max().asVec3d() + half);
+    for (int axis = 0; axis < 3; ++axis) {
+        volume.lower[axis] = std::min(first[axis], last[axis]);
+        volume.upper[axis] = std::max(first[axis], last[axis]);
+    }
+    return volume;
+}
+
+void check_values(GridVolume& volume, Negative negative, const std::filesystem::path& file) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(volume.lower[axis]) <= max_coordinate) || !(std::abs(volume.upper[axis]) <= max_coordinate) ||
+            !(volume.upper[axis] - volume.lower[axis] >= min_length))
+            fail(file,
+                 fmt::format("the grid's world box runs from {} to {} along an axis; both must be finite, at most {} "
+                             "from 0 and {} apart at least: mend its transform",
+                             volume.lower[axis], volume.upper[axis], max_coordinate, min_length));
+    for (const float density : volume.density) {
+        if (!(std::abs(density) <= static_cast<float>(max_coordinate)))
+            fail(file, fmt::format("the grid has the density {}, which is not a finite number of at most {}", density,
+                                   max_coordinate));
+        if (density < 0.0f && negative == Negative::refuse) fail(file, negative_refused(density));
+    }
+    clamp_negatives(volume.density, volume.notes);
+}
+
+void note_choice(const VdbGrid& grid, const openvdb::FloatGrid& source, GridVolume& volume) {
+    constexpr std::size_t most_names = 8;
+    const std::size_t others = grid.passed_over.size(), named = std::min(others, most_names);
+    if (others > 0)
+        volume.notes.lines.push_back(fmt::format(
+            "the grid \"{}\" is read and {} passed over: {}{}", shown(grid), others,
+            fmt::join(grid.passed_over.begin(), grid.passed_over.begin() + static_cast<std::ptrdiff_t>(named), ", "),
+            named < others ? ", ..." : ""));
+    else if (grid.name != usual_grid)
+        volume.notes.lines.push_back(fmt::format("the grid \"{}\" is read, the only one", shown(grid)));
+    if (source.background() > 0.0f)
+        volume.notes.lines.push_back(
+            fmt::format("the grid's background is {}, but outside the box of its active voxels "
+                        "there is no density",
+                        source.background()));
+}
+
+}  // namespace
+
+GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, Negative negative,
+                    std::uint64_t most_voxels) {
+    static std::once_flag once;
+    std::call_once(once, [] { openvdb::initialize(); });
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+        throw Error(ErrorCode::no_such_file, file.string(), "there is no such file");
+    if (std::filesystem::is_regular_file(file, ignored) && std::filesystem::file_size(file, ignored) == 0)
+        fail(file, "the file is empty");
+    try {
+        const VdbGrid chosen = check_vdb(file, grid);
+        const openvdb::FloatGrid::Ptr source = read_grid(file, chosen);
+        GridVolume volume = convert(*source, most_voxels, file);
+        note_choice(chosen, *source, volume);
+        check_values(volume, negative, file);
+        return volume;
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        fail(file, "the file is damaged or too large: there is not enough memory for what it says it holds");
+    } catch (const std::ios_base::failure&) {
+        fail(file, "the file is cut short or damaged");
+    } catch (const std::exception& fault) {  // openvdb::Exception, and what a damaged file makes the library throw
+        fail(file, fmt::format("not a readable OpenVDB file: {}", fault.what()));
+    }
+}
+
+}  // namespace shadowbench::scene

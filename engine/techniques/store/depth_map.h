@@ -1,0 +1,38 @@
+// The nearest depth of every cell: what shadow_map, pcf and multi_depth build from. Williams 1978; Reeves, Salesin,
+// Cook 1987, section 3.1.
+#pragma once
+
+#include <vector>
+
+#include "techniques/store/depth_store.h"
+
+namespace shadowbench::techniques {
+
+// Under construction: `no_depth` where a ray crosses nothing. Whatever transmits less than everything counts as opaque;
+// a medium counts from where it begins.
+struct DepthMap {
+    Cells kind = Cells::sample;
+    rays::MapLayout layout;
+    CellGrid grid;
+    std::vector<float> depth;  // row after row
+
+    void begin(const rays::MapLayout& map_layout);
+    void add(const rays::LightRays& tile);
+};
+
+// A map of one stored depth a cell, for those that keep no more.
+struct StoredDepths {
+    DepthMap map;  // empty once finished
+    Storage way = Storage::raw;
+    DepthStore store;
+
+    explicit StoredDepths(const ParameterValues& values);
+    void finish();
+    std::size_t working_bytes() const;  // the map and what is kept of it, before the map goes
+    void stored(int x, int y, curves::Curve& out) const;
+};
+
+// The function of sorted depths: a step of 1/n down at each, none at no_depth.
+void steps_of(const float* depths, int n, curves::Curve& out);
+
+}  // namespace shadowbench::techniques

@@ -1,0 +1,116 @@
+// The usual storage, whole: one texel a cell, each of the same number of floats, and lookups that filter over texels.
+// A technique of this kind is a class Own : TexelMap<Own> that says what stands in a texel. It gives
+//
+//   explicit Own(const ParameterValues&)                hands the values on to TexelMap
+//   static int floats_a_texel(const ParameterValues&)
+//   void add(const rays::LightRays&) override           fills the texels of a tile, with for_each_texel
+//   prepare(float z) const                              what an evaluation needs of a depth; made once a lookup
+//   float evaluate(texel, prepared) const               the visibility that a texel gives
+//   int nodes_of(const float* texel) const              0: nothing is in its way
+//   static constexpr int most_own_depths
+//   int own_depths(const float* texel, float* out) const    the depths, sorted, that stored() samples its function at
+//                                                           beside those it is given; their number
+//
+// and overrides what is otherwise with it: one that overrides stored() needs no own depths. Row fields:
+// create_map<Own>, Own::least_bytes, texel_traits().
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "techniques/store/texels.h"
+
+namespace shadowbench::techniques {
+
+// Of the parameters filter_parameter and cells_parameter.
+inline Traits texel_traits() {
+    return {.pointwise = {{"filter", "point"}}, .whole_pixel = {{"filter", "footprint"}, {"cells", "sample"}}};
+}
+
+template <class Own>
+class TexelMap : public Map {
+public:
+    // Not 0: a filter is of the texels' floats, so many, and `evaluate` is asked once, with their means as doubles.
+    // 0: `evaluate` is asked for each texel, and the filter is of its answers.
+    static constexpr int filtered_floats = 0;
+
+    static constexpr int most_own_depths = 0;
+    int own_depths(const float*, float*) const { return 0; }
+
+    static std::size_t least_bytes(const ParameterValues& values, const rays::MapLayout& layout) {
+        return Texels::bytes(values, layout, Own::floats_a_texel(values));
+    }
+
+    void begin(const BuildInput& input) override { allocate(input.layout); }
+    void finish() override {}
+
+    void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
+        const auto prepare = [this](float z) { return own().prepare(z); };
+        const auto evaluate = [this](const auto* texel, const auto& prepared) {
+            return own().evaluate(texel, prepared);
+        };
+        if constexpr (Own::filtered_floats > 0)
+            texels_.template lookup_means<Own::filtered_floats>(queries, visibility, prepare, evaluate);
+        else
+            texels_.lookup(queries, visibility, prepare, evaluate);
+    }
+    void touched(const Query& query, std::vector<const void*>& lines) const override {
+        const std::size_t before = lines.size();
+        texels_.for_each(query, [&](std::size_t cell, double) {
+            touch_lines(texels_.at(cell), sizeof(float) * texels_.stride, lines);
+        });
+        keep_unique(lines, before);
+    }
+
+    std::size_t bytes() const override { return texels_.bytes(); }
+    std::size_t working_bytes() const override { return texels_.bytes(); }
+    NodeStats nodes() const override {
+        NodeStats stats;
+        for (std::size_t cell = 0; cell < texels_.grid.count(); ++cell)
+            stats.add(static_cast<std::uint32_t>(own().nodes_of(texels_.at(cell))));
+        return stats;
+    }
+    Cells cells() const override { return texels_.kind; }
+    void stored(int x, int y, int, std::span<const float> depths, curves::Curve& out) const override {
+        out.clear();
+        const float* texel = texels_.at(texels_.grid.index(x, y));
+        if (own().nodes_of(texel) == 0) return;
+        std::array<float, Own::most_own_depths> depth;
+        const auto count = static_cast<std::size_t>(own().own_depths(texel, depth.data()));
+        sample_function(
+            std::span(depth).first(count), depths, [&](float z) { return own().evaluate(texel, own().prepare(z)); },
+            out);
+    }
+
+protected:
+    explicit TexelMap(const ParameterValues& values) : texels_(values), floats_(Own::floats_a_texel(values)) {}
+
+    void allocate(const rays::MapLayout& layout) {
+        layout_ = layout;
+        texels_.allocate(layout_, floats_);
+    }
+
+    // Calls visit(texel, cell, ray) for every texel that a tile fills. Where a texel stands for a whole pixel, `ray` is
+    // the first ray of the pixel, and those that follow are the others.
+    template <class Visit>
+    void for_each_texel(const rays::LightRays& tile, const Visit& visit) {
+        const std::size_t each = rays_a_texel(tile);
+        for_each_cell(layout_, texels_.grid, texels_.kind, tile, [&](std::size_t cell, std::size_t ray) {
+            visit(texels_.at(cell), cell, each == 1 ? ray : ray / each * each);
+        });
+    }
+    std::size_t rays_a_texel(const rays::LightRays& tile) const {
+        return texels_.kind == Cells::pixel ? static_cast<std::size_t>(tile.samples) : 1;
+    }
+
+    Texels texels_;
+    rays::MapLayout layout_;
+
+private:
+    const Own& own() const { return static_cast<const Own&>(*this); }
+
+    int floats_;
+};
+
+}  // namespace shadowbench::techniques
