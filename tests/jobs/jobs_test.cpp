@@ -94,6 +94,15 @@ TEST_F(JobQueue, PassesOnWhyAJobFailedWithoutPathsOfTheMachine) {
     EXPECT_EQ(other.fault->message, "the job's process ended with exit code 9: result.json is odd");
 }
 
+TEST_F(JobQueue, SaysWhyItsProgramCannotBeStarted) {
+    write_executable(program, "\x7f no program");
+    start();
+    const JobInfo job = run("");
+    EXPECT_EQ(job.state, JobState::failed);
+    ASSERT_TRUE(job.fault);
+    EXPECT_EQ(job.fault->message, "the program cannot be started: Exec format error");
+}
+
 TEST_F(JobQueue, OutlivesWhateverAProcessSays) {
     start();
     const JobInfo job =
