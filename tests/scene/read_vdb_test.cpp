@@ -95,7 +95,8 @@ TEST(ReadVdb, TakesAGridByItsNumberAndRefusesANameThatSeveralHave) {
     const auto confusing = write(grids);
     EXPECT_EQ(read_vdb(confusing, 0).density[1], 2.0f);
     EXPECT_EQ(read_vdb(confusing, 3).density[1], 70.0f);
-    EXPECT_THAT(error_of([&] { read_vdb(confusing, 2); }).message(), HasSubstr("cannot be told from"));
+    EXPECT_THAT(error_of([&] { read_vdb(confusing, 2); }).message(),
+                HasSubstr("has a name that other grids share or hide"));
     for (const int number : {-1, 4})
         EXPECT_THAT(error_of([&] { read_vdb(confusing, number); }).message(), HasSubstr("no grid number"));
 }
