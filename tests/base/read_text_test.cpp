@@ -47,7 +47,7 @@ TEST(ReadText, OtherEncodingsAreRefused) {
     std::filesystem::remove(file);
 }
 
-TEST(ReadText, FoldersAndMissingFilesAreToldApart) {
+TEST(ReadText, FoldersAndMissingFilesGiveDifferentErrors) {
     const auto code = [](const std::filesystem::path& file) {
         try {
             read_text(file);

@@ -74,7 +74,7 @@ TEST(Visibility, BehindOpaqueSurfacesIsExactlyZero) {
         for (auto& ray : segments) ray.push_back({20, 20, 0.0f});
         EXPECT_EQ(visibility_of(make_rays(segments, false)).back().value, 0.0f);
         EXPECT_EQ(visibility_of(make_rays(segments, true)).back().value, 0.0f);
-        segments[0].push_back({1, 30, 0.5f});  // and so on the general path
+        segments[0].push_back({1, 30, 0.5f});  // which takes the general path
         EXPECT_EQ(visibility_of(make_rays(segments, true)).back().value, 0.0f);
     }
 }
@@ -145,7 +145,7 @@ TEST(Visibility, WithoutLinearisationIsExactAtTheEndsOfSegments) {
     EXPECT_EQ(out, (Curve{{1, 1}, {3, 0.25f}}));
 }
 
-TEST(Visibility, TakesTheRaysAskedForAlone) {
+TEST(Visibility, TakesOnlyTheChosenRays) {
     const auto rays = make_rays({{{1, 1, 0}}, {{2, 2, 0.5f}}, {{3, 3, 0}}}, false);
     SweepScratch scratch;
     Curve out;
@@ -187,7 +187,7 @@ TEST(Visibility, OfWeightedSurfacesIsTheWeightedMeanOnBothSidesOfEveryStep) {
     }
 }
 
-// Rounded weights must not leave a glow behind what is opaque.
+// Rounded weights must not leave a glow behind opaque surfaces.
 TEST(Visibility, BehindWeightedOpaqueSurfacesIsExactlyZero) {
     base::Random random(10);
     std::vector<std::vector<Segment>> segments = hair(random, 49, 10, 0.5);

@@ -185,7 +185,7 @@ TEST(Capture, HairAroundASpotAndThroughItsNearPlaneIsNotLost) {
     }
 }
 
-TEST(Tracer, TheNearestHairTellsItsDirectionAndASurfaceNone) {
+TEST(Tracer, TheNearestHairHasADirectionAndASurfaceHasNone) {
     scene::Hair hair;
     hair.points = {{-1, 0, -1}, {1, 0, 1}};
     hair.radii = {0.1f, 0.1f};

@@ -55,7 +55,7 @@ TEST(AvsmStream, TheOrderOfSegmentsDoesNotMatterWhileEverythingFits) {
     for (int i = 0; i < 50; ++i) {
         for (std::size_t k = segments.size(); k > 1; --k) std::swap(segments[k - 1], segments[random.below(k)]);
         const auto found = run(64, segments);
-        // Nodes at one depth may come about differently: the function is what counts.
+        // Nodes at one depth may arise differently: only the function counts.
         curves::Curve a, b;
         for (const auto& [z, t] : expected) a.push_back({z, t});
         for (const auto& [z, t] : found) b.push_back({z, t});
@@ -123,7 +123,7 @@ TEST(AvsmStream, NeverHoldsMoreThanItsNodesAndKeepsFirstAndLast) {
         }
 }
 
-// The same of nasty segments in the order in which they are drawn, after each of them, and of values alone.
+// The same for nasty segments in the order in which they are drawn, checked after each of them, and for values only.
 template <Sampling sampling>
 void check_stream(int capacity, const std::vector<Segment>& segments) {
     constexpr float far = 1e32f;

@@ -1,4 +1,4 @@
-// A deep shadow map written to a file and read through a cache answers as the map in memory, to the bit.
+// A deep shadow map written to a file and read through a cache gives the same bits as the map in memory.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -18,7 +18,7 @@ bool same_bits(std::span<const float> a, std::span<const float> b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-// As published compression may; the file cannot hold that.
+// Published compression may leave [0, 1], which the file cannot hold.
 bool leaves_the_unit_range(std::span<const DeepLevel> levels) {
     for (const DeepLevel& level : levels)
         for (std::size_t p = 0; p + 1 < level.offsets.size(); ++p)
@@ -53,7 +53,7 @@ RC_GTEST_PROP(DeepFileLookup, AnswersAsTheMapInMemory, ()) {
     for (const float z : testing::telling_depths(given))
         queries.push_back({static_cast<float>(random.uniform(-0.2, given.width)),
                            static_cast<float>(random.uniform(-0.2, given.height)), z,
-                           static_cast<float>(random.uniform(0, mip ? 1.5 : 5))});  // so wide that level 0 is asked
+                           static_cast<float>(random.uniform(0, mip ? 1.5 : 5))});  // so wide that lookups read level 0
     std::vector<float> answers(queries.size() * static_cast<std::size_t>(made.map->channels()));
     lookup(cache, 0, queries, answers);
     RC_ASSERT(same_bits(answers, made.lookup(queries)));

@@ -11,7 +11,7 @@
 
 namespace shadowbench::techniques::testing {
 
-// A map of one ray a pixel that meets one opaque surface at this depth, or nothing (no_depth).
+// A map of one ray per pixel that meets one opaque surface at this depth, or nothing (no_depth).
 struct DepthsMap {
     rays::MapLayout layout;
     rays::LightView view;

@@ -1,4 +1,4 @@
-// Light rays that the contract of rays/light_rays.h allows and no scene should bring: every row keeps its promises.
+// Light rays that the contract of rays/light_rays.h allows and no scene should contain: every row keeps its promises.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ float next(float z) {
 
 // Transmittance of a ray up to each of some depths, from optical depths in long double.
 std::vector<double> exact(const Segments& segments, const std::vector<float>& depths) {
-    std::vector<long double> all, inside;  // optical depth of the whole segment, and of what it counts as inside of it
+    std::vector<long double> all, inside;  // optical depth of the whole segment, and what counts inside it
     for (const Segment& s : segments) {
         all.push_back(-std::log(static_cast<long double>(s.through)));
         inside.push_back(-std::log(static_cast<long double>(std::max(s.through, std::numeric_limits<float>::min()))));
@@ -63,7 +63,7 @@ struct HardRay {
 
     const char* name;
     Segments segments;
-    std::vector<float> depths;  // where it is asked, from -infinity to infinity
+    std::vector<float> depths;  // the depths of the queries, from -infinity to infinity
     std::vector<double> truth;  // the transmittance there
 };
 
@@ -184,7 +184,7 @@ TEST_P(HostileRays, AnswersNeverRiseNorLeaveTheRange) {
         std::vector<Query> queries;
         for (const float z : depths) queries.push_back({0.5f, 0.5f, z, 0.0f});
         const std::vector<float> answers = made.lookup(queries);
-        const bool draws = row().traits.draws_samples;  // at places of its own for each depth
+        const bool draws = row().traits.draws_samples;  // at other positions for each depth
         for (std::size_t i = 0; i < answers.size(); ++i) {
             ASSERT_TRUE(answers[i] >= least && std::isfinite(answers[i])) << text(values, ray) << " at " << depths[i];
             if (promised.unit_range) {

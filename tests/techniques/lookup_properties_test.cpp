@@ -1,4 +1,4 @@
-// What a lookup of one cell answers is the function that the map says it stores, for random rays.
+// A lookup of one cell answers with the function that the map says it stores, for random rays.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -26,7 +26,7 @@ Query middle(const rays::MapLayout& layout, Cells cells, int x, int y) {
     return {(static_cast<float>(x) + 0.5f) / nx, (static_cast<float>(y) + 0.5f) / ny, 0.0f, 0.0f};
 }
 
-// At depths on both sides of every step, in every channel; `slack` is for means that are counted otherwise.
+// At depths on both sides of every step, in every channel; `slack` is for means that are computed otherwise.
 void check_cell(const HandMap& made, const std::vector<float>& depths, int x, int y, float slack) {
     std::vector<Query> queries(depths.size(), middle(made.layout, made.map->cells(), x, y));
     for (std::size_t i = 0; i < depths.size(); ++i) queries[i].z = depths[i];
@@ -94,7 +94,7 @@ TEST_P(LookupProperties, AnswerAsTheStoredFunctionOfGivenFunctions) {
     });
 }
 
-// Whatever the filters and the rays are, near and far from the map.
+// Whatever the filters and the rays are, near the map and far from it.
 TEST_P(LookupProperties, AnswersStayInTheirRange) {
     if (row().traits.traces) return;  // sees a scene, not these rays
     const std::vector<ParameterValues> settings = testing::variants(row());

@@ -84,7 +84,7 @@ TEST(SearchRegion, IsASquareAroundTheCellItself) {
     for (const Offset& o : search_region(5)) EXPECT_LE(std::abs(o.x) + std::abs(o.y), 1) << "those with a common side";
 }
 
-// Every cell against the neighbours looked up one by one, at tiles' and the map's borders as anywhere.
+// Every cell compared with its neighbours looked up one by one, also at the borders of tiles and of the map.
 TEST(MultiDepth, MaximumAndMinimumAreThoseOfTheNeighbourhood) {
     constexpr int width = 40, height = 34;
     const std::vector<float> base = patchy_depths(width, height, 3);

@@ -129,7 +129,7 @@ TEST(VolumeDeep, AnOpaqueWallIsBlackBehindItsStep) {
 }
 
 TEST(VolumeDeep, TheStepsAreItsOwn) {
-    // The same medium in one segment, and in pieces that have nothing to do with the steps.
+    // The same medium in one segment, and in pieces that do not match the steps.
     std::vector<Segment> pieces;
     for (int i = 0; i < 97; ++i)
         pieces.push_back({2 + 6 * static_cast<float>(i) / 97, 2 + 6 * static_cast<float>(i + 1) / 97,
@@ -154,7 +154,7 @@ TEST(VolumeDeep, ATexelIsFourFloats) {
     EXPECT_EQ(slab(1).map->bytes(), 16u);
 }
 
-// What is stored where a threshold is never reached is the maximum opacity, at a depth of the ray.
+// If a threshold is never reached, the texel stores the maximum opacity, at a depth of the ray.
 RC_GTEST_PROP(VolumeDeep, AThresholdThatIsNeverReachedActsAsTheMaximum, ()) {
     const testing::HandRays given{1, 1, 1, {*testing::any_segments()}};
     const Technique& row = find("volume_deep", "");
