@@ -159,9 +159,9 @@ void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double sc
             if (before < 0.0) before = density(index);
         }
         const double next = place(i + 1);
-        const double here = density(way.start + way.slope * next);
-        joiner.add(s, next, 0.5 * (before + here) * (next - s) * scale);
-        before = here;
+        const double behind = density(way.start + way.slope * next);
+        joiner.add(s, next, 0.5 * (before + behind) * (next - s) * scale);
+        before = behind;
     }
     joiner.gap(way.length);
 }

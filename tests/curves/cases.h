@@ -167,8 +167,8 @@ inline Curve channel(const std::vector<ColourVertex>& vertices, int c) {
     return curve;
 }
 
-// What rounding may add to an error: one unit in the last place of the largest value; and what compress() allows
-// itself at its end, which only functions as faint as that can tell.
+// The error that rounding may add: one unit in the last place of the largest value, and the slack of compress() at its
+// end, which matters only for functions as faint as it is.
 inline double rounding_of(CurveView curve) {
     return 0x1p-24 * (curve.empty() ? 1.0f : curve.front().value) + 0x1p-48;
 }

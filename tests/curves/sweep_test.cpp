@@ -14,7 +14,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Curve visibility_of(const rays::LightRays& rays, double linearisation = 1e-4) {
     SweepScratch scratch;
-    Curve out{{9, 9}};  // what is there is replaced
+    Curve out{{9, 9}};  // existing vertices are replaced
     visibility(rays, 0, rays.rays(), linearisation, scratch, out);
     return out;
 }
@@ -286,8 +286,8 @@ TEST(WeightedSum, OfTermsThatDoNotRiseNeverRisesByRounding) {
     base::Random random(8);
     for (int round = 0; round < 300; ++round) {
         std::vector<Curve> curves(3);
-        const float far = cases::number(random, 1e5, 1e6);
-        for (float z = far, value = 1.0f; curves[0].size() < 60; z = std::nextafter(z, 2e6f)) {
+        const float far_depth = cases::number(random, 1e5, 1e6);
+        for (float z = far_depth, value = 1.0f; curves[0].size() < 60; z = std::nextafter(z, 2e6f)) {
             curves[0].push_back({z, value});
             value *= cases::number(random, 0.5, 1.0);
         }

@@ -141,13 +141,13 @@ TEST(Motion, AWallThatComesTowardsTheLightShadesEachDepthForItsShareOfTheShutter
     scene.objects[0].motion = {0, 0, 1};
     for (const auto& light : {testing::directional(), testing::spot({0, 0, 2}, 40)}) {
         const Captured c = capture(scene, light, testing::rays(8, 64));
-        const double far = to_light(c.view, {0, 0, -0.5}).z;
+        const double far_depth = to_light(c.view, {0, 0, -0.5}).z;
         for (const LightRays& tile : c.tiles)
             for (int pixel = 0; pixel < tile.width * tile.height; ++pixel)
                 for (const double before : {-0.1, 0.0, 0.25, 0.6, 1.0, 1.1}) {  // how far before the farthest place
                     double sum = 0.0;
                     for (int s = 0; s < 64; ++s)
-                        sum += transmittance(tile, static_cast<std::size_t>(pixel) * 64 + s, 0, far - before);
+                        sum += transmittance(tile, static_cast<std::size_t>(pixel) * 64 + s, 0, far_depth - before);
                     // Lit until the wall comes as near as the query's depth.
                     EXPECT_NEAR(sum / 64, std::clamp(before, 0.0, 1.0), 1.0 / 64 + 1e-6);
                 }

@@ -128,7 +128,7 @@ TEST(Surfaces, HaveTheirTexturesOpacity) {
     EXPECT_EQ(hits_along_z(scene, 0.75, 0.1).size(), 1u) << "texel and object opaque: the ray ends";
 }
 
-// Of everything together, what passes the surfaces is what the segments let through.
+// In a scene with every kind of surface, the surfaces together transmit as much as the segments.
 TEST(Surfaces, LetThroughWhatAllSegmentsDo) {
     scene::Scene scene;
     scene.objects = {testing::curly_hair(200, 20, 0.03f, 2), with(scene::Spheres{{{0.2f, 0, 0}}, {0.6f}}, Vec3f(0.2f)),

@@ -52,7 +52,7 @@ openvdb::math::Mat4d matrix_of(const std::array<int, 3>& order, const std::array
     return matrix;
 }
 
-// Trilinear between voxel centres, at places whose eight neighbours are there.
+// Trilinear between voxel centres, at positions with all eight neighbours.
 template <class Value>
 double trilinear(const std::array<double, 3>& index, const Value& value) {
     double sum = 0.0;

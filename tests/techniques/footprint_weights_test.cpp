@@ -193,13 +193,13 @@ TEST_P(FootprintWeightsOfTexels, AreThePartsOfTheTexels) {
     for (const char* cells : {"sample", "centre"})
         for (const int samples : {1, 4, 6}) {
             json parameters{{"cells", cells}, {"filter", "footprint"}};
-            const auto made = [&] {
+            const auto build_map = [&] {
                 return build(find(GetParam(), ""), testing::hairy_scene(true), directional(),
                              oblong(width, height, samples), parameters.dump().c_str());
             };
-            const Built b = made();
+            const Built b = build_map();
             parameters["filter"] = "point";
-            const Built point = made();
+            const Built point = build_map();
             const auto& layout = b.rays.layout;
             const bool each = b.map->cells() == Cells::sample;
             const int nx = each ? layout.samples_x : 1, ny = each ? layout.samples_y : 1;

@@ -107,14 +107,14 @@ struct HandMap {
 // Rows that are not `coloured` see only the first channel.
 inline HandMap make_map(const Technique& row, const ParameterValues& values, const rays::LightRays& given,
                         const rays::MapLayout& layout, const rays::Tracer* tracer = nullptr) {
-    HandMap made{layout, {}, row.create(values)};
-    made.view.resolution = {layout.width, layout.height};
-    made.layout.apron = made.map->needs().apron;  // the tile is the whole map
-    if (!row.coloured) made.layout.channels = 1;
-    made.map->begin({made.layout, made.view, tracer, 0});
-    made.map->add(row.coloured ? given : rays::channel(given, 0));
-    made.map->finish();
-    return made;
+    HandMap built{layout, {}, row.create(values)};
+    built.view.resolution = {layout.width, layout.height};
+    built.layout.apron = built.map->needs().apron;  // the tile is the whole map
+    if (!row.coloured) built.layout.channels = 1;
+    built.map->begin({built.layout, built.view, tracer, 0});
+    built.map->add(row.coloured ? given : rays::channel(given, 0));
+    built.map->finish();
+    return built;
 }
 
 inline HandMap make_map(const Technique& row, const ParameterValues& values, const HandRays& given) {

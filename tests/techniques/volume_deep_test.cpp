@@ -161,21 +161,21 @@ RC_GTEST_PROP(VolumeDeep, AThresholdThatIsNeverReachedActsAsTheMaximum, ()) {
     ParameterValues values = testing::defaults(row);
     values.values["steps"] = static_cast<double>(*rc::gen::element(512, 1, 2, 33));
     if (*rc::gen::arbitrary<bool>()) values.values["interpolation"] = std::string("bucket");
-    const testing::HandMap made = make_map(row, values, given);
+    const testing::HandMap built = make_map(row, values, given);
     double through = 1.0;
     for (const Segment& s : given.rays[0]) through *= s.through;
-    const float left = made({0.5f, 0.5f, INFINITY, 0.0f}), most = 1.0f - left;
+    const float left = built({0.5f, 0.5f, INFINITY, 0.0f}), most = 1.0f - left;
     RC_ASSERT(std::abs(left - through) <= 1e-6);
 
     curves::Curve stored;
-    made.map->stored(0, 0, 0, {}, stored);
+    built.map->stored(0, 0, 0, {}, stored);
     RC_ASSERT(!stored.empty() || left == 1.0f);
     if (stored.empty()) return;
     RC_ASSERT(curves::is_visibility(stored));
     RC_ASSERT(stored.front().value == 1.0f);
     RC_ASSERT(stored.back().value == left);
-    RC_ASSERT(stored.front().z >= made.layout.z_min);
-    RC_ASSERT(stored.back().z <= made.layout.z_max);
+    RC_ASSERT(stored.front().z >= built.layout.z_min);
+    RC_ASSERT(stored.back().z <= built.layout.z_max);
     RC_ASSERT(stored.size() % 2 == 0u);
     if (most < 0.1f) RC_ASSERT(stored.size() == 2u);
     // Before the last depth nothing is darker than the last threshold that was reached.
