@@ -1,4 +1,4 @@
-// Sums and products in double whose rounding errors are kept and put back. Needs strict IEEE arithmetic (no
+// Sums and products in double that keep their rounding errors and add them back. They need strict IEEE arithmetic (no
 // -ffast-math).
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace shadowbench::base {
 
-// A running sum: terms that are added and later taken away leave nothing. Neumaier, Rundungsfehleranalyse einiger
+// A running sum: adding terms and taking them away again leaves nothing. Neumaier, Rundungsfehleranalyse einiger
 // Verfahren zur Summation endlicher Summen (1974), with Knuth's branch-free two-sum.
 class CompensatedSum {
 public:
@@ -27,14 +27,14 @@ private:
     double error_ = 0.0;
 };
 
-// A running product of floats, each finite. Ogita, Rump and Oishi, Accurate sum and dot product (2005), applied to
-// products as by Graillat, Accurate floating point product and exponentiation (2009): however many factors there are
-// (up to 2^30), the relative error is below 2^-52, as if it were rounded once. That holds while products stay above
-// 1e-290; of smaller ones less than 1e-296 is lost.
+// A running product of finite floats. Ogita, Rump and Oishi, Accurate sum and dot product (2005), applied to products
+// as in Graillat, Accurate floating point product and exponentiation (2009). For up to 2^30 factors the relative error
+// is below 2^-52, as if the product were rounded once. This holds while products stay above 1e-290; smaller ones lose
+// less than 1e-296.
 class CompensatedProduct {
 public:
     constexpr void multiply(float factor) {
-        // Upper half of the digits: both halves times the 24 bits of a float are exact (Dekker 1971).
+        // The upper half of the digits: the product of either half and the 24 bits of a float is exact (Dekker 1971).
         const double head = std::bit_cast<double>(std::bit_cast<std::uint64_t>(product_) & ~std::uint64_t{0x7ffffff});
         const double next = product_ * factor;
         error_ = error_ * factor + ((head * factor - next) + (product_ - head) * factor);

@@ -16,9 +16,9 @@ enum class ErrorCode {
     io = 74,            // reading or writing failed
 };
 
-// `where` is a JSON pointer ("/lights/0/angle"), "file", "file:offset" (bytes) or "file:line"; it may be empty.
-// what() is one line: "where: message". All three are printable UTF-8: control characters become spaces, and what is no
-// UTF-8 '?'.
+// `where` is a JSON pointer ("/lights/0/angle"), "file", "file:offset" (bytes) or "file:line"; it may be empty. what()
+// is one line: "where: message". All three are printable UTF-8: control characters become spaces, and bytes that are
+// not UTF-8 become '?'.
 class Error : public std::exception {
 public:
     Error(ErrorCode code, std::string_view where, std::string_view message);

@@ -1,4 +1,4 @@
-// A short name for a text.
+// Hashes a text, to name it briefly.
 #pragma once
 
 #include <string>

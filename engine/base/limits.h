@@ -3,10 +3,10 @@
 
 namespace shadowbench::base {
 
-// Coordinates are stored as float; their squares must not overflow.
+// Coordinates are stored as float, and their squares must not overflow.
 inline constexpr double max_coordinate = 1e18;
 
-// Lengths below it count as none: their squares must not vanish from floats' products either.
+// Shorter lengths count as zero: the squares of lengths must not underflow in float either.
 inline constexpr double min_length = 1e-18;
 
 }  // namespace shadowbench::base

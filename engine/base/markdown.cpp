@@ -3,7 +3,7 @@
 namespace shadowbench::base {
 namespace {
 
-// A bar would end the cell.
+// Escapes bars, which would end the cell.
 std::string cell(std::string text) {
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.replace(at, 1, "\\|");
     return text;

@@ -6,7 +6,7 @@
 
 namespace shadowbench::base {
 
-// With a blank line behind it. Bars inside of fields are escaped. Rows have as many fields as the header.
+// The table, followed by a blank line. Bars inside fields are escaped. Rows must have as many fields as the header.
 std::string markdown_table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace shadowbench::base

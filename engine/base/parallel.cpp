@@ -16,8 +16,8 @@
 namespace shadowbench::base {
 
 #ifdef __SANITIZE_THREAD__
-// The thread sanitizer cannot see into the TBB library, which is not built with it, and would call every hand-over of
-// work a race: under it, loops run on plain threads.
+// The thread sanitizer does not see the synchronisation inside the TBB library, which is built without it, and would
+// report every hand-over of work as a race. Under it, loops run on plain threads.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
     std::atomic<std::size_t> next{0};
     std::exception_ptr error;
@@ -60,7 +60,7 @@ int library_threads() {
 
 struct ThreadLimit::Control {
     explicit Control(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
-    tbb::global_control control;  // must stay where it was made: a copy limits nothing
+    tbb::global_control control;  // must not move: a copy limits nothing
 };
 
 ThreadLimit::ThreadLimit(int threads) {

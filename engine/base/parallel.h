@@ -7,17 +7,17 @@
 
 namespace shadowbench::base {
 
-// Calls body(i) for every i in [0, count), on up to thread_count() threads. The first exception is rethrown here.
+// Calls body(i) for every i in [0, count), on up to thread_count() threads. Rethrows the first exception.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
-// Threads that parallel_for uses now.
+// The number of threads that parallel_for uses now.
 int thread_count();
 
-// Threads that a library which brings its own should start: as many; 1 under the thread sanitizer, which does not see
-// how libraries that were built without it hand work over.
+// The number of threads that a library with threads of its own should start: thread_count(), but 1 under the thread
+// sanitizer, which does not see the synchronisation of libraries that were built without it.
 int library_threads();
 
-// Limits parallel_for to `threads` (0: all processors) while it lives.
+// Limits parallel_for to `threads` threads (0: all processors) while it lives.
 class ThreadLimit {
 public:
     explicit ThreadLimit(int threads);

@@ -15,9 +15,9 @@ namespace shadowbench::base {
 
 PendingFile::PendingFile(std::filesystem::path place) : place_(std::move(place)) {
     std::error_code failed;
-    // Found out now, and not by the rename after all the work.
+    // Refuse it now: rename() would fail only after all the work.
     if (place_.filename().empty() || std::filesystem::is_directory(place_, failed))
-        throw Error(ErrorCode::io, place_.string(), "a folder is in the file's place");
+        throw Error(ErrorCode::io, place_.string(), "there is a folder of that name; choose another file");
     std::random_device random;
     int file = -1;
     do {
@@ -27,7 +27,7 @@ PendingFile::PendingFile(std::filesystem::path place) : place_(std::move(place))
     } while (file < 0 && errno == EEXIST);
     if (file < 0)
         throw Error(ErrorCode::io, place_.string(),
-                    "the file cannot be made: " + std::generic_category().message(errno));
+                    "cannot create the file: " + std::generic_category().message(errno));
     ::close(file);
 }
 

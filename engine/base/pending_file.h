@@ -1,24 +1,24 @@
-// A file that appears whole or not at all.
+// Writes a file that appears whole or not at all.
 #pragma once
 
 #include <filesystem>
 
 namespace shadowbench::base {
 
-// Makes an empty file of another name beside the place; whoever writes fills that one. commit() moves it to its place,
-// over what was there; without it nothing stays, and what was there is as it was.
+// Creates an empty temporary file beside the place, which the caller fills. commit() moves it to its place and replaces
+// the file there. Without commit() the temporary file goes and the place stays as it was.
 class PendingFile {
 public:
-    // Throws Error{io}, place the file, when nothing can be written there.
+    // Throws Error{io}, place the file, if the file cannot be created there.
     explicit PendingFile(std::filesystem::path place);
     ~PendingFile();
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
 
     const std::filesystem::path& place() const { return place_; }
-    const std::filesystem::path& temporary() const { return temporary_; }  // of the same extension
+    const std::filesystem::path& temporary() const { return temporary_; }  // has the same extension as place()
 
-    // Once, when all is written and closed. Throws Error{io}.
+    // Call it once, when everything is written and the file is closed. Throws Error{io}.
     void commit();
 
 private:

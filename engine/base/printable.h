@@ -1,5 +1,5 @@
-// Text that quotes a file, made fit to be shown: a file may hold any bytes, a terminal would obey some of them, and
-// JSON would not take others.
+// Makes text that quotes a file fit to be shown. A file may hold any bytes; a terminal would obey some of them, and
+// JSON refuses others.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace shadowbench::base {
 
-// Control characters become spaces, and what is no UTF-8 '?'.
+// Replaces control characters by spaces and bytes that are not UTF-8 by '?'.
 std::string printable(std::string_view text);
 
 }  // namespace shadowbench::base

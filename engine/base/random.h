@@ -1,4 +1,4 @@
-// Random numbers that depend on their keys alone, never on the order of calls or the thread.
+// Random numbers that depend only on their keys, never on the order of calls or the thread.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,17 @@ constexpr std::uint64_t mix(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-// 64 random bits of a key of up to four words.
+// Hashes a key of up to four words to 64 random bits.
 constexpr std::uint64_t hash(std::uint64_t a, std::uint64_t b = 0, std::uint64_t c = 0, std::uint64_t d = 0) {
     return mix(mix(mix(mix(a) ^ b) ^ c) ^ d);
 }
 
-// Uniform in [0, 1), all 53 bits of a double used.
+// A number uniform in [0, 1) that uses all 53 bits of a double.
 constexpr double to_unit(std::uint64_t bits) {
     return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-// A sequence of random numbers of one key.
+// The sequence of random numbers that belongs to a key.
 class Random {
 public:
     explicit constexpr Random(std::uint64_t key) : state_(key) {}

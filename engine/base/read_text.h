@@ -1,4 +1,4 @@
-// A whole file.
+// Reads a whole file.
 #pragma once
 
 #include <filesystem>
@@ -6,10 +6,10 @@
 
 namespace shadowbench::base {
 
-// Pipes too. Throws Error, place the file: no_such_file, io (a folder, no permission, a failed read).
+// Reads files and pipes. Throws Error, place the file: no_such_file, or io (a folder, no permission, a failed read).
 std::string read_bytes(const std::filesystem::path& file);
 
-// Without the byte-order mark of UTF-8; that of another encoding is bad_input.
+// Drops the byte-order mark of UTF-8. The mark of UTF-16 or UTF-32 is bad_input.
 std::string read_text(const std::filesystem::path& file);
 
 }  // namespace shadowbench::base

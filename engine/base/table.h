@@ -1,4 +1,4 @@
-// Columns of text, aligned.
+// Text in aligned columns.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace shadowbench::base {
 
-// The first and the last column stand to the left, the others to the right.
+// The first and the last column are aligned to the left, the others to the right.
 class Table {
 public:
     explicit Table(std::vector<std::string> header);
@@ -18,7 +18,7 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
-// Two digits; "-" for what is not finite.
+// Two digits; "-" if the value is not finite.
 std::string error_text(double value);
 
 // "512 B", "1.5 KiB", "23 MiB".

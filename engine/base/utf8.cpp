@@ -9,7 +9,7 @@ std::size_t utf8_sequence(std::string_view text) {
     const unsigned first = byte(0);
     if (first < 0x80) return 1;
     if (first < 0xc2 || first > 0xf4) return 0;
-    // The second byte's range shuts out overlong forms, surrogates and what is beyond U+10FFFF.
+    // The range of the second byte excludes overlong forms, surrogates and values beyond U+10FFFF.
     const unsigned low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
     const unsigned high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
     if (byte(1) < low || byte(1) > high) return 0;

@@ -19,7 +19,7 @@ void make_folders(const fs::path& folder, Undo& undo) {
     std::error_code failed;
     if (folder.empty() || fs::is_directory(folder, failed)) return;
     make_folders(folder.parent_path(), undo);
-    if (fs::create_directory(folder, failed)) undo.made(folder);
+    if (fs::create_directory(folder, failed)) undo.record(folder);
     if (failed) throw WriteError(folder, "cannot make the folder", failed);
 }
 
@@ -39,12 +39,12 @@ void write_one(const fs::path& path, const std::string& content) {
 void write_and_rename(const std::vector<NewFile>& files, Undo& undo) {
     std::error_code failed;
     for (const NewFile& file : files) {
-        // rename() would refuse a folder only after other files have been replaced.
+        // rename() would refuse a folder only after it has replaced other files.
         if (fs::is_directory(file.path, failed))
-            throw WriteError(file.path, "a folder is in the file's place",
+            throw WriteError(file.path, "there is a folder of that name; choose another file",
                              std::make_error_code(std::errc::is_a_directory));
         make_folders(file.path.parent_path(), undo);
-        undo.made(temporary_name(file.path));
+        undo.record(temporary_name(file.path));
         write_one(temporary_name(file.path), file.content);
     }
     for (const NewFile& file : files) {
@@ -69,7 +69,7 @@ WriteError::WriteError(const WriteError& error, std::uintmax_t bytes) : Error(er
 
 Undo::~Undo() {
     std::error_code ignored;
-    for (auto path = made_.rbegin(); path != made_.rend(); ++path) fs::remove(*path, ignored);
+    for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) fs::remove(*path, ignored);
 }
 
 void write_files(const std::vector<NewFile>& files) {
@@ -89,10 +89,10 @@ void make_writable(const fs::path& folder, Undo& undo) {
         throw Error(ErrorCode::io, folder.string(),
                     "results cannot go there; choose another folder: " + std::string(error.what()));
     }
-    // Permissions do not tell root everything, nor of file systems that take no files: only trying does.
+    // Permissions do not decide everything for root, nor on read-only file systems: only a trial write shows it.
     Undo attempt;
     const fs::path file = temporary_name(folder / "result.json");
-    attempt.made(file);
+    attempt.record(file);
     try {
         write_one(file, "");
     } catch (const Error&) {

@@ -1,17 +1,17 @@
-# What makes a build from a clean clone quicker. Most of its time went into reading the same headers for every file,
-# into compiling the same templates (JSON, CLI11) in every file, and into making cold code fast.
-#  - Cold layers, which wait for files, sockets and processes, are compiled with -O1 and each as one file. A name in an
-#    unnamed namespace is then its layer's: two of the same name do not compile.
-#  - Of hot layers each file is compiled by itself, so that a function's machine code depends on its own file. The
+# Makes a build from a clean clone faster. Most of its time went into reading the same headers for every file, compiling
+# the same templates (JSON, CLI11) in every file, and optimising cold code.
+#  - Cold layers, which wait for files, sockets and processes, are compiled with -O1, each as one file. A name in an
+#    unnamed namespace is then common to the layer: two of the same name do not compile.
+#  - Hot layers are compiled file by file, so that a function's machine code depends only on its own file. The
 #    standard headers that most of them include are precompiled, once for all layers.
-# Every file includes what it uses all the same: debug and sanitizer builds, which do without, find what is missing.
+# Every file still includes what it uses: debug and sanitizer builds, which do without both, find what is missing.
 option(SHADOWBENCH_QUICK_BUILD "Precompile headers, compile cold layers as one file each" ON)
 
 set(headers <algorithm> <array> <chrono> <cmath> <cstddef> <cstdint> <filesystem> <functional> <limits> <map> <memory>
             <optional> <ostream> <set> <span> <string> <string_view> <utility> <variant> <vector>)
 
 if(SHADOWBENCH_QUICK_BUILD)
-  # By itself ccache does not cache what uses precompiled headers.
+  # By default ccache does not cache files that use precompiled headers.
   if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "(^|/)ccache$")
     set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros
         "${CMAKE_CXX_COMPILER_LAUNCHER}")
@@ -19,13 +19,13 @@ if(SHADOWBENCH_QUICK_BUILD)
   set(precompiled_options)
   set(as_one_options)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # ccache asks for the first. Without the second, GCC 12 tells its false alarms on std::string (bug 105329) of
-    # precompiled headers, though not of those that it reads.
+    # ccache needs the first option. Without the second, GCC 12 repeats its false alarms on std::string (bug 105329) for
+    # precompiled headers.
     set(precompiled_options -fpch-preprocess -Wno-array-bounds)
-    # All files of the layer are headers to it, and it warns of unnamed namespaces in headers.
+    # The compiler takes all files of the layer for headers, and warns of unnamed namespaces in headers.
     set(as_one_options -Wno-subobject-linkage)
   endif()
-  # A target of its own for each kind, from which the layers take the headers.
+  # One target for each kind, from which the layers take the headers.
   foreach(kind IN ITEMS standard text)
     set(empty "${CMAKE_CURRENT_BINARY_DIR}/generated/${kind}_headers.cpp")
     file(CONFIGURE OUTPUT "${empty}" CONTENT "// For the headers that are precompiled with it.\n")

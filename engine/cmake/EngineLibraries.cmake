@@ -1,15 +1,15 @@
-# The outside libraries of the engine: read by this build and, installed, by whoever uses the engine's package.
+# The outside libraries of the engine. This build reads the list, and so do users of the installed package.
 
-# As find_package takes them.
+# Each as the arguments of find_package.
 set(shadowbench_engine_packages "TBB CONFIG" "Imath CONFIG" "fmt CONFIG" ZLIB "nlohmann_json CONFIG"
     "tinyobjloader CONFIG" "OpenImageIO CONFIG" "embree 3 CONFIG" OpenVDB)
 
 # Debian keeps OpenVDB's find module out of CMake's way.
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
 
-# Once they are found.
+# Call it once they are found.
 function(shadowbench_mend_engine_libraries)
-  # The Debian package exports an include folder that is not there.
+  # The Debian package exports an include folder that does not exist.
   get_target_property(includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
   list(FILTER includes EXCLUDE REGEX "opencv4")
   set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${includes}")

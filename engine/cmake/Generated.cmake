@@ -1,10 +1,10 @@
-# Sources made at build time: the schema and the description of the API as strings, and what this build is.
+# Sources made at build time: the schema and the API's description as strings, and the facts of this build.
 file(READ "${CMAKE_CURRENT_SOURCE_DIR}/engine/scene/scenario.schema.json" SCHEMA_TEXT)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS engine/scene/scenario.schema.json)
 configure_file(engine/scene/scenario_schema.cpp.in generated/scenario_schema.cpp @ONLY)
 target_sources(shadowbench_scene PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/generated/scenario_schema.cpp")
 
-# The commit is asked for at every build, and the file is written only when it changed.
+# Every build reads the commit, but writes the file only if it changed.
 add_custom_target(shadowbench_build_info
   COMMAND ${CMAKE_COMMAND} -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
           -DBUILD_TYPE=${CMAKE_BUILD_TYPE} -DCOMPILER=${CMAKE_CXX_COMPILER_ID}\ ${CMAKE_CXX_COMPILER_VERSION}
@@ -14,7 +14,7 @@ add_custom_target(shadowbench_build_info
   VERBATIM)
 add_dependencies(shadowbench_results shadowbench_build_info)
 target_sources(shadowbench_results PRIVATE "${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp")
-# By itself: another commit does not make its whole layer anew.
+# Compiled separately, so that another commit does not rebuild its whole layer.
 set_source_files_properties("${CMAKE_CURRENT_BINARY_DIR}/generated/build_info.cpp" PROPERTIES
   SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 

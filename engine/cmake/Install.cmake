@@ -14,13 +14,13 @@ foreach(folder IN ITEMS engine/compare engine/techniques results scenarios servi
   install(FILES ${folder}/README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}" COMPONENT program)
 endforeach()
 
-# The program finds its scenarios from its own folder.
+# The program finds its scenarios relative to its own folder.
 file(RELATIVE_PATH share_from_program "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_DATADIR}/shadowbench")
 set_property(SOURCE service/cli/scenario_files.cpp APPEND PROPERTY COMPILE_DEFINITIONS
              SHADOWBENCH_SHARE_FROM_PROGRAM="${share_from_program}")
 
 # --- the engine -------------------------------------------------------------------------------------------------------
-# Its headers name each other from the top of the engine ("base/error.h"), so that folder is what a compiler looks in.
+# Its headers include each other from the top of the engine ("base/error.h"), so that is the include folder.
 set(headers "${CMAKE_INSTALL_INCLUDEDIR}/shadowbench")
 install(DIRECTORY engine/ DESTINATION "${headers}" COMPONENT development FILES_MATCHING PATTERN "*.h"
         PATTERN cmake EXCLUDE)
@@ -52,7 +52,7 @@ install(EXPORT shadowbench NAMESPACE shadowbench:: FILE shadowbench-targets.cmak
 install(FILES "${made}/shadowbench-config.cmake" "${made}/shadowbench-config-version.cmake"
               engine/cmake/EngineLibraries.cmake DESTINATION "${package}" COMPONENT development)
 
-# A linker looks for what a library needs in those that follow it: the uppermost layer is first.
+# A linker looks for a library's symbols in the libraries after it, so the uppermost layer comes first.
 set(pc_libraries "${layer_targets}")
 list(REVERSE pc_libraries)
 list(TRANSFORM pc_libraries PREPEND "-l")

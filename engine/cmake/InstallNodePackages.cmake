@@ -1,5 +1,5 @@
-# cmake -DNPM= -DSOURCE= -DFOLDER= -P: what SOURCE/package-lock.json names, into FOLDER/node_modules. One at a time,
-# since builds of several presets may ask for it together.
+# cmake -DNPM= -DSOURCE= -DFOLDER= -P: installs the packages of SOURCE/package-lock.json into FOLDER/node_modules. One
+# call at a time, since builds of several presets may run it together.
 file(MAKE_DIRECTORY "${FOLDER}")
 file(LOCK "${FOLDER}/lock" GUARD PROCESS)
 if(EXISTS "${FOLDER}/installed")

@@ -1,4 +1,4 @@
-# Every library of the product, from Debian 12 packages (the list of packages is in ./dev).
+# Every library of the product, from Debian 12 packages (./dev has the list of packages).
 include(EngineLibraries)
 foreach(package IN LISTS shadowbench_engine_packages)
   separate_arguments(package)
@@ -14,11 +14,11 @@ if(NOT TARGET valijson)
   add_library(valijson INTERFACE)  # header only
 endif()
 
-# No CMake files of their own. Without the flags of its pkg-config the classes of httplib differ from its library's.
+# It has no CMake files. Without the flags of its pkg-config file, the classes of httplib differ from its library's.
 pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(prometheus REQUIRED IMPORTED_TARGET prometheus-cpp-core)
 
-# Other people's headers do not have to pass our warnings.
+# Headers of other projects need not pass this project's warnings.
 foreach(target IN ITEMS TBB::tbb Imath::Imath fmt::fmt nlohmann_json::nlohmann_json CLI11::CLI11
                         tinyobjloader::tinyobjloader valijson OpenImageIO::OpenImageIO embree OpenVDB::openvdb
                         SQLite::SQLite3 PkgConfig::httplib PkgConfig::prometheus)

@@ -1,5 +1,5 @@
-# cpack -G DEB (./dev package): shadowbench, the program with its scenarios, and libshadowbench-dev, the engine for other
-# programs. Configure with Release; what the program needs is read off it by dpkg-shlibdeps.
+# cpack -G DEB (./dev package): shadowbench, the program with its scenarios, and libshadowbench-dev, the engine for
+# other programs. Configure with Release; dpkg-shlibdeps finds the program's dependencies.
 set(CPACK_PACKAGE_NAME shadowbench)
 set(CPACK_PACKAGE_VENDOR "The shadowbench authors")
 set(CPACK_PACKAGE_CONTACT "The shadowbench authors <shadowbench@example.org>")
@@ -21,7 +21,7 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 technique cost in time, memory and nodes? Commands run scenarios, compare
 results and builds, and serve a web page.")
 
-# What EngineLibraries.cmake finds, as packages of Debian 12.
+# The packages that EngineLibraries.cmake finds, by their names in Debian 12.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libshadowbench-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libopenimageio-dev, openimageio-tools, libembree-dev, libopenvdb-dev, \

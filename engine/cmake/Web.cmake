@@ -1,4 +1,4 @@
-# The page: bundled by node from service/web/page, and put into shadowbench_web as it is.
+# The page: node bundles it from service/web/page, and shadowbench_web contains the bundle.
 enable_language(ASM)
 find_program(SHADOWBENCH_NODE node DOC "Node.js, which bundles the page")
 find_program(SHADOWBENCH_NPM npm DOC "npm, which installs what the bundles are made from")
@@ -6,11 +6,11 @@ foreach(program IN ITEMS node npm)
   string(TOUPPER "${program}" name)
   if(NOT SHADOWBENCH_${name})
     message(FATAL_ERROR "${program} is not found, and the page is made with it: install Debian's packages nodejs and npm "
-                        "(./dev does), or tell where it is with -DSHADOWBENCH_${name}=FILE")
+                        "(./dev does), or give its path with -DSHADOWBENCH_${name}=FILE")
   endif()
 endforeach()
 
-# Installed packages are shared by all presets, and stay as long as the lock file is the same.
+# All presets share the installed packages, which stay until the lock file changes.
 set(web_source "${CMAKE_CURRENT_SOURCE_DIR}/service/web")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS service/web/package-lock.json)
 file(SHA256 "${web_source}/package-lock.json" web_lock)
@@ -29,7 +29,7 @@ add_custom_command(OUTPUT "${web_built}/assets.s"
   DEPENDS ${web_pages} "${web_source}/build.mjs" "${web_installed}"
   COMMENT "Bundling the page" VERBATIM)
 
-# Lower case .s: nothing to preprocess. The files that it includes change only together with their etags in it.
+# Lower case .s: nothing to preprocess. The included files change only together with their etags in it.
 set(web_options "-Wa,-I${web_built}")
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
   list(APPEND web_options -Wno-unused-command-line-argument)  # of the options for C++, which it gets too

@@ -12,14 +12,14 @@ namespace shadowbench::curves {
 
 namespace {
 
-// Below this a double product is soon denormal, and its logarithm no longer tells the optical depth.
+// Below this a double product is soon denormal, and its logarithm is no longer an accurate optical depth.
 constexpr double kFaintest = 1e-300;
 
 struct Medium {
     double front, back;
     double through;            // transmittance of the whole segment
-    double extinction = -1.0;  // per unit of z; computed when first needed, most media never overlap another segment
-    bool counted = false;      // in the sums of OpenMedia
+    double extinction = -1.0;  // per unit of z; computed when first needed: most media never overlap another segment
+    bool counted = false;      // included in the sums of OpenMedia
     bool ended = false;
 
     double through_inside() const { return std::max(through, double{std::numeric_limits<float>::min()}); }
@@ -29,16 +29,16 @@ struct Medium {
     }
 };
 
-// The media that a ray is inside of. Their optical depths are kept as two sums, of extinctions and of extinctions times
-// fronts, in twice the precision: what is added and taken away again leaves nothing, and thousands of media one inside
-// the other cost no more each than two.
+// The media that a ray is inside of. Keeps their optical depths as two sums, of extinctions and of extinctions times
+// fronts, in twice the precision: adding and taking away again leaves nothing, and each of thousands of nested media
+// costs no more than each of two.
 class OpenMedia {
 public:
     bool empty() const { return by_back_.empty(); }
     double first_back() const { return by_back_.front().back; }
 
     void open(const Medium& medium) {
-        if (empty()) {  // a fresh start: no rounding error outlives the media that made it
+        if (empty()) {  // a fresh start: no rounding error outlives the media that caused it
             origin_ = medium.front;
             extinction_ = extinction_front_ = base::CompensatedSum();
         }
@@ -48,7 +48,7 @@ public:
         media_.push_back(medium);
     }
 
-    // Takes out all that end at or before z; ended() names them until the next call.
+    // Removes all media that end at or before z; ended() lists them until the next call.
     void close(double z) {
         ended_.clear();
         double steepest = 0.0;
@@ -73,7 +73,7 @@ public:
     const std::vector<std::size_t>& ended() const { return ended_; }
     Medium& medium(std::size_t number) { return media_[number]; }
 
-    // Of all that are open, from their fronts to z.
+    // The sum over all open media, each from its front to z.
     double optical_depth(double z) const {
         return empty() ? 0.0 : std::max(extinction_.value() * (z - origin_) - extinction_front_.value(), 0.0);
     }
@@ -96,7 +96,7 @@ private:
         extinction_front_.add(sign * (medium.per_depth() * (medium.front - origin_)));
     }
 
-    // What a medium more than 2^80 times as dense as all that stay has left of the sums is not enough.
+    // Computes the sums again: a medium more than 2^80 times as dense as all that stay has left too few digits.
     void count_again() {
         extinction_ = extinction_front_ = base::CompensatedSum();
         for (const End& end : by_back_)
@@ -125,8 +125,8 @@ void composite_surfaces(const rays::LightRays& rays, std::size_t ray, int channe
     }
 }
 
-// Many media one upon the other can reach optical depths whose transmittance is 0 in double. The node (z, 0) would hide
-// how steeply the function fell, so a node goes where it is still a number, at a depth that a float can hold.
+// Many overlapping media can reach optical depths whose transmittance is 0 in double. The node (z, 0) would hide how
+// steeply the function fell, so a node goes where the value is still above 0, at a depth that a float can hold.
 void add_faintest(OpenMedia& open, double z, std::vector<Node>& out) {
     const Node last = out.back();
     double extinction = open.extinction();
@@ -144,9 +144,9 @@ void composite(const rays::LightRays& rays, std::size_t ray, int channel, std::v
     out.clear();
     if (rays.z_back.empty()) return composite_surfaces(rays, ray, channel, out);
 
-    thread_local OpenMedia open;  // its memory serves ray after ray
+    thread_local OpenMedia open;  // keeps its memory from ray to ray
     open.clear();
-    double closed = 1.0;  // product of all that lies wholly in front
+    double closed = 1.0;  // product of all segments wholly in front
     const std::size_t end = rays.begin[ray + 1];
     std::size_t s = rays.begin[ray];
     const auto through = [&] { return double{rays.transmittance[s * rays.channels + channel]}; };
@@ -164,7 +164,7 @@ void composite(const rays::LightRays& rays, std::size_t ray, int channel, std::v
         }
         const double optical_depth = open.optical_depth(z);
         for (; s < end && rays.z_front[s] == z && (rays.z_back[s] <= z || through() >= 1.0); ++s) after *= through();
-        // Sorted by z_back at one z_front: the surfaces come first, and a medium ends behind its front.
+        // Sorted by z_back at equal z_front: surfaces come first, and a medium ends behind its front.
         closed = after;
         if (optical_depth > 0.0) {
             const double faded = std::exp(-optical_depth);
@@ -173,7 +173,7 @@ void composite(const rays::LightRays& rays, std::size_t ray, int channel, std::v
         }
         if (!out.empty()) {
             if (before < kFaintest && out.back().value > kFaintest && z > out.back().z) add_faintest(open, z, out);
-            before = std::min(before, out.back().value);  // the exponential's last digit
+            before = std::min(before, out.back().value);  // the exponential's last digit may be off
             after = std::min(after, before);
         }
         out.push_back({z, before});

@@ -18,8 +18,8 @@ float value_of(const ColourVertex& vertex, int c) {
     return vertex.value[c];
 }
 
-// Vertices written so far. The last one written is the origin of the segment that is being drawn; its value is the
-// rounded one, so that rounding does not add up.
+// The vertices written so far. The last one is the origin of the current segment, with its rounded value, so that
+// rounding does not add up.
 template <int channels, class OutVertex>
 struct Output {
     OutVertex* vertices;
@@ -32,7 +32,7 @@ struct Output {
         for (int c = 0; c < channels; ++c) rounded[c] = to_float<channels>(aim[c]);
         OutVertex vertex;
         write(vertex, static_cast<float>(at), rounded);
-        // In front of the first vertex the function is constant anyway.
+        // Before the first vertex the function is constant anyway.
         if (count == 1 && same_values(vertices[0], vertex)) count = 0;
         vertices[count++] = vertex;
         z = vertex.z;
@@ -52,7 +52,7 @@ public:
         : in_(in), epsilon_(tolerance > 0.0f ? tolerance : 0.0), out_{vertices} {}
 
     std::size_t run() {
-        // The function starts at its exact first value: what lies in front of every occluder is not darkened.
+        // The function starts at its exact first value, so nothing before the first occluder is darkened.
         last_ = in_.read();
         out_.emit(last_.z, last_.before);
         if (exceeds(last_.before, last_.after)) out_.emit(last_.z, last_.after);
@@ -104,9 +104,9 @@ private:
         }
     }
 
-    // Keeps the slopes that pass between floor and ceiling at z; false, and nothing changes, if there are none.
+    // Keeps the slopes that pass between floor and ceiling at z. Returns false and changes nothing if there are none.
     bool narrow(double z, const Values<channels>& floor, const Values<channels>& ceiling) {
-        const double inverse = 1.0 / (z - out_.z);  // off the critical path: it needs neither low nor high
+        const double inverse = 1.0 / (z - out_.z);  // off the critical path: needs neither low nor high
         Values<channels> low, high;
         bool passes = true;
         for (int c = 0; c < channels; ++c) {
@@ -131,7 +131,7 @@ private:
         high_ = all(kInfinity);
     }
 
-    // The functions stay at their last values for ever, so the last segment aims at them instead of at the middle.
+    // The functions keep their last values from here on, so the last segment aims at them instead of at the middle.
     std::size_t finish() {
         Values<channels> aim;
         bool moves = false;
@@ -162,8 +162,8 @@ private:
     double epsilon_;
     Output<channels, OutVertex> out_;
     Step last_;
-    // Slopes from the origin that pass within epsilon of all groups up to `last`. `high` may be above 0: the middle is
-    // then still unbiased on flat stretches; only what is written is kept from rising.
+    // Slopes from the origin that pass within epsilon of all groups up to `last`. `high` may be above 0, which keeps
+    // the middle unbiased on flat parts; only what is written is kept from rising.
     Values<channels> low_ = all(-kInfinity), high_ = all(kInfinity);
 };
 

@@ -1,5 +1,5 @@
-// What the two compressions share: reading one function or three as control points, and writing what comes out.
-// Internal to compress.cpp and compress_published.cpp.
+// Shared by the two compressions: reading one function or three as control points, and writing the result. Internal to
+// compress.cpp and compress_published.cpp.
 #pragma once
 
 #include <algorithm>
@@ -37,10 +37,10 @@ struct OneReader {
     }
 };
 
-// Groups at every depth where one of the three has a vertex.
+// Reads groups at every depth where one of the three functions has a vertex.
 struct ColourReader {
     std::array<OneReader, 3> channel;
-    Group<1> last[3];  // what each channel had read last
+    Group<1> last[3];  // what each channel read last
 
     explicit ColourReader(const std::array<CurveView, 3>& curves) {
         for (int c = 0; c < 3; ++c) {
@@ -70,7 +70,7 @@ struct ColourReader {
 
 private:
     float depth(int c) const { return channel[c].curve[channel[c].next].z; }
-    // Where channel c has no vertex.
+    // The value of channel c at a depth where it has no vertex.
     double between(int c, double z) const {
         const double from = last[c].after[0];
         if (!channel[c].more() || last[c].z == -kInfinity) return from;
@@ -87,8 +87,10 @@ inline void write(ColourVertex& vertex, float z, const std::array<float, 3>& val
     vertex = {z, {values[0], values[1], values[2]}};
 }
 
-// GCC 12 at -O2 joins two channels into one vector and then goes on with their values as they were before they were
-// rounded: for three channels the rounding has to be seen to happen.
+// Rounds to float. Three channels need `volatile`, or GCC 12 for x86-64 drops the rounding of two of them at -O2 and
+// above. It joins two neighbouring conversions to float and back into conversions of vectors and takes those for none:
+//     void round(double* a) { float x = a[0], y = a[1]; a[0] = x; a[1] = y; }
+// compiles to an empty function. tests/curves/rounding_test.cpp has this case.
 template <int channels>
 float to_float(double aim_of_channel) {
     if constexpr (channels == 1) return static_cast<float>(aim_of_channel);

@@ -27,11 +27,11 @@ struct OnePoints {
     }
 };
 
-// Both sides of every depth of the three.
+// Reads both sides of every depth of the three functions.
 struct ColourPoints {
     ColourReader groups;
     Group<3> group{};
-    bool behind = false;  // the far side of `group` is to come
+    bool behind = false;  // the far side of `group` comes next
 
     bool more() const { return behind || groups.more(); }
     Point<3> read() {
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    // Narrows the slopes to those that pass the point's window; false, and nothing changes, if there are none.
+    // Narrows the slopes to those that pass the point's window. Returns false and changes nothing if there are none.
     bool pass(const Point<channels>& point) {
         const double dz = point.z - origin_.z;
         Slopes low = low_, high = high_;
@@ -114,7 +114,7 @@ private:
     double epsilon_;
     OutVertex* vertices_;
     std::size_t count_ = 0;
-    Point<channels> origin_, last_;  // of the segment that is being drawn; the last point that it passes
+    Point<channels> origin_, last_;  // the origin of the current segment; the last point that it passes
     Slopes low_, high_;
     bool vertical_ = false;  // a step at the origin's own depth
 };

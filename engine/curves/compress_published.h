@@ -1,4 +1,4 @@
-// Greedy compression as it is published (Lokovic and Veach 2000, section 3.3), word for word, beside the mended one of
+// Greedy compression exactly as published (Lokovic and Veach 2000, section 3.3), beside the corrected one of
 // compress.h.
 #pragma once
 
@@ -6,21 +6,21 @@
 
 namespace shadowbench::curves {
 
-// As compress(), but for what the output keeps.
+// Like compress(), except for the guarantees on the output:
 //
 // The published text. The origin of the first segment is the first vertex. Every further vertex (z, v) narrows the
 // range of slopes from the origin to those that pass between (z, v - tolerance) and (z, v + tolerance). When that would
 // leave none, a segment with the middle slope ends at the z of the last vertex that was passed; its end is the next
-// origin. The last segment ends likewise at the last vertex. Nothing is cut at 0 or 1, nothing is kept from rising.
+// origin. The last segment ends likewise at the last vertex. Nothing is cut at 0 or 1, and segments may rise.
 //
-// What the text leaves open, filled in as plainly as can be:
-//  - a vertex at the origin's own z, where its range of slopes is 0 / 0: within the tolerance of the origin every slope
-//    passes it, else only the vertical does. The vertical passes all vertices at that z; its middle is the last one's
-//    value;
-//  - slopes are double, the origin is the vertex as written, rounded to float.
+// The text leaves two points open. They are filled in as plainly as possible:
+//  - A vertex at the origin's own z, where its range of slopes is 0 / 0: within the tolerance of the origin every
+//    slope passes it, otherwise only the vertical does. The vertical passes all vertices at that z; its middle is the
+//    last one's value.
+//  - Slopes are double; the origin is the vertex as written, rounded to float.
 //
-// The output is within the tolerance of the input, up to one rounding, and never above 1; it may rise by up to twice the
-// tolerance and fall below 0 by up to it.
+// The output is within the tolerance of the input, up to one rounding, and never above 1; it may rise by up to twice
+// the tolerance and fall below 0 by up to the tolerance.
 std::size_t compress_published(CurveView curve, float tolerance, Vertex* out);
 
 Curve compress_published(CurveView curve, float tolerance);

@@ -13,7 +13,7 @@ constexpr std::size_t kFew = 96;     // ranks up to here
 constexpr std::size_t kMany = 4096;  // wide digits pay from here
 constexpr int kNarrow = 8, kWide = 11;
 
-// Counts for every item how many come before it. Quadratic, but without a branch that could be predicted wrongly.
+// Counts for every item how many items precede it. Quadratic, but without branches to mispredict.
 void sort_by_rank(std::vector<std::uint64_t>& items, std::vector<std::uint64_t>& scratch) {
     const std::size_t count = items.size();
     std::array<std::uint32_t, kFew> keys, ranks;
@@ -44,7 +44,7 @@ void sort_by_depth(std::vector<std::uint64_t>& items, std::vector<std::uint64_t>
         least = std::min(least, item);
         most = std::max(most, item);
     }
-    // Depths of one pixel lie close together: of their 32 bits few differ once the least is taken off.
+    // Depths of one pixel lie close together: few of their 32 bits differ once the least depth is subtracted.
     const std::uint32_t base = static_cast<std::uint32_t>(least >> 32);
     const int width = std::bit_width(static_cast<std::uint32_t>(most >> 32) - base);
     if (width == 0) return;

@@ -1,4 +1,4 @@
-// Sorting by depth. An item is 64 bits: a key that orders as the depth does in the upper half, any number in the lower.
+// Sorts by depth. An item is 64 bits: the upper half is a key in the order of depth, the lower half any number.
 #pragma once
 
 #include <bit>
@@ -7,7 +7,7 @@
 
 namespace shadowbench::curves {
 
-// Orders as z does; -0 and 0 are the same depth.
+// A key in the order of z; -0 and 0 are the same depth.
 inline std::uint32_t depth_key(float z) {
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(z + 0.0f);
     return bits ^ (static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> 31) | 0x80000000u);
@@ -22,8 +22,8 @@ inline std::uint64_t depth_item(float z, std::uint32_t number) {
     return static_cast<std::uint64_t>(depth_key(z)) << 32 | number;
 }
 
-// Sorts by the upper halves, stable. `scratch` grows to the size of `items`. O(n) for large n: a radix sort over those
-// bits alone in which the keys differ.
+// Sorts by the upper halves, stable. `scratch` grows to the size of `items`. O(n) for large n: a radix sort over only
+// the bits in which the keys differ.
 void sort_by_depth(std::vector<std::uint64_t>& items, std::vector<std::uint64_t>& scratch);
 
 }  // namespace shadowbench::curves

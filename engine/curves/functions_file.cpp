@@ -30,12 +30,12 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-// The lines of a file that count, and where they stand.
+// The lines of a file that are neither empty nor comments, and their numbers.
 class Lines {
 public:
     Lines(std::string name, std::string_view text) : name_(std::move(name)), rest_(text) {}
 
-    // Next line that is neither empty nor a comment; false at the end.
+    // Reads the next such line; returns false at the end.
     bool next(std::string_view& line) {
         while (!rest_.empty()) {
             const std::size_t end = rest_.find('\n');
@@ -57,7 +57,7 @@ private:
     std::size_t number_ = 0;
 };
 
-// What stands in a line, for a message: the file may be a binary one, whose bytes a terminal would obey.
+// A line as shown in a message: the file may be binary, with bytes that a terminal would obey.
 std::string shown(std::string_view line) {
     constexpr std::size_t most = 60;
     std::string text(line.substr(0, most));
@@ -70,7 +70,7 @@ std::from_chars_result parse(const char* begin, const char* end, std::size_t& nu
     return std::from_chars(begin, end, number);
 }
 
-// std::from_chars refuses what is too small for a float like what is too large; only the latter is a fault.
+// std::from_chars refuses numbers too small for a float as well as numbers too large; only the latter is a fault.
 std::from_chars_result parse(const char* begin, const char* end, float& number) {
     std::from_chars_result result = std::from_chars(begin, end, number);
     if (result.ec != std::errc::result_out_of_range) return result;
@@ -81,7 +81,7 @@ std::from_chars_result parse(const char* begin, const char* end, float& number) 
     return result;
 }
 
-// Reads a number at the front of `text` and takes it off, with the white space behind it.
+// Reads a number at the front of `text` and removes it, with the white space behind it.
 template <class Number>
 bool take(std::string_view& text, Number& number) {
     const auto [end, error] = parse(text.data(), text.data() + text.size(), number);
@@ -110,13 +110,15 @@ Curve parse_record(std::string_view header, Lines& lines) {
     std::string_view text = header;
     if (!take(text, count) || !text.empty())
         lines.fail(fmt::format("expected the number of vertices of a function, found `{}`", shown(header)));
-    // Before memory is reserved for it. A vertex takes several characters.
+    // Checked before memory is reserved for it. A vertex takes several characters.
     if (count > lines.characters_left())
-        lines.fail(fmt::format("{} vertices announced, but only {} characters follow", count, lines.characters_left()));
+        lines.fail(fmt::format("the header states {} vertices, but only {} characters follow", count,
+                               lines.characters_left()));
     Curve curve;
     curve.reserve(count);
     for (std::string_view line; curve.size() < count;) {
-        if (!lines.next(line)) lines.fail(fmt::format("{} vertices announced, only {} found", count, curve.size()));
+        if (!lines.next(line))
+            lines.fail(fmt::format("the header states {} vertices, but only {} follow", count, curve.size()));
         const Vertex vertex = parse_vertex(line, lines);
         if (!curve.empty() && vertex.z < curve.back().z)
             lines.fail(fmt::format("depth decreases from {} to {}", curve.back().z, vertex.z));

@@ -14,14 +14,14 @@ struct Piece {
     double optical_depth;
 
     double depth_of(double value) const { return a.z + (b.z - a.z) * std::log(a.value / value) / optical_depth; }
-    double value_at(float z) const {  // of the rounded depth: the function may be steep
+    double value_at(float z) const {  // at the rounded depth, since the function may be steep
         return a.value * std::exp(-optical_depth * ((z - a.z) / (b.z - a.z)));
     }
 };
 
-// Where a step of sqrt(T) spans so few floats that rounding its ends would make it notably longer: each step starts
-// from the vertex written last and ends at a float that it reaches, at least the next one. `out` ends with the piece's
-// first vertex.
+// Used where a step of sqrt(T) spans so few floats that rounding its ends would make it notably longer. Each step
+// starts from the vertex written last and ends at a float within its reach, or at the next float. `out` ends with the
+// piece's first vertex.
 void place_on_floats(const Piece& piece, double low, double step, Curve& out) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (double value = piece.a.value; value > low * low;) {
@@ -36,12 +36,12 @@ void place_on_floats(const Piece& piece, double low, double step, Curve& out) {
     }
 }
 
-// Inner vertices of a piece.
+// Places the inner vertices of a piece.
 //
 // The chord over optical depth D that starts at value T errs by T (1 - m + m ln m), m = (1 - exp(-D)) / D, which is
-// about T D^2 / 8: half the square of the step of sqrt(T). So equal steps of sqrt(T) spend the error evenly. The bound
-// exceeds that half square by 2.1 % at most for the steps taken here (D < 1.75), whence 1.95 instead of 2. Where the
-// value itself is below the error allowed, one chord goes to the end.
+// about T D^2 / 8: half the square of the step of sqrt(T). So equal steps of sqrt(T) spend the error evenly. The error
+// exceeds that half square by at most 2.1 % for the steps taken here (D < 1.75), hence 1.95 instead of 2. Where the
+// value is below the error allowed, one chord goes to the end.
 void subdivide(const Node& a, const Node& b, double error, Curve& out) {
     const double drop = a.value - b.value;
     if (a.value <= error || drop * drop <= 8.0 * b.value * error) return;  // D <= (T0 - T1) / sqrt(T0 T1): no logarithm
@@ -64,7 +64,7 @@ void subdivide(const Node& a, const Node& b, double error, Curve& out) {
 }  // namespace
 
 void linearise(const std::vector<Node>& nodes, double linearisation, Curve& out) {
-    const double error = std::max(linearisation, 0x1p-24);  // finer than a float tells apart
+    const double error = std::max(linearisation, 0x1p-24);  // finer than floats can resolve
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (i > 0 && nodes[i].z > nodes[i - 1].z && linearisation < 1.0) subdivide(nodes[i - 1], nodes[i], error, out);
         const Vertex vertex{static_cast<float>(nodes[i].z), static_cast<float>(nodes[i].value)};

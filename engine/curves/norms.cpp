@@ -10,16 +10,16 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The piece of a function that begins at the present depth.
+// The piece of a function that begins at the current depth.
 struct Cursor {
     CurveView curve;
-    std::size_t next = 0;  // first vertex behind the present depth
+    std::size_t next = 0;  // first vertex behind the current depth
 
     double next_z() const { return next < curve.size() ? curve[next].z : kInfinity; }
     void advance(double z) {
         while (next < curve.size() && curve[next].z <= z) ++next;
     }
-    // Value of the piece at z, ends included: at its end the limit from the left, at its begin that from the right.
+    // The value of the piece at z, ends included: the limit from the left at its end, from the right at its begin.
     double value(double z) const {
         if (curve.empty()) return 1.0;
         if (next == 0) return curve.front().value;
@@ -30,7 +30,7 @@ struct Cursor {
     }
 };
 
-// Integral of |d| where d runs linearly from d0 to d1 over a length of 1.
+// The integral of |d| where d runs linearly from d0 to d1 over a length of 1.
 double absolute_mean(double d0, double d1) {
     const double sum = std::abs(d0) + std::abs(d1);
     if (sum == 0.0) return 0.0;
@@ -59,7 +59,7 @@ Distance distance(CurveView a, CurveView b, double z_low, double z_high) {
         const double low = std::max(from, z_low), high = std::min(to, z_high);
         if (low < high) {
             const double at_low = low == from ? d0 : difference(low), at_high = high == to ? d1 : difference(high);
-            if (at_low != 0.0 || at_high != 0.0) {  // an endless piece of no difference adds nothing
+            if (at_low != 0.0 || at_high != 0.0) {  // an infinite piece without a difference adds nothing
                 result.l1 += (high - low) * absolute_mean(at_low, at_high);
                 squares += (high - low) * square_mean(at_low, at_high);
             }

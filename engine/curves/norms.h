@@ -1,4 +1,4 @@
-// Exact distances of two piecewise-linear functions with steps.
+// Exact distances between two piecewise-linear functions with steps.
 #pragma once
 
 #include "curves/curve.h"
@@ -11,8 +11,8 @@ struct Distance {
     double l2 = 0.0;   // square root of the integral of (a - b)^2 over [z_low, z_high]
 };
 
-// One merge over the vertices of both, in double. z_low <= z_high bound the integrals only. A value that is not a
-// number counts as infinitely far away in `max`.
+// Merges the vertices of both, in double. z_low <= z_high bound only the integrals. A NaN counts as infinitely far away
+// in `max`.
 Distance distance(CurveView a, CurveView b, double z_low, double z_high);
 
 }  // namespace shadowbench::curves

@@ -8,15 +8,15 @@
 
 namespace shadowbench::curves {
 
-// The published update adds and subtracts slopes for ever, and its rounding errors drift. Here a binary tree holds, at
-// its leaves, the line that each term follows at present, and at each inner node the sum of its two children. An event
-// replaces a leaf and sums anew along the path to the root, so a line that has ended leaves no trace: no drift, however
-// many events there are and however steep a line was. Cost: log2(terms) additions an event, beside a sort of O(n log
+// The published update adds and subtracts slopes throughout, and its rounding errors drift. Here a binary tree holds at
+// its leaves the current line of each term, and at each inner node the sum of its two children. An event replaces a
+// leaf and sums again along the path to the root, so a line that has ended leaves no trace: there is no drift, however
+// many events there are and however steep a line was. Cost: log2(terms) additions per event, beside a sort of O(n log
 // n).
 //
-// What error is left comes from slope * (z - origin) + offset cancelling: at most 2^-53 (z - origin) / dz of a term's
-// fall over dz. Floats that differ have dz >= 2^-24 z, and the origin is the depth nearest to 0, so the error stays
-// below 2^-29 of the fall.
+// The remaining error comes from cancellation in slope * (z - origin) + offset: at most 2^-53 (z - origin) / dz of a
+// term's fall over dz. Different floats have dz >= 2^-24 z, and the origin is the depth nearest to 0, so the error
+// stays below 2^-29 of the fall.
 
 namespace {
 
@@ -135,7 +135,7 @@ void weighted_sum(std::span<const WeightedCurve> terms, SweepScratch& scratch, C
 
 namespace {
 
-// Of the rays ray(0) to ray(count - 1), with weights weight(i).
+// The function of the rays ray(0) to ray(count - 1), with weights weight(i).
 template <class Ray, class Weight>
 void sweep_rays(const rays::LightRays& rays, std::size_t count, const Ray& ray, const Weight& weight, int channel,
                 double linearisation, SweepScratch& scratch, Curve& out) {

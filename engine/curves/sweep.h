@@ -23,40 +23,41 @@ struct WeightedCurve {
     double weight;
 };
 
-// Scratch memory of a sweep, reused from call to call; one a thread.
+// The scratch memory of a sweep, reused from call to call; each thread has its own.
 struct SweepScratch {
     // A linear function slope * (z - origin) + offset, already weighted.
     struct Line {
         double slope = 0.0, offset = 0.0;
     };
-    // From some depth on, a term goes on as another line.
+    // From this depth on, a term continues as another line.
     struct Event {
         Line line;
         std::uint32_t term;
-        bool step;  // not continuous there
+        bool step;  // the term is not continuous there
     };
     std::vector<std::uint64_t> order, sorting;  // see depth_sort.h
-    std::vector<std::int64_t> drops;            // surfaces: falls of transmittance in fixed point
+    std::vector<std::int64_t> drops;            // surfaces: decreases of transmittance in fixed point
     std::vector<Event> events;
-    std::vector<Line> sums;  // binary tree over the terms' present lines
+    std::vector<Line> sums;  // binary tree over the terms' current lines
     std::vector<Node> nodes;
     Curve ray;
 
     std::size_t bytes() const;
 };
 
-// Weighted sum of functions; `out` is replaced. Weights should sum to 1. Values in `out` are within 1e-6 of the exact
-// sum, stay in [0, 1] and do not increase when the terms do not. O(n log n).
+// The weighted sum of functions; `out` is replaced. Weights should sum to 1. Values in `out` are within 1e-6 of the
+// exact sum, stay in [0, 1] and do not increase if the terms do not. O(n log n).
 void weighted_sum(std::span<const WeightedCurve> terms, SweepScratch& scratch, Curve& out);
 
-// Visibility function of the rays [first, first + count) of a tile in one channel, each with weight 1 / count. Where
-// surfaces alone are hit, the result is exact to float rounding and does not depend on the order of the rays. A
-// medium's exponential is evaluated at the ends of its segments and at so many points between them that joining them by
-// lines errs by at most `linearisation` (> 0; infinity: segment ends only, as published).
+// The visibility function of the rays [first, first + count) of a tile in one channel, each with weight 1 / count. If
+// they hit only surfaces, the result is exact to float rounding and does not depend on the order of the rays. A
+// medium's exponential is evaluated at the ends of its segments and at enough points between them that joining them by
+// lines errs by at most `linearisation` (> 0; infinity: only segment ends, as published).
 void visibility(const rays::LightRays& rays, std::size_t first, std::size_t count, double linearisation,
                 SweepScratch& scratch, Curve& out, int channel = 0);
 
-// The same of rays with weights above 0, which should sum to 1. Where surfaces alone are hit, they are made to.
+// The same for rays with weights above 0, which should sum to 1. If the rays hit only surfaces, the weights are scaled
+// to sum to 1.
 void visibility(const rays::LightRays& rays, std::span<const WeightedRay> chosen, double linearisation,
                 SweepScratch& scratch, Curve& out, int channel = 0);
 

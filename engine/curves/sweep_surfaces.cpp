@@ -11,13 +11,13 @@ namespace shadowbench::curves {
 
 namespace {
 
-// Compared as bytes, which is fast; zeros of different sign merely cost the general path.
+// Compares bytes, which is fast; zeros of different sign merely take the general path.
 bool same(const rays::LightRays& rays, std::size_t begin, std::size_t end) {
     return begin == end || std::memcmp(&rays.z_front[begin], &rays.z_back[begin], (end - begin) * sizeof(float)) == 0;
 }
 
-// Transmittances become integers: what a ray loses at its surfaces then adds up exactly to what it has lost in all, so
-// the sum neither drifts nor rises, ends at exactly 0 behind opaque surfaces, and is the same in every order of the
+// Represents transmittances as integers: the losses of a ray at its surfaces then add up exactly to its total loss, so
+// the sum neither drifts nor rises, ends at exactly 0 behind opaque surfaces, and is the same for every order of the
 // rays.
 class Drops {
 public:
@@ -26,7 +26,7 @@ public:
         scratch.drops.resize(most);
     }
 
-    // What a ray of this weight loses at each of its surfaces.
+    // Adds what a ray of this weight loses at each of its surfaces.
     void add(const rays::LightRays& rays, std::size_t ray, int channel, std::int64_t weight) {
         std::uint64_t* const order = scratch_.order.data();
         std::int64_t* const drops = scratch_.drops.data();

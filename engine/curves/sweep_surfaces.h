@@ -1,15 +1,15 @@
-// The sweep where rays hit surfaces alone: every event is a step, and steps can be summed exactly.
+// The sweep for rays that hit only surfaces: every event is a step, and steps can be summed exactly.
 #pragma once
 
 #include "curves/sweep.h"
 
 namespace shadowbench::curves {
 
-// Whether no segment of the rays [first, first + count), or of those chosen, has an extent.
+// Whether no segment of the rays [first, first + count), or of the chosen rays, has an extent in depth.
 bool surfaces_only(const rays::LightRays& rays, std::size_t first, std::size_t count);
 bool surfaces_only(const rays::LightRays& rays, std::span<const WeightedRay> chosen);
 
-// Appends to `out`. At each depth where light is lost a pair of vertices, before and after.
+// Appends to `out` a pair of vertices, before and after, at each depth where light is lost.
 void visibility_of_surfaces(const rays::LightRays& rays, std::size_t first, std::size_t count, int channel,
                             SweepScratch& scratch, Curve& out);
 

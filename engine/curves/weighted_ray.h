@@ -1,3 +1,4 @@
+// A light ray with its weight, for sums over rays.
 #pragma once
 
 #include <cstddef>

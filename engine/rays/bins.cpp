@@ -22,7 +22,7 @@ void add_sphere(const LightView& view, const Vec3d& c, double radius, PlaneBox& 
         box.add_all();
         return;
     }
-    // Slopes of the box around the sphere: each is extreme at a corner.
+    // The slopes of the box around the sphere: each extreme is at a corner.
     for (const double per_z : {1.0 / front, 1.0 / back}) {
         box.add((c.x - radius) * per_z, (c.y - radius) * per_z);
         box.add((c.x + radius) * per_z, (c.y + radius) * per_z);
@@ -39,7 +39,7 @@ void add_triangle(const LightView& view, const Vec3d& a, const Vec3d& b, const V
         }
         if (p.z > view.z_near) box.add(p.x / p.z, p.y / p.z);
         const Vec3d& q = *v[(i + 1) % 3];
-        if ((p.z > view.z_near) != (q.z > view.z_near)) {  // the edge passes the near plane
+        if ((p.z > view.z_near) != (q.z > view.z_near)) {  // the edge crosses the near plane
             const double u = (view.z_near - p.z) / (q.z - p.z);
             box.add((p.x + u * (q.x - p.x)) / view.z_near, (p.y + u * (q.y - p.y)) / view.z_near);
         }

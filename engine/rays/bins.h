@@ -1,4 +1,4 @@
-// Which primitives may touch which tile.
+// Finds the primitives that may touch each tile.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct PlaneBox {
         add(box.x_low, box.y_low);
         add(box.x_high, box.y_high);
     }
-    void add_all() {  // the whole plane
+    void add_all() {  // covers the whole plane
         add(-infinity, -infinity);
         add(infinity, infinity);
     }
@@ -40,11 +40,11 @@ private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 };
 
-// Bounds of what a ray sees of it: a sphere (surface or not), a triangle. Parts at z <= z_near are left out.
+// Adds the bounds of what a ray sees of a sphere (surface or not) or a triangle. Parts at z <= z_near are left out.
 void add_sphere(const LightView& view, const Vec3d& centre, double radius, PlaneBox& box);
 void add_triangle(const LightView& view, const Vec3d& a, const Vec3d& b, const Vec3d& c, PlaneBox& box);
 
-// One list of primitives a tile.
+// One list of primitives for each tile.
 struct Bins {
     std::vector<std::uint64_t> begin;  // tiles + 1
     std::vector<std::uint32_t> primitives;
@@ -57,8 +57,8 @@ struct Bins {
     }
 };
 
-// `bounds(i)` gives the view-plane bounds of primitive i; it is called from several threads. In each tile the
-// primitives keep their order. Throws Error{bad_input} where the lists would not fit in memory.
+// `bounds(i)` returns the view-plane bounds of primitive i; it is called from several threads. The primitives of a tile
+// keep their order. Throws Error{bad_input} if the lists would not fit in memory.
 Bins make_bins(const LightView& view, const MapLayout& layout, std::size_t primitives,
                const std::function<PlaneBox(std::size_t)>& bounds);
 

@@ -15,7 +15,7 @@
 namespace shadowbench::rays {
 namespace {
 
-// Rows of a deep image are the map's rows: one ray a pixel, its samples submitted as they stand in the image.
+// The rows of a deep image are the map's rows: one ray for each pixel, with its samples submitted in the image's order.
 void copy_deep_image(const scene::DeepImage& image, bool submission, LightRays& rays) {
     const auto channels = static_cast<std::size_t>(image.channels);
     rays.begin.assign(1, 0);
@@ -50,7 +50,7 @@ MapLayout make_layout(const scene::Scene& scene, const LightView& view, const sc
     layout.jittered = settings.pattern == scene::Pattern::jittered;
     layout.seed = settings.seed;
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    // Places in light space are floats: what a sphere or a hair reaches from its rounded middle may be a little
+    // Light-space positions are floats: what a sphere or a hair reaches from its rounded centre may lie slightly
     // outside.
     const double rounding = scene.deep_image ? 0.0 : 0x1p-23 * std::max(std::abs(view.z_min), std::abs(view.z_max));
     layout.z_min = outward(std::max(view.z_min - rounding, std::min(view.z_min, view.z_near)), -infinity);
@@ -83,7 +83,7 @@ struct Capture::State {
             return p.moving && (p.marcher || !p.bins.of(rays.tile).empty());
         });
         const TileGrid grid = make_tile_grid(view, layout, rays, moving);
-        thread_local Sink sink;  // its memory serves tile after tile
+        thread_local Sink sink;  // keeps its memory from tile to tile
         sink.hits.clear();
         if (view.perspective)
             TileProjection<true, Sink>(view, layout, grid, rays, sink).project(objects);

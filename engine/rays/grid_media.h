@@ -1,4 +1,5 @@
-// The grid volumes of a scene along light rays, without steps: what the truth and the ray-traced technique take.
+// The grid volumes of a scene along light rays, integrated without steps, for the reference and the ray-traced
+// technique.
 #pragma once
 
 #include <span>
@@ -27,8 +28,8 @@ public:
     const std::vector<Volume>& volumes() const { return volumes_; }
     bool empty() const { return volumes_.empty(); }
 
-    // The exact optical depth, channel by channel, of the light ray at map position (x, y) and `time` in the shutter up
-    // to each depth of `z`, which ascend. `depth` is as long as `z`; it is replaced.
+    // The exact optical depth in each channel of the light ray at map position (x, y) and `time` in the shutter, up to
+    // each depth in `z`, which must ascend. `depth` is as long as `z`; it is replaced.
     void optical_depths(const LightView& view, double x, double y, double time, std::span<const double> z,
                         std::span<base::Vec3d> depth) const;
 

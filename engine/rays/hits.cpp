@@ -12,7 +12,7 @@
 namespace shadowbench::rays {
 namespace {
 
-// Offsets of each ray's hits, by counting; `begin` has rays + 1 entries.
+// Finds the offsets of each ray's hits by counting; `begin` has rays + 1 entries.
 template <class Hits>
 void count(const Hits& hits, std::size_t rays, std::vector<std::uint32_t>& begin) {
     check_hits(hits);
@@ -21,7 +21,7 @@ void count(const Hits& hits, std::size_t rays, std::vector<std::uint32_t>& begin
     for (std::size_t r = 0; r < rays; ++r) begin[r + 1] += begin[r];
 }
 
-// Most rays cross little: insertion for them. Long lists often come sorted, as the steps of a volume do.
+// Most rays cross little, so insertion sorts them. Long lists, such as the steps of a volume, are often sorted already.
 template <class T, class Less>
 void sort_ray(T* first, T* last, Less less) {
     if (last - first > 24) {
@@ -36,7 +36,7 @@ void sort_ray(T* first, T* last, Less less) {
     }
 }
 
-// `found` holds the hits ray after ray, each ray's in the order found.
+// `found` holds the hits ray after ray; each ray's hits are in the order in which they were found.
 template <class T, class Less>
 void find_submission(const std::vector<T>& found, Less less, LightRays& tile) {
     tile.submission.resize(found.size());
@@ -54,15 +54,14 @@ void find_submission(const std::vector<T>& found, Less less, LightRays& tile) {
 }  // namespace
 
 void refuse_hits() {
-    throw base::Error(
-        base::ErrorCode::bad_input, "/rays",
-        "a tile of the map holds more than 2^28 segments: ask for fewer samples a pixel, for larger steps "
-        "of the volumes, or for fewer objects");
+    throw base::Error(base::ErrorCode::bad_input, "/rays",
+                      "a tile of the map holds more than 2^28 segments: use fewer samples a pixel, larger steps "
+                      "of the volumes, or fewer objects");
 }
 
 void sort_hits(const SurfaceHits& hits, std::size_t rays, bool submission, LightRays& tile) {
     count(hits, rays, tile.begin);
-    // Depths are not negative, so their bits sort as they do; the transmittance behind settles ties.
+    // Depths are not negative, so their bits sort as they do; the transmittance behind breaks ties.
     thread_local std::vector<std::uint64_t> keys;
     keys.resize(hits.hits.size());
     std::vector<std::uint32_t> next(tile.begin.begin(), tile.begin.end() - 1);

@@ -1,4 +1,4 @@
-// What a tile's rays cross, in the order found, and its sorting into light rays.
+// The crossings of a tile's rays in the order in which they were found, and their sorting into light rays.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace shadowbench::rays {
 
-// More would take gigabytes, a tile at a time in every thread.
+// More would take gigabytes for one tile in every thread.
 constexpr std::size_t max_tile_hits = std::size_t{1} << 28;
 
-// Throws Error{bad_input} above that number. Asked once a primitive, or ray of a volume.
+// Throws Error{bad_input} above that number. Called once for each primitive, or each ray of a volume.
 void refuse_hits();
 template <class Sink>
 void check_hits(const Sink& sink) {
@@ -20,7 +20,7 @@ void check_hits(const Sink& sink) {
         refuse_hits();
 }
 
-// Opaque or translucent surfaces of one channel: what most scenes have, and all that they pay for.
+// Opaque or translucent surfaces of one channel. Most scenes have only these and pay only for these.
 struct SurfaceHits {
     struct Hit {
         std::uint32_t ray;
@@ -33,7 +33,7 @@ struct SurfaceHits {
     }
 };
 
-// Anything: media, and three channels.
+// All other hits: media, and three channels.
 struct SegmentHits {
     struct Hit {
         std::uint32_t ray;
@@ -50,8 +50,8 @@ struct SegmentHits {
     }
 };
 
-// Fills begin, z_front, z_back, transmittance and, if asked for, submission of `tile`, whose other fields are set, for
-// `rays` rays. Hits that are alike in everything keep their order.
+// Fills begin, z_front, z_back, transmittance and, if asked for, submission of `tile` for `rays` rays. The other fields
+// of `tile` must be set. Hits that are equal in everything keep their order.
 void sort_hits(const SurfaceHits& hits, std::size_t rays, bool submission, LightRays& tile);
 void sort_hits(const SegmentHits& hits, std::size_t rays, bool submission, LightRays& tile);
 

@@ -18,7 +18,7 @@ struct ImagePlane {
     base::Vec3d direction(double x, double y) const { return through(x, y).normalized(); }
 };
 
-// Pixels are square; the camera's angle is that of the image's height.
+// Pixels are square; the camera's angle of view covers the image's height.
 ImagePlane make_image_plane(const scene::Camera& camera, base::Vec2i resolution);
 
 }  // namespace shadowbench::rays

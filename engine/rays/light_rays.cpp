@@ -47,14 +47,14 @@ double sample_time(const MapLayout& layout, int i, int j) {
 }
 
 LightRays channel(const LightRays& rays, int channel) {
-    LightRays one = rays;
-    one.channels = 1;
+    LightRays result = rays;
+    result.channels = 1;
     if (rays.channels > 1) {
-        one.transmittance.resize(rays.segments());
+        result.transmittance.resize(rays.segments());
         for (std::size_t s = 0; s < rays.segments(); ++s)
-            one.transmittance[s] = rays.transmittance[s * rays.channels + channel];
+            result.transmittance[s] = rays.transmittance[s * rays.channels + channel];
     }
-    return one;
+    return result;
 }
 
 double optical_depth(const LightRays& rays, std::size_t segment, int channel, double z) {

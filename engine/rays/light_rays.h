@@ -1,5 +1,5 @@
-// Light rays: what every technique is built from. A map is captured tile by tile; a tile holds every sample ray of its
-// pixels with all that the ray crosses.
+// Light rays, from which every technique is built. A map is captured tile by tile; a tile holds every sample ray of its
+// pixels with all segments that the ray crosses.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,17 @@ namespace shadowbench::rays {
 // The rays of a whole map. Sample cell (i, j), i in [0, width * samples_x), holds one ray.
 struct MapLayout {
     int width = 1, height = 1;            // pixels
-    int samples_x = 1, samples_y = 1;     // sample cells a pixel
+    int samples_x = 1, samples_y = 1;     // sample cells per pixel
     int channels = 1;                     // 1 or 3
     bool media = false;                   // whether any ray may hold a segment with z_front < z_back
     bool jittered = false;                // samples lie anywhere in their cells, else in the middle
-    std::uint64_t seed = 0;               // of the jitter
+    std::uint64_t seed = 0;               // for the jitter
     float z_min = 0.0f, z_max = 1.0f;     // bounds of every depth that occurs
     int tile_width = 1, tile_height = 1;  // pixels; tiles at the right and top edge may be smaller
-    bool moving = false;                  // something that casts shadows moves: each ray has its own time
-    int apron = 0;                        // pixels around a tile that may be asked for with it
-    bool cells = false;                   // grid volumes: a segment a voxel cell, else a step
-    bool submission = false;              // tiles tell the order in which their segments were found
+    bool moving = false;                  // a shadow caster moves: each ray has its own time
+    int apron = 0;                        // pixels around a tile that a caller may ask for with it
+    bool cells = false;                   // grid volumes: one segment for each voxel cell, else for each step
+    bool submission = false;              // tiles record the order in which their segments were found
 
     int samples() const { return samples_x * samples_y; }
     int tiles_x() const { return (width + tile_width - 1) / tile_width; }
@@ -39,36 +39,36 @@ struct SamplePosition {
 };
 SamplePosition sample_position(const MapLayout& layout, int i, int j);
 
-// The pixels of a tile itself, without any apron.
+// The pixels of a tile without its apron.
 struct TileCore {
     int x0, y0, width, height;
 };
 TileCore core_of(const MapLayout& layout, int tile);
 
-// When in the shutter, [0, 1), the ray in sample cell (i, j) sees the scene: the rays of a pixel stand one each in
-// samples() equal parts of the shutter, dealt out such that places in the pixel and times are stratified together
-// (shutter.h). 0 unless the layout is moving.
+// The time in the shutter, [0, 1), at which the ray in sample cell (i, j) sees the scene. Each of the samples() equal
+// parts of the shutter has one ray of a pixel, dealt out so that positions in the pixel and times are stratified
+// together (shutter.h). 0 unless the layout is moving.
 double sample_time(const MapLayout& layout, int i, int j);
 
-// A tile may be asked for with an apron: then it covers a larger rectangle of pixels, clipped to the map, and `tile`
-// still names the tile that it was asked for.
+// A caller may ask for a tile with an apron: then the tile covers a larger rectangle of pixels, clipped to the map, and
+// `tile` is still its index.
 // Rays are ordered by pixel (row after row of the tile), then by sample cell (row after row of the pixel).
 // The segments of a ray are sorted by z_front, then z_back; those of one pixel are contiguous.
 // A surface has z_front == z_back. A medium's segment has constant extinction between its ends. Segments may overlap:
-// they multiply. tau(z) takes the surfaces with z_front < z.
+// their transmittances multiply. tau(z) includes the surfaces with z_front < z.
 struct LightRays {
     int tile = 0;               // row-major index
     int x0 = 0, y0 = 0;         // the tile's first pixel
     int width = 0, height = 0;  // pixels of this tile
-    int samples = 1;            // rays a pixel
+    int samples = 1;            // rays per pixel
     int channels = 1;
     std::vector<std::uint32_t> begin;  // rays + 1 offsets into the segments
     std::vector<float> z_front;
-    std::vector<float> z_back;         // empty when the tile holds surfaces only
-    std::vector<float> transmittance;  // channels a segment, in [0, 1]
-    // Where the layout asks for it: the ray's segments in the order in which primitives were submitted (object by
-    // object, primitive by primitive, each from front to back). Entry k of a ray, counted from begin[ray], is the index
-    // of the segment that came k-th.
+    std::vector<float> z_back;         // empty if the tile holds only surfaces
+    std::vector<float> transmittance;  // `channels` values for each segment, in [0, 1]
+    // If the layout asks for it: the order in which the ray's segments were submitted (object by object, primitive by
+    // primitive, each from front to back). Entry k of a ray, counted from begin[ray], is the index of the k-th segment
+    // submitted.
     std::vector<std::uint32_t> submission;
 
     std::size_t rays() const { return begin.empty() ? 0 : begin.size() - 1; }
@@ -80,17 +80,17 @@ struct LightRays {
     }
 };
 
-// One channel of the rays, as rays of their own.
+// One channel of the rays, as a set of rays.
 LightRays channel(const LightRays& rays, int channel);
 
-// Optical depth of a medium's segment from its front to z, z_front < z < z_back. A transmittance below the smallest
-// normal float, 0 too, counts as that: some number has to tell how steeply the medium darkens.
+// The optical depth of a medium's segment from its front to z, z_front < z < z_back. A transmittance below the smallest
+// normal float, also 0, counts as that float: the segment needs a finite extinction.
 double optical_depth(const LightRays& rays, std::size_t segment, int channel, double z);
 
-// The oracle: exact transmittance of one ray up to depth z, in double. A surface counts when z_front < z.
-// Products are compensated, optical depths summed with compensation: of values above 1e-290 the relative error is below
-// 2^-51 (1 + D), where D is the optical depth, up to z, of the media that z lies inside of; how many segments there are
-// does not matter. O(segments of the ray).
+// The oracle: exact transmittance of one ray up to depth z, in double. A surface counts if z_front < z. Products are
+// compensated, and optical depths are summed with compensation. For values above 1e-290 the relative error is below
+// 2^-51 (1 + D), where D is the optical depth, up to z, of the media that contain z; it does not grow with the number
+// of segments. Takes time in proportion to the ray's segments.
 double transmittance(const LightRays& rays, std::size_t ray, int channel, double z);
 
 }  // namespace shadowbench::rays

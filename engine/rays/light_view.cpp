@@ -14,8 +14,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// What the light looks at lies along `forward`, `right` is to its right; the map's y axis leans towards `up`, or
-// towards the world's y axis.
+// The light looks along `forward`; `right` is to its right. The map's y axis leans towards `up`, or towards the world's
+// y axis.
 void set_frame(LightView& view, const Vec3d& forward, const std::optional<Vec3d>& up) {
     view.forward = forward.normalized();
     Vec3d lean = up ? *up : Vec3d(0, 1, 0);
@@ -43,7 +43,7 @@ struct PlaneBounds {
     }
 };
 
-// A map of square pixels centred on `middle` that holds `size`.
+// Fits a map of square pixels, centred on `middle`, around `size`.
 void fit(LightView& view, Vec2d middle, Vec2d size) {
     const double pixel = std::max(size.x / view.resolution.x, size.y / view.resolution.y);
     view.pixel = {pixel, pixel};
@@ -65,9 +65,9 @@ LightView directional_view(const scene::Light& light, const base::Box3d& casters
         z_low = std::min(z_low, p.z);
         z_high = std::max(z_high, p.z);
     }
-    // Depth 0 lies a little before the first caster: depths stay small, which keeps float z exact, and positive.
+    // Depth 0 lies slightly before the first caster: depths stay positive, and small, which keeps float z exact.
     const double scale = std::max({z_high - z_low, plane.high.x - plane.low.x, plane.high.y - plane.low.y, 1e-6});
-    // More than the rounding of places that far from the target, or depths could fall below 0.
+    // More than the rounding of positions that far from the target; otherwise depths could fall below 0.
     const double rounding = 1e-12 * std::max(largest(casters.min), largest(casters.max) + largest(light.target));
     const double start = z_low - std::max(0.01 * scale, rounding);
     view.origin += view.forward * start;
@@ -103,7 +103,7 @@ LightView spot_view(const scene::Light& light, const base::Box3d& casters, Vec2i
     }
     view.z_min = std::max(z_low, view.z_near);
     view.z_max = z_high;
-    if (z_high <= view.z_near) {  // all casters are behind the light: some depths around its target
+    if (z_high <= view.z_near) {  // all casters are behind the light: use depths around its target
         view.z_min = view.z_near;
         view.z_max = 2.0 * std::max(axis.length(), view.z_near);
     }
@@ -136,7 +136,7 @@ LightView deep_image_view(const scene::DeepImage& image) {
     return view;
 }
 
-// Voxels are told apart by their distance from the light, in double.
+// Refuses volumes whose voxels distances from the light, in double, cannot resolve.
 void check_volumes(const LightView& view, const scene::Scene& scene, const std::string& where) {
     constexpr double farthest = 1e13;  // in voxels
     for (const scene::Object& object : scene.objects) {
@@ -167,7 +167,7 @@ LightView make_light_view(const scene::Light& light, const scene::Scene& scene, 
     return view;
 }
 
-// All corners outside of one of the map's sides, or none behind the near plane.
+// True if all corners are outside one of the map's sides, or none is behind the near plane.
 bool misses_all(const LightView& view, const scene::Scene& scene) {
     if (scene.deep_image) return false;
     const Vec2d high = view.lower + Vec2d(view.pixel.x * view.resolution.x, view.pixel.y * view.resolution.y);
@@ -207,7 +207,7 @@ Vec3d unproject(const LightView& view, double x, double y, double z) {
 LightLine light_line(const LightView& view, double x, double y) {
     const double px = view.lower.x + x * view.pixel.x, py = view.lower.y + y * view.pixel.y;
     const Vec3d aside = view.right * px + view.up * py;
-    constexpr double far_before = -1e30;  // of all that is
+    constexpr double far_before = -1e30;  // before everything
     if (!view.perspective) return {view.origin + aside, view.forward, 1.0, std::max(view.z_near, far_before)};
     return {view.origin, aside + view.forward, std::sqrt(1.0 + px * px + py * py), view.z_near};
 }

@@ -1,6 +1,6 @@
-// How a light sees the scene: world space to light space and back.
-// Light space: (x, y) in map pixels, x in [0, width), y in [0, height), pixel (i, j) spans [i, i+1) x [j, j+1);
-// z is planar depth along the light's axis in world length, growing away from the light, for both kinds of light.
+// How a light sees the scene: converts world space to light space and back.
+// Light space: (x, y) in map pixels, x in [0, width), y in [0, height); pixel (i, j) spans [i, i+1) x [j, j+1). z is
+// planar depth along the light's axis in world length, growing away from the light, for both kinds of light.
 #pragma once
 
 #include <string>
@@ -20,22 +20,22 @@ using base::Vec3d;
 
 struct LightView {
     bool perspective = false;
-    Vec3d origin{0, 0, 0};  // z = 0 here
+    Vec3d origin{0, 0, 0};  // the point of depth 0
     Vec3d right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, 1};
-    Vec2d lower{0, 0};       // view-plane place of map corner (0, 0): world length, or slope (x / z) in perspective
+    Vec2d lower{0, 0};       // view-plane position of map corner (0, 0): world length, or slope (x / z) in perspective
     Vec2d pixel{1, 1};       // size of a map pixel on the view plane
     Vec2i resolution{1, 1};  // map pixels
     double z_near = 0.0;     // crossings at z <= z_near are not seen (perspective); orthographic: minus infinity
-    double z_min = 0.0;      // depth bounds of what casts shadows
+    double z_min = 0.0;      // depth bounds of the shadow casters
     double z_max = 1.0;
 };
 
-// Sees the casters of the scene, or nothing where none is in view. Throws Error{bad_input} at `where` when there is no
-// caster, or at its angle when that has to fit casters which no angle fits.
+// The view of the scene's casters; it sees nothing if none is in view. Throws Error{bad_input}: at `where` if there is
+// no caster, at its angle if the angle should fit casters that no angle fits.
 LightView make_light_view(const scene::Light& light, const scene::Scene& scene, Vec2i resolution,
                           const std::string& where);
 
-// Whether the bounds of what casts shadows surely miss the map: then no light ray meets anything.
+// Whether the bounds of the shadow casters surely miss the map; then no light ray meets anything.
 bool misses_all(const LightView& view, const scene::Scene& scene);
 
 // View space: coordinates along right, up, forward from the origin.
@@ -52,11 +52,11 @@ Vec3d unproject(const LightView& view, double x, double y, double z);
 struct LightLine {
     Vec3d origin, direction;
     double scale;    // its length per unit of z, >= 1
-    double z_start;  // what lies before is not seen
+    double z_start;  // crossings before this depth are not seen
 };
 LightLine light_line(const LightView& view, double x, double y);
 
-// Length of the ray at map position (x, y) per unit of z, >= 1.
+// The length of the ray at map position (x, y) per unit of z, >= 1.
 double length_per_depth(const LightView& view, double x, double y);
 
 }  // namespace shadowbench::rays

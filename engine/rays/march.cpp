@@ -16,7 +16,7 @@ constexpr int block_size = 8;
 using base::Vec3d;
 using base::Vec3i;
 
-// Clips [t_min, t_max] to the box; false when nothing is left.
+// Clips [t_min, t_max] to the box; returns false if nothing is left.
 bool clip(const Vec3d& origin, const Vec3d& direction, const Vec3d& lower, const Vec3d& upper, double& t_min,
           double& t_max) {
     for (int a = 0; a < 3; ++a) {
@@ -31,8 +31,8 @@ bool clip(const Vec3d& origin, const Vec3d& direction, const Vec3d& lower, const
     return t_min < t_max;
 }
 
-// Segments with float ends: those whose ends are one float join the next one that is longer; before a gap the last of
-// them are made so long.
+// Joins segments until their ends are different floats: a segment whose ends are one float joins the next longer one;
+// before a gap, the last ones are extended to one float of length.
 class Joiner {
 public:
     Joiner(double t_min, std::vector<MediumSegment>& out) : t_min_(t_min), out_(out) {}
@@ -61,8 +61,8 @@ private:
 }  // namespace
 
 VolumeMarcher::VolumeMarcher(const scene::GridVolume& volume) : volume_(volume) {
-    // Block b holds the interpolation cells whose lower corner index + 1 lies in [8 b, 8 b + 8): indices -1 .. size
-    // - 1.
+    // Block b holds the interpolation cells whose lower corner index + 1 lies in [8 b, 8 b + 8); indices run from -1 to
+    // size - 1.
     blocks_ = {volume.size.x / block_size + 1, volume.size.y / block_size + 1, volume.size.z / block_size + 1};
     occupied_.assign(static_cast<std::size_t>(blocks_.x) * blocks_.y * blocks_.z, 0);
     std::size_t v = 0;
@@ -70,7 +70,7 @@ VolumeMarcher::VolumeMarcher(const scene::GridVolume& volume) : volume_(volume) 
         for (int y = 0; y < volume.size.y; ++y)
             for (int x = 0; x < volume.size.x; ++x, ++v) {
                 if (volume.density[v] <= 0.0f) continue;
-                // A voxel is a corner of the cells at its own index and at the one below, in each axis.
+                // A voxel is a corner of the cells at its own index and at the index below, in each axis.
                 for (int bz = z / block_size; bz <= (z + 1) / block_size; ++bz)
                     for (int by = y / block_size; by <= (y + 1) / block_size; ++by)
                         for (int bx = x / block_size; bx <= (x + 1) / block_size; ++bx)
@@ -78,11 +78,11 @@ VolumeMarcher::VolumeMarcher(const scene::GridVolume& volume) : volume_(volume) 
             }
 }
 
-// Trilinear at `index` = voxel coordinates (voxel centres at whole numbers) inside the box, which ends half a voxel
-// outside the outermost centres: there the outermost value holds.
+// Trilinear at `index` = voxel coordinates (voxel centres at whole numbers) inside the box. The box ends half a voxel
+// outside the outermost centres, where the outermost value holds.
 double VolumeMarcher::density(const Vec3d& index) const {
     const Vec3i size = volume_.size;
-    const auto cell = [](double place, int count) {  // floor, for places from -1 on
+    const auto cell = [](double place, int count) {  // floor, for positions >= -1
         return std::min(static_cast<int>(place + 1.0), count) - 1;
     };
     const int x = cell(index.x, size.x), y = cell(index.y, size.y), z = cell(index.z, size.z);
@@ -100,8 +100,7 @@ double VolumeMarcher::density(const Vec3d& index) const {
     return std::max(a + fz * (b - a), 0.0);
 }
 
-// How far along the ray the block around `index` reaches when it is empty: the step of t to where the ray leaves it;
-// 0 for a block that holds something.
+// If the block around `index` is empty, the step of t to where the ray leaves it; otherwise 0.
 double VolumeMarcher::empty_ahead(const Vec3d& index, const Vec3d& slope) const {
     std::size_t block = 0;
     double ahead = std::numeric_limits<double>::infinity();
@@ -126,7 +125,7 @@ bool VolumeMarcher::enter(const Vec3d& origin, const Vec3d& direction, double t_
         way.slope[a] = direction[a] * per_length;
         way.start[a] = (origin[a] - volume_.lower[a]) * per_length - 0.5 + way.slope[a] * t_min;
     }
-    // Seen from so far away that places along the ray are too coarse to tell voxels apart, there is nothing to see.
+    // Seen from so far away that positions along the ray cannot resolve voxels, the volume is not seen.
     constexpr double slack = 0.25;
     for (int a = 0; a < 3; ++a) {
         const double end = way.start[a] + way.slope[a] * way.length;
@@ -160,9 +159,9 @@ void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double sc
             if (before < 0.0) before = density(index);
         }
         const double next = place(i + 1);
-        const double here = density(way.start + way.slope * next);
-        joiner.add(s, next, 0.5 * (before + here) * (next - s) * scale);
-        before = here;
+        const double behind = density(way.start + way.slope * next);
+        joiner.add(s, next, 0.5 * (before + behind) * (next - s) * scale);
+        before = behind;
     }
     joiner.gap(way.length);
 }
@@ -175,7 +174,7 @@ double VolumeMarcher::integral(const Way& way, double from, double to) const {
     return half * (density(middle - off) + density(middle + off));
 }
 
-// Calls visit(from, to) for the cells that the ray crosses, in order, empty blocks left out.
+// Calls visit(from, to) for the cells that the ray crosses, in order, except those of empty blocks.
 template <class Visit>
 void VolumeMarcher::for_each_cell(const Way& way, const Visit& visit) const {
     constexpr double never = std::numeric_limits<double>::infinity();
@@ -186,7 +185,7 @@ void VolumeMarcher::for_each_cell(const Way& way, const Visit& visit) const {
         sign[a] = way.slope[a] > 0.0 ? 1.0 : -1.0;
     }
     const auto meet = [&](int a) { reach[a] = inverse[a] == never ? never : (wall[a] - way.start[a]) * inverse[a]; };
-    const auto pass = [&](int a, double s) {  // the walls up to s
+    const auto pass = [&](int a, double s) {  // passes the walls up to s
         while (reach[a] <= s) {
             wall[a] += sign[a];
             meet(a);
@@ -254,7 +253,8 @@ void VolumeMarcher::optical_depths(const Vec3d& origin, const Vec3d& direction, 
 
 bool sphere_stretch(const Vec3d& origin, const Vec3d& direction, const Vec3d& centre, double radius, double& front,
                     double& back) {
-    // Closest approach first: the distance is taken of a small difference, which keeps its digits far from the origin.
+    // Moves to the closest approach first: the distance then comes from a small difference, which keeps its digits far
+    // from the origin.
     const double length2 = direction.dot(direction);
     const Vec3d to_centre = centre - origin;
     const double middle = to_centre.dot(direction) / length2;

@@ -13,34 +13,34 @@ struct GridVolume;
 
 namespace shadowbench::rays {
 
-// Optical depth of one unit of extinction over [front, back]: multiply by a channel's extinction for -log of
-// transmittance.
+// The optical depth of one unit of extinction over [front, back]. Multiply it by a channel's extinction to get
+// -log(transmittance).
 struct MediumSegment {
     float front, back;
     double depth;
 };
 
-// A grid made ready for rays: knows which blocks of voxels are empty.
+// A grid prepared for rays: knows which blocks of voxels are empty.
 // Density is trilinear between voxel centres, and constant in the half voxel outside the outermost ones. Along a ray it
-// is a cubic polynomial inside each cell (the box between eight centres), whose integral the two-point rule of Gauss
-// and Legendre gives exactly.
-// All functions see nothing where the origin is so far away that distances from it in double cannot tell voxels apart.
+// is a cubic polynomial inside each cell (the box between eight centres), so the two-point Gauss-Legendre rule gives
+// its integral exactly.
+// All functions see nothing if the origin is so far away that distances from it in double cannot resolve voxels.
 class VolumeMarcher {
 public:
     explicit VolumeMarcher(const scene::GridVolume& volume);
 
-    // Appends segments that hold something, in order. Neighbours share their ends exactly. Each is at least one float
-    // long: shorter ones are joined.
-    //  - march: at regular steps from where the ray enters the box, the samples joined by the trapezoid rule (Lokovic
+    // Append the segments with density, in order. Neighbours share their ends exactly. Each is at least one float long:
+    // shorter ones are joined.
+    //  - march: regular steps from where the ray enters the box; the trapezoid rule joins the samples (Lokovic
     //    and Veach 2000, section 3.2). A step is volume.step of world length; the last one may be shorter.
-    //  - march_cells: one segment a cell that the ray crosses, of exactly the cell's optical depth.
+    //  - march_cells: one segment for each cell that the ray crosses, with exactly the cell's optical depth.
     void march(const base::Vec3d& origin, const base::Vec3d& direction, double scale, double t_min, double t_max,
                std::vector<MediumSegment>& out) const;
     void march_cells(const base::Vec3d& origin, const base::Vec3d& direction, double scale, double t_min, double t_max,
                      std::vector<MediumSegment>& out) const;
 
-    // The exact optical depth of one unit of extinction from t_min to each of `t`, which ascend: depth[i] belongs to
-    // t[i], inside of a cell too. The relative error is that of double sums over the cells crossed.
+    // The exact optical depth of one unit of extinction from t_min to each value of `t`, which must ascend: depth[i]
+    // belongs to t[i], which may be inside a cell. The relative error is that of double sums over the cells crossed.
     void optical_depths(const base::Vec3d& origin, const base::Vec3d& direction, double scale, double t_min,
                         std::span<const double> t, std::span<double> depth) const;
 
@@ -61,10 +61,10 @@ private:
 
     const scene::GridVolume& volume_;
     base::Vec3i blocks_;
-    std::vector<unsigned char> occupied_;  // block_size^3 cells a block; 1: some corner of them has density
+    std::vector<unsigned char> occupied_;  // block_size^3 cells per block; 1: some corner of them has density
 };
 
-// The stretch of the ray inside a sphere, before clipping; false when it misses.
+// The part of the ray inside a sphere, before clipping; returns false if the ray misses it.
 bool sphere_stretch(const base::Vec3d& origin, const base::Vec3d& direction, const base::Vec3d& centre, double radius,
                     double& front, double& back);
 

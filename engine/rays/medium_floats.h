@@ -1,5 +1,5 @@
-// Optical depths as the transmittances of float that light rays hold, without what a single exp and a single rounding
-// would lose: steps too faint to tell from 1, and how fast light goes in one too thick to tell from 0.
+// Converts optical depths to the float transmittances of light rays. A single exp and a single rounding would lose
+// steps that are too faint to differ from 1, and the extinction of steps too dark to differ from 0.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,17 @@
 
 namespace shadowbench::rays {
 
-// The next depth that a float can hold: what a segment is long at least.
+// The next depth that a float can hold: the least end of a segment.
 inline float next_depth(float z) {
     return std::nextafter(z, std::numeric_limits<float>::infinity());
 }
 
-// The transmittances of segments that follow each other, rounded to float such that their product keeps up with the
-// exact one however many there are: each makes good what the one before has lost or won by rounding.
+// Rounds the transmittances of consecutive segments to float so that their product stays with the exact one, however
+// many there are: each segment corrects the rounding error of those before it.
 class StepRounding {
 public:
-    // Of a segment with this optical depth, at most `darkest`, in one channel. 1: it is left to those behind it.
+    // The transmittance in one channel of a segment with this optical depth, at most `darkest`. If it is 1, the depth
+    // is carried to the segments behind.
     float transmittance(int channel, double depth) {
         double& rest = rest_[static_cast<std::size_t>(channel)];
         depth += rest;
@@ -31,17 +32,17 @@ public:
     }
 
 private:
-    std::array<double, 3> rest_{};  // optical depth that the floats so far have not taken
+    std::array<double, 3> rest_{};  // optical depth that the floats so far have not included
 };
 
-// Optical depth behind which nothing matters. Its transmittance is still a float with all its digits, and so is that of
-// a little more, which the rounding of a depth may add.
+// The optical depth behind which nothing matters. Its transmittance is still a normal float, also after the little that
+// rounding a depth may add.
 constexpr double darkest = 80.0, black = 85.0;
 
-// Inside a segment the logarithm of the transmittance is linear. One that goes down to 0 would not tell how fast: such
-// a segment is cut where a channel reaches `darkest`, and behind its cut a channel transmits 0. `depth` is in a unit of
-// extinction, front < back. Calls add(front, back, transmittances) for the parts, from front to back; each is at least
-// one float long.
+// Inside a segment the logarithm of the transmittance is linear, so a segment that ends at 0 would have no finite
+// extinction. Such a segment is cut where a channel reaches `darkest`; behind its cut a channel transmits 0. `depth` is
+// per unit of extinction, front < back. Calls add(front, back, transmittances) for the parts from front to back; each
+// is at least one float long.
 template <class Add>
 void cut_where_dark(float front, float back, double depth, const base::Vec3f& extinction, const Add& add) {
     std::array<double, 3> cut;
@@ -51,7 +52,7 @@ void cut_where_dark(float front, float back, double depth, const base::Vec3f& ex
 
     const double length = static_cast<double>(back) - front;
     const float last = std::nextafter(back, -std::numeric_limits<float>::infinity());
-    double begin = 0.0;  // of the part, as optical depth
+    double begin = 0.0;  // optical depth at which the part begins
     float z = front;
     for (const double end : ends) {
         if (end <= begin) continue;

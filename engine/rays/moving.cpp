@@ -32,7 +32,7 @@ Placed place_hair(const LightView& view, const HairSegment& s, const Vec3d& offs
 PlaneBox swept(const LightView& view, const Placed& from, const Placed& to) {
     PlaneBox box;
     if (std::min(from.z_low, to.z_low) > view.z_near) {
-        // A place on the view plane, x / z too, runs one way while z > 0: the ends bound the way between.
+        // A view-plane position, also x / z, moves monotonically while z > 0, so the boxes at both ends bound the way.
         box.add(from.box);
         box.add(to.box);
     } else if (std::max(from.z_high, to.z_high) > view.z_near) {

@@ -1,6 +1,6 @@
-// Primitives that move in a straight line while the shutter is open, and rays that each see them at a time of their
-// own: the exact tests of primitives.h on moved primitives, and their bounds. Primitives are given where they stand at
-// time 0; an offset is what they have moved by, in view space.
+// Primitives that move in a straight line while the shutter is open, seen by rays that each have their own time: the
+// exact tests of primitives.h on moved primitives, and their bounds. Primitives are given at time 0; an offset is how
+// far they have moved, in view space.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace shadowbench::rays {
 
-// Distances of points, after they have moved, to a ray.
+// Distances of moved points from a ray.
 template <bool perspective>
 struct MovedRayMetric : RayMetric<perspective> {
     base::Vec2d offset;
@@ -27,8 +27,9 @@ struct MovedRayMetric : RayMetric<perspective> {
     }
     base::Vec2d flat(const base::Vec3f& p) const { return RayMetric<perspective>::flat(p) + offset; }
 
-    // Whether the segment surely passes the ray by: both ends on one side of it, farther than `reach` (half-width times
-    // the ray's length per depth: distances in the plane are at most so much longer than across the ray).
+    // Whether the ray surely misses the segment: both ends are on one side of the ray, farther than `reach` (half-width
+    // times the ray's length per depth: distances in the plane are longer than those across the ray by at most this
+    // factor).
     bool misses(const HairSegment& s, double reach) const {
         const base::Vec2d a = flat(s.a), b = flat(s.b);
         return std::min(a.x, b.x) > reach || std::max(a.x, b.x) < -reach || std::min(a.y, b.y) > reach ||
@@ -36,8 +37,8 @@ struct MovedRayMetric : RayMetric<perspective> {
     }
 };
 
-// The edge functions of a triangle grow linearly with time: det(a + m t, b + m t, d) = det(a, b, d) + t det(m, b - a,
-// d), and likewise across parallel rays. Both triangles of an edge form the same numbers here too.
+// The edge functions of a triangle are linear in time: det(a + m t, b + m t, d) = det(a, b, d) + t det(m, b - a, d),
+// and likewise for parallel rays. Here, too, both triangles of an edge compute the same numbers.
 struct MovingTriangle {
     TriangleSetup start;            // at time 0
     double ex[3], ey[3], e1[3], z;  // growth per unit of time
@@ -71,8 +72,8 @@ inline TriangleSetup at_time(const MovingTriangle& triangle, double time) {
     return t;
 }
 
-// Where a primitive is seen once it has moved by an offset: its view-plane bounds, which mean something where all of it
-// lies behind the near plane's depth, and its depths.
+// Where a primitive is seen once it has moved by an offset: its view-plane bounds, which are valid only if all of it
+// lies behind the near plane, and its depths.
 struct Placed {
     PlaneBox box;
     double z_low, z_high;
@@ -82,14 +83,14 @@ Placed place_triangle(const LightView& view, const base::Vec3f& a, const base::V
                       const Vec3d& offset);
 Placed place_hair(const LightView& view, const HairSegment& segment, const Vec3d& offset);
 
-// View-plane bounds of all that a primitive covers on its straight way between two places: the whole plane where it
+// View-plane bounds of all that a primitive covers on its straight way between two positions; the whole plane if it
 // meets the near plane on its way.
 PlaneBox swept(const LightView& view, const Placed& from, const Placed& to);
 
-// Calls visit(ray, offset at the ray's time) for every ray that may meet a primitive; place(offset) says where it is.
-// The shutter is taken part by part, with one ray of each pixel, so that the work depends little on how far things move
-// (as the interval algorithm of Fatahalian et al., Data-Parallel Rasterization of Micropolygons with Defocus and Motion
-// Blur, 2009).
+// Calls visit(ray, offset at the ray's time) for every ray that may meet a primitive; place(offset) returns where it
+// is. Goes through the shutter part by part, with one ray of each pixel, so that the work depends little on how far
+// things move (as in the interval algorithm of Fatahalian et al., Data-Parallel Rasterization of Micropolygons with
+// Defocus and Motion Blur, 2009).
 template <class Place, class Visit>
 void visit_moving(const LightView& view, const TileGrid& grid, const Vec3d& motion, const Place& place,
                   const Visit& visit) {

@@ -1,4 +1,4 @@
-// An object made ready for one light: its primitives in view space, sorted into the tiles that they may touch.
+// An object prepared for one light: its primitives in view space, sorted into the tiles that they may touch.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@
 
 namespace shadowbench::rays {
 
-// One object that casts shadows, in view space.
+// One shadow caster, in view space.
 struct Prepared {
     const scene::Object* object = nullptr;
     bool moving = false;
-    Vec3d motion{0, 0, 0};               // in view space; all else here is as the object stands at time 0
+    Vec3d motion{0, 0, 0};               // in view space; everything else in the struct is for the object at time 0
     float transmittance[3] = {0, 0, 0};  // of an untextured surface
     std::vector<base::Vec3f> points;     // mesh corners, hair points, sphere centres
     scene::HairSegments segments;        // hair
@@ -33,10 +33,10 @@ struct Prepared {
     }
 };
 
-// Keeps a reference to the object. Its bins hold wherever it moves to.
+// Keeps a reference to the object. Its bins cover its whole motion.
 Prepared prepare(const scene::Object& object, const LightView& view, const MapLayout& layout);
 
-// One segment of an object that is hair, in view space.
+// One segment of a hair object, in view space.
 HairSegment hair_segment(const Prepared& prepared, const scene::Hair& hair, std::uint32_t segment);
 
 }  // namespace shadowbench::rays

@@ -1,6 +1,6 @@
-// Exact tests of one ray against one primitive, in view space. A ray is the line of points (x, y) + z * slope where
-// orthographic rays have slope 0 and start at the sample's (x, y), and perspective rays start at the light and have the
-// sample's (x, y) as slope. All of it in double, on coordinates stored as float.
+// Exact tests of one ray against one primitive, in view space. A ray is the line of points (x, y) + z * slope.
+// Orthographic rays have slope 0 and start at the sample's (x, y); perspective rays start at the light and have the
+// sample's (x, y) as slope. All tests compute in double, on coordinates stored as float.
 #pragma once
 
 #include <cmath>
@@ -9,10 +9,11 @@
 
 namespace shadowbench::rays {
 
-// Distances of points to a ray, measured across the ray. `flat` is the point's place minus the ray's at the same depth.
+// Distances of points from a ray, measured across the ray. `flat` is the point's position minus the ray's at that
+// depth.
 template <bool perspective>
 struct RayMetric {
-    double sx = 0, sy = 0;       // slope; 0 when orthographic
+    double sx = 0, sy = 0;       // slope; 0 if orthographic
     double inverse_length2 = 1;  // 1 / (1 + slope^2)
     double px = 0, py = 0;
 
@@ -33,7 +34,7 @@ struct RayMetric {
             return {p.x - px, p.y - py};
     }
     double along(const base::Vec2d& a) const { return a.x * sx + a.y * sy; }
-    // Dot product of the parts of a and b across the ray.
+    // The dot product of the components of a and b across the ray.
     double dot(const base::Vec2d& a, const base::Vec2d& b) const {
         if constexpr (perspective)
             return a.x * b.x + a.y * b.y - along(a) * along(b) * inverse_length2;
@@ -42,7 +43,7 @@ struct RayMetric {
     }
 };
 
-// One segment of a strand: view-space ends and half-widths. `joined` when an earlier segment of the strand ends at a.
+// One segment of a strand: view-space ends and half-widths. `joined` if an earlier segment of the strand ends at a.
 struct HairSegment {
     base::Vec3f a, b;
     float radius_a, radius_b;
@@ -50,8 +51,8 @@ struct HairSegment {
 };
 
 // The ribbon faces the ray and has round ends. Writes the depth at which the ray passes its axis. The disc around a
-// joint belongs to the earlier segment: the same arithmetic on the same shared point decides for both, so no ray
-// crosses twice or never.
+// joint belongs to the earlier segment: the same arithmetic on the same shared point decides for both, so the ray
+// crosses the joint exactly once.
 template <class Metric>
 bool cross_hair(const HairSegment& s, const Metric& ray, double& z) {
     const base::Vec2d a = ray.flat(s.a), b = ray.flat(s.b);
@@ -66,15 +67,15 @@ bool cross_hair(const HairSegment& s, const Metric& ray, double& z) {
     const double radius = ra + (rb - ra) * u;
     if (!(in_a || ray.dot(b, b) <= rb * rb || ray.dot(nearest, nearest) <= radius * radius)) return false;
     if (ra == 0.0 && rb == 0.0) return false;
-    // Where the ray passes the axis: beside it, at the axis' depth along the ray.
+    // The ray passes the axis beside it, at the axis' depth along the ray.
     z = s.a.z + (static_cast<double>(s.b.z) - s.a.z) * u + ray.along(nearest) * ray.inverse_length2;
     return true;
 }
 
-// A triangle as three edge functions E(x, y) = ex x + ey y + e1 of the sample's view-plane place. Each is formed from
-// the ends of its edge in one order whichever triangle asks, and `flipped` says whether that order runs against this
-// triangle: the two triangles of an edge see opposite signs of the very same number, and a sample exactly on it belongs
-// to one of them.
+// A triangle as three edge functions E(x, y) = ex x + ey y + e1 of the sample's view-plane position. Each edge function
+// is computed from the ends of its edge in an order that does not depend on the triangle; `flipped` says whether that
+// order runs against this triangle. So the two triangles of an edge see opposite signs of the very same number, and a
+// sample exactly on the edge belongs to one of them.
 struct TriangleSetup {
     double ex[3], ey[3], e1[3];  // edge i lies opposite corner i
     bool flipped[3];
@@ -108,7 +109,7 @@ TriangleSetup set_up_triangle(const base::Vec3f& v0, const base::Vec3f& v1, cons
     return t;
 }
 
-// Whether the ray crosses; then the depth, and the weights of the corners (which sum to 1).
+// Whether the ray crosses the triangle; if so, the depth and the weights of the corners (which sum to 1).
 inline bool cross_triangle(const TriangleSetup& t, double x, double y, double& z, double weight[3]) {
     double e[3];
     bool side[3];

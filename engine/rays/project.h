@@ -1,5 +1,5 @@
-// Projecting primitives into the sample grid of a tile: each sample that a primitive may cover is tested exactly.
-// `Sink` is SurfaceHits or SegmentHits (hits.h). Internal to tile_projection.h, which says what is projected.
+// Projects primitives into the sample grid of a tile and tests exactly each sample that a primitive may cover. `Sink`
+// is SurfaceHits or SegmentHits (hits.h). Internal to tile_projection.h, which chooses what is projected.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace shadowbench::rays {
 
 template <bool perspective, class Sink>
 void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, const float* transmittance, Sink& sink) {
-    // The axis on the view plane, and how far from it the ribbon can reach in x or y.
+    // The axis on the view plane, and how far the ribbon can reach from it in x or y.
     double ax = s.a.x, ay = s.a.y, bx = s.b.x, by = s.b.y, reach = std::max(s.radius_a, s.radius_b);
     bool everywhere = false;
     if constexpr (perspective) {
@@ -21,7 +21,7 @@ void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, con
         };
         if (std::min(s.a.z - s.radius_a, s.b.z - s.radius_b) <= 0.25 * z_near) {
             if (std::max(s.a.z, s.b.z) <= z_near) return;
-            everywhere = true;  // around the light: every sample is tried
+            everywhere = true;  // around the light: test every sample
         } else {
             reach = std::max({reach_of(ax, s.a.z, s.radius_a), reach_of(ay, s.a.z, s.radius_a),
                               reach_of(bx, s.b.z, s.radius_b), reach_of(by, s.b.z, s.radius_b)});
@@ -43,7 +43,7 @@ void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, con
     const int j_high = everywhere ? grid.ny - 1 : grid.row(std::max(ay, by) + reach_y);
     for (int j = j_low; j <= j_high; ++j) {
         int i_low = 0, i_high = grid.nx - 1;
-        if (!everywhere) {  // where the axis passes the rows within reach of this one
+        if (!everywhere) {  // where the axis crosses the rows within reach of this one
             double u0 = 0.0, u1 = 1.0;
             if (inverse_dy != 0.0) {
                 const double ua = (j - reach_y - ay) * inverse_dy, ub = (j + 1 + reach_y - ay) * inverse_dy;
@@ -64,7 +64,7 @@ void project_hair(const HairSegment& s, const TileGrid& grid, double z_near, con
     }
 }
 
-// `shade(weights)` gives the transmittances of a crossing, or null where there is nothing.
+// `shade(weights)` returns the transmittances of a crossing, or null if the texture has a hole there.
 template <class Sink, class Shade>
 void project_triangle(const TriangleSetup& t, double x_low, double x_high, double y_low, double y_high,
                       const TileGrid& grid, double z_near, const Shade& shade, Sink& sink) {

@@ -7,7 +7,7 @@
 namespace shadowbench::rays {
 
 std::uint32_t scatter(std::uint32_t index, std::uint32_t count, std::uint64_t key) {
-    std::uint64_t node = base::mix(key);  // random bits of the part of [0, count) that is left
+    std::uint64_t node = base::mix(key);  // random bits of the remaining part of [0, count)
     const std::uint64_t rotation = ((node >> 32) * count) >> 32;
     std::uint32_t first = 0;
     for (std::uint32_t size = count; size > 1; index /= 2) {
@@ -15,7 +15,7 @@ std::uint32_t scatter(std::uint32_t index, std::uint32_t count, std::uint64_t ke
         const std::uint32_t odds_first = node & 1;
         first += odd == odds_first ? 0 : odd ? evens : odds;
         size = odd ? odds : evens;
-        node = (node + odd) * 0xd1342543de82ef95ull;  // one bit is all that is asked of it: less than base::mix will do
+        node = (node + odd) * 0xd1342543de82ef95ull;  // one random bit suffices, so the weaker generator does
         node ^= node >> 32;
     }
     const std::uint64_t place = first + rotation;

@@ -12,10 +12,10 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double same_place = 1e-4;  // of the depth: how far crossings of one edge, at two slopes, lie apart
+constexpr double same_place = 1e-4;  // relative depth within which crossings of one edge at two slopes lie
 
-// Which of the crossings are found twice: those that the ray turned aside has not, where it has another one in the same
-// place, or where they are not the first there (at a mesh's border it may have none).
+// Finds the crossings that are duplicates: those that the deflected ray does not have, if the ray has another crossing
+// at the same place, unless they are the first there (at a mesh's border the deflected ray may have none).
 std::vector<unsigned char> found_twice(const TracedRay& ray, const std::vector<Crossing>& crossings) {
     std::vector<unsigned char> beside(crossings.size()), twice(crossings.size(), 0);
     for (std::size_t i = 0; i < crossings.size(); ++i)

@@ -9,9 +9,9 @@
 
 namespace shadowbench::rays {
 
-constexpr double margin = 1e-3;  // of a sample cell, around all bounds: outweighs any rounding of them
+constexpr double margin = 1e-3;  // part of a sample cell, around all bounds: exceeds their rounding
 
-// A ray of a layout that moves.
+// A ray of a moving layout.
 struct TimedRay {
     double x, y;  // on the view plane
     double time;  // in the shutter, [0, 1)
@@ -21,18 +21,18 @@ struct TimedRay {
 struct TileGrid {
     int i0 = 0, j0 = 0;                     // the tile's first sample cell in the map
     int nx = 0, ny = 0;                     // sample cells
-    int samples_x = 1, samples_y = 1;       // of them a pixel
+    int samples_x = 1, samples_y = 1;       // sample cells per pixel
     double per_cell_x = 1, per_cell_y = 1;  // cells per length on the view plane
-    double plane_x = 0, plane_y = 0;        // view-plane place of the tile's corner
-    // Row after row: view-plane position of each sample (world length, or slope in perspective), and the tile's ray
-    // number of each column and row: ray = ray_row[j] + ray_column[i].
+    double plane_x = 0, plane_y = 0;        // view-plane position of the tile's corner
+    // Row after row: the view-plane position of each sample (world length, or slope in perspective), and the number of
+    // the tile's ray in each column and row: ray = ray_row[j] + ray_column[i].
     std::vector<double> x, y;
     std::vector<std::uint32_t> ray_column, ray_row;
-    // Where asked for, the same rays by their time: for each of samples() equal parts of the shutter, one ray of every
-    // pixel, row after row of pixels. Else empty.
+    // If asked for, the same rays by their time: for each of the samples() equal parts of the shutter, one ray of every
+    // pixel, row after row of pixels. Otherwise empty.
     std::vector<TimedRay> timed;
 
-    // View-plane place in cells of this tile, and the nearest column and row of the tile to such a place.
+    // A view-plane position in cells of this tile, and the nearest column and row of the tile to it.
     double cells_x(double place) const { return (place - plane_x) * per_cell_x; }
     double cells_y(double place) const { return (place - plane_y) * per_cell_y; }
     int column(double cell) const { return clamp_cell(cell, nx); }
@@ -44,7 +44,7 @@ private:
     }
 };
 
-// `timed` only where the tile meets something that moves.
+// `timed` is needed only if the tile meets something that moves.
 TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const LightRays& tile, bool timed);
 
 }  // namespace shadowbench::rays

@@ -1,5 +1,5 @@
-// All objects of a scene into the rays of one tile, object by object and primitive by primitive: what each ray crosses,
-// in the order in which it is found. Internal to capture.cpp.
+// Projects all objects of a scene into the rays of one tile, object by object and primitive by primitive, and collects
+// each ray's crossings in the order in which they are found. Internal to capture.cpp.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace shadowbench::rays {
 
-// Origin and direction of a ray in view space, such that its parameter is planar depth.
+// Origin and direction of a ray in view space, scaled so that its parameter is planar depth.
 struct ViewLine {
     Vec3d origin, direction;
     double scale;  // world length per unit of depth
@@ -28,7 +28,7 @@ inline ViewLine view_line(const LightView& view, double x, double y) {
     return {{x, y, 0}, {0, 0, 1}, 1.0};
 }
 
-// A little more than the largest scale of a tile's rays, which one at a corner has.
+// Slightly more than the largest scale of a tile's rays, which a ray at a corner has.
 inline double longest_ray(const LightView& view, const TileGrid& grid) {
     double scale = 1.0;
     for (const double x : {grid.plane_x, grid.plane_x + grid.nx / grid.per_cell_x})
@@ -118,7 +118,8 @@ private:
         }
     }
 
-    // The transmittances where the corners have these weights, in `textured`; null where the texture has a hole.
+    // Writes the transmittances for these weights of the corners to `textured`; returns null where the texture has a
+    // hole.
     const float* shade(const Prepared& p, const scene::Mesh& mesh, std::uint32_t triangle, const double weight[3],
                        float textured[3]) const {
         const base::Vec2f* uv = &mesh.corner_uv[3 * static_cast<std::size_t>(triangle)];
@@ -130,7 +131,7 @@ private:
         return textured;
     }
 
-    // Calls visit(ray, front, back, length per depth) where a ray passes the sphere.
+    // Calls visit(ray, front, back, length per depth) if a ray passes through the sphere.
     template <bool moving, class Visit>
     void visit_sphere(const Prepared& p, std::uint32_t sphere, double radius, const Visit& visit) {
         const Vec3d centre(p.points[sphere]);
@@ -167,8 +168,8 @@ private:
         }
     }
 
-    // A segment of optical depth `depth` in a unit of extinction. What its transmittances round away stays in
-    // `rounding` for the segments behind it.
+    // Adds a segment of optical depth `depth` per unit of extinction. `rounding` carries the rounding error of its
+    // transmittances to the segments behind it.
     void medium(std::uint32_t ray, float front, float back, double depth, const base::Vec3f& extinction,
                 StepRounding& rounding) {
         const float most = std::max({extinction[0], extinction[1], extinction[2]});
@@ -217,7 +218,7 @@ private:
         }
     }
 
-    // Through a volume that stands where the scene has it, by a ray moved the other way.
+    // Marches through a volume at its position in the scene: the ray moves the opposite way instead.
     void march(const Prepared& p, std::uint32_t ray, double x, double y, const Vec3d& moved) {
         check_hits(sink_);
         const ViewLine line = view_line(view_, x, y);

@@ -16,9 +16,10 @@ namespace {
 using base::Vec3d;
 using base::Vec3f;
 
-constexpr float edge_reach = 1e-4f;  // of a triangle: weights of its corners below which a ray is at its edge
+constexpr float edge_reach = 1e-4f;  // corner weights of a triangle below which a ray is at its edge
 
-// Embree hands this back in its callbacks: what one query collects. With neither list, the nearest opaque surface.
+// Collects the results of one query; Embree passes it back in its callbacks. With neither list, finds the nearest
+// opaque surface.
 struct Query : RTCIntersectContext {
     TracedRay ray;
     double back_off;  // t from where Embree's ray starts to the ray's origin
@@ -45,8 +46,8 @@ void add_translucent(Query& q, const Traced& traced, const RTCHit& hit, double t
          at_edge});
 }
 
-// Called by Embree for every crossing of a triangle or a ribbon: keeps it and lets the ray go on, or accepts it where
-// the nearest one is asked for.
+// Embree calls it for every crossing of a triangle or a ribbon. Keeps the crossing and lets the ray continue, or
+// accepts it if the query asks for the nearest one.
 void collect(const RTCFilterFunctionNArguments* args) {
     const auto& traced = *static_cast<const Traced*>(args->geometryUserPtr);
     auto& q = *static_cast<Query*>(args->context);
@@ -93,7 +94,7 @@ void sphere_bounds(const RTCBoundsFunctionArguments* args) {
     *args->bounds_o = {c.x - r, c.y - r, c.z - r, 0, c.x + r, c.y + r, c.z + r, 0};
 }
 
-// As Embree reports what it finds itself: t from where its ray starts, in float.
+// Reports a hit as Embree does for its own primitives: t from the start of its ray, in float.
 void fill(const RTCIntersectFunctionNArguments* args, float tfar, const Vec3d& normal, RTCRay& ray, RTCHit& hit) {
     ray.tfar = tfar;
     hit.Ng_x = static_cast<float>(normal.x);
@@ -103,7 +104,7 @@ void fill(const RTCIntersectFunctionNArguments* args, float tfar, const Vec3d& n
     hit.primID = args->primID;
 }
 
-// Of an opaque sphere, makes the nearer crossing after the ray's start the nearest hit so far.
+// Makes the nearer crossing of an opaque sphere after the ray's start the nearest hit so far.
 void accept_sphere(const RTCIntersectFunctionNArguments* args, const Query& q, const Vec3d& from_centre, double front,
                    double back) {
     auto* rayhit = reinterpret_cast<RTCRayHit*>(args->rayhit);
@@ -167,8 +168,8 @@ void set_vertices(RTCGeometry g, const scene::Object& object, const scene::Hair&
     }
 }
 
-// Embree passes over ribbons that a ray meets within twice their half-width of its start, so that rays from hair do not
-// hit it. Here they count: the ray starts further back, and what lies before t_min is dropped when it is found.
+// Embree skips ribbons that a ray meets within twice their half-width of its start, so that rays from hair do not hit
+// it. Here they count, so the ray starts further back, and crossings before t_min are dropped.
 RTCRayHit trace(RTCScene scene, double widest_hair, Query& q) {
     const TracedRay& ray = q.ray;
     q.back_off = 4.0 * widest_hair / ray.direction.length();
@@ -182,7 +183,7 @@ RTCRayHit trace(RTCScene scene, double widest_hair, Query& q) {
     rayhit.ray.dir_z = static_cast<float>(ray.direction.z);
     rayhit.ray.time = static_cast<float>(ray.time);
     rayhit.ray.tnear = widest_hair > 0.0 ? 0.0f : static_cast<float>(std::max(ray.t_min, 0.0));
-    // A little further than asked, since exact depths are recomputed from what is found.
+    // Slightly further than asked, since the exact depths are computed again from what Embree finds.
     rayhit.ray.tfar = static_cast<float>(std::min(ray.t_max * 1.0001 + q.back_off, 3e38));
     rayhit.ray.mask = ~0u;
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;

@@ -20,7 +20,7 @@ bool hair_crossing(const Traced& traced, const scene::Hair& hair, unsigned segme
     double ta, tb;
     const Vec3d a = across(hair.points[first], ta), b = across(hair.points[first + 1], tb);
     const double radius = hair.radii[first];
-    if (traced.segments.joined[segment] && a.dot(a) <= radius * radius) return false;  // the earlier segment has it
+    if (traced.segments.joined[segment] && a.dot(a) <= radius * radius) return false;  // belongs to the earlier segment
     const Vec3d d = b - a;
     const double d2 = d.dot(d);
     const double u = d2 > 0.0 ? std::clamp(-a.dot(d) / d2, 0.0, 1.0) : 0.0;
@@ -61,7 +61,7 @@ double depth_of(const Traced& traced, unsigned primitive, const TracedRay& ray, 
 }
 
 bool crosses_beside(const scene::Object& object, const scene::Mesh& mesh, unsigned triangle, const TracedRay& ray) {
-    const Vec3d aside(0.5773, 0.3819, -0.7214);  // along no edge that people model
+    const Vec3d aside(0.5773, 0.3819, -0.7214);  // not along any edge that people model
     const Vec3d direction = ray.direction.normalized() + aside * 1e-9, origin = origin_beside(object, ray);
     const base::Vec3i& index = mesh.triangles[triangle];
     Vec3d corner[3];

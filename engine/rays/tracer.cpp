@@ -38,7 +38,7 @@ struct Tracer::State {
     std::vector<std::unique_ptr<Traced>> geometries;
     GridMedia media;
     double widest_hair = 0.0;
-    bool translucent = false;  // some surface lets a part of the light through
+    bool translucent = false;  // some surface transmits a part of the light
     bool has_media = false;
 
     explicit State(GridMedia grids) : media(std::move(grids)) {}

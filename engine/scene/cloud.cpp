@@ -11,10 +11,10 @@ namespace shadowbench::scene {
 namespace {
 
 constexpr double first_frequency = 2.0;   // noise cells per half of the box's longest side
-constexpr double outward_thinning = 0.7;  // how much less there is at the ellipsoid's surface than in its middle
+constexpr double outward_thinning = 0.7;  // how much lower the density is at the ellipsoid's surface than in its middle
 constexpr std::size_t quantile_samples = std::size_t{1} << 20;
 
-// The gradient of a lattice point, one of the 12 edges of a cube, times the way to it.
+// The dot product of a lattice point's gradient (one of the 12 edges of a cube) and the offset from that point.
 double gradient(std::uint64_t seed, double x, double y, double z, double dx, double dy, double dz) {
     const auto word = [](double v) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(v)); };
     const std::uint64_t bits = base::hash(seed, word(x), word(y), word(z));
@@ -56,7 +56,8 @@ double fractal(std::uint64_t seed, Vec3d at, int octaves) {
     return sum;
 }
 
-// The value above which `share` of the sorted-out values lie; a fixed choice of them where they are many.
+// The value above which `share` of the values inside the ellipsoid lie (`outside` marks the others); takes a fixed
+// subset where there are many.
 float upper_quantile(const std::vector<float>& values, float outside, double share) {
     const std::size_t stride = values.size() / quantile_samples + 1;
     std::vector<float> chosen;
@@ -77,7 +78,7 @@ GridVolume make_cloud(const Cloud& parameters) {
     const double longest = std::max({extent.x, extent.y, extent.z});
     GridVolume volume = fill_grid(parameters.size, parameters.lower, parameters.upper, [&](const Vec3d& at) {
         const double square = at.length2();
-        if (square > 1.0) return outside;  // costs nothing
+        if (square > 1.0) return outside;  // no noise needed
         const double value = fractal(parameters.seed, at * extent * (first_frequency / longest), parameters.octaves);
         return static_cast<float>(value - outward_thinning * square);
     });

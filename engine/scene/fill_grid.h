@@ -1,4 +1,4 @@
-// Grids of density from a function of place.
+// Fills grids of density from a function of position.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,9 @@
 
 namespace shadowbench::scene {
 
-// A grid of `size` voxels over the box from `lower` to `upper`, its step half of the smallest voxel edge. The density
-// of a voxel is density(at), `at` being its centre where the box is [-1, 1]^3. Called from several threads.
+// A grid of `size` voxels over the box from `lower` to `upper`; its step is half of the smallest voxel edge. The
+// density of a voxel is density(at), where `at` is its centre in coordinates in which the box is [-1, 1]^3. Calls
+// density from several threads.
 template <class Density>
 GridVolume fill_grid(const Vec3i& size, const Vec3d& lower, const Vec3d& upper, const Density& density) {
     const auto width = static_cast<std::size_t>(size.x), height = static_cast<std::size_t>(size.y);

@@ -22,7 +22,7 @@ void refuse_way_out(const std::string& name, const std::string& where) {
                     fmt::format("\"{}\" must be a name inside the data folders: not absolute, and without ..", name));
 }
 
-// Where the file really is, links followed.
+// Resolves links first.
 bool lies_in(const fs::path& file, const fs::path& folder) {
     std::error_code file_fault, folder_fault;
     const fs::path real = fs::canonical(file, file_fault), top = fs::canonical(folder, folder_fault);
@@ -37,7 +37,8 @@ fs::path find_confined(const SearchPath& path, const std::string& name, const st
         const fs::path file = folder / name;
         if (!fs::is_regular_file(file, ignored)) continue;
         if (lies_in(file, folder)) return file;
-        throw Error(ErrorCode::bad_input, where, fmt::format("\"{}\" leads out of the data folders", name));
+        throw Error(ErrorCode::bad_input, where,
+                    fmt::format("\"{}\" leads out of the data folders; name a file inside them", name));
     }
     throw Error(ErrorCode::no_such_file, where, fmt::format("there is no file \"{}\" in the data folders", name));
 }

@@ -13,12 +13,12 @@ namespace {
 constexpr int hairs_a_tuft = 60;
 constexpr double golden_turn = 0.61803398874989484820;
 
-// Hairs whose roots share a patch of the ball, and that lean and curl together.
+// Hairs whose roots share a patch of the ball and which lean and curl together.
 struct Tuft {
     Vec3d middle;  // unit, from the ball's centre
-    Vec3d lean;    // unit, where its hairs' tips go
+    Vec3d lean;    // unit; the direction of its hairs' tips
     double patch;  // radius of the roots' patch on the unit ball
-    double phase;  // of its curls, turns
+    double phase;  // of its curls, in turns
 };
 
 Tuft make_tuft(std::uint64_t seed, std::uint64_t index, std::uint64_t count) {
@@ -29,7 +29,7 @@ Tuft make_tuft(std::uint64_t seed, std::uint64_t index, std::uint64_t count) {
     const Turn around = turn(golden_turn * static_cast<double>(index) + base::to_unit(base::hash(seed, 2)));
     Tuft tuft;
     tuft.middle = Vec3d(ring * around.cosine, height, ring * around.sine);
-    // Patches that just cover the ball overlap a little, or bald seams would show.
+    // Patches that only just cover the ball would leave bald seams, so they overlap a little.
     tuft.patch = 1.25 * 2.0 / std::sqrt(static_cast<double>(count));
     const Across side = across(tuft.middle);
     const Vec2d tilt = in_disc(random) * 0.3;
@@ -50,7 +50,7 @@ void grow(const HairBall& ball, const Tuft& tuft, std::uint64_t strand, Vec3f* p
     for (int i = 0; i <= ball.segments; ++i) {
         const double s = static_cast<double>(i) / ball.segments;
         const Vec3d axis = (root + (tuft.lean - root) * (ball.clumping * s)).normalized();
-        // The helix opens within the first third, so that roots stay where they are.
+        // The helix opens within the first third, so that roots stay in place.
         const double open = std::min(1.0, 3.0 * s);
         const Turn turned = turn(phase + ball.curls * s);
         const Vec3d offset = (side.u * turned.cosine + side.v * turned.sine) * (curl * open);

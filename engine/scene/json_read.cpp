@@ -115,7 +115,7 @@ void check_direction(const base::Vec3d& direction, const std::string& where) {
 
 void check_not_parallel(const base::Vec3d& a, const base::Vec3d& b, const std::string& where,
                         const std::string& message) {
-    // Closer to parallel than this, float precision decides which way the plane of the two faces.
+    // Closer to parallel than this, float precision would decide which way the plane of the two vectors faces.
     constexpr double least_sine = 1e-6;
     if (!(a.normalized().cross(b.normalized()).length() > least_sine)) refuse(where, message);
 }

@@ -1,5 +1,5 @@
-// Reads keys of a JSON object that has passed the schema, so that types and ranges hold. An absent key leaves the value
-// as it is: defaults stand in the structs.
+// Reads keys of a JSON object that has passed the schema, so types and ranges are right. If a key is absent, the value
+// stays as it is: the structs hold the defaults.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ void read(const json& object, const char* key, double& value);
 void read(const json& object, const char* key, std::string& value);
 void read(const json& object, const char* key, base::Vec3d& value);
 void read(const json& object, const char* key, base::Vec3i& value);
-void read(const json& object, const char* key, base::Vec2i& value);  // a number stands for both
-void read(const json& object, const char* key, base::Vec3f& value);  // a number stands for all three
+void read(const json& object, const char* key, base::Vec2i& value);  // a number sets both
+void read(const json& object, const char* key, base::Vec3f& value);  // a number sets all three
 void read(const json& object, const char* key, std::optional<double>& value);
 void read(const json& object, const char* key, std::optional<base::Vec2d>& value);
 void read(const json& object, const char* key, std::optional<base::Vec3d>& value);
@@ -36,7 +36,7 @@ void read(const json& object, const char* key, std::vector<base::Vec3i>& values)
 // Throws Error{bad_input}.
 [[noreturn]] void refuse(const std::string& where, const std::string& message);
 
-// Refuses a vector of length 0, or a pair along one line (to which no plane or frame belongs).
+// Refuses a vector of length 0, or a pair of parallel vectors (which span no plane or frame).
 void check_direction(const base::Vec3d& direction, const std::string& where);
 void check_not_parallel(const base::Vec3d& a, const base::Vec3d& b, const std::string& where,
                         const std::string& message);

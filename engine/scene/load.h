@@ -11,20 +11,20 @@
 
 namespace shadowbench::scene {
 
-// Its own, or one made of its type and number.
+// The light's own name, or one made from its type and number.
 std::string light_name(const nlohmann::json& from, std::size_t index);
 
-// A directional light without "target" is given the middle of `casters`.
+// Aims a directional light without "target" at the middle of `casters`.
 Light load_light(const nlohmann::json& from, std::size_t index, const Box3d& casters, const std::string& where);
 
-// Throws Error{bad_input} also for an object that holds nothing.
+// Throws Error{bad_input}, also if the object holds nothing.
 Object load_object(const nlohmann::json& from, std::size_t index, const SearchPath& path, const std::string& where);
 
-// Merges consecutive equal points of a strand into one that keeps the larger radius, and drops strands of which a
-// single point is left: a segment without length has no direction, and ray intersectors disagree on whether it is hit.
+// Merges consecutive equal points of a strand into one that keeps the larger radius, and drops strands that are left
+// with a single point. A segment without length has no direction, and ray intersectors disagree on whether it is hit.
 void merge_equal_points(Hair& hair);
 
-// Shapes that several object types share.
+// Loaders of shapes that several object types share.
 MeshFile load_mesh(const nlohmann::json& from, const SearchPath& path, const std::string& where);
 Mesh load_quad(const nlohmann::json& from, const SearchPath& path, const std::string& where);
 Mesh load_layers(const nlohmann::json& from, const std::string& where);

@@ -26,7 +26,7 @@ void load_spot(const json& from, const std::string& where, Light& light) {
     read(from, "near", light.near);
     light.direction = light.target - light.position;
     if (!(light.direction.length() >= min_length))
-        refuse(where + "/target", "the light stands on its target: move one of them");
+        refuse(where + "/target", "the light stands at its target; move one of them");
     light.direction.normalize();
 }
 

@@ -32,7 +32,8 @@ Mesh inline_mesh(const json& from, const std::string& where) {
     read(from, "uvs", uvs);
     if (uvs.empty()) return mesh;
     if (uvs.size() != mesh.positions.size())
-        refuse(where + "/uvs", fmt::format("{} pairs for {} vertices", uvs.size(), mesh.positions.size()));
+        refuse(where + "/uvs",
+               fmt::format("{} pairs for {} vertices; give one for each vertex", uvs.size(), mesh.positions.size()));
     for (const Vec3i& triangle : mesh.triangles)
         for (const int index : {triangle.x, triangle.y, triangle.z})
             mesh.corner_uv.push_back(uvs[static_cast<std::size_t>(index)]);
@@ -77,7 +78,7 @@ void load_alpha(const json& from, const SearchPath& path, const std::string& whe
         return;
     }
     if (mesh.corner_uv.empty())
-        refuse(where + "/alpha_texture", "the mesh has no texture coordinates to place a texture by");
+        refuse(where + "/alpha_texture", "the mesh has no texture coordinates to place the texture");
     mesh.alpha = std::make_shared<const AlphaTexture>(read_alpha(find_file(path, name, where + "/alpha_texture")));
 }
 
@@ -97,7 +98,7 @@ Parallelogram read_parallelogram(const json& from, const std::string& where) {
     return shape;
 }
 
-// In the order of its outline.
+// The corners in the order of the outline.
 std::array<Vec3d, 4> corners(const Parallelogram& shape) {
     const Vec3d& corner = shape.corner;
     return {corner, corner + shape.edge_u, corner + shape.edge_u + shape.edge_v, corner + shape.edge_v};
@@ -109,7 +110,8 @@ MeshFile load_mesh(const json& from, const SearchPath& path, const std::string& 
     const bool from_file = from.contains("file");
     if (from_file)
         for (const char* key : {"vertices", "triangles", "uvs"})
-            if (from.contains(key)) refuse(fmt::format("{}/{}", where, key), "the mesh has a file already");
+            if (from.contains(key))
+                refuse(fmt::format("{}/{}", where, key), "the mesh already has a file; remove one of the two");
     MeshFile file;
     if (from_file) {
         const std::filesystem::path name = find_file(path, from["file"].get<std::string>(), where + "/file");

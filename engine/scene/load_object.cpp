@@ -44,7 +44,8 @@ Loaded sphere(const json& from, const SearchPath&, const std::string&) {
 }
 
 void check_count(std::size_t count, std::size_t centres, const std::string& where) {
-    if (count != centres) refuse(where, fmt::format("{} values for {} centres", count, centres));
+    if (count != centres)
+        refuse(where, fmt::format("{} values for {} centres; give one for each centre", count, centres));
 }
 
 Loaded spheres(const json& from, const SearchPath&, const std::string& where) {
@@ -75,8 +76,8 @@ Loaded hair(const json& from, const SearchPath& path, const std::string& where) 
     double radius = 0.0;
     read(from, "radius", radius);
     if (file.extension() == ".hair") return {with_length(read_hair(file, static_cast<float>(radius)))};
-    if (file.extension() != ".tfx") refuse(where + "/file", "hair files end in .tfx or .hair");
-    if (radius == 0.0) refuse(where, "\"radius\" is missing: .tfx files do not say how wide hair is");
+    if (file.extension() != ".tfx") refuse(where + "/file", "the name of a hair file must end in .tfx or .hair");
+    if (radius == 0.0) refuse(where, "\"radius\" is missing: .tfx files do not hold the width of hair");
     return {with_length(read_tressfx(file, static_cast<float>(radius)))};
 }
 
@@ -127,7 +128,7 @@ Loaded smoke_column(const json& from, const SearchPath&, const std::string&) {
     return {make_smoke_column(column)};
 }
 
-// One row a type of object; the schema's definition of the same name says what keys it has.
+// One row for each type of object; the schema's definition of the same name lists the keys.
 struct Row {
     std::string_view type;
     Loaded (*load)(const json& from, const SearchPath& path, const std::string& where);
@@ -148,7 +149,7 @@ constexpr std::array rows{
     Row{"smoke_column", smoke_column},
 };
 
-// What is wrong with a shape that light would never meet; empty when nothing is.
+// Says why light can never meet a shape; empty if it can.
 const char* emptiness(const Mesh& shape) {
     return shape.triangles.empty() ? "the mesh has no triangles" : "";
 }
@@ -189,7 +190,7 @@ Object load_object(const json& from, std::size_t index, const SearchPath& path, 
         object.passed_over = std::move(loaded.passed_over);
     } catch (const base::Error& error) {
         if (error.where().starts_with(where)) throw;
-        // A fault of its file: the scenario's place first, then the file's.
+        // The fault is in the object's file: name the scenario's place first, then the file's.
         throw base::Error(error.code(), from.contains("file") ? where + "/file" : where, error.what());
     }
     const std::string empty = std::visit([](const auto& shape) { return std::string(emptiness(shape)); }, object.shape);

@@ -39,7 +39,7 @@ double bytes_of(const Particles& particles) {
     return 20.0 * static_cast<double>(particles.centres.size());
 }
 
-// Into how many parts the volumes cut a ray that crosses all of them.
+// The number of parts into which the volumes cut a ray that crosses all of them.
 double parts_of_ray(const Scene& scene, Media media) {
     double parts = 0.0;
     for (const Object& object : scene.objects)
@@ -71,7 +71,7 @@ void load_objects(const json& objects, const SearchPath& path, Scene& scene) {
                                       bytes, max_scene_bytes));
     }
     if (std::none_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return o.casts_shadow; }))
-        refuse("/scene/objects", "the scene is empty of shadows: no object has casts_shadow true");
+        refuse("/scene/objects", "no object casts a shadow; set casts_shadow to true for at least one");
 }
 
 void check_kind(const json& from) {
@@ -104,7 +104,8 @@ DeepImage load_deep_image(const json& from, const SearchPath& path) {
     if (image.z_front.empty()) refuse(where, "the deep image has no samples");
     std::size_t sample = 0;
     while (sample < image.z_front.size() && behind_everything(image, sample)) ++sample;
-    if (sample == image.z_front.size()) refuse(where, "all samples of the deep image are at infinity: nothing is near");
+    if (sample == image.z_front.size())
+        refuse(where, "all samples of the deep image are at infinity, so nothing casts a shadow");
     return image;
 }
 
@@ -167,7 +168,7 @@ Camera load_camera(const json& from) {
     read(from, "fov", camera.fov);
     const Vec3d view = camera.target - camera.position;
     if (!(view.length() >= min_length))
-        refuse("/receivers/target", "the camera stands on its target: move one of them");
+        refuse("/receivers/target", "the camera stands at its target; move one of them");
     check_direction(camera.up, "/receivers/up");
     check_not_parallel(camera.up, view, "/receivers/up", "up points along the view");
     return camera;
@@ -249,7 +250,7 @@ Scenario load_scenario(const json& document, const SearchPath& path) {
     Scenario scenario;
     read(document, "name", scenario.name);
     read(document, "purpose", scenario.purpose);
-    // Settings first: their faults and limits are found before files are read.
+    // Check the settings first: this finds their faults and limits before files are read.
     scenario.rays = load_rays(section(document, "rays"));
     scenario.receivers = load_receivers(section(document, "receivers"));
     scenario.reference = load_reference(section(document, "reference"));
@@ -258,9 +259,8 @@ Scenario load_scenario(const json& document, const SearchPath& path) {
     check_kind(document["scene"]);
     const bool deep = document["scene"].contains("deep_image");
     if (deep && (scenario.receivers.camera || !scenario.receivers.points.empty()))
-        refuse("/receivers/type", "a deep image has no world for a camera or points: use probes");
-    if (deep && !section(document, "lights").empty())
-        refuse("/lights", "a deep image is its own light: leave lights out");
+        refuse("/receivers/type", "a deep image has no world space for a camera or points; use probes");
+    if (deep && !section(document, "lights").empty()) refuse("/lights", "a deep image is its own light; remove lights");
     if (!deep && section(document, "lights").empty()) refuse("/lights", "at least one light is needed");
 
     scenario.scene = load_scene(document["scene"], path);

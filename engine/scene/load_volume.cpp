@@ -56,7 +56,7 @@ bool is_vdb(const std::filesystem::path& file) {
 }
 
 GridVolume load_raw(const json& from, const std::filesystem::path& file, const std::string& where) {
-    if (from.contains("grid")) refuse(where + "/grid", "only .vdb files have named grids");
+    if (from.contains("grid")) refuse(where + "/grid", "only .vdb files have named grids; remove this key");
     for (const char* key : {"format", "size", "lower", "upper"})
         if (!from.contains(key)) refuse(where, fmt::format("\"{}\" is missing: raw values need it", key));
     Vec3i size(0, 0, 0);
@@ -70,7 +70,7 @@ GridVolume load_raw(const json& from, const std::filesystem::path& file, const s
     return volume;
 }
 
-// What all procedural grids have: a size, a box and a step.
+// Loads what all procedural grids have: a size, a box and a step.
 template <class Parameters>
 GridVolume load_procedural(const json& from, const std::string& where, Parameters& parameters,
                            GridVolume (*make)(const Parameters&)) {
@@ -89,7 +89,8 @@ GridVolume load_volume(const json& from, const SearchPath& path, const std::stri
     GridVolume volume;
     if (is_vdb(file)) {
         for (const char* key : {"format", "size", "lower", "upper"})
-            if (from.contains(key)) refuse(fmt::format("{}/{}", where, key), "a .vdb file has its own");
+            if (from.contains(key))
+                refuse(fmt::format("{}/{}", where, key), "a .vdb file has its own; remove this key");
         volume = read_vdb(file, grid_choice(from), negative_of(from));
     } else {
         volume = load_raw(from, file, where);

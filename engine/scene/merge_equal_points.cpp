@@ -6,7 +6,7 @@
 
 namespace shadowbench::scene {
 
-// In place: what is kept never lies behind what is read.
+// Works in place: the write position never passes the read position.
 void merge_equal_points(Hair& hair) {
     if (hair.strand_begin.empty()) return;
     std::size_t kept = 0, strands = 0;

@@ -1,5 +1,5 @@
-// JSON text -> document. RFC 8259 leaves duplicate keys to the reader; here they are an error, since one of the two
-// values would be lost without a word.
+// JSON text -> document. RFC 8259 leaves duplicate keys to the reader. Here they are an error, since one of the two
+// values would be lost silently.
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
@@ -25,7 +25,7 @@ using base::ErrorCode;
 constexpr std::size_t max_depth = 64;
 constexpr std::size_t excerpt_side = 30;
 
-// Walks over the text and tells how much of it the parser has taken.
+// Walks over the text and counts how much of it the parser has read.
 struct CountingIterator {
     using difference_type = std::ptrdiff_t;
     using value_type = char;
@@ -63,7 +63,7 @@ struct CountingIterator {
         fmt::format("{}; near `{}{}{}`", message, from > line_begin ? "..." : "", excerpt, to < line_end ? "..." : ""));
 }
 
-// A first pass over the text that builds nothing and throws Error at the first fault.
+// A first pass over the text: builds nothing and throws Error at the first fault.
 class Check : public nlohmann::json_sax<nlohmann::json> {
 public:
     Check(const std::string& text, const std::string& origin, const char* const* position)
@@ -83,7 +83,7 @@ public:
 
     bool key(string_t& name) override {
         if (!names_.back().insert(name).second) {
-            // The parser stands behind the closing quote of the key; a key holds no unescaped quote.
+            // The parser stands just after the closing quote of the key, and a key holds no unescaped quote.
             std::size_t quote = offset() - 1;
             do quote = text_.rfind('"', quote - 1);
             while (escaped(quote));
@@ -101,7 +101,7 @@ public:
         }
         if (const std::size_t colon = message.find(": "); colon != std::string::npos && colon < 8)
             message.erase(0, colon + 2);
-        // The excerpt shows what was read last, and is short.
+        // The excerpt, which shows what was read last, is short.
         const std::size_t last = message.find("; last read: "), expected = message.rfind("; expected ");
         if (last < expected) message.erase(last, expected == std::string::npos ? expected : expected - last);
         fail_at(text_, position > 0 ? position - 1 : 0, origin_, message);

@@ -10,14 +10,14 @@ namespace shadowbench::scene {
 // A ball covered with curly hairs, after the scene of Lokovic and Veach 2000, section 6 (50,000 hairs).
 struct HairBall {
     int strands = 50000;
-    int segments = 16;  // a strand
+    int segments = 16;  // per strand
     Vec3d centre{0, 0, 0};
     double ball_radius = 1.0;  // where the roots are
     double length = 0.6;       // of a hair, along its axis
     double curl_radius = 0.04;
-    double curls = 3.0;      // turns a hair
+    double curls = 3.0;      // turns per hair
     double clumping = 0.5;   // 0: even; 1: all hairs of a tuft lean to its middle
-    double radius = 0.0015;  // half-width of a hair at its root; the tip has a quarter of it
+    double radius = 0.0015;  // half-width of a hair at its root; a quarter of it at the tip
     std::uint64_t seed = 1;
 };
 Hair make_hair_ball(const HairBall& parameters);
@@ -27,21 +27,22 @@ struct Cloud {
     Vec3i size{64, 64, 64};
     Vec3d lower{-1, -1, -1}, upper{1, 1, 1};
     int octaves = 5;
-    double coverage = 0.5;  // in (0, 1): the share of the ellipsoid that is not clear, roughly
+    double coverage = 0.5;  // in (0, 1): roughly the share of the ellipsoid that is not clear
     std::uint64_t seed = 1;
 };
 GridVolume make_cloud(const Cloud& parameters);
 
 // A box whose density falls from nearly 1 at its middle to nearly 0 at its faces, in proportion to the distance from
-// the nearest of them (the box measured as a cube): the first data set of the paper on deep shadow maps of volumes.
+// the nearest face (measured as if the box were a cube): the first data set of the paper on deep shadow maps of
+// volumes.
 struct DensityBox {
     Vec3i size{64, 64, 64};
     Vec3d lower{-1, -1, -1}, upper{1, 1, 1};
 };
 GridVolume make_density_box(const DensityBox& parameters);
 
-// Three rods, one along each axis, that cross in the middle of the box: 1 inside them, 0 outside. The third data set of
-// the same paper.
+// Three rods, one along each axis, that cross in the middle of the box: density 1 inside, 0 outside. The third data set
+// of the same paper.
 struct CrossedRods {
     Vec3i size{64, 64, 64};
     Vec3d lower{-1, -1, -1}, upper{1, 1, 1};
@@ -54,9 +55,9 @@ struct SmokeColumn {
     int particles = 2000;
     Vec3d base{0, 0, 0};
     double height = 3.0;
-    double width = 0.35;        // of the column at its base; at the top three times as wide
-    double puff_radius = 0.12;  // at the base; at the top twice as large
-    double density = 2.0;       // of a puff at the base; at the top a quarter
+    double width = 0.35;        // of the column at its base; three times as wide at the top
+    double puff_radius = 0.12;  // at the base; twice as large at the top
+    double density = 2.0;       // of a puff at the base; a quarter of it at the top
     std::uint64_t seed = 1;
 };
 Particles make_smoke_column(const SmokeColumn& parameters);

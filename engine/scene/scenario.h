@@ -1,4 +1,4 @@
-// Scenario JSON -> Scenario. The format is scenario.schema.json beside this file (draft-07), which also documents it.
+// Scenario JSON -> Scenario. scenario.schema.json beside this file (draft-07) defines and documents the format.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@
 
 namespace shadowbench::scene {
 
-// The folders that relative file names of a scenario are looked for in, in order.
+// The folders in which relative file names of a scenario are looked up, in order.
 struct SearchPath {
     std::vector<std::filesystem::path> folders;
-    // For scenarios from strangers: they name files of these folders alone. Absolute names, names with "..", and links
-    // that lead out of their folder are refused, and no message tells where the folders are.
+    // For scenarios from strangers, which may name only files in these folders. Absolute names, names with "..", and
+    // links that lead out of their folder are refused, and no message shows the folders.
     bool confined = false;
 
     SearchPath() = default;
@@ -26,32 +26,32 @@ struct SearchPath {
     static SearchPath confined_to(std::vector<std::filesystem::path> folders);
 };
 
-// Finds `name` in the path. Throws Error{no_such_file} that lists the folders looked in; of a confined path
-// Error{bad_input} for a name that is refused.
+// Finds `name` in the path. Throws Error{no_such_file} that lists the folders it looked in; for a confined path,
+// Error{bad_input} if the name is refused.
 std::filesystem::path find_file(const SearchPath& path, const std::string& name, const std::string& where);
 
-// Reads JSON text, UTF-8 with or without a byte-order mark. Throws Error{bad_input} whose place is origin:line:column.
+// Parses JSON text, UTF-8 with or without a byte-order mark. Throws Error{bad_input} whose place is origin:line:column.
 nlohmann::json parse_json(const std::string& text, const std::string& origin);
 
-// The schema as committed, without the parameters of techniques (bench adds those from the registry).
+// The schema of the source tree, without the parameters of techniques (bench adds those from the registry).
 const nlohmann::json& scenario_schema();
 
-// What a draft-07 schema says against `document`, `most` faults of it: each an Error{bad_input} with the JSON pointer
-// of its place; "/" when the document is not even an object.
+// Up to `most` faults that a draft-07 schema finds in `document`: each an Error{bad_input} with the JSON pointer of its
+// place; "/" if the document is not even an object.
 std::vector<base::Error> schema_faults(const nlohmann::json& document, const nlohmann::json& schema, std::size_t most);
 
-// Throws the first of them.
+// Throws the first of these faults.
 void check_schema(const nlohmann::json& document, const nlohmann::json& schema);
 
-// Checks the document against the schema, reads its files, makes its procedural objects and returns the values.
-// Throws Error: bad_input (pointer), no_such_file, io. An empty scene, or one whose files hold nothing, is bad input.
+// Checks the document against the schema, reads its files, makes its procedural objects and returns the values. Throws
+// Error: bad_input (pointer), no_such_file, io. An empty scene, or one whose files hold nothing, is bad input.
 Scenario load_scenario(const nlohmann::json& document, const SearchPath& path);
 
-// The names of the lights that load_scenario makes of a valid document.
+// The names of the lights that load_scenario makes from a valid document.
 std::vector<std::string> light_names(const nlohmann::json& document);
 
-// Refuses rays that would march through the scene's volumes for days. load_scenario asks it; whoever gives a loaded
-// scene other settings asks again. Throws Error{bad_input}.
+// Refuses light rays that would march through the scene's volumes for days. load_scenario calls it; a caller that
+// changes the settings of a loaded scene must call it again. Throws Error{bad_input}.
 void check_marching(const Scenario& scenario);
 
 }  // namespace shadowbench::scene

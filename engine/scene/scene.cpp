@@ -12,7 +12,7 @@
 namespace shadowbench::scene {
 namespace {
 
-// The texel left of `position` (in texels, repeated) and how far towards the next one it is.
+// The texel left of `position` (in texels, repeated) and the fraction of the way to the next one.
 struct Tap {
     int first, second;
     float fraction;
@@ -21,7 +21,7 @@ struct Tap {
 Tap tap(float position, int count) {
     const float below = std::floor(position);
     const float wrapped = below - std::floor(below / static_cast<float>(count)) * static_cast<float>(count);
-    // Far from 0 rounding takes it out of the texture, and beyond int.
+    // Far from 0, rounding moves it out of the texture and beyond int.
     const int first = static_cast<int>(std::clamp(wrapped, 0.0f, static_cast<float>(count - 1)));
     return {first, first + 1 == count ? 0 : first + 1, position - below};
 }
@@ -36,7 +36,7 @@ void extend(Box3d& box, const Vec3d& centre, double radius) {
     box.extendBy(centre + half);
 }
 
-// Files may hold vertices that no triangle uses: those do not count.
+// Ignores vertices that no triangle uses, which files may hold.
 void extend(Box3d& box, const Mesh& mesh) {
     for (const Vec3i& triangle : mesh.triangles)
         for (const int index : {triangle.x, triangle.y, triangle.z})
@@ -72,7 +72,7 @@ bool is_grey(const Vec3f& colour) {
 }  // namespace
 
 float sample(const AlphaTexture& texture, float u, float v) {
-    // Texel centres lie at half integers, and row 0 is the top of the image: v grows upwards.
+    // Texel centres are at half integers. Row 0 is the top of the image; v grows upwards.
     const Tap x = tap(u * static_cast<float>(texture.width) - 0.5f, texture.width);
     const Tap y = tap((1.0f - v) * static_cast<float>(texture.height) - 0.5f, texture.height);
     const auto texel = [&](int column, int row) {

@@ -1,5 +1,5 @@
-// What a scenario holds, as plain values. World space is right-handed; lengths are the scene's own unit.
-// Made by load_scenario (scenario.h); every value here is finite and inside the range stated beside it.
+// The content of a scenario as plain values. World space is right-handed; lengths are in the scene's own unit.
+// load_scenario (scenario.h) makes it; every value is finite and inside the range stated beside it.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ float sample(const AlphaTexture& texture, float u, float v);
 struct Mesh {
     std::vector<Vec3f> positions;
     std::vector<Vec3i> triangles;               // indices into positions
-    std::vector<Vec2f> corner_uv;               // 3 a triangle; empty without a texture
-    std::shared_ptr<const AlphaTexture> alpha;  // multiplies the object's opacity; null: opacity as it is
+    std::vector<Vec2f> corner_uv;               // 3 for each triangle; empty without a texture
+    std::shared_ptr<const AlphaTexture> alpha;  // multiplies the object's opacity; null: no texture
 };
 
 // Sphere surfaces: a ray that enters one also leaves it, two crossings.
@@ -46,11 +46,11 @@ struct Spheres {
 // Strands of straight segments; each segment is a ribbon that faces the ray, of the half-width given at its points.
 struct Hair {
     std::vector<Vec3f> points;                // strand after strand
-    std::vector<float> radii;                 // half-width, one a point, >= 0
+    std::vector<float> radii;                 // half-width, one for each point, >= 0
     std::vector<std::uint32_t> strand_begin;  // strands + 1 indices into points
 };
 
-// The segments of all strands: each runs from its first point to the next one.
+// The segments of all strands, each from one point to the next.
 struct HairSegments {
     std::vector<std::uint32_t> first;
     std::vector<unsigned char> joined;  // whether an earlier segment of the strand ends where this one starts
@@ -64,7 +64,7 @@ struct GridVolume {
     Vec3i size{0, 0, 0};                   // voxels
     std::vector<float> density;            // x fastest, >= 0
     Vec3d lower{0, 0, 0}, upper{0, 0, 0};  // world box; voxel centres are half a voxel inside
-    double step = 0.0;                     // of Media::steps, world length along the ray, > 0
+    double step = 0.0;                     // for Media::steps; world length along the ray, > 0
     ReadNotes notes{};
 };
 
@@ -72,10 +72,10 @@ struct GridVolume {
 struct Particles {
     std::vector<Vec3f> centres;
     std::vector<float> radii;    // > 0
-    std::vector<float> density;  // one a particle, >= 0
+    std::vector<float> density;  // one for each particle, >= 0
 };
 
-// What the reader of a file left out, and how often: {"faces of fewer than 3 corners", 2}.
+// Something that the reader of a file passed over, and how often: {"faces of fewer than 3 corners", 2}.
 struct PassedOver {
     std::string what;
     std::uint64_t count = 0;
@@ -86,26 +86,26 @@ struct Object {
     bool casts_shadow = true;
     Vec3f opacity{1.0f, 1.0f, 1.0f};     // surfaces: a crossing transmits 1 - opacity, each in [0, 1]
     Vec3f extinction{1.0f, 1.0f, 1.0f};  // media: extinction per unit of density and of length, each >= 0
-    Vec3f motion{0.0f, 0.0f, 0.0f};      // while the shutter is open: at time t in [0, 1) it stands at t * motion
+    Vec3f motion{0.0f, 0.0f, 0.0f};      // while the shutter is open: at time t in [0, 1) the object is at t * motion
     std::variant<Mesh, Spheres, Hair, GridVolume, Particles> shape;
-    std::vector<PassedOver> passed_over;  // of its file
+    std::vector<PassedOver> passed_over;  // in its file
 };
 
-// Ready-made light rays: one ray a pixel, straight along z, its samples as a deep image holds them. Where z_back is
-// beyond base::max_coordinate, infinity too, the sample lies behind everything: no place in the scene is behind it.
+// Ready-made light rays: one for each pixel, straight along z, with the samples of a deep image. A sample whose z_back
+// is beyond base::max_coordinate, or infinite, lies behind everything: no receiver is behind it.
 struct DeepImage {
     int width = 0, height = 0;
     std::vector<std::uint64_t> begin;    // width * height + 1 offsets into the samples, row 0 first
-    std::vector<float> z_front, z_back;  // a pixel's sorted by z_front, then z_back; z_front <= z_back
-    std::vector<float> transmittance;    // channels a sample: 1 - alpha, in [0, 1]
-    int channels = 1;                    // 3 when any sample's differ, else 1
+    std::vector<float> z_front, z_back;  // a pixel's samples are sorted by z_front, then z_back; z_front <= z_back
+    std::vector<float> transmittance;    // `channels` values for each sample: 1 - alpha, in [0, 1]
+    int channels = 1;                    // 3 if the channels of any sample differ, else 1
     ReadNotes notes{};
 };
 bool behind_everything(const DeepImage& image, std::size_t sample);
 
 struct Scene {
     std::vector<Object> objects;
-    std::optional<DeepImage> deep_image;  // stands alone: no objects then
+    std::optional<DeepImage> deep_image;  // if present, there are no objects
 };
 
 enum class LightType { directional, spot, deep_image };
@@ -113,18 +113,18 @@ enum class LightType { directional, spot, deep_image };
 struct Light {
     std::string name;
     LightType type = LightType::directional;
-    Vec3d position{0, 0, 0};    // spot: where it stands
-    Vec3d target{0, 0, 0};      // what the middle of the map looks at
-    Vec3d direction{0, -1, 0};  // directional: the way the light travels, unit length
-    std::optional<Vec3d> up;    // the map's y axis, not along the light; chosen when absent
+    Vec3d position{0, 0, 0};    // spot: its position
+    Vec3d target{0, 0, 0};      // the point at the middle of the map
+    Vec3d direction{0, -1, 0};  // directional: the direction in which the light travels, unit length
+    std::optional<Vec3d> up;    // the map's y axis, not along the light; chosen if absent
     Vec3f colour{1, 1, 1};
     std::optional<Vec2d> extent;  // directional: world width and height of the map; absent: the casters' bounds
     std::optional<double> angle;  // spot: full angle across the map's larger side, degrees in (0, 179); absent: fits
-    double near = 0.0;            // spot: nearest planar depth seen; 0: a thousandth of the distance to the target
+    double near = 0.0;            // spot: nearest planar depth; 0: a thousandth of the distance to the target
 };
 
 enum class Pattern { regular, jittered };
-// How grid volumes become segments of light rays: regular steps, or one exact segment a voxel cell.
+// How grid volumes become segments of light rays: regular steps, or one exact segment for each voxel cell.
 enum class Media { steps, cells };
 
 struct RaySettings {
@@ -140,23 +140,24 @@ struct Camera {
     double fov = 40.0;  // vertical, degrees
 };
 
-// Where visibility is asked for: what a camera sees (one surface a pixel, drawn by how much of it is seen, and points
-// inside the media on the way), given points, or points spread evenly over the map and the casters' depths.
+// The places where visibility is looked up: what a camera sees (one surface for each pixel, drawn with the probability
+// of its contribution, and points inside the media on the way), given points, or points spread evenly over the map and
+// the casters' depths.
 struct Receivers {
     std::optional<Camera> camera;
     Vec2i resolution{256, 256};  // camera: pixels
-    int media_lookups = 8;       // camera: points a view ray spreads over the media it passes
-    std::vector<Vec3d> points;   // given, world space; none: there is a camera, or points are spread
-    int count = 65536;           // points to spread
-    std::uint64_t seed = 7;      // of the spread points, and of the draw between a pixel's surfaces
+    int media_lookups = 8;       // camera: points that a view ray spreads over the media it passes
+    std::vector<Vec3d> points;   // given, world space; if empty, a camera or spread points are used
+    int count = 65536;           // the number of points to spread
+    std::uint64_t seed = 7;      // for the spread points, and for the draw between a pixel's surfaces
     double filter_width = 1.0;   // map pixels
     double bias = 0.0;           // moves every receiver towards the light, world length, >= 0
 };
 
 struct Reference {
-    int samples_per_pixel = 256;  // of the truth that lookups are judged against
-    int queries = 4096;           // how many of the receivers are judged
-    int spread_seeds = 4;         // further seeds that the noise of the rays is measured over
+    int samples_per_pixel = 256;  // of the reference that lookups are compared with
+    int queries = 4096;           // how many of the receivers are compared
+    int spread_seeds = 4;         // further seeds, which measure the noise of the rays
     std::uint64_t seed = 1234567;
 };
 
@@ -165,7 +166,7 @@ struct Timing {
     int lookups = 65536;  // receivers looked up in one timed pass, at most
 };
 
-// One technique with its parameters, as written: the technique itself reads them.
+// One technique with its parameters as written; the technique itself reads them.
 struct TechniqueRequest {
     std::string type;
     std::string parameters;  // JSON object without "type"
@@ -185,16 +186,16 @@ struct Scenario {
 
 constexpr double mid_shutter = 0.5;  // the time at which cameras see the scene
 
-// World bounds of the objects that cast shadows (or of all), wherever they move to; empty when there are none.
+// World bounds of the objects that cast shadows (or of all objects) over their whole motion; empty if there are none.
 Box3d bounds(const Scene& scene, bool casters_only);
 
-// 3 when the scene's opacities or extinctions that cast shadows, or its deep image's, differ between channels, else 1.
+// 3 if the opacities or extinctions of shadow casters, or the deep image's, differ between channels, else 1.
 int channels(const Scene& scene);
 
-// What the readers of the scene's files passed over, a line each behind its place: "/scene/objects/0: ...". Printable.
+// What the readers of the scene's files passed over, one line each after its place: "/scene/objects/0: ...". Printable.
 std::vector<std::string> read_notes(const Scene& scene);
 
-// Whether anything that casts a shadow is a medium; or moves.
+// Whether any shadow caster is a medium; whether any moves.
 bool has_media(const Scene& scene);
 bool has_motion(const Scene& scene);
 

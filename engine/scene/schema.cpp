@@ -1,5 +1,5 @@
-// The only file that includes valijson: it takes long to compile.
-// GCC 12 sees uninitialised members in std::regex when a sanitizer is on (GCC bug 105562).
+// The only file that includes valijson, which takes long to compile.
+// GCC 12 reports uninitialised members in std::regex if a sanitizer is on (GCC bug 105562).
 #ifndef __clang__
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
@@ -30,12 +30,13 @@
 namespace shadowbench::scene {
 namespace {
 
-// valijson takes whole numbers as signed ones of 64 bits: larger ones would pass as negative.
+// valijson reads whole numbers as signed 64-bit integers: larger ones would pass as negative.
 void refuse_large_integers(const nlohmann::json& value, const nlohmann::json::json_pointer& at) {
     constexpr auto largest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
     if (value.is_number_unsigned() && value.get<std::uint64_t>() > largest)
         throw base::Error(base::ErrorCode::bad_input, at.to_string(),
-                          fmt::format("{} is too large for any number here", value.get<std::uint64_t>()));
+                          fmt::format("{} is too large for a whole number; the largest is 9223372036854775807",
+                                      value.get<std::uint64_t>()));
     if (value.is_array())
         for (std::size_t i = 0; i < value.size(); ++i) {
             if (value[i].is_structured() || value[i].is_number_unsigned()) refuse_large_integers(value[i], at / i);
@@ -44,8 +45,8 @@ void refuse_large_integers(const nlohmann::json& value, const nlohmann::json::js
         for (const auto& [key, child] : value.items()) refuse_large_integers(child, at / key);
 }
 
-// A schema takes longer to parse than a document to check, and a document with sweeps is checked once a variant: the
-// few schemas that there are, are kept.
+// Parsing a schema takes longer than checking a document, and a document with sweeps is checked once for each variant,
+// so the few schemas are kept.
 std::shared_ptr<const valijson::Schema> parsed(const nlohmann::json& schema) {
     constexpr std::size_t most = 4;
     static std::mutex mutex;
@@ -74,7 +75,7 @@ std::string pointer_of(const std::vector<std::string>& path) {
     return pointer.to_string();
 }
 
-// Each fault once, though the validator names it again for every schema around it.
+// Keeps each fault once: the validator repeats it for every enclosing schema.
 class Faults {
 public:
     bool any_within(const std::string& pointer) const { return around_.contains(pointer); }
@@ -90,7 +91,7 @@ public:
 
 private:
     std::set<std::pair<std::string, std::string>> told_;
-    std::set<std::string> around_;  // pointers of all values that have a fault within
+    std::set<std::string> around_;  // pointers of all values that contain a fault
 };
 
 }  // namespace
@@ -109,7 +110,7 @@ std::vector<base::Error> schema_faults(const nlohmann::json& document, const nlo
     const std::shared_ptr<const valijson::Schema> rules = parsed(schema);
     const valijson::adapters::NlohmannJsonAdapter target(document);
     valijson::Validator validator;
-    // Results collect every fault; a valid document, the common case, does not pay for them.
+    // Collecting faults costs time that a valid document, the common case, need not spend.
     if (validator.validate(*rules, target, nullptr)) return {};
 
     valijson::ValidationResults results;
@@ -126,8 +127,7 @@ std::vector<base::Error> schema_faults(const nlohmann::json& document, const nlo
     std::vector<base::Error> errors;
     for (const SchemaFault& fault : faults.list) {
         if (errors.size() == most) break;
-        // The pointer of a whole document is empty; a message that begins with nothing reads as if its place were
-        // unknown.
+        // The pointer of a whole document is empty, and an error without a place reads as if its place were unknown.
         const bool whole = fault.pointer.empty() && !document.is_object();
         errors.emplace_back(base::ErrorCode::bad_input, whole ? "/" : fault.pointer, fault.message);
     }

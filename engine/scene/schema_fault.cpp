@@ -1,4 +1,4 @@
-// Whether a document is valid is for valijson alone to say; this file only finds words for its verdict.
+// Only valijson decides whether a document is valid; this file finds words for its verdict.
 #include "scene/schema_fault.h"
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 using Schemas = std::vector<const json*>;
 
-// The schemas that hold for one value, with references, allOf and conditions resolved.
+// The schemas that apply to one value, with references, allOf and conditions resolved.
 class Applicable {
 public:
     explicit Applicable(const json& root) : root_(root) {}
@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    // Conditions of the one form used here: a key that is required and has a constant value.
+    // Decides conditions of the one form used here: a key that is required and has a constant value.
     static bool holds(const json& condition, const json& value) {
         if (!value.is_object() || !condition.contains("properties")) return false;
         for (const auto& [name, wanted] : condition["properties"].items()) {
@@ -75,7 +75,7 @@ std::string names_of(const json& properties) {
     return names;
 }
 
-// Keys that the schema does not have; their own pointers tell where they stand.
+// Keys that the schema does not have; their own pointers name their place.
 void unknown_keys(const json& schema, const json& value, const json::json_pointer& at, std::size_t most,
                   std::vector<SchemaFault>& out) {
     if (!value.is_object() || schema.value("additionalProperties", json(true)) != json(false)) return;

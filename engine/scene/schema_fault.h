@@ -1,4 +1,4 @@
-// Says what is wrong with a value that a schema refused, in one line each.
+// Explains in one line each what is wrong with a value that a schema refused.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@ struct SchemaFault {
     std::string message;
 };
 
-// `path` leads from the document's root to the value that was refused. The messages are made from the schemas that
-// apply there, and speak of the value itself: its type or range, its unknown keys (about `most` of them), those that
-// are missing. Empty: the schemas do not tell.
+// `path` leads from the document's root to the refused value. The messages are made from the schemas that apply there
+// and describe the value itself: its type or range, its unknown keys (about `most` of them), its missing keys. Returns
+// nothing if the schemas do not explain the fault.
 std::vector<SchemaFault> explain_faults(const nlohmann::json& document, const nlohmann::json& schema,
                                         const std::vector<std::string>& path, std::size_t most);
 

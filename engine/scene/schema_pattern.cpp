@@ -1,4 +1,4 @@
-// GCC 12 sees uninitialised members in std::regex when a sanitizer is on (GCC bug 105562).
+// GCC 12 reports uninitialised members in std::regex if a sanitizer is on (GCC bug 105562).
 #ifndef __clang__
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif

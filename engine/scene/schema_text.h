@@ -1,3 +1,4 @@
+// The scenario schema as a string in the program.
 #pragma once
 
 namespace shadowbench::scene {

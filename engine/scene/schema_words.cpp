@@ -82,7 +82,7 @@ std::string shorten(const std::string& text) {
 }
 
 std::string show(const json& value) {
-    // Arrays and objects may be long; their contents do not help.
+    // Arrays and objects may be long, and their contents do not help.
     if (value.is_structured()) return fmt::format("{} of {} items", value.type_name(), value.size());
     const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
     return value.is_null() ? text : fmt::format("{} {}", value.type_name(), shorten(text));
@@ -99,7 +99,7 @@ bool has_type(const json& value, const json& type) {
 std::string closest(const std::string& word, const std::vector<std::string>& names) {
     if (word.size() > longest_shown) return "";
     std::string best;
-    // A third of the letters may be wrong: nearer words are slips, farther ones are other words.
+    // A third of the letters may be wrong: closer words are likely typing errors, others are different words.
     std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string& name : names) {
         std::vector<std::size_t> row(name.size() + 1);

@@ -17,7 +17,7 @@ Particles make_smoke_column(const SmokeColumn& parameters) {
         base::Random random(base::hash(parameters.seed, 2, i));
         const double rise = (static_cast<double>(i) + random.uniform()) / static_cast<double>(count);
         const double half_width = 0.5 * parameters.width * (1.0 + 2.0 * rise);
-        // The whole column winds around its axis, the more the higher.
+        // The whole column winds around its axis, more with height.
         const Turn wind = turn(phase + 1.5 * rise);
         const Vec2d in_column = in_disc(random);
         const double x = half_width * (0.75 * in_column.x + 0.25 * wind.cosine);

@@ -1,5 +1,5 @@
-// Sine and cosine from additions and multiplications alone, so that procedural scenes have the same bits on every
-// machine: the C library's differ in the last place between its versions and its instruction sets.
+// Sine and cosine from only additions and multiplications, so that procedural scenes have the same bits on every
+// machine: the C library's results differ in the last place between its versions and instruction sets.
 #pragma once
 
 #include <cmath>
@@ -13,12 +13,12 @@ struct Turn {
     double cosine, sine;
 };
 
-// Of an angle in whole turns; within 1e-14.
+// Sine and cosine of an angle in whole turns; the error is below 1e-14.
 inline Turn turn(double turns) {
     const double quarters = std::floor(turns * 4.0 + 0.5);
     const double angle = (turns * 4.0 - quarters) * 1.57079632679489661923;  // in [-pi/4, pi/4]
     const double square = angle * angle;
-    // Taylor series, nested: the first term left out is below 1e-17 there.
+    // Taylor series, nested: the first omitted term is below 1e-17 there.
     double sine = 1.0, cosine = 1.0;
     for (int n = 16; n >= 2; n -= 2) {
         sine = 1.0 - square * sine / (n * (n + 1.0));
@@ -32,7 +32,7 @@ inline Turn turn(double turns) {
     return {sine, -cosine};
 }
 
-// Two unit vectors across a unit vector (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
+// Two unit vectors perpendicular to a unit vector (Duff et al., Building an Orthonormal Basis, Revisited, 2017).
 struct Across {
     base::Vec3d u, v;
 };
@@ -43,7 +43,7 @@ inline Across across(const base::Vec3d& n) {
     return {{1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
 }
 
-// Uniform in the unit disc.
+// A uniform point in the unit disc.
 inline base::Vec2d in_disc(base::Random& random) {
     const double radius = std::sqrt(random.uniform());
     const Turn at = turn(random.uniform());

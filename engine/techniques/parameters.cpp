@@ -23,7 +23,7 @@ bool standard_is_word(const Parameter& p) {
     return p.standard_word[0] != '\0';
 }
 
-// "a number from 0 to 1 or one of "noise""
+// Says what a parameter accepts: "a number from 0 to 1 or one of "noise"".
 std::string expectation(const Parameter& p) {
     std::string text;
     if (takes_numbers(p))
@@ -70,7 +70,7 @@ double ParameterValues::number(std::string_view name) const {
     const Value& value = at(name);
     if (const auto* number = std::get_if<double>(&value)) return *number;
     throw base::Error(base::ErrorCode::internal, name,
-                      fmt::format("no number, but the word \"{}\"", std::get<std::string>(value)));
+                      fmt::format("not a number but the word \"{}\"", std::get<std::string>(value)));
 }
 int ParameterValues::integer(std::string_view name) const {
     return static_cast<int>(number(name));
@@ -78,7 +78,7 @@ int ParameterValues::integer(std::string_view name) const {
 const std::string& ParameterValues::word(std::string_view name) const {
     const Value& value = at(name);
     if (const auto* word = std::get_if<std::string>(&value)) return *word;
-    throw base::Error(base::ErrorCode::internal, name, fmt::format("no word, but {:g}", std::get<double>(value)));
+    throw base::Error(base::ErrorCode::internal, name, fmt::format("not a word but {:g}", std::get<double>(value)));
 }
 bool ParameterValues::is_word(std::string_view name) const {
     return std::holds_alternative<std::string>(at(name));

@@ -1,5 +1,5 @@
-// Parameters of techniques: each technique declares its own as a list; JSON, command lines, schema and reports all read
-// that list.
+// Parameters of techniques. Each technique declares its own as a list, which JSON, command lines, the schema and
+// reports read.
 #pragma once
 
 #include <map>
@@ -19,15 +19,14 @@ struct Parameter {
     const char* name;
     ParameterKind kind;
     const char* doc;
-    double standard = 0.0;                // default; of choice and word kinds when `standard_word` is empty
+    double standard = 0.0;                // default; for choice and word kinds only if `standard_word` is empty
     double min = 0.0, max = 0.0;          // range of numbers, inclusive
     const char* standard_word = "";       // default word
-    std::vector<const char*> words = {};  // choice: the values there are; number_or_word: the words there are
+    std::vector<const char*> words = {};  // choice: all values; number_or_word: the words besides numbers
 };
 
-// The values of one technique's parameters, complete: every declared parameter has one. Asking for a name that is not
-// among them, or for the wrong kind, is a fault of the program: Error{internal} that names those there are, or the
-// value.
+// The complete values of one technique's parameters: every declared parameter has one. Asking for an unknown name or
+// for the wrong kind is a fault of the program: Error{internal} that lists the names, or shows the value.
 class ParameterValues {
 public:
     using Value = std::variant<double, std::string>;
@@ -41,8 +40,8 @@ public:
     std::map<std::string, Value, std::less<>> values;
 };
 
-// Reads a JSON object. Throws Error{bad_input}, place `where`/name: unknown name (the message lists those there are),
-// wrong type, out of range.
+// Reads a JSON object. Throws Error{bad_input}, place `where`/name, for an unknown name (the message lists the known
+// ones), a wrong type, or a value out of range.
 ParameterValues read_parameters(std::span<const Parameter> declared, const nlohmann::json& object,
                                 const std::string& where);
 
@@ -50,9 +49,9 @@ ParameterValues read_parameters(std::span<const Parameter> declared, const nlohm
 nlohmann::json to_json(const ParameterValues& values);
 nlohmann::json parameter_schema(const char* id, std::span<const Parameter> declared);
 
-// "tolerance=0.02 filter=point": those that differ from the defaults, or all.
+// "tolerance=0.02 filter=point": the values that differ from the defaults, or all.
 std::string to_string(const ParameterValues& values, std::span<const Parameter> declared, bool all);
-// The same with the `named` ones first, whatever their values. Throws Error{internal} for a name that is not there.
+// The same with the `named` ones first, whatever their values. Throws Error{internal} for an unknown name.
 std::string to_string(const ParameterValues& values, std::span<const Parameter> declared,
                       std::span<const std::string> named);
 

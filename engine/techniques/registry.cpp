@@ -1,4 +1,4 @@
-// The registry: made from rows.inc, which has a line a technique.
+// The registry, made from rows.inc, which has one line for each technique.
 #include <string>
 
 #include "base/error.h"

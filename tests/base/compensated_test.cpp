@@ -9,7 +9,7 @@
 namespace shadowbench::base {
 namespace {
 
-// In a plain sum the small terms are gone as soon as the large one is there.
+// A plain sum loses the small terms as soon as it contains the large one.
 TEST(CompensatedSum, WhatIsAddedAndTakenAwayLeavesNothing) {
     CompensatedSum sum(1.0);
     sum.add(1e20);

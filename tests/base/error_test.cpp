@@ -13,7 +13,7 @@ TEST(Error, WhatIsThePlaceAndTheMessage) {
     EXPECT_EQ(error.message(), "no such kind");
 }
 
-TEST(Error, WithoutAPlaceIsTheMessageAlone) {
+TEST(Error, WithoutAPlaceIsOnlyTheMessage) {
     EXPECT_STREQ(Error(ErrorCode::usage, "", "no command").what(), "no command");
 }
 

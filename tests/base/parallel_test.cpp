@@ -47,7 +47,7 @@ TEST(ThreadLimit, HoldsWhileItLives) {
     {
         const ThreadLimit one(1);
         EXPECT_EQ(thread_count(), 1);
-        int calls = 0;  // not atomic: one thread alone counts
+        int calls = 0;  // not atomic: only one thread counts
         parallel_for(1000, [&](std::size_t) { ++calls; });
         EXPECT_EQ(calls, 1000);
     }

@@ -48,7 +48,7 @@ TEST_F(ReadText, OtherEncodingsAreRefused) {
     }
 }
 
-TEST_F(ReadText, FoldersAndMissingFilesAreToldApart) {
+TEST_F(ReadText, FoldersAndMissingFilesGiveDifferentErrors) {
     const auto code = [](const std::filesystem::path& file) {
         try {
             read_text(file);

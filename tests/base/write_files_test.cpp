@@ -53,7 +53,7 @@ TEST_F(WriteFiles, refuses_a_folder_in_a_files_place_before_replacing_others) {
     EXPECT_EQ(read(folder_ / "one"), "old");
 }
 
-TEST_F(WriteFiles, tells_why_and_how_much_there_was_to_write) {
+TEST_F(WriteFiles, reports_why_and_how_much_there_was_to_write) {
     const auto fault_of = [](const std::vector<NewFile>& files) {
         try {
             write_files(files);
@@ -73,11 +73,11 @@ TEST_F(WriteFiles, tells_why_and_how_much_there_was_to_write) {
     EXPECT_EQ(full.code(), ErrorCode::io);
 }
 
-TEST_F(WriteFiles, tells_beforehand_that_a_folder_cannot_be_made) {
+TEST_F(WriteFiles, reports_beforehand_that_a_folder_cannot_be_made) {
     write_files({{folder_ / "file", ""}});
     Undo undo;
     test::error_of([&] { make_writable(folder_ / "file/sub", undo); }, ErrorCode::io, (folder_ / "file/sub").string());
-    EXPECT_THROW(make_writable("/proc", undo), Error) << "which is there, and takes no files even of root";
+    EXPECT_THROW(make_writable("/proc", undo), Error) << "it exists, but even root cannot write files in it";
     EXPECT_EQ(entries(), 1u);
 }
 

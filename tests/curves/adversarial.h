@@ -1,4 +1,4 @@
-// Visibility functions that are as hard on compression and sums as functions can be.
+// Visibility functions that are as hard on compression and sums as possible.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 
 namespace shadowbench::curves::cases {
 
-// What a function is made of; see append().
+// The kinds of stretches that a function consists of; see append().
 enum class Stretch { ulp_steps, plateau, sawtooth, corners, cliff, towards_0, last_digits, denormal, far, anything };
 inline constexpr int kStretches = 10;
 
-// One stretch: of which kind, of how many moves, and the seed of what is left to chance.
+// One stretch: its kind, its number of moves, and the seed of its random choices.
 struct Piece {
     int stretch, length;
     std::uint64_t seed;
@@ -42,7 +42,7 @@ struct Builder {
     float next_value() const { return std::nextafter(value, 0.0f); }
 };
 
-// A drop that a tolerance just allows or just does not.
+// A drop that a tolerance just allows or just forbids.
 inline double edge_drop(double tolerance, base::Random& random) {
     const double factors[] = {0.5, 1.0, 2.0, 2.0000001, 1.9999999, 4.0, 0.999, 1.001};
     return tolerance * factors[random.below(8)];
@@ -64,7 +64,7 @@ inline void append(Builder& b, Stretch stretch, int length, std::uint64_t seed) 
                 b.move(b.z + gap, b.value);
                 b.move(b.z, b.value - 2.0 * b.tolerance * (1.0 + random.uniform(-1e-7, 1e-7)));
                 break;
-            case Stretch::corners: {  // a line, left by exactly the tolerance now above and now below
+            case Stretch::corners: {  // a line, left by exactly the tolerance, alternately above and below
                 const double z = from_z + gap * (i + 1), side = i % 2 ? b.tolerance : -b.tolerance;
                 b.move(z, from_value - 2.0 * b.tolerance * (i + 1) + side);
                 break;
@@ -75,10 +75,10 @@ inline void append(Builder& b, Stretch stretch, int length, std::uint64_t seed) 
             case Stretch::towards_0:
                 b.move(b.z + gap, b.value * 0.01);
                 break;
-            case Stretch::last_digits:  // as little as a float can fall
+            case Stretch::last_digits:  // the least fall of a float
                 b.move(b.z + (random.below(3) ? gap : 0.0), b.next_value());
                 break;
-            case Stretch::denormal:  // as little as a float can move, where it can hold the least
+            case Stretch::denormal:  // the least move of a float, where floats are finest
                 b.move(b.z + kTiny, random.below(2) ? b.value - kTiny : b.value * random.uniform());
                 break;
             case Stretch::far:
@@ -111,7 +111,7 @@ struct Segment {
     float front, back, through;
 };
 
-// Depths around one centre: itself, floats next to it, near and far ones; each may come again.
+// Depths around one centre: the centre, floats next to it, near and far depths; each may be repeated.
 class DepthPalette {
 public:
     explicit DepthPalette(base::Random& random) : random_(random) {
@@ -141,7 +141,7 @@ private:
     float centre_;
 };
 
-// Up to `most` segments, surfaces alone or with media that overlap; opaque, faint and denormal ones among them.
+// Up to `most` segments: only surfaces, or with overlapping media; some are opaque, faint or denormal.
 inline std::vector<Segment> adversarial_ray(base::Random& random, DepthPalette& palette, std::uint64_t most,
                                             bool media) {
     const float throughs[] = {0.0f,   adversarial::kTiny, 1e-40f,      1e-38f,      1e-20f, 0.1f, 0.5f,
@@ -157,7 +157,7 @@ inline std::vector<Segment> adversarial_ray(base::Random& random, DepthPalette& 
     return segments;
 }
 
-// By chance alone, for tests without a generator of cases.
+// Random choices only, for tests without a generator of cases.
 inline Curve adversarial_function(float tolerance, base::Random& random) {
     std::vector<Piece> pieces(random.below(5));
     for (Piece& piece : pieces)

@@ -41,7 +41,7 @@ inline std::ostream& operator<<(std::ostream& stream, const LightRays& rays) {
 
 namespace shadowbench::curves::cases {
 
-// Value of a function by definition, in double; O(log n).
+// The value of a function by definition, in double; O(log n).
 inline double exact(CurveView curve, double z, bool behind = false) {
     if (curve.empty()) return 1.0;
     const auto in_front = [=](const Vertex& v) { return behind ? v.z <= z : v.z < z; };
@@ -53,13 +53,13 @@ inline double exact(CurveView curve, double z, bool behind = false) {
     return left.value * (1.0 - share) + right->value * share;
 }
 
-// What separates a vertex from the one before it. Small numbers are simple, so that failures shrink to simple
+// The step from a vertex to the next one. Small numbers are simple, so that failures shrink to simple functions.
 // functions.
 struct Move {
     int gap, drop;
 };
 
-// A visibility function out of everyday and of nasty moves: steps, neighbouring floats, denormal and huge depths.
+// A visibility function from everyday and nasty moves: steps, neighbouring floats, denormal and huge depths.
 inline Curve from_moves(int start, const std::vector<std::pair<int, int>>& moves) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     const float starts[] = {1.0f, 0.0f, 1e-45f, 1e-3f, 1e6f, -5.0f};
@@ -97,7 +97,7 @@ inline rc::Gen<Curve> any_function() {
     return rc::gen::apply(from_moves, full_range(rc::gen::inRange(0, 6)), moves);
 }
 
-// One made to be hard on this tolerance.
+// A function made to be hard on this tolerance.
 inline rc::Gen<Curve> any_adversarial_function(float tolerance) {
     const auto piece = rc::gen::apply(
         [](int stretch, int length, std::uint64_t seed) {
@@ -114,7 +114,7 @@ inline rc::Gen<float> any_tolerance() {
     return rc::gen::element(0.02f, 0.0f, 1e-7f, 1e-4f, 0.005f, 0.1f, 0.5f, 1.0f, 3.0f);
 }
 
-// A function and what it is compressed with.
+// A function and the tolerance to compress it with.
 struct Case {
     Curve curve;
     float tolerance;
@@ -167,13 +167,13 @@ inline Curve channel(const std::vector<ColourVertex>& vertices, int c) {
     return curve;
 }
 
-// What rounding may add to an error: one unit in the last place of the largest value; and what compress() allows
-// itself at its end, which only functions as faint as that can tell.
+// The error that rounding may add: one unit in the last place of the largest value, and the slack of compress() at its
+// end, which matters only for functions as faint as it is.
 inline double rounding_of(CurveView curve) {
     return 0x1p-24 * (curve.empty() ? 1.0f : curve.front().value) + 0x1p-48;
 }
 
-// The same function in another unit of depth, 2^power as large. False where a float cannot hold it.
+// The same function with depths multiplied by 2^power. Returns false if a float cannot hold it.
 inline bool scale_depths(Curve& curve, int power) {
     for (Vertex& v : curve) {
         const float scaled = std::ldexp(v.z, power);
@@ -183,7 +183,7 @@ inline bool scale_depths(Curve& curve, int power) {
     return true;
 }
 
-// Rays of one pixel, each a list of segments, sorted here; those at the same depths stay in their order.
+// The rays of one pixel, each a list of segments, sorted here; segments at the same depths keep their order.
 inline rays::LightRays make_rays(std::vector<std::vector<Segment>> segments, bool media) {
     rays::LightRays rays;
     rays.width = rays.height = 1;
@@ -227,7 +227,7 @@ inline std::vector<Segment> random_media(base::Random& random, int count, double
     return ray;
 }
 
-// The oracle of a pixel: mean transmittance of all rays up to z; just behind z if asked.
+// The oracle of a pixel: the mean transmittance of all rays up to z; just behind z if asked.
 inline double exact(const rays::LightRays& rays, double z, bool behind = false) {
     if (behind) z = std::nextafter(z, std::numeric_limits<double>::infinity());
     double sum = 0.0;

@@ -18,7 +18,7 @@ std::vector<Node> nodes_of(std::vector<Segment> segments, bool media = true) {
     return nodes;
 }
 
-// Nodes joined as the header says: log(value) is linear.
+// Joins nodes as the header says: log(value) is linear.
 double join(const std::vector<Node>& nodes, double z) {
     std::size_t i = 0;
     while (i < nodes.size() && nodes[i].z < z) ++i;
@@ -54,11 +54,11 @@ TEST(Composite, NothingIsSeenBehindAnOpaqueSurface) {
     }
 }
 
-TEST(Composite, WhatDoesNotAbsorbLeavesNoNodes) {
+TEST(Composite, SegmentsThatAbsorbNothingLeaveNoNodes) {
     EXPECT_TRUE(nodes_of({{1, 1, 1.0f}, {1, 4, 1.0f}, {2, 2, 1.0f}}).empty());
 }
 
-// Constant extinction between the ends, and the surface strictly behind its own depth.
+// Extinction is constant between the ends, and the surface shades strictly behind its own depth.
 TEST(Composite, ASurfaceInsideAMediumMultipliesIt) {
     const auto nodes = nodes_of({{0, 2, 0.25f}, {1, 1, 0.5f}});
     ASSERT_EQ(nodes.size(), 4u);
@@ -88,7 +88,7 @@ TEST(Composite, RandomRaysMatchTheOracleEverywhere) {
     }
 }
 
-// The worst is a medium a few floats thick far behind the depth where another began: see the header.
+// The worst case is a medium a few floats thick far behind the depth where another began: see the header.
 RC_GTEST_PROP(Composite, AdversarialRaysMatchTheOracleInExtendedPrecision, ()) {
     base::Random random(*cases::full_range(rc::gen::inRange<std::uint64_t>(0, 1u << 20)));
     cases::DepthPalette palette(random);
@@ -108,7 +108,7 @@ RC_GTEST_PROP(Composite, AdversarialRaysMatchTheOracleInExtendedPrecision, ()) {
     }
 }
 
-// What a medium 10^40 times as dense leaves of the sums of extinctions would drown the others.
+// A medium 10^40 times as dense leaves errors in the sums of extinctions that would drown the others.
 TEST(Composite, AMediumOneDenormalThickLeavesNoErrorInThoseAroundIt) {
     const float tiny = std::numeric_limits<float>::denorm_min();
     const auto rays = make_rays({{{0, tiny, 0.5f}, {0, 3 * tiny, 0.7f}, {0, 1, 0.5f}, {tiny, 2, 0.8f}}}, true);
@@ -138,7 +138,7 @@ TEST(Composite, AMediumThatLetsNothingThroughEndsAtExactlyZero) {
     EXPECT_EQ(nodes[2].value, 0.0);
 }
 
-// exp(-10000) is 0 in double: one more node must tell how steeply the function falls on the way.
+// exp(-10000) is 0 in double: one more node must show how steeply the function falls on the way.
 TEST(Composite, AnOpticalDepthOf10000InOneStepKeepsItsShape) {
     const std::vector<Segment> segments(115, {1.0f, 2.0f, std::numeric_limits<float>::min()});
     const auto rays = make_rays({segments}, true);
@@ -215,14 +215,14 @@ TEST(Linearise, SpendsVerticesWhereTheFunctionBends) {
     EXPECT_LE(chord_error({{0.0, 1.0}, {1.0, std::exp(-20.0)}}, curve), 0.01);
 }
 
-TEST(Linearise, WithoutALimitKeepsTheNodesAlone) {
-    Curve curve{{-1.0f, 1.0f}};  // what is there stays
+TEST(Linearise, WithoutALimitKeepsOnlyTheNodes) {
+    Curve curve{{-1.0f, 1.0f}};  // existing vertices stay
     linearise({{0.0, 1.0}, {1.0, 0.01}}, std::numeric_limits<double>::infinity(), curve);
     ASSERT_EQ(curve.size(), 3u);
     EXPECT_EQ(curve[2].value, 0.01f);
 }
 
-// Between 1e6 and 1e6 + 1/4 lie three floats: no more vertices can be placed, and none may stand at one depth twice.
+// Between 1e6 and 1e6 + 1/4 lie three floats: no more vertices fit, and no two may be at one depth.
 TEST(Linearise, StopsWhereNoFloatIsLeftBetween) {
     Curve curve;
     linearise({{1e6, 1.0}, {1e6 + 0.25, 0.0}}, 1e-4, curve);

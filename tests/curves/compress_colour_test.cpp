@@ -46,7 +46,7 @@ RC_GTEST_PROP(CompressColour, DepthsAreThoseOfTheThreeAndNotMore, ()) {
     RC_ASSERT(std::includes(depths.begin(), depths.end(), kept.begin(), kept.end()));
 }
 
-// Else a grey scene would change when a colour is added elsewhere.
+// Otherwise a grey scene would change when a colour is added elsewhere.
 RC_GTEST_PROP(CompressColour, ThreeEqualFunctionsGiveTheVerticesOfOne, ()) {
     const cases::Case c = *cases::any_case();
     const auto three = compress({{c.curve, c.curve, c.curve}, c.tolerance});
@@ -84,7 +84,7 @@ TEST(CompressColour, AStepInOneChannelIsAStepForAllAtOneDepth) {
     EXPECT_EQ(channel(out, 2), (Curve{{0, 1}, {2, 1}, {2, 1}, {4, 1}}));
 }
 
-TEST(CompressColour, WhatIsLitInAllChannelsNeedsNoVertex) {
+TEST(CompressColour, FunctionsLitInAllChannelsNeedNoVertex) {
     EXPECT_TRUE(compress({{Curve{}, {}, {}}, 0.0f}).empty());
     EXPECT_TRUE(compress({{Curve{{1, 1}}, {}, {{2, 1}, {3, 1}}}, 0.0f}).empty());
     EXPECT_EQ(compress({{Curve{{1, 1}}, {}, {{2, 0.5f}}}, 0.0f}).size(), 1u) << "one channel is darker throughout";

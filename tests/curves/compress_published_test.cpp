@@ -25,13 +25,13 @@ float rise_of(CurveView curve) {
     return rise;
 }
 
-// What is published keeps its guarantee, at the last segment too.
+// The published method keeps its guarantee, also at the last segment.
 RC_GTEST_PROP(CompressPublished, StaysWithinTheToleranceOnBothSidesOfEveryStep, ()) {
     const Case c = *cases::any_case();
     RC_ASSERT(error(compress_published(c.curve, c.tolerance), c.curve) <= c.tolerance + cases::rounding_of(c.curve));
 }
 
-// What the header tells of its faults, and that they are no worse.
+// The faults that the header names, with their bounds.
 RC_GTEST_PROP(CompressPublished, RisesByTwiceTheToleranceAtMostFallsBelow0ByItAndNeverPasses1, ()) {
     const Case c = *cases::any_case();
     const Curve out = compress_published(c.curve, c.tolerance);
@@ -78,7 +78,7 @@ RC_GTEST_PROP(CompressPublished, EveryChannelOfThreeStaysWithinTheTolerance, ())
         RC_ASSERT(error(cases::channel(out, channel), c.curve[channel]) <= c.tolerance + 2.0 * 0x1p-24);
 }
 
-// Of equal functions with at most two vertices at a depth: three read both sides of a step, one every vertex.
+// For equal functions with at most two vertices at a depth: three read both sides of a step, one reads every vertex.
 RC_GTEST_PROP(CompressPublished, ThreeEqualFunctionsGiveTheVerticesOfOne, ()) {
     const Case c = *cases::any_case();
     Curve curve;
@@ -95,7 +95,7 @@ RC_GTEST_PROP(CompressPublished, ThreeEqualFunctionsGiveTheVerticesOfOne, ()) {
         RC_ASSERT(cases::channel(three, channel) == compress_published(curve, c.tolerance));
 }
 
-// By hand: from (0, 1) the windows at 1, 2 and 3 leave the slopes [-1/3, -0.8/3], and that at 4 would leave none.
+// By hand: from (0, 1) the windows at 1, 2 and 3 leave the slopes [-1/3, -0.8/3]; the window at 4 would leave none.
 TEST(CompressPublished, EndsASegmentAtTheLastVertexPassedWithTheMiddleSlope) {
     const Curve curve{{0, 1}, {1, 0.7f}, {2, 0.4f}, {3, 0.1f}, {4, 0.1f}, {8, 0.1f}};
     const Curve out = compress_published(curve, 0.1f);
@@ -112,7 +112,7 @@ TEST(CompressPublished, AStepAtTheOriginIsVertical) {
     EXPECT_EQ(compress_published(Curve{{2, 1}, {2, 0.99f}, {3, 0.99f}}, 0.02f).size(), 2u) << "within the tolerance";
 }
 
-// The faults that compress() mends, each at its worst.
+// The faults that compress() corrects, each at its worst.
 TEST(CompressPublished, FallsBelow0AndRisesAgainAfterAnSFall) {
     const Curve curve{{0, 1}, {1, 0.95f}, {2, 0.6f}, {3, 0.2f}, {4, 0}, {5, 0}, {9, 0}};
     const Curve out = compress_published(curve, 0.1f);
@@ -122,7 +122,7 @@ TEST(CompressPublished, FallsBelow0AndRisesAgainAfterAnSFall) {
     EXPECT_EQ(compress(curve, 0.1f).back().value, 0.0f);
 }
 
-TEST(CompressPublished, LeavesLightBehindWhatIsOpaque) {
+TEST(CompressPublished, LeavesLightBehindAnOpaqueSurface) {
     const Curve curve{{0, 1}, {1, 0.95f}, {10, 0}};
     EXPECT_NEAR(compress_published(curve, 0.05f).back().value, 0.025f, 1e-6f);
     EXPECT_EQ(compress(curve, 0.05f).back().value, 0.0f);

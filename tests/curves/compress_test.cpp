@@ -77,7 +77,7 @@ RC_GTEST_PROP(Compress, ScalingDepthsByAPowerOfTwoScalesDepthsAlone, ()) {
     RC_ASSERT(compress(scaled, c.tolerance) == expected);
 }
 
-// The light behind everything is what the ground receives: no bias there.
+// The light behind everything is what the ground receives, so it must not be biased.
 RC_GTEST_PROP(Compress, EndsAtTheExactValueWhenOneSegmentReachesTheEnd, ()) {
     const Curve curve = (*cases::any_case()).curve;
     RC_PRE(!curve.empty());
@@ -118,7 +118,7 @@ TEST(Compress, ALargeStepAmidSmallOnesStandsWhereItWas) {
     EXPECT_EQ(compressed[2].z, 99.0f);
 }
 
-// One vertex a segment: ending segments at the front side of each step would take two.
+// One vertex per segment: ending segments at the front side of each step would take two.
 TEST(Compress, ManySmallStepsBecomeALine) {
     Curve curve;
     for (int i = 0; i < 1000; ++i) {
@@ -128,8 +128,7 @@ TEST(Compress, ManySmallStepsBecomeALine) {
     EXPECT_LE(compress(curve, 0.01f).size(), 2u);
 }
 
-// The middle of the slopes allowed may be above 0 on a flat stretch that follows a fall; the published rule rises
-// there.
+// The middle of the allowed slopes may be above 0 on a flat part that follows a fall; the published rule rises there.
 TEST(Compress, DoesNotRiseAfterAFall) {
     base::Random random(5);
     for (int round = 0; round < 300; ++round) {

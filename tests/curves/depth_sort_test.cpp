@@ -14,7 +14,7 @@ TEST(DepthSort, KeysOrderAsDepthsDo) {
     EXPECT_EQ(depth_key(-0.0f), depth_key(0.0f)) << "one depth would become two";
 }
 
-// Every size class has its own algorithm; equal depths must keep their order in all.
+// Every size class has its own algorithm; equal depths must keep their order in all of them.
 TEST(DepthSort, SortsStablyAtEverySizeAndSpread) {
     base::Random random(3);
     std::vector<std::uint64_t> items, scratch;

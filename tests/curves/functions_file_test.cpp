@@ -60,7 +60,7 @@ TEST(FunctionsFile, SaysWhereAndWhatIsWrong) {
     expect_refused("two\n", 1, "number of vertices");
     expect_refused("-1\n", 1, "number of vertices");
     expect_refused("2 3\n", 1, "number of vertices");
-    expect_refused("2\n1 1\n# end\n", 3, "2 vertices announced, only 1 found");
+    expect_refused("2\n1 1\n# end\n", 3, "the header states 2 vertices, but only 1 follow");
     expect_refused("99999999999\n1 1\n", 1, "only");  // refused before memory is taken for it
     expect_refused("99999999999999999999999\n1 1\n", 1, "number of vertices");
     expect_refused("1\n1\n", 2, "two numbers");
@@ -70,7 +70,7 @@ TEST(FunctionsFile, SaysWhereAndWhatIsWrong) {
     expect_refused("1\n1e99 1\n", 2, "two numbers");
     expect_refused("1\n1e39 1\n", 2, "two numbers");
     expect_refused("1\n0x1p3 1\n", 2, "two numbers");
-    expect_refused("1\n2e18 1\n", 2, "beyond 1e+18");  // of two such depths the difference may be no float
+    expect_refused("1\n2e18 1\n", 2, "beyond 1e+18");  // the difference of two such depths may overflow a float
     expect_refused("1\n-3e38 1\n", 2, "beyond 1e+18");
     expect_refused("1\ninf 1\n", 2, "not finite");
     expect_refused("1\nnan 1\n", 2, "not finite");
@@ -94,7 +94,7 @@ TEST(FunctionsFile, ShowsNoBytesOfABinaryFile) {
     expect_refused(std::string(1000, '\x01'), 1, std::string(60, '?') + "...`");
 }
 
-TEST(FunctionsFile, TellsAMissingFileFromOneThatCannotBeRead) {
+TEST(FunctionsFile, DistinguishesAMissingFileFromOneThatCannotBeRead) {
     const Folder folder;
     try {
         read_functions(folder.file());
@@ -122,7 +122,7 @@ TEST(FunctionsFile, ReadsBackTheSameFloats) {
     EXPECT_TRUE(read_functions(folder.file()) == functions);
 }
 
-// A reader must never see half a file, and a failed write must not leave its temporary file about.
+// A reader must never see half a file, and a failed write must not leave its temporary file.
 TEST(FunctionsFile, ReplacesTheFileAsAWhole) {
     const Folder folder;
     write_functions(folder.file(), {{{1, 1}}, {{2, 0.1f}}});

@@ -47,7 +47,7 @@ double error_at(const rays::LightRays& rays, const Curve& curve, float z, Side s
     return std::abs(static_cast<double>(cases::exact(curve, z, side == Side::behind) - exact));
 }
 
-// Largest distance from the oracle at every depth where something begins or ends, on both sides, and at floats between.
+// The largest distance from the oracle at every depth where a segment begins or ends, on both sides, and between.
 double oracle_error(const rays::LightRays& rays, const Curve& curve, bool between) {
     double worst = 0.0;
     std::vector<float> depths;
@@ -63,7 +63,7 @@ double oracle_error(const rays::LightRays& rays, const Curve& curve, bool betwee
     return worst;
 }
 
-// The same at some depths of many.
+// The same at some of many depths.
 double sampled_error(const rays::LightRays& rays, const Curve& curve, base::Random& random) {
     double worst = 0.0;
     for (int i = 0; i < 12; ++i) {

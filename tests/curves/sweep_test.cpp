@@ -14,7 +14,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Curve visibility_of(const rays::LightRays& rays, double linearisation = 1e-4) {
     SweepScratch scratch;
-    Curve out{{9, 9}};  // what is there is replaced
+    Curve out{{9, 9}};  // existing vertices are replaced
     visibility(rays, 0, rays.rays(), linearisation, scratch, out);
     return out;
 }
@@ -74,7 +74,7 @@ TEST(Visibility, BehindOpaqueSurfacesIsExactlyZero) {
         for (auto& ray : segments) ray.push_back({20, 20, 0.0f});
         EXPECT_EQ(visibility_of(make_rays(segments, false)).back().value, 0.0f);
         EXPECT_EQ(visibility_of(make_rays(segments, true)).back().value, 0.0f);
-        segments[0].push_back({1, 30, 0.5f});  // and so on the general path
+        segments[0].push_back({1, 30, 0.5f});  // which takes the general path
         EXPECT_EQ(visibility_of(make_rays(segments, true)).back().value, 0.0f);
     }
 }
@@ -145,7 +145,7 @@ TEST(Visibility, WithoutLinearisationIsExactAtTheEndsOfSegments) {
     EXPECT_EQ(out, (Curve{{1, 1}, {3, 0.25f}}));
 }
 
-TEST(Visibility, TakesTheRaysAskedForAlone) {
+TEST(Visibility, TakesOnlyTheChosenRays) {
     const auto rays = make_rays({{{1, 1, 0}}, {{2, 2, 0.5f}}, {{3, 3, 0}}}, false);
     SweepScratch scratch;
     Curve out;
@@ -187,7 +187,7 @@ TEST(Visibility, OfWeightedSurfacesIsTheWeightedMeanOnBothSidesOfEveryStep) {
     }
 }
 
-// Rounded weights must not leave a glow behind what is opaque.
+// Rounded weights must not leave a glow behind opaque surfaces.
 TEST(Visibility, BehindWeightedOpaqueSurfacesIsExactlyZero) {
     base::Random random(10);
     std::vector<std::vector<Segment>> segments = hair(random, 49, 10, 0.5);
@@ -286,8 +286,8 @@ TEST(WeightedSum, OfTermsThatDoNotRiseNeverRisesByRounding) {
     base::Random random(8);
     for (int round = 0; round < 300; ++round) {
         std::vector<Curve> curves(3);
-        const float far = cases::number(random, 1e5, 1e6);
-        for (float z = far, value = 1.0f; curves[0].size() < 60; z = std::nextafter(z, 2e6f)) {
+        const float far_depth = cases::number(random, 1e5, 1e6);
+        for (float z = far_depth, value = 1.0f; curves[0].size() < 60; z = std::nextafter(z, 2e6f)) {
             curves[0].push_back({z, value});
             value *= cases::number(random, 0.5, 1.0);
         }

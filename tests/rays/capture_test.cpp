@@ -185,7 +185,7 @@ TEST(Capture, HairAroundASpotAndThroughItsNearPlaneIsNotLost) {
     }
 }
 
-TEST(Tracer, TheNearestHairTellsItsDirectionAndASurfaceNone) {
+TEST(Tracer, TheNearestHairHasADirectionAndASurfaceHasNone) {
     scene::Hair hair;
     hair.points = {{-1, 0, -1}, {1, 0, 1}};
     hair.radii = {0.1f, 0.1f};
@@ -208,7 +208,7 @@ TEST(Tracer, TheNearestHairTellsItsDirectionAndASurfaceNone) {
 }
 
 TEST(Tracer, HairRightAtTheStartOfARayIsNotPassedOver) {
-    // Embree by itself skips ribbons within two half-widths of where a ray starts.
+    // Embree on its own skips ribbons within two half-widths of where a ray starts.
     scene::Scene scene;
     scene::Hair hair;
     hair.points = {{-1, 0, 0}, {1, 0, 0}};

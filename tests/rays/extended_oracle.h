@@ -1,5 +1,5 @@
-// A second oracle, for tests alone: transmittance in extended precision as the exponential of a sum of logarithms. It
-// shares nothing with the engine but the arrays of LightRays: what it agrees with cannot be wrong in the same way.
+// A second oracle, for tests only: transmittance in extended precision as the exponential of a sum of logarithms. It
+// shares nothing with the engine except the arrays of LightRays, so the two cannot be wrong in the same way.
 #pragma once
 
 #include <cfloat>
@@ -12,7 +12,7 @@ namespace shadowbench::rays::testing {
 
 static_assert(LDBL_MANT_DIG >= 64, "the oracle must be finer than double");
 
-// Which side of a depth: a surface shades what is behind it, and not what stands at its own depth.
+// The side of a depth: a surface shades what is behind it, but not its own depth.
 enum class Side { front, behind };
 
 // -log(through). Next to 1 the distance from 1 is exact in long double, and log1p keeps its digits.
@@ -22,8 +22,8 @@ inline long double depth_of(float through) {
     return t > 0.5L ? -log1pl(t - 1.0L) : -logl(t);
 }
 
-// Optical depth that a segment puts in front of z. A medium darker than the smallest normal float is as dark as that
-// inside, and what it is only behind.
+// The optical depth that a segment puts in front of z. A medium darker than the smallest normal float counts as that
+// float inside, and as its own transmittance only behind it.
 inline long double depth_in_front(float z_front, float z_back, float through, long double z, Side side) {
     const bool step = z_front == z_back && side == Side::behind;
     if (step ? z < z_front : z <= z_front) return 0.0L;
@@ -32,7 +32,7 @@ inline long double depth_in_front(float z_front, float z_back, float through, lo
     return thickness * (z - z_front) / (static_cast<long double>(z_back) - z_front);
 }
 
-// Of the segments [begin, end), summed by halves: the error grows with the logarithm of their number.
+// The same for the segments [begin, end), summed by halves: the error grows with the logarithm of their number.
 inline long double depth_in_front(const LightRays& rays, std::size_t begin, std::size_t end, int channel, long double z,
                                   Side side) {
     if (end - begin > 8) {
@@ -49,13 +49,13 @@ inline long double depth_in_front(const LightRays& rays, std::size_t begin, std:
     return sum;
 }
 
-// Transmittance of one ray up to z. Relative error below 2^-62 (1 + optical depth) log2(segments).
+// The transmittance of one ray up to z. Relative error below 2^-62 (1 + optical depth) log2(segments).
 inline long double extended_transmittance(const LightRays& rays, std::size_t ray, int channel, long double z,
                                           Side side = Side::front) {
     return expl(-depth_in_front(rays, rays.begin[ray], rays.begin[ray + 1], channel, z, side));
 }
 
-// Mean over the rays [first, first + count): the visibility of a pixel.
+// The mean over the rays [first, first + count): the visibility of a pixel.
 inline long double extended_visibility(const LightRays& rays, std::size_t first, std::size_t count, int channel,
                                        long double z, Side side = Side::front) {
     long double sum = 0.0L;

@@ -34,7 +34,7 @@ LightRays ray_of(std::vector<Segment> segments) {
     return rays;
 }
 
-// Optical depth, up to z, of the media that z lies inside of: what the header's bound speaks of.
+// The optical depth, up to z, of the media that contain z, which the header's bound refers to.
 double depth_around(const LightRays& rays, double z) {
     double sum = 0.0;
     for (std::size_t s = 0; s < rays.segments(); ++s)
@@ -42,7 +42,7 @@ double depth_around(const LightRays& rays, double z) {
     return sum;
 }
 
-// Holds the oracle to the bound that its header states.
+// Checks the oracle against the bound in its header.
 void expect_agreement(const LightRays& rays, double z) {
     const long double expected = testing::extended_transmittance(rays, 0, 0, z);
     const double value = transmittance(rays, 0, 0, z);
@@ -56,7 +56,7 @@ std::vector<Segment> layers(int count, float through) {
     return segments;
 }
 
-// A plain product of doubles is off by a digit for every few layers.
+// A plain product of doubles loses a digit for every few layers.
 TEST(Transmittance, Of100000FaintLayersKeepsItsLastDigits) {
     const LightRays rays = ray_of(layers(100'000, 1.0f - 1e-4f));
     for (const double z : {1.0, 10.0, 5'000.5, 77'777.0, kInfinity}) expect_agreement(rays, z);
@@ -76,12 +76,12 @@ TEST(Transmittance, OfAMillionLayersNextToOneCountsThemAll) {
     EXPECT_NEAR(transmittance(rays, 0, 0, kInfinity), std::exp(1e6 * std::log1p(-0x1p-24)), 1e-12);
 }
 
-// Optical depths of 1e-14 are 1 as floats: nothing is left of them to be lost.
-TEST(Transmittance, OfAMillionLayersThatAFloatCannotTellFrom1Is1) {
+// Optical depths of 1e-14 are 1 as floats, so nothing remains of them.
+TEST(Transmittance, OfAMillionLayersThatAreExactly1InFloatIs1) {
     EXPECT_EQ(transmittance(ray_of(layers(1'000'000, static_cast<float>(std::exp(-1e-14)))), 0, 0, kInfinity), 1.0);
 }
 
-// A product of a thousand exponentials is off by as many roundings; a sum of optical depths is not.
+// A product of a thousand exponentials adds up their roundings; a sum of optical depths does not.
 TEST(Transmittance, InsideManyMediaIsThatOfTheirOpticalDepths) {
     std::vector<Segment> segments;
     for (int i = 0; i < 1000; ++i)

@@ -58,7 +58,7 @@ double brute_force(scene::GridVolume& g, base::Vec3d origin, base::Vec3d directi
 }
 
 TEST(March, SkippingEmptyBlocksLosesNothing) {
-    // Few voxels hold anything, most blocks are empty, and rays run in all directions, along axes too.
+    // Few voxels have density, most blocks are empty, and rays run in all directions, also along axes.
     scene::GridVolume g = grid({40, 37, 51}, 0.01);
     base::Random random(1);
     for (int i = 0; i < 25; ++i)
@@ -69,7 +69,7 @@ TEST(March, SkippingEmptyBlocksLosesNothing) {
     const VolumeMarcher marcher(g);
     int hit = 0;
     for (int i = 0; i < 60; ++i) {
-        // Through a voxel that holds something.
+        // Through a voxel that has density.
         std::size_t v = random.below(g.density.size());
         while (g.density[v] == 0.0f) v = (v + 1) % g.density.size();
         const base::Vec3d voxel(static_cast<double>(v % 40), static_cast<double>(v / 40 % 37),
@@ -134,7 +134,7 @@ TEST(March, IsClippedToTheStretchAskedFor) {
     EXPECT_TRUE(segments.empty()) << "beside the box";
 }
 
-// Every kind of grid that the two exact functions are asked about: holes, empty blocks, single voxels along an axis.
+// Grids for the two exact functions: with holes, empty blocks, and single voxels along an axis.
 std::vector<scene::GridVolume> odd_grids() {
     base::Random random(8);
     std::vector<scene::GridVolume> grids;
@@ -147,7 +147,7 @@ std::vector<scene::GridVolume> odd_grids() {
     return grids;
 }
 
-// A ray through the box, along an axis or a diagonal of voxels now and then.
+// A ray through the box, sometimes along an axis or a diagonal of voxels.
 struct Line {
     base::Vec3d origin, direction;
 };
@@ -176,7 +176,7 @@ Line line_through(const scene::GridVolume& g, base::Random& random) {
     return {target - d * 9.0, d};
 }
 
-// The integral of a plain trilinear lookup up to t, by 100,000 steps.
+// The integral of a plain trilinear lookup up to t, in 100,000 steps.
 double by_steps(const scene::GridVolume& g, const Line& line, double t) {
     double first = 0.0, last = t, sum = 0.0;
     for (int a = 0; a < 3; ++a) {
@@ -288,7 +288,7 @@ TEST(March, StepsShorterThanAFloatLoseNothing) {
     EXPECT_LE(segments.size(), 97u) << "6 units of 16 floats, and one float more";
 }
 
-TEST(March, ABoxThinnerThanAFloatIsThere) {
+TEST(March, ABoxThinnerThanAFloatIsNotLost) {
     scene::GridVolume g = grid({1, 1, 1}, 1.0);
     g.density[0] = 1000;
     g.lower.z = 1.0;

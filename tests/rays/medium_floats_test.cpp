@@ -9,7 +9,7 @@ namespace shadowbench::rays {
 namespace {
 
 TEST(StepRounding, AMillionStepsTooFaintForAFloatKeepTheirLight) {
-    // Each of them alone rounds to 1, or to one of two floats that are a fifth too dark or too bright.
+    // Each of them rounds to 1, or to one of two floats that are a fifth too dark or too bright.
     for (const double depth : {1e-8, 2.9e-8, 7e-8, 1e-7, 3.3e-6}) {
         StepRounding rounding;
         long double left = 1.0L;
@@ -33,7 +33,7 @@ TEST(StepRounding, IsNeverFartherOffThanOneRounding) {
         }
 }
 
-// One ray of the parts that a segment is cut into.
+// One ray with the parts that a segment is cut into.
 LightRays cut(float front, float back, double depth, const base::Vec3f& extinction) {
     LightRays rays;
     rays.channels = 3;
@@ -47,7 +47,7 @@ LightRays cut(float front, float back, double depth, const base::Vec3f& extincti
     return rays;
 }
 
-TEST(CutWhereDark, TellsHowFastTheLightGoes) {
+TEST(CutWhereDark, KeepsTheExtinction) {
     // As one segment that transmits 0, half of this light would be left where exp(-50) is.
     const base::Vec3f extinction(1.0f, 0.01f, 0.0f);
     for (const double depth : {80.1, 87.0, 1e3, 9e3, 1e4, 1e6}) {

@@ -1,4 +1,4 @@
-// Things that move while the shutter is open, against closed forms and against Embree.
+// Objects that move while the shutter is open, compared with closed forms and with Embree.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ TEST(SampleTime, IsTheBeginningOfTheShutterWhereNothingMoves) {
     for (int i = 0; i < 20; ++i) EXPECT_EQ(sample_time(layout, i, 7), 0.0);
 }
 
-// Share of the places x in [a, b] and times t in [0, 1] with x > edge + speed * t, speed > 0.
+// The share of positions x in [a, b] and times t in [0, 1] with x > edge + speed * t, speed > 0.
 double share_behind(double edge, double speed, double a, double b) {
     const auto half_square = [](double v) { return v > 0.0 ? 0.5 * v * v : 0.0; };
     return (half_square(b - edge) - half_square(a - edge) - half_square(b - edge - speed) +
@@ -106,7 +106,7 @@ TEST(Motion, APixelsCoverageByAMovingOpaqueQuadIsItsShareOfTheShutter) {
 }
 
 TEST(Motion, EveryRaySeesAQuadWhereItStandsAtTheRaysTime) {
-    // Also towards the light and away from it, so that a spot sees it grow and shrink.
+    // Also towards and away from the light, so that a spot sees the object grow and shrink.
     for (const Vec3f& motion : {Vec3f(0.7f, 0.2f, 0), Vec3f(0, 0, 0.6f), Vec3f(-0.3f, 0.1f, -0.5f)})
         for (const auto& light : {testing::directional(), testing::spot({0, 0, 2}, 50)}) {
             scene::Scene scene;
@@ -141,14 +141,14 @@ TEST(Motion, AWallThatComesTowardsTheLightShadesEachDepthForItsShareOfTheShutter
     scene.objects[0].motion = {0, 0, 1};
     for (const auto& light : {testing::directional(), testing::spot({0, 0, 2}, 40)}) {
         const Captured c = capture(scene, light, testing::rays(8, 64));
-        const double far = to_light(c.view, {0, 0, -0.5}).z;
+        const double far_depth = to_light(c.view, {0, 0, -0.5}).z;
         for (const LightRays& tile : c.tiles)
             for (int pixel = 0; pixel < tile.width * tile.height; ++pixel)
                 for (const double before : {-0.1, 0.0, 0.25, 0.6, 1.0, 1.1}) {  // how far before the farthest place
                     double sum = 0.0;
                     for (int s = 0; s < 64; ++s)
-                        sum += transmittance(tile, static_cast<std::size_t>(pixel) * 64 + s, 0, far - before);
-                    // Lit as long as the wall has not come as near as the depth asked for.
+                        sum += transmittance(tile, static_cast<std::size_t>(pixel) * 64 + s, 0, far_depth - before);
+                    // Lit until the wall comes as near as the query's depth.
                     EXPECT_NEAR(sum / 64, std::clamp(before, 0.0, 1.0), 1.0 / 64 + 1e-6);
                 }
     }
@@ -226,7 +226,7 @@ class MovingKind : public ::testing::TestWithParam<Kind> {};
 
 // Compares every ray with Embree at the ray's time: as many segments, at the same depths, with the same transmittance.
 void expect_agreement(scene::Scene scene, const scene::Light& light, scene::Media media = scene::Media::steps) {
-    scene.objects.push_back(testing::quad({-3, -3, -1.5f}, {6, 0, 0.1f}, {0, 6, 0}, 0.5f));  // stands still, behind all
+    scene.objects.push_back(testing::quad({-3, -3, -1.5f}, {6, 0, 0.1f}, {0, 6, 0}, 0.5f));  // still, behind everything
     const Tracer tracer(scene, true);
     scene::RaySettings settings = testing::rays(64, 16);
     settings.media = media;

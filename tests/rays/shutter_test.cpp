@@ -1,4 +1,4 @@
-// The times of a pixel's rays: one in each part of the shutter, and not correlated with their places.
+// The times of a pixel's rays: one in each part of the shutter, and not correlated with their positions.
 #include "rays/shutter.h"
 
 #include <gtest/gtest.h>
@@ -85,10 +85,10 @@ TEST(Shutter, EachColumnAndEachRowOfCellsHasOneRayInEachLongStretch) {
         });
 }
 
-// What the design of shutter.h promises of places x, y of cells and times t of parts, all in the middle, in any pixel.
-// s columns, n rows; E|x - 1/2| <= 1/4 and so in y.
+// The guarantees of shutter.h for positions x, y of cells and times t of parts, all in the middle, in any pixel. s
+// columns, n rows; E|x - 1/2| <= 1/4 and likewise for y.
 struct Promise {
-    double x, y, xy;  // at most this covariance of the time with x, with y, with (x - 1/2)(y - 1/2)
+    double x, y, xy;  // the largest covariance of the time with x, with y, with (x - 1/2)(y - 1/2)
 };
 Promise promise(int s, int n) {
     // A column has one ray in each of n stretches, at any place in it: its mean time is off by (s - 1) / (2 s n).

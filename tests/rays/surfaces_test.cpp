@@ -53,7 +53,7 @@ TEST(Surfaces, ComeInOrderOfDepthUpToTheFirstBehindWhichNothingIsLeft) {
     EXPECT_EQ(hits.size(), 4u);
 }
 
-TEST(Surfaces, OfOpacity0AreNotThere) {
+TEST(Surfaces, OfOpacity0AreSkipped) {
     scene::Scene scene;
     scene.objects = {wall(0, Vec3f(0)), with(scene::Spheres{{{0, 0, 3}}, {1.0f}}, Vec3f(0))};
     EXPECT_TRUE(hits_along_z(scene, 0.3, 0.1).empty());
@@ -99,7 +99,7 @@ TEST(Surfaces, AreMetOnceWhereTrianglesShareAnEdgeOrACorner) {
     scene.objects = {with(fan, Vec3f(0.5f))};
     const double places[][2] = {{0, 0}, {0.5, 0.5}, {0.25, -0.25}, {0, 0.75}, {-0.125, 0}, {0.3, 0.1}, {1, 0.3}};
     for (const auto& [x, y] : places) EXPECT_EQ(hits_along_z(scene, x, y).size(), 1u) << x << " " << y;
-    // Twice where the mesh has each triangle twice.
+    // Twice if the mesh has each triangle twice.
     const std::vector<base::Vec3i> once = fan.triangles;
     fan.triangles.insert(fan.triangles.end(), once.begin(), once.end());
     scene.objects = {with(fan, Vec3f(0.5f))};
@@ -128,7 +128,7 @@ TEST(Surfaces, HaveTheirTexturesOpacity) {
     EXPECT_EQ(hits_along_z(scene, 0.75, 0.1).size(), 1u) << "texel and object opaque: the ray ends";
 }
 
-// Of everything together, what passes the surfaces is what the segments let through.
+// In a scene with every kind of surface, the surfaces together transmit as much as the segments.
 TEST(Surfaces, LetThroughWhatAllSegmentsDo) {
     scene::Scene scene;
     scene.objects = {testing::curly_hair(200, 20, 0.03f, 2), with(scene::Spheres{{{0.2f, 0, 0}}, {0.6f}}, Vec3f(0.2f)),

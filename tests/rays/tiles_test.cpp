@@ -1,4 +1,4 @@
-// What tiles hold beyond their own pixels' sorted segments: aprons, and the order of submission.
+// Tiles beyond their own pixels' sorted segments: aprons, and the order of submission.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using base::Vec3f;
 using testing::capture_all;
 using testing::Captured;
 
-// Something of everything; the hair moves.
+// One object of every kind; the hair moves.
 scene::Scene mixed_scene() {
     scene::Scene scene;
     scene.objects.push_back(testing::curly_hair(150, 15, 0.02f, 5));
@@ -38,7 +38,7 @@ scene::Scene surfaces_alone() {
     return scene;
 }
 
-// Of 23 x 19 pixels in tiles of 7 x 5: ragged at both edges.
+// A map of 23 x 19 pixels in tiles of 7 x 5, which do not fit at both edges.
 MapLayout small_tiles(const scene::Scene& scene, const LightView& view) {
     MapLayout layout = make_layout(scene, view, testing::rays(1, 4));
     layout.tile_width = 7;
@@ -164,7 +164,7 @@ TEST(Submission, NamesEverySegmentOfARayOnce) {
     }
 }
 
-// Captured one by one, in turn, the objects give the order that they have together.
+// Captures the objects one by one; appended in turn, their segments must have the order that they have together.
 void expect_order_of_objects(const scene::Scene& scene, const LightView& view) {
     MapLayout layout = small_tiles(scene, view);
     layout.submission = true;
@@ -187,7 +187,7 @@ TEST(Submission, GoesObjectByObject) {
 }
 
 TEST(Submission, GoesPrimitiveByPrimitiveInsideAnObject) {
-    // The same spheres as one object and as many: one order.
+    // The same spheres as one object and as many objects have one order.
     base::Random random(9);
     const auto place = [&] { return static_cast<float>(random.uniform(-0.6, 0.6)); };
     for (const Vec3f& motion : {Vec3f(0, 0, 0), Vec3f(0.4f, 0.1f, 0.2f)}) {

@@ -36,7 +36,7 @@ TEST(FindFile, AFolderIsNoFile) {
               base::ErrorCode::no_such_file);
 }
 
-// Scenarios from strangers: a folder "data" with files, beside it one that is none of their business.
+// Scenarios from strangers: a folder "data" with files, and beside it a file that they must not reach.
 class ConfinedPath : public testing::Test {
 protected:
     void SetUp() override {
@@ -84,7 +84,7 @@ TEST_F(ConfinedPath, RefusesLinksThatLeadOut) {
     EXPECT_EQ(find_file(path_, "inner.raw", ""), top_ / "data/inner.raw");
 }
 
-TEST_F(ConfinedPath, DoesNotTellWhereItsFoldersAre) {
+TEST_F(ConfinedPath, HidesItsFolders) {
     refused("no.raw", base::ErrorCode::no_such_file);
 }
 

@@ -56,7 +56,7 @@ TEST(LoadLight, ReadsEveryKey) {
     EXPECT_EQ(lights[1].colour, Vec3f(2, 2, 2));
 }
 
-TEST(LoadLight, RefusesDirectionsThatAreNone) {
+TEST(LoadLight, RefusesDirectionsWithoutLength) {
     EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, 0, 0]}])"), "/lights/0/direction");
     EXPECT_EQ(place(R"([{"type": "spot", "position": [1, 1, 1], "target": [1, 1, 1]}])"), "/lights/0/target");
     EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, 3, 0], "up": [0, -1, 0]}])"), "/lights/0/up");

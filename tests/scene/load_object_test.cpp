@@ -114,7 +114,7 @@ TEST(LoadObject, MakesLayersOfQuads) {
     EXPECT_EQ(layers(R"("corner": [1, 0, 0], "offset": [0, 0, 0], "count": 5)").positions.size(), 20u);
 }
 
-// Summed in float, layers far from the origin would drift or fall onto one another.
+// Summed in float, layers far from the origin would drift or coincide.
 TEST(LoadObject, PutsLayersOneUlpApart) {
     const double ulp = std::ldexp(1.0, -13);  // of floats in [1024, 2048)
     const Mesh mesh = layers(fmt::format(R"("corner": [0, 1024.1, 0], "offset": [0, {}, 0], "count": 5000)", ulp));
@@ -292,7 +292,7 @@ GridVolume default_volume(const std::string& type) {
     return type == "cloud" ? make_cloud({}) : type == "density_box" ? make_density_box({}) : make_crossed_rods({});
 }
 
-// Objects whose every key is written at the default that the schema documents equal those without any key.
+// Objects whose every key has the default that the schema documents are equal to those without any key.
 class Procedural : public testing::TestWithParam<const char*> {};
 
 TEST_P(Procedural, SchemaDocumentsTheDefaultsOfTheStruct) {

@@ -58,7 +58,7 @@ void expect_same(const Timing& a, const Timing& b) {
     EXPECT_EQ(a.lookups, b.lookups);
 }
 
-// Every key of a section of the schema that has a default, at that default.
+// Every key of a section of the schema that has a default, with that default.
 json defaults_of(const json& section) {
     json values = json::object();
     for (const auto& [name, property] : section["properties"].items())
@@ -196,7 +196,7 @@ TEST(LoadScenario, StatesTheLimitOfLightRays) {
 }
 
 TEST(LoadScenario, RefusesNumbersThatAreNoneOrOfAnotherKindAtTheirPlace) {
-    // In places of whole numbers, of numbers and of numbers in a list.
+    // As a whole number, as a number and as a number in a list.
     for (const char* value : {"\"4\"", "null", "true", "1e300", "-1e300", "[1]", "1e19", "18446744073709551615"})
         for (const char* place : {"/rays/samples_per_pixel", "/rays/seed", "/reference/queries", "/timing/lookups",
                                   "/scene/objects/0/radius", "/scene/objects/0/centre/1", "/lights/0/direction/2"}) {

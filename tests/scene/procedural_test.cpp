@@ -159,7 +159,7 @@ float voxel(const GridVolume& volume, int x, int y, int z) {
     return volume.density[static_cast<std::size_t>((z * volume.size.y + y) * volume.size.x + x)];
 }
 
-// Whether turning each axis round leaves the values as they are.
+// Whether mirroring along each axis leaves the values as they are.
 void expect_mirrored(const GridVolume& volume) {
     const base::Vec3i last = volume.size - base::Vec3i(1);
     for (int z = 0; z <= last.z; ++z)

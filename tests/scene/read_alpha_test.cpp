@@ -85,21 +85,21 @@ TEST(ReadAlpha, RefusesADdsWhoseColoursAreMultipliedByAlpha) {
     }
 }
 
-// Of 4 x 4 pixels of red, green, blue and alpha without compression.
+// A file of 4 x 4 pixels of red, green, blue and alpha without compression.
 std::string dds_masks(int bits, int red, int green, int blue, int alpha) {
     std::string bytes = dds_block("none").substr(0, 128) + std::string(4 * 4 * 4, '\x33');
     bytes.replace(80, 28, test::bytes_of(0x41, 0, bits, red, green, blue, alpha));
     return bytes;
 }
 
-// On a channel of no bits the library would never end.
+// On a channel of 0 bits the library would never end.
 TEST(ReadAlpha, RefusesADdsOfChannelsOrPixelsWithoutBits) {
     constexpr int red = 0xff, green = 0xff00, blue = 0xff0000, alpha = static_cast<int>(0xff000000u);
     const auto read = [](const std::string& bytes) { return read_alpha(test::write_file("masks.dds", bytes)); };
     EXPECT_THAT(read(dds_masks(32, red, green, blue, alpha)).alpha, testing::Each(testing::FloatEq(0.2f)));
     for (const auto& bytes : {dds_masks(32, 0, green, blue, alpha), dds_masks(32, red, 0, blue, alpha),
                               dds_masks(32, red, green, 0, alpha), dds_masks(32, red, green, blue, 0)})
-        EXPECT_THAT(error_of([&] { read(bytes); }).message(), HasSubstr("no bits for it"));
+        EXPECT_THAT(error_of([&] { read(bytes); }).message(), HasSubstr("0 bits"));
     for (const int bits : {0, 1, 12, 64, 8192})
         EXPECT_EQ(error_of([&] { read(dds_masks(bits, red, green, blue, alpha)); }).code(), base::ErrorCode::bad_input);
 }

@@ -87,7 +87,7 @@ TEST(ReadDeepImage, TellsThePixelOfABadSample) {
     EXPECT_THAT(message({{-1, 1, 1}}), AllOf(pixel, HasSubstr("alpha -1")));
 }
 
-// "Interpreting OpenEXR Deep Pixels": ZBack says where a volume ends; 0, or anything before Z, says nothing.
+// "Interpreting OpenEXR Deep Pixels": ZBack is the end of a volume; 0, or any value before Z, means a surface.
 TEST(ReadDeepImage, TakesABackThatIsNotBehindForASurface) {
     const DeepImage image = read_deep_image(write(
         {"A", "Z", "ZBack"}, {{{0.5f, 3, 0}}, {{0.25f, 1, 2}}, {{0.5f, 2, 1}}, {{1, 4, -infinity}}, {{0, -2, 0}}}));
@@ -107,7 +107,7 @@ TEST(ReadDeepImage, KeepsSamplesAtInfinityBehindEverything) {
     EXPECT_THAT(image.notes.lines[0], HasSubstr("3 of 4 samples are at infinity"));
 }
 
-// (1 - alpha)^(share of the way) is 1 at every place of an endless stretch, and 0 behind its front when alpha is 1.
+// (1 - alpha)^(share of the way) is 1 everywhere in an infinite segment, and 0 behind its front if alpha is 1.
 TEST(ReadDeepImage, AnEndlessStretchIsFarOrWhereItIsOpaqueASurface) {
     const DeepImage image = read_deep_image(write({"A", "Z", "ZBack"}, {{{0.5f, 3, infinity}}, {{1, 4, 1e30f}}}));
     EXPECT_THAT(image.z_front, ElementsAre(3, 4));
@@ -127,7 +127,7 @@ TEST(ReadDeepImage, ReadsAnAlphaOfEachColour) {
     EXPECT_EQ(image.channels, 3);
     EXPECT_THAT(image.z_front, ElementsAre(2, 4));
     EXPECT_THAT(image.transmittance, ElementsAre(0.5f, 0, 1, 0.75f, 0.5f, 0.25f));
-    // A stands for a colour that has none of its own; without any of that it is not needed.
+    // A stands for a colour that has no alpha of its own; if there is none, A is not needed.
     EXPECT_THAT(read_deep_image(write({"A", "AG", "Z"}, {{{0.5f, 0.25f, 4}}})).transmittance,
                 ElementsAre(0.5f, 0.75f, 0.5f));
     EXPECT_THAT(read_deep_image(write({"AR", "AG", "AB", "Z"}, {{{0, 0.25f, 0.5f, 4}}})).transmittance,
@@ -167,7 +167,7 @@ TEST(ReadDeepImage, AsksWhichOfSeveralLayersIsMeant) {
     EXPECT_THAT(error_of([&] { read_deep_image(file); }).message(), AllOf(HasSubstr("\"layer\""), HasSubstr("a, b.c")));
     EXPECT_THAT(read_deep_image(file, {"b.c", {}}).z_front, ElementsAre(5));
     EXPECT_THAT(read_deep_image(file, {"a", {}}).transmittance, ElementsAre(0.5f));
-    // Channels without a layer are the image itself.
+    // Channels without a layer are the image.
     const auto image = write({"A", "Z", "b.A", "b.Z"}, {{{0.5f, 4, 0.25f, 5}}});
     EXPECT_THAT(read_deep_image(image).z_front, ElementsAre(4));
     EXPECT_THAT(read_deep_image(image).notes.lines, ElementsAre(HasSubstr("passed over: b")));
@@ -215,7 +215,7 @@ TEST(ReadDeepImage, TakesAPartByNumberOrNameAndAsksForOneOfSeveral) {
     EXPECT_THAT(read_deep_image(file, {{}, "right"}).notes.lines, ElementsAre("of 3 parts 2 \"right\" is read"));
     for (const DeepChoice& gone : {DeepChoice{{}, 3}, DeepChoice{{}, -1}, DeepChoice{{}, "middle"}})
         EXPECT_THAT(error_of([&] { read_deep_image(file, gone); }).message(),
-                    AllOf(HasSubstr("not there"), HasSubstr("2 \"right\"")));
+                    AllOf(HasSubstr("no such \"part\""), HasSubstr("2 \"right\"")));
 }
 
 TEST(ReadDeepImage, NamesTheChannelsWhenOneIsMissing) {
@@ -240,8 +240,8 @@ TEST(ReadDeepImage, RefusesMipLevelsBeforePixelsAreRead) {
     EXPECT_THAT(error.message(), HasSubstr("mip levels"));
 }
 
-// The library reads some values at their own size, and takes what lies behind for attributes: one that is said to be
-// longer would hide a text of 2 GB there.
+// The library reads some values at their own size and takes the bytes after them for attributes: a value that claims to
+// be longer could hide a text of 2 GB there.
 TEST(ReadDeepImage, RefusesAttributesOfAnotherSizeThanTheirType) {
     const std::string bytes = test::read_bytes(write({"A", "Z"}, {{{0.5f, 4}}}));
     for (const std::string& mark :

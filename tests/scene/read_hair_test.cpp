@@ -21,7 +21,7 @@ std::string header(std::uint32_t strands, std::uint32_t points, std::uint32_t bi
     return "HAIR" + bytes_of(strands, points, bits, segments, thickness, 0.0f, 1.0f, 1.0f, 1.0f) + std::string(88, ' ');
 }
 
-// Strands of 2 and 3 points, with every array there is.
+// Strands of 2 and 3 points, with every kind of array.
 std::string full(float thickness = 0.2f, float coordinate = 5.0f) {
     std::string bytes = header(2, 5, segments_bit | points_bit | thickness_bit | transparency_bit | colours_bit);
     bytes += bytes_of(std::uint16_t{1}, std::uint16_t{2});

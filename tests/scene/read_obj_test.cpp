@@ -156,13 +156,13 @@ TEST(ReadObj, KeepsTextureCoordinatesOfAConcavePolygonAtTheirCorners) {
         }
 }
 
-// Before the first "v" it would drop that vertex and shift all faces.
+// The library would drop a first "v" after a mark and shift all faces.
 TEST(ReadObj, TakesAByteOrderMark) {
     const std::string square = "v 0 1 0\nv 1 1 0\nv 1 1 -1\nv 0 1 -1\nv 9 9 9\nf 1 2 3 4\n";
     const Mesh mesh = read("\xef\xbb\xbf" + square);
     EXPECT_EQ(mesh.positions.size(), 5u);
     EXPECT_EQ(test::area(mesh), 1.0);
-    // Where files were joined it is garbage, with its line.
+    // In the middle of a file, where files were joined, it is an error with its line.
     EXPECT_THAT(error_of([&] { read(square + "\xef\xbb\xbf" + square); }).where(), testing::EndsWith(":7"));
     const std::string wide("\xff\xfev\0 \0", 6);
     EXPECT_THAT(error_of([&] { read(wide); }).message(), HasSubstr("UTF-8"));

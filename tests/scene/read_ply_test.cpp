@@ -116,7 +116,7 @@ TEST(ReadPly, RefusesValuesThatMakeNoMesh) {
     EXPECT_THAT(message("property float z", "property float w"), HasSubstr("x, y and z"));
     EXPECT_THAT(message("format ascii", "format base64"), HasSubstr("base64"));
     EXPECT_THAT(message("property uchar red", "property colour red"), HasSubstr("not understood"));
-    EXPECT_THAT(message("list uchar int", "list float int"), HasSubstr("no integer type"));
+    EXPECT_THAT(message("list uchar int", "list float int"), HasSubstr("not an integer type"));
     EXPECT_THAT(message("element vertex", "element point"), HasSubstr("before the vertices"));
 }
 
@@ -138,7 +138,7 @@ TEST(ReadPly, CoversAConcavePolygonOnce) {
     EXPECT_EQ(test::area(read(l)), 3.0);
 }
 
-TEST(ReadPly, PassesOverFacesThatAreNoneAndElementsItDoesNotKnow) {
+TEST(ReadPly, PassesOverDegenerateFacesAndUnknownElements) {
     std::string bytes =
         header("ascii", "4", "4") + "0 0 0 9\n1 0 0 9\n1 1 0 9\n0 1 0 9\n2 0 1\n4 0 1 2 3\n0\n4 0 0 1 1\n7 8\n";
     bytes.insert(bytes.find("end_header"), "element edge 1\nproperty int vertex1\nproperty int vertex2\n");
@@ -178,7 +178,7 @@ TEST(ReadPly, TakesTriangleStripsOfAllEncodings) {
     }
 }
 
-TEST(ReadPly, RefusesStripsOfVerticesThatAreNotThere) {
+TEST(ReadPly, RefusesStripsOfVerticesThatDoNotExist) {
     for (const char* index : {"4", "-2", "0.5", "nan"})
         EXPECT_THAT(
             error_of([&] {
@@ -191,7 +191,7 @@ TEST(ReadPly, RefusesStripsOfVerticesThatAreNotThere) {
             HasSubstr("tristrips 0 names vertex"));
 }
 
-TEST(ReadPly, ReadsVerticesAlone) {
+TEST(ReadPly, ReadsAFileOfOnlyVertices) {
     const Mesh mesh = read(
         "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
         "end_header\n0 1 0\n1 1 0\n");

@@ -66,14 +66,14 @@ TEST(ReadTressfx, RefusesHeadersThatCannotBe) {
     const std::string rest(1000, '\0');
     EXPECT_THAT(refused(bytes_of(2.0f, 2u, 2u) + rest), HasSubstr("version 2"));
     EXPECT_THAT(refused(bytes_of(nan, 2u, 2u) + rest), HasSubstr("versions 3 and 4"));
-    EXPECT_THAT(refused(bytes_of(3.0f, 2u, 1u) + rest), HasSubstr("1 points a strand"));
-    // Refused by the counts alone: 2^64 bytes are neither in the file nor in memory.
+    EXPECT_THAT(refused(bytes_of(3.0f, 2u, 1u) + rest), HasSubstr("1 points each"));
+    // The counts suffice to refuse it: neither the file nor memory holds 2^64 bytes.
     EXPECT_THAT(refused(bytes_of(3.0f, 0xffffffffu, 0xffffffffu) + rest), HasSubstr("limit is 200000000"));
     EXPECT_THAT(refused(bytes_of(3.0f, 10000000u, 16u) + rest), HasSubstr("too short"));
     EXPECT_THAT(refused(bytes_of(4.0f, 2u, 2u, 12u) + rest), HasSubstr("overlap the header"));
 }
 
-TEST(ReadTressfx, TellsAMissingFileFromADamagedOne) {
+TEST(ReadTressfx, DistinguishesAMissingFileFromADamagedOne) {
     EXPECT_EQ(error_of([] { read_tressfx("/nowhere/a.tfx", 1.0f); }).code(), base::ErrorCode::no_such_file);
 }
 

@@ -52,7 +52,7 @@ openvdb::math::Mat4d matrix_of(const std::array<int, 3>& order, const std::array
     return matrix;
 }
 
-// Trilinear between voxel centres, at places whose eight neighbours are there.
+// Trilinear between voxel centres, at positions with all eight neighbours.
 template <class Value>
 double trilinear(const std::array<double, 3>& index, const Value& value) {
     double sum = 0.0;
@@ -70,7 +70,7 @@ double trilinear(const std::array<double, 3>& index, const Value& value) {
     return sum;
 }
 
-// At random points the volume has what the grid has where its transform takes the point.
+// At random points the volume has the grid's value at the point that its transform gives.
 void expect_same_field(const openvdb::FloatGrid& grid, const GridVolume& volume, double tolerance) {
     const Vec3d extent = volume.upper - volume.lower;
     base::Random random(5);

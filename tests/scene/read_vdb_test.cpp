@@ -54,7 +54,7 @@ TEST(ReadVdb, FollowsScaleAndTranslation) {
     EXPECT_EQ(volume.upper, Vec3d(11.5, 0.75, 11.0));
 }
 
-TEST(ReadVdb, ListsTheGridsWhenTheNameIsNotThere) {
+TEST(ReadVdb, ListsTheGridsWhenNoGridHasTheName) {
     openvdb::FloatGrid::Ptr second = small_grid();
     second->setName("heat");
     const auto file = write({small_grid(), second});
@@ -86,7 +86,7 @@ TEST(ReadVdb, TakesAGridByItsNumberAndRefusesANameThatSeveralHave) {
         EXPECT_THAT(error_of([&] { read_vdb(file, several); }).message(),
                     AllOf(HasSubstr("2 grids are called \"density\""), HasSubstr("density[0], velocity, density[1]")));
     EXPECT_THAT(error_of([&] { read_vdb(file, 1); }).message(), HasSubstr("not float"));
-    // Called as the library would ask for another.
+    // Named as the library would ask for another grid.
     openvdb::GridPtrVec grids = several_grids();
     openvdb::FloatGrid::Ptr fourth = small_grid();
     fourth->setName("density[1]");
@@ -95,7 +95,8 @@ TEST(ReadVdb, TakesAGridByItsNumberAndRefusesANameThatSeveralHave) {
     const auto confusing = write(grids);
     EXPECT_EQ(read_vdb(confusing, 0).density[1], 2.0f);
     EXPECT_EQ(read_vdb(confusing, 3).density[1], 70.0f);
-    EXPECT_THAT(error_of([&] { read_vdb(confusing, 2); }).message(), HasSubstr("cannot be told from"));
+    EXPECT_THAT(error_of([&] { read_vdb(confusing, 2); }).message(),
+                HasSubstr("has a name that other grids share or hide"));
     for (const int number : {-1, 4})
         EXPECT_THAT(error_of([&] { read_vdb(confusing, number); }).message(), HasSubstr("no grid number"));
 }
@@ -123,8 +124,8 @@ TEST(ReadVdb, TakesTheOnlyGridOfFloatsUnderAnyNameOrNone) {
     EXPECT_TRUE(read_vdb(write({small_grid()}), {}).notes.lines.empty());
 }
 
-// Grids may share a tree; the file then holds the name of the one that has it. Where that is missing the library takes
-// one of a similar name, of which nothing is checked.
+// Grids may share a tree; the file then holds the name of the grid that has it. If that grid is missing, the library
+// takes one with a similar name, which is not checked.
 TEST(ReadVdb, ReadsGridsThatShareATreeAndRefusesThemWithoutIt) {
     openvdb::FloatGrid::Ptr first = small_grid();
     openvdb::FloatGrid::Ptr second = openvdb::FloatGrid::create(first->treePtr());
@@ -190,7 +191,7 @@ TEST(ReadVdb, RefusesAFileCutAnywhereAndOtherFiles) {
     EXPECT_EQ(error_of([] { read_vdb("/nowhere/a.vdb", "density"); }).code(), base::ErrorCode::no_such_file);
 }
 
-// What read_vdb says about the small grid's file with `from`, which it must hold, replaced by `to`.
+// The error of read_vdb for the small grid's file with `from`, which it must contain, replaced by `to`.
 std::string message_with(const std::string& from, const std::string& to) {
     std::string bytes = test::read_bytes(write({small_grid()}));
     const std::size_t at = bytes.find(from);
@@ -213,8 +214,8 @@ TEST(ReadVdb, RefusesClaimsBeforeMemoryIsTakenForThem) {
                 HasSubstr("2147483647 nodes"));
 }
 
-// The library takes sizes in a file as they are: a chunk's size above its node's would be read over what lies behind
-// the node in memory, and a count of children would take memory for all of them.
+// The library trusts the sizes in a file: if a chunk is larger than its node, it would read over the memory behind the
+// node, and it would allocate memory for any count of children.
 TEST(ReadVdb, SurvivesEveryBitFlipped) {
     for (const std::uint32_t compression : {0u, 1u, 2u, 3u, 4u, 6u}) {
         const std::filesystem::path path = test::fresh_path("a.vdb");
@@ -240,7 +241,7 @@ TEST(ReadVdb, SurvivesEveryBitFlipped) {
     }
 }
 
-// The library makes no such map itself, but reads any.
+// The library makes no such map, but reads any.
 TEST(ReadVdb, RefusesTransformsThatAreFlatTooLargeOrNotFinite) {
     const std::string name = "UniformScaleMap", bytes = test::read_bytes(write({small_grid()}));
     const std::size_t scale_at = bytes.find(name) + name.size();  // three factors, then three sizes of a voxel

@@ -1,4 +1,4 @@
-// The scenarios of the project, as a user finds them.
+// The scenarios of the project, as a user gets them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST_P(CommittedScenario, Loads) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, CommittedScenario, testing::ValuesIn(committed_scenarios()),
                          [](const auto& scenario) { return scenario.param.stem().string(); });
 
-TEST(CommittedScenarios, AreThere) {
+TEST(CommittedScenarios, Exist) {
     int hard = 0;
     for (const fs::path& file : committed_scenarios()) hard += file.parent_path().filename() == "hard";
     EXPECT_GE(hard, 20);

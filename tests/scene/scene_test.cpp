@@ -87,7 +87,7 @@ TEST(Bounds, HoldTheWholeMovement) {
     EXPECT_EQ(bounds(scene, true).max, Vec3d(3.5, 2.5, 3.5));
 }
 
-TEST(HasMotion, CountsCastersAlone) {
+TEST(HasMotion, CountsOnlyCasters) {
     Scene scene;
     scene.objects.push_back(object(Spheres{{{0, 0, 0}}, {1.0f}}));
     EXPECT_FALSE(has_motion(scene));
@@ -114,7 +114,7 @@ TEST(Channels, AreThreeOnlyForColourThatCastsShadows) {
     EXPECT_EQ(channels(scene), 3);
 }
 
-TEST(HasMedia, CountsCastersAlone) {
+TEST(HasMedia, CountsOnlyCasters) {
     Scene scene;
     scene.objects.push_back(object(Spheres{{{0, 0, 0}}, {1.0f}}));
     EXPECT_FALSE(has_media(scene));

@@ -24,10 +24,10 @@ json minimal() {
 }
 
 struct Wrong {
-    const char* pointer;  // what is set
+    const char* pointer;  // the place that is set
     const char* value;
-    const char* where;    // what the error points at
-    const char* message;  // what it says
+    const char* where;    // the place of the error
+    const char* message;  // its message
 };
 
 class WrongValue : public testing::TestWithParam<Wrong> {};
@@ -119,7 +119,7 @@ std::vector<std::string> places(const std::vector<base::Error>& faults) {
     return where;
 }
 
-TEST(SchemaFaults, TellEachFaultOnce) {
+TEST(SchemaFaults, ReportEachFaultOnce) {
     json document = minimal();
     EXPECT_TRUE(schema_faults(document, scenario_schema(), 32).empty());
     document["ray"] = 1;
@@ -155,7 +155,7 @@ TEST(CheckSchema, NamesTheFormsOfAnAlternative) {
     EXPECT_NO_THROW(check_schema(json{{"tolerance", "noise"}}, schema));
 }
 
-// Every property, at any depth, that says what it is.
+// Every property, at any depth, must have a description.
 void expect_described(const json& schema, const std::string& where) {
     if (schema.is_array())
         for (const json& part : schema) expect_described(part, where);

@@ -1,4 +1,4 @@
-// What the tests of scene share: files in a folder of their own, the data that is not part of the project, and errors.
+// Shared by the tests of scene: temporary files, the data outside the project, and errors.
 #pragma once
 
 #include <cstring>
@@ -20,20 +20,20 @@ std::filesystem::path fresh_path(const std::string& name);
 std::filesystem::path write_file(const std::string& name, const std::string& bytes);
 std::string read_bytes(const std::filesystem::path& file);
 
-// $SHADOWBENCH_DATA, or ../shared/data beside the source; empty when neither holds the file.
+// $SHADOWBENCH_DATA, or ../shared/data beside the source; empty if neither holds the file.
 std::filesystem::path data_file(const std::string& name);
 
-// Of all triangles together.
+// The area of all triangles together.
 double area(const Mesh& mesh);
 
-// The Error that `action` throws; a failure of the test when it throws none or something else.
+// The Error that `action` throws; the test fails if it throws none or something else.
 base::Error error_of(const std::function<void()>& action);
 
 // Calls `read` on the file cut at every one of `cuts` lengths below `least`, which must all be refused as bad input.
 void expect_cuts_refused(const std::string& bytes, const std::string& name, std::size_t least,
                          const std::function<void(const std::filesystem::path&)>& read);
 
-// Appends values as they lie in memory.
+// Appends the bytes of values as they are in memory.
 template <typename... T>
 std::string bytes_of(T... values) {
     std::string bytes;

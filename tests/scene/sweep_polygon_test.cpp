@@ -29,7 +29,7 @@ double signed_area(const Outline& outline) {
     return twice / 2.0;
 }
 
-// By the crossings of a ray to the right; the point lies on no edge.
+// The winding number from the crossings of a ray to the right; the point must not lie on an edge.
 int winding(const Outline& outline, double x, double y) {
     int number = 0;
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -111,7 +111,7 @@ TEST(SweepPolygon, ABridgeMayHaveACornerOnOneOfItsSides) {
     EXPECT_EQ(sweep.overlap, 0.0);
 }
 
-TEST(SweepPolygon, TellsWhatIsCoveredTwiceOrTurnedOver) {
+TEST(SweepPolygon, ReportsAreasCoveredTwiceOrTurnedOver) {
     const Outline square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
     EXPECT_EQ(sweep_polygon(square, 0.0).overlap, 0.0);
     EXPECT_EQ(sweep_polygon({{0, 0}, {0, 4}, {4, 4}, {4, 0}}, 0.0).overlap, 32.0);
@@ -130,7 +130,7 @@ TEST(SweepPolygon, NamesTheEdgesThatCross) {
     EXPECT_TRUE(sweep.triangles.empty());
 }
 
-// A corner that should stand on a slanted edge, and lies beyond it by rounding.
+// A corner that should be on a slanted edge, but lies beyond it by rounding.
 TEST(SweepPolygon, LeadsAnEdgeThroughACornerThatLiesJustBeyondIt) {
     const Outline outline{{0, 0}, {9000, 3001}, {0, 9000}, {6000, 2000}};
     EXPECT_TRUE(sweep_polygon(outline, 0.1).crossing);
@@ -208,7 +208,7 @@ TEST(SweepPolygon, SimpleOutlinesAreCoveredOnceFromEveryCorner) {
     }
 }
 
-// Whoever compares every corner or edge with every other one takes hours here.
+// Comparing every corner or edge with every other one would take hours here.
 TEST(SweepPolygon, TakesAHundredThousandCorners) {
     constexpr int corners = 100'000;
     std::mt19937 random(5);

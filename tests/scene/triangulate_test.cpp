@@ -44,7 +44,7 @@ double area(const Polygon& polygon, const Triangulation& result) {
     return sum;
 }
 
-// As a set of places, so that lists which begin elsewhere compare.
+// As a set of positions, so that lists that begin elsewhere compare equal.
 std::vector<std::array<Vec3f, 3>> places(const Polygon& polygon, const Triangulation& result) {
     const auto less = [](const Vec3f& a, const Vec3f& b) {
         return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
@@ -104,7 +104,7 @@ TEST(Triangulate, AQuadThatIsNotFlatIsSplitAlongItsShorterDiagonalFromEveryCorne
     }
 }
 
-// Where the texture is not spread evenly, what a ray meets depends on the diagonal.
+// If the texture is not spread evenly, a ray's hit depends on the diagonal.
 TEST(Triangulate, AQuadOfAnUnevenTextureIsSplitAlikeFromEveryCorner) {
     const Polygon uneven{{{0, 0, 0}, {2, 0, 0}, {3, 2, 0}, {0, 2, 0}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     const auto expected = places(uneven, triangulate(uneven));
@@ -155,7 +155,7 @@ TEST(Triangulate, APolygonThatCoversAPartTwiceIsAtFault) {
     EXPECT_THAT(triangulate(twice).fault, HasSubstr("twice"));
 }
 
-// A frame is moved and turned in space: floats round its corners, so that edges which ran through corners cross there.
+// A frame, moved and turned in space: rounding to float makes edges that ran through corners cross there.
 class TurnedFrame : public testing::TestWithParam<int> {
 protected:
     Vec3f place(double x, double y) const {
@@ -179,7 +179,7 @@ TEST_P(TurnedFrame, AHoleJoinedByABridgeStaysAHole) {
     }
 }
 
-// The hole touches the outer edge with one corner, which is none of that edge.
+// The hole touches the outer edge with one corner, which does not belong to that edge.
 TEST_P(TurnedFrame, AHoleThatTouchesTheOuterEdgeStaysAHole) {
     const std::vector<Vec2d> outline{{0, 0}, {9, 3}, {9, 9}, {0, 9}, {0, 0}, {4, 4}, {6, 2}, {2, 4}, {4, 4}};
     Polygon frame;
@@ -269,7 +269,7 @@ TEST_P(TurnedFrame, SimpleOutlinesWithCornersOnTheirEdgesAreCovered) {
 
 INSTANTIATE_TEST_SUITE_P(Places, TurnedFrame, testing::Range(0, 30));
 
-// The width of this face is what a float far from the origin can just tell.
+// The width of this face is just resolved by floats far from the origin.
 TEST(Triangulate, NarrowFacesFarAwayAreKept) {
     const Polygon narrow{{{1000, 0, 0}, {1001, 0, 0}, {1001, 0, 1e-5f}, {1000, 0, 1e-5f}}, {}};
     EXPECT_NEAR(area(narrow, triangulate(narrow)), 1e-5, 1e-9);

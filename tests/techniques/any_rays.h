@@ -7,9 +7,9 @@
 
 namespace shadowbench::techniques::testing {
 
-// What segments may be like.
+// The kinds of segments that rays may have.
 struct SegmentKind {
-    bool media = true;    // else surfaces alone
+    bool media = true;    // else only surfaces
     bool hostile = true;  // neighbouring floats, denormals, 1e30; transmittances of 0, denormals, nearly 1
     float depth_scale = 1.0f;
 };

@@ -55,7 +55,7 @@ TEST(AvsmStream, TheOrderOfSegmentsDoesNotMatterWhileEverythingFits) {
     for (int i = 0; i < 50; ++i) {
         for (std::size_t k = segments.size(); k > 1; --k) std::swap(segments[k - 1], segments[random.below(k)]);
         const auto found = run(64, segments);
-        // Nodes at one depth may come about differently: the function is what counts.
+        // Nodes at one depth may arise differently: only the function counts.
         curves::Curve a, b;
         for (const auto& [z, t] : expected) a.push_back({z, t});
         for (const auto& [z, t] : found) b.push_back({z, t});
@@ -123,14 +123,14 @@ TEST(AvsmStream, NeverHoldsMoreThanItsNodesAndKeepsFirstAndLast) {
         }
 }
 
-// The same of nasty segments in the order in which they are drawn, after each of them, and of values alone.
+// The same for nasty segments in the order in which they are drawn, checked after each of them, and for values only.
 template <Sampling sampling>
 void check_stream(int capacity, const std::vector<Segment>& segments) {
-    constexpr float far = 1e32f;
-    TransmittanceStream<64, sampling> stream(capacity, far);
-    float first = far;
+    constexpr float far_depth = 1e32f;
+    TransmittanceStream<64, sampling> stream(capacity, far_depth);
+    float first = far_depth;
     double total = 1.0;
-    std::vector<float> ends = {far};
+    std::vector<float> ends = {far_depth};
     for (const Segment& s : segments) {
         stream.insert(s.front, s.back, s.through);
         if (s.through < 1.0f) first = std::min(first, s.front);
@@ -141,8 +141,8 @@ void check_stream(int capacity, const std::vector<Segment>& segments) {
         RC_ASSERT(static_cast<int>(found.size()) == stream.size());
         RC_ASSERT(stream.size() <= capacity);
         RC_ASSERT(found.front().first == first);
-        RC_ASSERT(found.front().second == (first < far ? 1.0f : static_cast<float>(total)));
-        RC_ASSERT(found.back().first == far);
+        RC_ASSERT(found.front().second == (first < far_depth ? 1.0f : static_cast<float>(total)));
+        RC_ASSERT(found.back().first == far_depth);
         RC_ASSERT(std::abs(found.back().second - total) <= 1e-5 * total + 1e-37);
         for (std::size_t i = 0; i < found.size(); ++i) {
             RC_ASSERT(std::count(ends.begin(), ends.end(), found[i].first) > 0);

@@ -128,7 +128,7 @@ TEST(Avsm, SubmissionOrderIsAskedForAndMissed) {
         rays::LightRays rays = light_rays(given);
         rays.submission.clear();
         testing::make_map(row, read_parameters(row.parameters, {{"order", "captured"}}, ""), rays, layout_of(given));
-        FAIL() << "rays without an order were taken";
+        FAIL() << "rays without an order were accepted";
     } catch (const base::Error& error) {
         EXPECT_EQ(error.code(), base::ErrorCode::internal);
     }

@@ -1,4 +1,4 @@
-// A technique's map of a small scene, made the way the benchmark makes it.
+// Builds a technique's map of a small scene, as the benchmark does.
 #pragma once
 
 #include <algorithm>
@@ -55,7 +55,7 @@ inline scene::Object slab(float density, double front, double back, double step)
     return object;
 }
 
-// Half the map hair over nothing, with a medium in between if asked for.
+// Half of the map is hair over nothing, with a medium in between if asked for.
 inline scene::Scene hairy_scene(bool media, float opacity = 0.5f) {
     scene::Scene scene;
     scene.objects.push_back(rays::testing::curly_hair(150, 12, 0.02f, 4));

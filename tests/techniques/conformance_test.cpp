@@ -28,7 +28,7 @@ protected:
     double allowed_behind(double through) const {
         return promised().approximate || through == 0.0 ? promised().leak + 1e-6 : 1e-6;
     }
-    // Techniques that spread samples beyond a footprint are asked in the middle of wide walls.
+    // Techniques that spread samples beyond a footprint are queried in the middle of wide walls.
     static scene::RaySettings small() { return rays::testing::rays(16, 4); }
 };
 
@@ -182,7 +182,7 @@ TEST_P(Conformance, TheOrderOfTilesChangesNothing) {
     a.map->lookup(queries, one);
     again->lookup(queries, two);
     EXPECT_EQ(one, two);
-    // Nor does the company that a query comes in.
+    // Nor does an answer depend on the other queries of the batch.
     for (std::size_t i = 0; i < queries.size(); i += 7) {
         float alone;
         a.map->lookup({&queries[i], 1}, {&alone, 1});
@@ -199,7 +199,7 @@ TEST_P(Conformance, OutsideTheMapIsLit) {
     for (const auto& [x, y] : {std::pair{-0.5f, 8.0f}, {16.5f, 8.0f}, {8.0f, -1e9f}, {8.0f, 1e30f}})
         EXPECT_EQ(b.lookup(x, y, 100.0f), 1.0f) << x << " " << y;
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(b.lookup(nan, 8.0f, 100.0f), 1.0f) << "a position that is no position is outside";
+    EXPECT_EQ(b.lookup(nan, 8.0f, 100.0f), 1.0f) << "a position that is NaN is outside";
 }
 
 TEST_P(Conformance, BytesAreWhatTheMapHolds) {
@@ -223,9 +223,8 @@ TEST_P(Conformance, TouchedLinesLieInTheMap) {
         lines.clear();
         b.map->touched(
             {static_cast<float>(random.uniform(0, 32)), static_cast<float>(random.uniform(0, 32)), 1.0f, 1.0f}, lines);
-        // Reading them must be allowed: the sanitizers know. A line may begin before the memory that it holds a part
-        // of.
-        // Reading them must be allowed: the address sanitizer knows.
+        // Reading these addresses must be allowed, which the address sanitizer checks. A line may begin before the
+        // memory that it holds a part of.
         for (const void* line : lines) sum += *static_cast<const volatile unsigned char*>(line);
         found += lines.size();
     }
@@ -242,8 +241,8 @@ TEST_P(Conformance, TheRowDescribesItself) {
     for (const Parameter& p : row().parameters) EXPECT_GT(std::string(p.doc).size(), 10u) << p.name;
 }
 
-// A setting that is misspelt would set nothing, and the tests that rest on it would test something else.
-TEST_P(Conformance, TheTraitsSetParametersThatThereAre) {
+// A misspelt setting would set nothing, and the tests that rely on it would test something else.
+TEST_P(Conformance, TheTraitsSetDeclaredParameters) {
     const ParameterValues defaults = read_parameters(row().parameters, nlohmann::json::object(), "");
     const Traits& traits = row().traits;
     for (const auto* settings : {&traits.pointwise, &traits.order_free, &traits.whole_pixel})

@@ -24,7 +24,7 @@ scene::Scene coloured_hair(bool media) {
     return scene;
 }
 
-// The same rays, told in three equal channels.
+// The same rays in three equal channels.
 rays::LightRays in_three_channels(const rays::LightRays& tile) {
     rays::LightRays three = tile;
     three.channels = 3;
@@ -91,7 +91,7 @@ TEST(DeepColour, EveryChannelStaysWithinTheTolerance) {
         }
 }
 
-// Four floats a node instead of two; a node that any channel needs is a node of all (the paper's section 5.2).
+// Four floats per node instead of two; a node that any channel needs is a node of all (the paper's section 5.2).
 TEST(DeepColour, ThreeChannelsTakeAboutTwiceTheBytesOfOne) {
     const Built grey = build(deep(), testing::hairy_scene(false, 0.55f), directional(), rays::testing::rays(64, 16));
     const Built coloured = build(deep(), coloured_hair(false), directional(), rays::testing::rays(64, 16));
@@ -121,7 +121,7 @@ TEST(DeepColour, OnlyPixelsThatSeeColourHoldIt) {
     EXPECT_EQ(b.lookup(-1.0f, 8.5f, 5.0f, 1.0f, 2), 1.0f) << "outside";
 }
 
-// What is equal in the sum need not be equal in the rays.
+// Rays may differ in colour although their sums do not.
 TEST(DeepColour, ColourThatNoDepthShowsIsNotStored) {
     scene::Scene scene;
     scene.objects.push_back(quad({-2, -2, 0.5f}, {4, 0, 0}, {0, 4, 0}));
@@ -152,7 +152,7 @@ TEST(DeepColour, AnswersLieChannelAfterChannel) {
         }
 }
 
-// What a scene does not use costs nothing, from the rays to the map.
+// Features that a scene does not use cost nothing, from the rays to the map.
 TEST(DeepColour, AnOpaqueStillWhiteSceneStoresNoColourNoTimeNoVolume) {
     scene::Scene scene;
     scene.objects.push_back(quad({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}));

@@ -40,7 +40,7 @@ void expect_same(const std::vector<DeepLevel>& read, const std::vector<DeepLevel
     }
 }
 
-// What reading every tile of the file says; nothing when nothing is wrong.
+// The error of reading every tile of the file; an internal error if there is none.
 base::Error fault(const std::filesystem::path& file) {
     try {
         read_levels(DeepFile(file));
@@ -50,7 +50,7 @@ base::Error fault(const std::filesystem::path& file) {
     return {base::ErrorCode::internal, "", "no error"};
 }
 
-// Bad input with the file and an offset inside it (or its end) as place, and that it says.
+// Expects bad input with the file and an offset inside it (or at its end) as place, and this text in the message.
 void expect_refused(const std::filesystem::path& file, std::size_t length, const char* says = "") {
     const base::Error error = fault(file);
     ASSERT_EQ(error.code(), base::ErrorCode::bad_input) << error.what();
@@ -97,7 +97,7 @@ TEST(DeepFile, BringsEveryLevelBackToTheBit) {
             }
 }
 
-// A search among depths that are out of order, or a value that is no number, would leave [0, 1] in some lookup.
+// A search among depths that are out of order, or a NaN, would leave [0, 1] in some lookup.
 TEST(DeepFile, RefusesNodesThatAreNoVisibility) {
     const TestFile file;
     constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
@@ -108,7 +108,7 @@ TEST(DeepFile, RefusesNodesThatAreNoVisibility) {
     expect_same(read_levels(DeepFile(file.path)), levels);
     const std::string bytes = base::read_text(file.path);
     constexpr std::size_t directory = 64, tile = directory + 16 + 4;
-    // Behind a checksum that fits. Where the float lies.
+    // Behind a checksum that is right. `index` is the float's position.
     const auto write = [&](std::size_t index, float value) {
         std::string changed = bytes;
         const std::size_t place = changed.size() - (6 - index) * sizeof(float);
@@ -134,7 +134,7 @@ TEST(DeepFile, RefusesNodesThatAreNoVisibility) {
     }
 }
 
-// As published compression may leave them: nothing is written, rather than a file that nobody can read.
+// Published compression may leave such values: nothing is written, rather than a file that nobody can read.
 TEST(DeepFile, ValuesOutsideTheUnitRangeAreNotWritten) {
     const TestFile file;
     for (const float value : {-1e-6f, 1.0f + 1e-6f, std::numeric_limits<float>::quiet_NaN()}) {
@@ -161,7 +161,7 @@ TEST(DeepFile, RefusesNotesThatAreNotFinite) {
     }
 }
 
-TEST(DeepFile, TellsWhatItIsOf) {
+TEST(DeepFile, HoldsItsDescription) {
     const TestFile file;
     const auto levels = random_levels(20, 9, 3, 1);
     write_deep_file(file.path, levels, 8, {0.25f, -3.5f, 1e9f, "hair, light key"});
@@ -291,7 +291,7 @@ TEST(DeepFile, ChecksTablesAndDirectoriesWhoseChecksumsAreRight) {
     }
 }
 
-TEST(DeepFile, TellsOtherFilesVersionsAndByteOrdersApart) {
+TEST(DeepFile, RefusesOtherFilesVersionsAndByteOrders) {
     const TestFile file;
     write_deep_file(file.path, random_levels(2, 2, 1, 3), 2, {});
     const std::string bytes = base::read_text(file.path);

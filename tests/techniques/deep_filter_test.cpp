@@ -20,7 +20,7 @@ const Technique& deep() {
     return find("deep", "");
 }
 
-// What the filter of equation (1) weighs a ray at (dx, dy) from the centre.
+// The weight that the filter of equation (1) gives a ray at (dx, dy) from the centre.
 double weigh(const PixelFilter& filter, double dx, double dy) {
     const double r = filter.radius;
     if (std::abs(dx) > r || std::abs(dy) > r) return 0.0;
@@ -63,14 +63,14 @@ TEST(DeepFilter, WeightsFollowTheirClosedForms) {
     EXPECT_NEAR(inner(FilterShape::tent, 1.5)[12], 9.0 / 25, 1e-12) << "1 / (1 + 2 / 3), squared";
     EXPECT_NEAR(inner(FilterShape::tent, 1.5)[11], 3.0 / 25, 1e-12);
     EXPECT_NEAR(inner(FilterShape::tent, 1.5)[6], 1.0 / 25, 1e-12);
-    EXPECT_EQ(inner(FilterShape::tent, 1.0)[12], 1.0) << "the neighbours stand where the tent is 0";
+    EXPECT_EQ(inner(FilterShape::tent, 1.0)[12], 1.0) << "the neighbours are where the tent is 0";
     const double g = std::exp(-2.0 / (2.5 * 2.5)), h = std::exp(-8.0 / (2.5 * 2.5)), sum = 1 + 2 * g + 2 * h;
     EXPECT_NEAR(inner(FilterShape::gaussian, 2.5)[12], 1 / (sum * sum), 1e-12);
     EXPECT_NEAR(inner(FilterShape::gaussian, 2.5)[13], g / (sum * sum), 1e-12);
     EXPECT_NEAR(inner(FilterShape::gaussian, 2.5)[0], h * h / (sum * sum), 1e-12);
 }
 
-TEST(DeepFilter, AtTheMapsCornerTheRaysThatThereAreShareTheWeight) {
+TEST(DeepFilter, AtTheMapsCornerTheExistingRaysShareTheWeight) {
     EXPECT_NEAR(centre_weights({FilterShape::box, 1.5}, 0, 0)[0], 1.0 / 4, 1e-12);
     EXPECT_NEAR(centre_weights({FilterShape::tent, 1.5}, 0, 0)[0], 9.0 / 16, 1e-12) << "1 / (1 + 1 / 3), squared";
     EXPECT_NEAR(centre_weights({FilterShape::tent, 1.5}, 4, 4)[23], 3.0 / 16, 1e-12);
@@ -144,7 +144,7 @@ TEST(DeepFilter, APixelIsTheWeightedMeanOfTheRaysAroundItsCentre) {
     }
 }
 
-// The benchmark checks curves by the weights that the map tells.
+// The benchmark checks curves by the weights that the map reports.
 TEST(DeepFilter, StoredFunctionsStayWithinTheToleranceOfTheWeightsThatTheMapTells) {
     for (const bool media : {false, true})
         for (const FilterShape shape : shapes) {

@@ -23,7 +23,7 @@ struct TestFile {
     const std::filesystem::path path;
 };
 
-// Takes the old file away first: file systems wait for the disk when one is written over.
+// Removes the old file first, because file systems wait for the disk when a file is overwritten.
 inline void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
     std::filesystem::remove(file);
     std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

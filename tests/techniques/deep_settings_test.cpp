@@ -1,4 +1,4 @@
-// What must hold for deep maps of all settings; conformance_test.cpp asks it of the defaults.
+// What must hold for deep maps with all settings; conformance_test.cpp checks it for the defaults.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Parameters, DeepSettings,
                                            R"({"mip": "blend", "kernel": "tent", "search": "cached"})",
                                            R"({"filter": "tent", "radius": 1.0, "mip": "blend"})"));
 
-// Duplicated depths are steps; a number that is none goes to the front.
+// Duplicated depths are steps; a NaN goes to the front.
 TEST(SegmentSearch, AllFindTheFirstDepthThatIsNotLess) {
     base::Random random(2);
     CachedSearch cached(1000);
@@ -154,7 +154,7 @@ TEST(SegmentSearch, AllFindTheFirstDepthThatIsNotLess) {
         float z = 0.0f;
         for (std::uint32_t i = 0; i < n; ++i)
             depths.push_back(z += random.below(3) ? static_cast<float>(random.below(4)) : 0.0f);
-        depths.resize(n + DeepLevel::padding, -1.0f);  // what lies behind must not count
+        depths.resize(n + DeepLevel::padding, -1.0f);  // depths behind the last must not count
         for (float at = -1.0f; at < z + 2.0f; at += 0.5f) {
             const auto end = depths.begin() + n;
             const auto expected =

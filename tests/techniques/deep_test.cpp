@@ -17,7 +17,7 @@ const Technique& deep() {
     return find("deep", "");
 }
 
-// Largest exact distance between stored functions and the uncompressed functions of the same rays.
+// The largest exact distance between stored functions and the uncompressed functions of the same rays.
 double curve_error(const testing::Built& b) {
     double worst = 0.0;
     curves::SweepScratch scratch;
@@ -97,7 +97,7 @@ TEST(Deep, ATentIsNeverNarrowerThanAPixel) {
         for (const float x : {8.0f, 8.2f, 8.5f}) EXPECT_NEAR(b.lookup(x, 8.0f, 5.0f, width), 0.25f, 1e-6f) << width;
 }
 
-// Their parts of a pixel's light add up without rounding.
+// Their shares of a pixel's light add up without rounding.
 TEST(Deep, TheOrderOfRaysThatMeetSurfacesAloneChangesNoDigit) {
     base::Random random(3);
     for (int i = 0; i < 200; ++i) {

@@ -11,7 +11,7 @@ using nlohmann::json;
 using testing::map_of;
 using testing::patchy_depths;
 
-constexpr int width = 150, height = 110;  // no multiples of the tiles' side
+constexpr int width = 150, height = 110;  // not multiples of the tiles' side
 
 std::vector<Query> random_queries(int count) {
     base::Random random(7);
@@ -51,7 +51,7 @@ TEST_P(StorageOf, NeverChangesAnAnswer) {
             EXPECT_EQ(raw, other) << storage;
             std::vector<const void*> lines;
             for (std::size_t i = 0; i < 500; ++i) stored.map->touched_shaped(queries[i], footprints[i], lines);
-            std::size_t sum = 0;  // reading them must be allowed: the address sanitizer knows
+            std::size_t sum = 0;  // reading these addresses must be allowed, which the address sanitizer checks
             for (const void* line : lines) sum += *static_cast<const volatile unsigned char*>(line);
             EXPECT_GT(lines.size(), 100u) << sum;
             EXPECT_EQ(map.map->nodes().histogram, stored.map->nodes().histogram);
@@ -68,7 +68,7 @@ TEST_P(StorageOf, NeverChangesAnAnswer) {
 
 class TilesOfFilters : public ::testing::TestWithParam<const char*> {};
 
-// What a tile's bounds tell is not sampled: of a lookup before or behind everything, the directory alone is read.
+// A lookup before or behind everything reads only the directory of tiles, not their cells.
 TEST_P(TilesOfFilters, SpareTheCellsThatTheirBoundsTellOf) {
     json parameters = json::parse(GetParam());
     const std::string type = parameters["type"];
@@ -132,7 +132,7 @@ TEST(DepthStore, BoundsHoldTheDepthsOfEveryRange) {
     for (const Storage way : {Storage::bounding_box, Storage::tiles}) {
         DepthStore store;
         store.keep(way, grid, 1, std::vector<float>(depths));
-        int told = 0;
+        int exact_bounds = 0;
         for (int i = 0; i < 2000; ++i) {
             CellRange r;
             r.x0 = static_cast<int>(random.below(90));
@@ -150,11 +150,11 @@ TEST(DepthStore, BoundsHoldTheDepthsOfEveryRange) {
                     const DepthBounds bounds = read.bounds(r);
                     EXPECT_LE(bounds.least, exact.least);
                     EXPECT_GE(bounds.greatest, exact.greatest);
-                    told += bounds.least == exact.least;
+                    exact_bounds += bounds.least == exact.least;
                 }
             });
         }
-        EXPECT_GT(told, 500) << "bounds that never tell anything save nothing";
+        EXPECT_GT(exact_bounds, 500) << "bounds that are never exact save nothing";
     }
 }
 

@@ -93,7 +93,7 @@ TEST(Pcf, AGivenRegionTakesThePlaceOfTheWidthAskedFor) {
         EXPECT_EQ(given.lookup(x, 32.0f, 10.0f, 0.5f), asked.lookup(x, 32.0f, 10.0f, 8.0f)) << x;
 }
 
-// Mean visibility of lookups that stand `offset` pixels behind the edge of the wall, over this footprint.
+// The mean visibility of lookups `offset` pixels behind the edge of the wall, over this footprint.
 double over_footprint(const testing::Built& b, const Footprint& footprint, float offset) {
     std::vector<Query> queries;
     for (int i = 0; i < 256; ++i)
@@ -132,7 +132,7 @@ TEST(Pcf, AnUnknownPixelIsTheSquareOfTheWidthAskedFor) {
     query.map->lookup_shaped(queries, known, b);
     query.map->lookup(queries, c);
     EXPECT_EQ(a, c);
-    EXPECT_EQ(b, c) << "what filters over the width asked for takes no notice of the pixel";
+    EXPECT_EQ(b, c) << "a filter over the query's width ignores the pixel";
 }
 
 TEST(Pcf, PointsBehindTheLightAreLit) {

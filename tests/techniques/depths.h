@@ -11,7 +11,7 @@
 
 namespace shadowbench::techniques::testing {
 
-// A map of one ray a pixel that meets one opaque surface at this depth, or nothing (no_depth).
+// A map of one ray per pixel that meets one opaque surface at this depth, or nothing (no_depth).
 struct DepthsMap {
     rays::MapLayout layout;
     rays::LightView view;
@@ -27,9 +27,9 @@ struct DepthsMap {
 
 inline DepthsMap map_of(const char* technique, const nlohmann::json& parameters, int width, int height,
                         const std::vector<float>& depths) {
-    DepthsMap made;
-    made.layout.width = made.layout.tile_width = width;
-    made.layout.height = made.layout.tile_height = height;
+    DepthsMap result;
+    result.layout.width = result.layout.tile_width = width;
+    result.layout.height = result.layout.tile_height = height;
     rays::LightRays tile;
     tile.width = width;
     tile.height = height;
@@ -42,11 +42,11 @@ inline DepthsMap map_of(const char* technique, const nlohmann::json& parameters,
         tile.begin.push_back(static_cast<std::uint32_t>(tile.z_front.size()));
     }
     const Technique& row = find(technique, "");
-    made.map = row.create(read_parameters(row.parameters, parameters, ""));
-    made.map->begin({made.layout, made.view, nullptr});
-    made.map->add(tile);
-    made.map->finish();
-    return made;
+    result.map = row.create(read_parameters(row.parameters, parameters, ""));
+    result.map->begin({result.layout, result.view, nullptr});
+    result.map->add(tile);
+    result.map->finish();
+    return result;
 }
 
 // Depths in [1, 2) of a few discs over nothing, and a band of noise: cells of every kind beside each other.

@@ -1,5 +1,5 @@
-// What a lookup's footprint weighs: every function by the part of its cell that the footprint covers, cut to the map,
-// as the truth counts rays. Against sums over all cells, in double.
+// The weights of a lookup's footprint: every function counts by the part of its cell that the footprint covers, cut to
+// the map, as the truth counts rays. Compared with sums over all cells, in double.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ using rays::testing::directional;
 using testing::build;
 using testing::Built;
 
-// Of the part of [0, size) within width / 2 of `place`, what lies in [low, high).
+// The length in [low, high) of the part of [0, size) within width / 2 of `place`.
 double covered(double low, double high, double place, double width, double size) {
     return std::max(std::min({high, place + 0.5 * width, size}) - std::max({low, place - 0.5 * width, 0.0}), 0.0);
 }
@@ -38,7 +38,8 @@ double mean_over(const Query& q, double cell, double map_width, double map_heigh
     return sum / area;
 }
 
-// The same of the cells of a map whose centres lie within width / 2, whole; of those at the very border the upper ones.
+// The same for the cells of a map whose centres lie within width / 2, counted whole; at the very border only upper
+// ones.
 template <class Value>
 double mean_of_centres(const Query& q, double cell, double map_width, double map_height, const Value& value) {
     double sum = 0.0, weights = 0.0;
@@ -192,13 +193,13 @@ TEST_P(FootprintWeightsOfTexels, AreThePartsOfTheTexels) {
     for (const char* cells : {"sample", "centre"})
         for (const int samples : {1, 4, 6}) {
             json parameters{{"cells", cells}, {"filter", "footprint"}};
-            const auto made = [&] {
+            const auto build_map = [&] {
                 return build(find(GetParam(), ""), testing::hairy_scene(true), directional(),
                              oblong(width, height, samples), parameters.dump().c_str());
             };
-            const Built b = made();
+            const Built b = build_map();
             parameters["filter"] = "point";
-            const Built point = made();
+            const Built point = build_map();
             const auto& layout = b.rays.layout;
             const bool each = b.map->cells() == Cells::sample;
             const int nx = each ? layout.samples_x : 1, ny = each ? layout.samples_y : 1;
@@ -226,7 +227,7 @@ INSTANTIATE_TEST_SUITE_P(Techniques, FootprintWeightsOfTexels,
                          ::testing::Values("avsm", "opacity", "fourier", "volume_deep"),
                          [](const auto& test) { return std::string(test.param); });
 
-// Outside the map nothing is covered: the samples of a footprint that hangs over lie inside.
+// Outside the map nothing is covered: a footprint that the map's edge cuts has its samples inside.
 TEST(FootprintWeights, OfAKernelSpreadOverTheWidthStayInsideTheMap) {
     scene::Scene scene;  // all in shade
     scene.objects.push_back(rays::testing::quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}));
@@ -241,7 +242,7 @@ TEST(FootprintWeights, OfAKernelSpreadOverTheWidthStayInsideTheMap) {
     EXPECT_EQ(left.lookup(0.5f, 8.0f, 5.0f, 31.0f), 0.5f) << "of the whole map";
 }
 
-// However narrow and wherever it stands, a footprint covers something.
+// Every footprint covers something, however narrow and wherever it is.
 TEST(FootprintWeights, ANarrowFootprintIsTheCellThatItLiesIn) {
     const Stretch inside = stretch(3.25, 0.0, 8.0);
     EXPECT_EQ(inside.begin, 3);

@@ -24,10 +24,10 @@ using Segments = std::vector<Segment>;
 struct HandRays {
     int width = 1, height = 1, samples = 1;
     std::vector<Segments> rays;
-    bool coloured = false;  // what is given passes the first channel, its square the second, and all the third
+    bool coloured = false;  // the given values, their squares and 1 are those of the three channels
 };
 
-// Sorted, in one tile that is the whole map. The order of submission is that in which they are given.
+// Sorted, in one tile that is the whole map. The order of submission is the given order.
 inline rays::LightRays light_rays(const HandRays& given) {
     rays::LightRays result;
     result.width = given.width;
@@ -62,7 +62,7 @@ inline rays::LightRays light_rays(const HandRays& given) {
     return result;
 }
 
-// With the least bounds of depth that hold all segments; 0 and 1 where there are none.
+// With the smallest bounds of depth that hold all segments; 0 and 1 if there are none.
 inline rays::MapLayout layout_of(const HandRays& given) {
     rays::MapLayout layout;
     layout.width = layout.tile_width = given.width;
@@ -83,7 +83,7 @@ inline rays::MapLayout layout_of(const HandRays& given) {
     return layout;
 }
 
-// One float further out on both sides, as those of captured maps are.
+// One float further out on both sides, as the bounds of captured maps are.
 inline rays::MapLayout outward(rays::MapLayout layout) {
     layout.z_min = std::nextafter(layout.z_min, -std::numeric_limits<float>::infinity());
     layout.z_max = std::nextafter(layout.z_max, std::numeric_limits<float>::infinity());
@@ -104,17 +104,17 @@ struct HandMap {
     float operator()(const Query& query) const { return lookup({&query, 1})[0]; }
 };
 
-// Rows that are not `coloured` see the first channel alone.
+// Rows that are not `coloured` see only the first channel.
 inline HandMap make_map(const Technique& row, const ParameterValues& values, const rays::LightRays& given,
                         const rays::MapLayout& layout, const rays::Tracer* tracer = nullptr) {
-    HandMap made{layout, {}, row.create(values)};
-    made.view.resolution = {layout.width, layout.height};
-    made.layout.apron = made.map->needs().apron;  // the tile is the whole map
-    if (!row.coloured) made.layout.channels = 1;
-    made.map->begin({made.layout, made.view, tracer, 0});
-    made.map->add(row.coloured ? given : rays::channel(given, 0));
-    made.map->finish();
-    return made;
+    HandMap built{layout, {}, row.create(values)};
+    built.view.resolution = {layout.width, layout.height};
+    built.layout.apron = built.map->needs().apron;  // the tile is the whole map
+    if (!row.coloured) built.layout.channels = 1;
+    built.map->begin({built.layout, built.view, tracer, 0});
+    built.map->add(row.coloured ? given : rays::channel(given, 0));
+    built.map->finish();
+    return built;
 }
 
 inline HandMap make_map(const Technique& row, const ParameterValues& values, const HandRays& given) {

@@ -58,7 +58,7 @@ const std::vector<float> hostile_widths = {1.0f,
                                            7.25f,
                                            std::nextafter(1.0f, 2.0f)};
 
-// Each number with each other one, the rest being as good as any.
+// Each number with each other one; the others are ordinary.
 std::vector<Query> hostile_queries(const rays::MapLayout& layout) {
     const std::vector<float> xs = hostile_places(layout.width), ys = hostile_places(layout.height),
                              zs = hostile_depths(layout);
@@ -88,7 +88,7 @@ std::string text_of(const Query& q) {
 class HostileQueries : public ::testing::TestWithParam<const Technique*> {
 protected:
     const Technique& row() const { return *GetParam(); }
-    // A lookup of a row that traces takes as many rays as its largest number.
+    // A row that traces takes as many rays per lookup as its largest number.
     bool costly(const ParameterValues& values) const {
         return row().traits.traces && std::any_of(values.values.begin(), values.values.end(), [](const auto& value) {
                    const double* number = std::get_if<double>(&value.second);
@@ -98,7 +98,7 @@ protected:
     std::string text(const ParameterValues& values) const { return testing::text_of(row(), values); }
 };
 
-// A pixel of hair, media, walls and nothing, one of each a sample or more.
+// A pixel of hair, media, walls and nothing, at least one of each per sample.
 Segments any_ray(std::uint64_t seed) {
     switch (seed % 4) {
         case 0:
@@ -160,7 +160,7 @@ bool inside(const Query& q, const rays::MapLayout& layout) {
     return q.x >= 0 && q.y >= 0 && q.x < static_cast<float>(layout.width) && q.y < static_cast<float>(layout.height);
 }
 
-// What the contract makes of a query's depth and width.
+// The depth and width for which the contract takes a query's.
 Query understood(Query q, bool draws_samples) {
     if (!(q.width > 0.0f)) q.width = 0.0f;
     if (q.width > 1e30f) q.width = 1e30f;
@@ -200,7 +200,7 @@ TEST_P(HostileQueries, TouchLinesOfTheMapAlone) {
         for (const Query& q : every(3, hostile_queries(layout))) {
             lines.clear();
             map.touched(q, lines);
-            // Reading them must be allowed: the address sanitizer knows.
+            // Reading these addresses must be allowed, which the address sanitizer checks.
             for (const void* line : lines) sum += *static_cast<const volatile unsigned char*>(line);
             found += lines.size();
             if (!inside(q, layout)) {

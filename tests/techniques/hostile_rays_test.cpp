@@ -1,4 +1,4 @@
-// Light rays that the contract of rays/light_rays.h allows and no scene should bring: every row keeps its promises.
+// Light rays that the contract of rays/light_rays.h allows and no scene should contain: every row keeps its promises.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ float next(float z) {
 
 // Transmittance of a ray up to each of some depths, from optical depths in long double.
 std::vector<double> exact(const Segments& segments, const std::vector<float>& depths) {
-    std::vector<long double> all, inside;  // optical depth of the whole segment, and of what it counts as inside of it
+    std::vector<long double> all, inside;  // optical depth of the whole segment, and what counts inside it
     for (const Segment& s : segments) {
         all.push_back(-std::log(static_cast<long double>(s.through)));
         inside.push_back(-std::log(static_cast<long double>(std::max(s.through, std::numeric_limits<float>::min()))));
@@ -63,7 +63,7 @@ struct HardRay {
 
     const char* name;
     Segments segments;
-    std::vector<float> depths;  // where it is asked, from -infinity to infinity
+    std::vector<float> depths;  // the depths of the queries, from -infinity to infinity
     std::vector<double> truth;  // the transmittance there
 };
 
@@ -177,14 +177,14 @@ private:
 };
 
 TEST_P(HostileRays, AnswersNeverRiseNorLeaveTheRange) {
-    for_each_map([&](const testing::HandMap& made, const ParameterValues& values, const HardRay& ray) {
+    for_each_map([&](const testing::HandMap& built, const ParameterValues& values, const HardRay& ray) {
         const Promises promised = promises(row(), values);
-        const double least = testing::least_answer(row(), values, made.layout);
+        const double least = testing::least_answer(row(), values, built.layout);
         const std::vector<float>& depths = ray.depths;
         std::vector<Query> queries;
         for (const float z : depths) queries.push_back({0.5f, 0.5f, z, 0.0f});
-        const std::vector<float> answers = made.lookup(queries);
-        const bool draws = row().traits.draws_samples;  // at places of its own for each depth
+        const std::vector<float> answers = built.lookup(queries);
+        const bool draws = row().traits.draws_samples;  // at other positions for each depth
         for (std::size_t i = 0; i < answers.size(); ++i) {
             ASSERT_TRUE(answers[i] >= least && std::isfinite(answers[i])) << text(values, ray) << " at " << depths[i];
             if (promised.unit_range) {
@@ -201,14 +201,14 @@ TEST_P(HostileRays, AnswersNeverRiseNorLeaveTheRange) {
 }
 
 TEST_P(HostileRays, StoredFunctionsKeepTheirPromises) {
-    for_each_map([&](const testing::HandMap& made, const ParameterValues& values, const HardRay& ray) {
+    for_each_map([&](const testing::HandMap& built, const ParameterValues& values, const HardRay& ray) {
         const Promises promised = promises(row(), values);
         const double bound = promised.opaque_only && !is_opaque(ray.segments) ? std::numeric_limits<double>::infinity()
-                                                                              : row().error_bound(values, made.layout);
-        const double least = testing::least_answer(row(), values, made.layout);
+                                                                              : row().error_bound(values, built.layout);
+        const double least = testing::least_answer(row(), values, built.layout);
         const std::vector<float> depths(ray.depths.begin() + 1, ray.depths.end() - 1);  // those that are finite
         curves::Curve stored;
-        made.map->stored(0, 0, 0, depths, stored);
+        built.map->stored(0, 0, 0, depths, stored);
         for (std::size_t i = 0; i < stored.size(); ++i) {
             ASSERT_TRUE(std::isfinite(stored[i].z) && std::isfinite(stored[i].value)) << text(values, ray);
             ASSERT_GE(stored[i].value, least) << text(values, ray);
@@ -229,21 +229,21 @@ TEST_P(HostileRays, StoredFunctionsKeepTheirPromises) {
 }
 
 TEST_P(HostileRays, AreFeltBehindAllOfThem) {
-    for_each_map([&](const testing::HandMap& made, const ParameterValues& values, const HardRay& ray) {
+    for_each_map([&](const testing::HandMap& built, const ParameterValues& values, const HardRay& ray) {
         const Promises promised = promises(row(), values);
         // Where a lookup sees more than this ray.
         if (row().traits.beyond_footprint && testing::pointwise(row(), values).values != values.values) return;
         if (promised.opaque_only && !is_opaque(ray.segments)) return;
-        const double bound = row().error_bound(values, made.layout);
+        const double bound = row().error_bound(values, built.layout);
         double allowed = std::isfinite(bound) ? bound + 1e-6 : 1e-5 + promised.leak;
         allowed += row().traits.segment_rounding * static_cast<double>(ray.segments.size());
-        const auto behind = static_cast<float>(next(made.layout.z_max) + 1.01 * testing::bias_of(row(), values));
+        const auto behind = static_cast<float>(next(built.layout.z_max) + 1.01 * testing::bias_of(row(), values));
         for (const float z : {behind, infinity})
-            ASSERT_NEAR(made({0.5f, 0.5f, z, 0.0f}), ray.truth.back(), allowed) << text(values, ray) << " at " << z;
+            ASSERT_NEAR(built({0.5f, 0.5f, z, 0.0f}), ray.truth.back(), allowed) << text(values, ray) << " at " << z;
         if (!promised.unit_range) return;
         curves::Curve stored;
-        made.map->stored(0, 0, 0, {}, stored);
-        EXPECT_NEAR(stored.empty() ? 1.0f : stored.back().value, made({0.5f, 0.5f, infinity, 0.0f}), 1e-6)
+        built.map->stored(0, 0, 0, {}, stored);
+        EXPECT_NEAR(stored.empty() ? 1.0f : stored.back().value, built({0.5f, 0.5f, infinity, 0.0f}), 1e-6)
             << text(values, ray);
     });
 }

@@ -1,4 +1,4 @@
-// What must change nothing: the unit of depth, the order of hits at one depth, the order of the rays of a pixel.
+// Changes that must not matter: the unit of depth, the order of hits at one depth, the order of a pixel's rays.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -18,7 +18,7 @@ protected:
     const Technique& row() const { return *GetParam(); }
 };
 
-// Anywhere in the map, of narrow and wide filters, at each depth.
+// Anywhere in the map, with narrow and wide filters, at each depth.
 std::vector<Query> any_queries(const HandRays& given) {
     const std::vector<float> depths = testing::telling_depths(given);
     const auto seed = static_cast<std::uint64_t>(*rc::gen::inRange(0, 1000));
@@ -32,7 +32,7 @@ std::vector<Query> any_queries(const HandRays& given) {
     return queries;
 }
 
-// Drops what would take a ray below 1e-20 without being opaque.
+// Drops segments that would take a ray below 1e-20 without being opaque.
 void keep_above_faint(Segments& ray) {
     float through = 1.0f;
     std::erase_if(ray, [&](const Segment& s) {
@@ -42,9 +42,9 @@ void keep_above_faint(Segments& ray) {
     });
 }
 
-// Multiplying every depth by a power of two changes no digit of anything but depths, so long as neither they nor their
-// products with values are denormal: what opaque media leave below 1e-28 may differ in digits that it does not have.
-// Not so for rows that draw their samples by the digits of a query's depth; nor for a bias, which is a length too.
+// Multiplying every depth by a power of two changes no digit except of depths, if neither they nor their products with
+// values are denormal: light below 1e-28 behind opaque media may differ in digits that it does not have. This does not
+// hold for rows that draw their samples by the digits of a query's depth, nor for a bias, which is a length too.
 TEST_P(Invariance, TheUnitOfDepthChangesNothing) {
     if (row().traits.draws_samples || row().traits.traces) return;
     std::vector<ParameterValues> settings = testing::variants(row());
@@ -55,7 +55,7 @@ TEST_P(Invariance, TheUnitOfDepthChangesNothing) {
         const float scale = std::ldexp(1.0f, *rc::gen::inRange(-30, 31));
         const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
         RC_LOG() << testing::text_of(row(), values) << " scaled by " << scale << '\n';
-        // On its way to a denormal an exponential has no more digits than that has.
+        // On its way to a denormal, an exponential has no more digits than the denormal.
         if (values.values.count("sampling") && values.word("sampling") == "exponential")
             for (Segments& ray : given.rays)
                 std::erase_if(ray, [](const Segment& s) { return s.through == 0.0f && s.front < s.back; });
@@ -78,7 +78,7 @@ TEST_P(Invariance, TheUnitOfDepthChangesNothing) {
     });
 }
 
-// Whether two maps answer alike to some slack.
+// Whether two maps give the same answers up to some slack.
 void check_alike(const HandMap& one, const HandMap& two, const std::vector<Query>& queries, double slack) {
     const std::vector<float> a = one.lookup(queries), b = two.lookup(queries);
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -93,8 +93,8 @@ void shuffle(std::vector<Value>& values, base::Random& random) {
     for (std::size_t k = values.size(); k > 1; --k) std::swap(values[k - 1], values[random.below(k)]);
 }
 
-// With room for all that a ray brings, where the row says which settings those are: what drops something, hit after
-// hit, depends on their order.
+// With room for all segments of a ray, if the row names such settings: a technique that drops nodes, hit after hit,
+// depends on the order of the hits.
 std::vector<ParameterValues> roomy(const Technique& row) {
     std::vector<ParameterValues> found;
     for (const ParameterValues& values : testing::variants(row)) found.push_back(with(values, row.traits.order_free));
@@ -103,7 +103,7 @@ std::vector<ParameterValues> roomy(const Technique& row) {
 
 constexpr double rounding = 1e-6;
 
-// The contract leaves open in which order hits that begin and end at one depth come.
+// The contract leaves the order of hits that begin and end at one depth open.
 TEST_P(Invariance, TheOrderOfHitsAtOneDepthChangesNothing) {
     if (row().traits.traces) return;
     const std::vector<ParameterValues> settings = roomy(row());
@@ -123,7 +123,7 @@ TEST_P(Invariance, TheOrderOfHitsAtOneDepthChangesNothing) {
     });
 }
 
-// Over whole pixels, whose every ray weighs the same.
+// Over whole pixels, in which every ray has the same weight.
 TEST_P(Invariance, TheOrderOfTheRaysOfAPixelChangesNoMean) {
     if (!row().traits.filters || row().traits.traces) return;
     std::vector<ParameterValues> settings = roomy(row());
@@ -144,8 +144,8 @@ TEST_P(Invariance, TheOrderOfTheRaysOfAPixelChangesNoMean) {
             shuffle(pixel, random);
             std::copy(pixel.begin(), pixel.end(), given.rays.begin() + first);
         }
-        // Sums of media are rounded otherwise in another order, and what compresses within a bound may then choose
-        // others of the functions within it.
+        // Another order rounds sums of media differently, and bounded compression may then choose another function
+        // within its bound.
         const double bound = row().error_bound(values, one.layout);
         const bool compresses = media && std::isfinite(bound) && bound > rounding;
         check_alike(one, make_map(row(), values, given), queries, compresses ? 2.0 * bound + rounding : rounding);

@@ -43,7 +43,7 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
     return allocate(size, 16);
 }
-// The library's own would do, but not the one that the address sanitizer brings: its blocks would be freed here.
+// The library's operator would do, but not the address sanitizer's: its blocks would be freed here.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     return allocate_or_null(size);
 }

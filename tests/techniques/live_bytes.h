@@ -1,4 +1,4 @@
-// Bytes that the program holds through operator new just now.
+// Bytes that the program holds through operator new now.
 #pragma once
 
 #include <cstddef>

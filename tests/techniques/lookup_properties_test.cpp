@@ -1,4 +1,4 @@
-// What a lookup of one cell answers is the function that the map says it stores, for random rays.
+// A lookup of one cell answers with the function that the map says it stores, for random rays.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -26,14 +26,14 @@ Query middle(const rays::MapLayout& layout, Cells cells, int x, int y) {
     return {(static_cast<float>(x) + 0.5f) / nx, (static_cast<float>(y) + 0.5f) / ny, 0.0f, 0.0f};
 }
 
-// At depths on both sides of every step, in every channel; `slack` is for means that are counted otherwise.
-void check_cell(const HandMap& made, const std::vector<float>& depths, int x, int y, float slack) {
-    std::vector<Query> queries(depths.size(), middle(made.layout, made.map->cells(), x, y));
+// At depths on both sides of every step, in every channel; `slack` is for means that are computed otherwise.
+void check_cell(const HandMap& built, const std::vector<float>& depths, int x, int y, float slack) {
+    std::vector<Query> queries(depths.size(), middle(built.layout, built.map->cells(), x, y));
     for (std::size_t i = 0; i < depths.size(); ++i) queries[i].z = depths[i];
-    const std::vector<float> answers = made.lookup(queries);
+    const std::vector<float> answers = built.lookup(queries);
     curves::Curve stored;
-    for (int c = 0; c < made.map->channels(); ++c) {
-        made.map->stored(x, y, c, depths, stored);
+    for (int c = 0; c < built.map->channels(); ++c) {
+        built.map->stored(x, y, c, depths, stored);
         for (std::size_t i = 0; i < depths.size(); ++i) {
             const float answer = answers[static_cast<std::size_t>(c) * depths.size() + i];
             const float value = curves::evaluate(stored, depths[i]);
@@ -58,12 +58,12 @@ TEST_P(LookupProperties, AnswerAsTheStoredFunction) {
         const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
         RC_LOG() << testing::text_of(row(), values) << '\n';
         const rays::MapLayout exact = testing::layout_of(given);
-        const HandMap made = testing::make_map(row(), values, testing::light_rays(given),
-                                               *rc::gen::arbitrary<bool>() ? exact : testing::outward(exact));
-        const bool samples = made.map->cells() == Cells::sample;
+        const HandMap built = testing::make_map(row(), values, testing::light_rays(given),
+                                                *rc::gen::arbitrary<bool>() ? exact : testing::outward(exact));
+        const bool samples = built.map->cells() == Cells::sample;
         const int x = *rc::gen::inRange(0, exact.width * (samples ? exact.samples_x : 1));
         const int y = *rc::gen::inRange(0, exact.height * (samples ? exact.samples_y : 1));
-        check_cell(made, testing::telling_depths(given), x, y, slack());
+        check_cell(built, testing::telling_depths(given), x, y, slack());
     });
 }
 
@@ -75,26 +75,26 @@ TEST_P(LookupProperties, AnswerAsTheStoredFunctionOfGivenFunctions) {
         if (*rc::gen::arbitrary<bool>()) functions.push_back(*curves::cases::any_function());
         const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
         RC_LOG() << testing::text_of(row(), values) << '\n';
-        HandMap made;
-        made.map = row().from_curves(values, functions);
-        made.layout.width = static_cast<int>(functions.size());
+        HandMap built;
+        built.map = row().from_curves(values, functions);
+        built.layout.width = static_cast<int>(functions.size());
         std::vector<float> depths;
         for (const curves::Curve& function : functions)
             for (const curves::Vertex& v : function)
                 depths.insert(depths.end(), {std::nextafter(v.z, -INFINITY), v.z, std::nextafter(v.z, INFINITY)});
         std::sort(depths.begin(), depths.end());
         curves::Curve stored;
-        for (int f = 0; f < made.layout.width; ++f) {
-            check_cell(made, depths, f, 0, 0.0f);
-            made.map->stored(f, 0, 0, depths, stored);
+        for (int f = 0; f < built.layout.width; ++f) {
+            check_cell(built, depths, f, 0, 0.0f);
+            built.map->stored(f, 0, 0, depths, stored);
             RC_ASSERT(curves::is_visibility(stored) || !promises(row(), values).monotone);
-            const double bound = row().error_bound(values, made.layout);
+            const double bound = row().error_bound(values, built.layout);
             RC_ASSERT(curves::distance(stored, functions[static_cast<std::size_t>(f)], 0, 1).max <= bound + 1e-6);
         }
     });
 }
 
-// Whatever the filters and the rays are, near and far from the map.
+// Whatever the filters and the rays are, near the map and far from it.
 TEST_P(LookupProperties, AnswersStayInTheirRange) {
     if (row().traits.traces) return;  // sees a scene, not these rays
     const std::vector<ParameterValues> settings = testing::variants(row());
@@ -103,7 +103,7 @@ TEST_P(LookupProperties, AnswersStayInTheirRange) {
         given.coloured = row().coloured && *rc::gen::arbitrary<bool>();
         const ParameterValues& values = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
         RC_LOG() << testing::text_of(row(), values) << '\n';
-        const HandMap made = testing::make_map(row(), values, given);
+        const HandMap built = testing::make_map(row(), values, given);
         const std::vector<float> depths = testing::telling_depths(given);
         const float side = static_cast<float>(std::max(given.width, given.height));
         std::vector<Query> queries;
@@ -113,14 +113,14 @@ TEST_P(LookupProperties, AnswersStayInTheirRange) {
                                static_cast<float>(random.uniform(-0.1, 1) * side), z,
                                static_cast<float>(std::exp2(random.uniform(-10, 10)))});
         const Promises promised = promises(row(), values);
-        const double least = testing::least_answer(row(), values, made.layout);
-        for (const float answer : made.lookup(queries)) {
+        const double least = testing::least_answer(row(), values, built.layout);
+        for (const float answer : built.lookup(queries)) {
             RC_ASSERT(std::isfinite(answer));
             RC_ASSERT(answer >= least);
             RC_ASSERT(answer <= 1.0f || !promised.unit_range);
         }
         curves::Curve stored;
-        made.map->stored(0, 0, 0, depths, stored);
+        built.map->stored(0, 0, 0, depths, stored);
         RC_ASSERT(curves::is_visibility(stored) || !promised.monotone);
     });
 }

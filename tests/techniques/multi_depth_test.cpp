@@ -84,7 +84,7 @@ TEST(SearchRegion, IsASquareAroundTheCellItself) {
     for (const Offset& o : search_region(5)) EXPECT_LE(std::abs(o.x) + std::abs(o.y), 1) << "those with a common side";
 }
 
-// Every cell against the neighbours looked up one by one, at tiles' and the map's borders as anywhere.
+// Every cell compared with its neighbours looked up one by one, also at the borders of tiles and of the map.
 TEST(MultiDepth, MaximumAndMinimumAreThoseOfTheNeighbourhood) {
     constexpr int width = 40, height = 34;
     const std::vector<float> base = patchy_depths(width, height, 3);
@@ -179,13 +179,14 @@ TEST(MultiDepth, WhereNothingIsStandsFurtherThanEverything) {
     std::vector<float> depths;
     for (int i = 0; i < side * side; ++i) depths.push_back(i % side < 8 ? 1.0f : no_depth);
     const auto map = map_of("multi_depth", {{"kernel", 1}}, side, side, depths);
-    const float far = 1e30f;
-    EXPECT_EQ(map.lookup(3.5f, 8.5f, far), 0.0f);
-    EXPECT_FLOAT_EQ(map.lookup(7.5f, 8.5f, far), 1.0f / 3) << "the deepest around is nothing: never in its shadow";
-    EXPECT_FLOAT_EQ(map.lookup(8.5f, 8.5f, far), 2.0f / 3) << "the nearest around is the wall";
-    EXPECT_EQ(map.lookup(12.5f, 8.5f, far), 1.0f);
+    const float far_depth = 1e30f;
+    EXPECT_EQ(map.lookup(3.5f, 8.5f, far_depth), 0.0f);
+    EXPECT_FLOAT_EQ(map.lookup(7.5f, 8.5f, far_depth), 1.0f / 3)
+        << "the deepest around is nothing: never in its shadow";
+    EXPECT_FLOAT_EQ(map.lookup(8.5f, 8.5f, far_depth), 2.0f / 3) << "the nearest around is the wall";
+    EXPECT_EQ(map.lookup(12.5f, 8.5f, far_depth), 1.0f);
     EXPECT_EQ(map.map->nodes().histogram, (std::vector<std::uint64_t>{7 * side, side, side, 7 * side}));
-    EXPECT_EQ(map.lookup(0.5f, 0.5f, far), 0.0f) << "the map's border is no shadow's border";
+    EXPECT_EQ(map.lookup(0.5f, 0.5f, far_depth), 0.0f) << "the map's border is no shadow's border";
 }
 
 TEST(MultiDepth, ItsTestAnswersWhatTheStoredFunctionSays) {
@@ -240,19 +241,19 @@ RC_GTEST_PROP(MultiDepth, AnswersAreCountsOverSortedDepthsThatHoldTheCellsOwn, (
     values.values["q"] = static_cast<double>(*rc::gen::element(9, 1, 2, 25, 289));
     values.values["select"] = std::string(*rc::gen::element("both", "maximum", "minimum", "sorted"));
     values.values["storage"] = std::string(*rc::gen::element("raw", "tiles", "bounding_box"));
-    const testing::HandMap made = make_map(row, values, given);
+    const testing::HandMap hand_map = make_map(row, values, given);
 
     const auto outcomes = static_cast<float>(n * side * side);
     std::vector<Query> queries;
     for (const float z : testing::telling_depths(given))
         for (int y = 0; y < given.height; ++y) queries.push_back({0.3f, static_cast<float>(y) + 0.6f, z, 1.0f});
-    for (const float answer : made.lookup(queries)) {
+    for (const float answer : hand_map.lookup(queries)) {
         const float count = (1.0f - answer) * outcomes;
         RC_ASSERT(std::abs(count - std::round(count)) <= 1e-4f);
     }
 
     curves::Curve stored;
-    made.map->stored(0, 0, 0, {}, stored);
+    hand_map.map->stored(0, 0, 0, {}, stored);
     RC_ASSERT(curves::is_visibility(stored));
     RC_ASSERT(stored.size() <= 2u * static_cast<std::size_t>(n));
     RC_ASSERT(std::is_sorted(stored.begin(), stored.end(), [](const auto& a, const auto& b) { return a.z < b.z; }));

@@ -13,7 +13,7 @@ inline rays::LightRays ray_of(const Segments& segments) {
 
 struct OneRay {
     rays::LightRays rays;
-    HandMap made;
+    HandMap built;
     Map* map;
 
     OneRay(const char* technique, const char* parameters, const Segments& segments, float z_min, float z_max)
@@ -23,11 +23,11 @@ struct OneRay {
         layout.z_min = z_min;
         layout.z_max = z_max;
         layout.media = true;
-        made = make_map(row, read_parameters(row.parameters, nlohmann::json::parse(parameters), ""), rays, layout);
-        map = made.map.get();
+        built = make_map(row, read_parameters(row.parameters, nlohmann::json::parse(parameters), ""), rays, layout);
+        map = built.map.get();
     }
 
-    float operator()(float z) const { return made({0.5f, 0.5f, z, 1.0f}); }
+    float operator()(float z) const { return built({0.5f, 0.5f, z, 1.0f}); }
     double exact(double z) const { return rays::transmittance(rays, 0, 0, z); }
 };
 

@@ -51,7 +51,7 @@ TEST(Opacity, WhatIsOpaqueHasTheGivenOpticalDepth) {
     const OneRay one("opacity", R"({"opaque_depth": 3})", {{5.5f, 5.5f, 0.0f}}, 0, 32);
     EXPECT_NEAR(one(6), std::exp(-3.0), 1e-6);
     const OneRay two("opacity", R"({"opaque_depth": 3})", {{5.5f, 5.5f, 0.0f}, {7.5f, 9.5f, 1e-20f}}, 0, 32);
-    EXPECT_NEAR(two(10), std::exp(-6.0), 1e-6) << "each segment is limited alone";
+    EXPECT_NEAR(two(10), std::exp(-6.0), 1e-6) << "each segment is limited separately";
 }
 
 TEST(Opacity, BoundsOfATexelKeepALoneWallExact) {

@@ -85,8 +85,8 @@ TEST(Registry, AnUnknownTechniqueIsAnErrorThatListsThoseThereAre) {
     }
 }
 
-// A technique that asks for what it has not declared has a fault; it must not read past the end of the values.
-TEST(Parameters, ANameThatIsNotDeclaredIsAnErrorThatListsThoseThereAre) {
+// A technique that asks for an undeclared name has a fault; it must not read past the end of the values.
+TEST(Parameters, AnUndeclaredNameIsAnErrorThatListsTheDeclaredOnes) {
     const Parameter declared[] = {{"size", ParameterKind::integer, "", 3, 1, 9},
                                   {"way", ParameterKind::choice, "", 0, 0, 0, "up", {"up", "down"}}};
     const ParameterValues values = read_parameters(declared, json::object(), "");
@@ -109,8 +109,8 @@ TEST(Parameters, ANameThatIsNotDeclaredIsAnErrorThatListsThoseThereAre) {
     EXPECT_EQ(message([&] { ParameterValues().number("size"); }), "size: no such parameter: there are none");
     const Parameter others[] = {{"depth", ParameterKind::number, "", 1, 0, 2}};
     EXPECT_EQ(message([&] { to_string(values, others, true); }), "depth: no such parameter; there are: size, way");
-    EXPECT_EQ(message([&] { values.number("way"); }), "way: no number, but the word \"up\"");
-    EXPECT_EQ(message([&] { values.word("size"); }), "size: no word, but 3");
+    EXPECT_EQ(message([&] { values.number("way"); }), "way: not a number but the word \"up\"");
+    EXPECT_EQ(message([&] { values.word("size"); }), "size: not a word but 3");
     EXPECT_EQ(values.integer("size"), 3);
     EXPECT_EQ(values.word("way"), "up");
 }

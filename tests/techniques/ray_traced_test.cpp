@@ -16,7 +16,7 @@ scene::Scene sliding_quad(const base::Vec3f& motion) {
     return scene;
 }
 
-// The shutter's share for which the quad is above x.
+// The share of the shutter during which the quad is above x.
 double covered(double x, double speed) {
     const double from = std::clamp((x + 0.3) / speed, 0.0, 1.0), to = std::clamp((x + 0.8) / speed, 0.0, 1.0);
     return to - from;

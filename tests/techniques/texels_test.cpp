@@ -1,4 +1,4 @@
-// The filters that all techniques of one texel a ray share.
+// The filters that all techniques of one texel per ray share.
 #include <gtest/gtest.h>
 
 #include "techniques/built.h"

@@ -23,7 +23,7 @@ struct Access {
     int x, y, level;
 };
 
-// Anywhere in any level, or a walk by at most one pixel that changes level now and then.
+// Anywhere in any level, or a walk by at most one pixel that sometimes changes level.
 std::vector<Access> accesses(const std::vector<DeepLevel>& levels, bool coherent, int count) {
     base::Random random(17);
     std::vector<Access> result{{0, 0, 0}};
@@ -40,7 +40,7 @@ std::vector<Access> accesses(const std::vector<DeepLevel>& levels, bool coherent
     return result;
 }
 
-// Least recently used, in the plainest way.
+// A cache with the least recently used slot, as simple as possible.
 struct ReferenceCache {
     std::size_t slots;
     std::list<std::size_t> tiles = {};

@@ -5,7 +5,7 @@
 namespace shadowbench::techniques {
 namespace {
 
-// The mean of the oracle over the rays of the footprint, found by looking at every ray of the map.
+// The mean of the oracle over the rays of the footprint, found by checking every ray of the map.
 double oracle(const testing::Captured& c, const Query& q) {
     double sum = 0.0;
     int count = 0;

@@ -35,7 +35,7 @@ float ask(const HandMap& map, float z) {
     return map({0.5f, 0.5f, z, 1.0f});
 }
 
-// Where depths lie for the technique: behind the last one all of them at the far end.
+// The technique's c of a depth: all depths behind the last one are at the far end.
 double place(double z) {
     return z > last ? 1.0 : std::max(z, 0.0) / last - 1.0;
 }
@@ -74,14 +74,14 @@ TEST(Variance, OfAHalfCoveredFootprintIsExactBehindEverything) {
     }
 }
 
-// Half of the light is taken at 4, half at the far end: before their mean the bound says nothing.
+// Half of the light is absorbed at 4, half at the far end: before their mean the bound says nothing.
 TEST(Variance, BleedsLightBetweenAnOccluderAndTheFarEnd) {
     const HandMap map = pixel_of({wall(4), {}});
     EXPECT_EQ(ask(map, 5.0f), 1.0f);
     EXPECT_NEAR(ask(map, last), chebyshev(0.5 * place(4) + 0.5, 0.5 * place(4) * place(4) + 0.5, last), 1e-6);
 }
 
-// Answers averaged over texels would be the truth here: it is the moments that are averaged.
+// Averaged answers would be the truth here, but the technique averages the moments.
 TEST(Variance, FiltersMomentsOverTheFootprint) {
     const HandRays given{4, 1, 1, {wall(3), wall(3), wall(12), wall(12)}};
     rays::MapLayout layout = testing::layout_of(given);
@@ -161,7 +161,7 @@ TEST(Variance, HoldsTheMomentsOfTheLightThatIsTaken) {
         const OneRay ray("variance", "{}", cases[i], 0, last);
         double first, second;
         integrate(ray, cases[i], first, second);
-        // Each moment is rounded to a float, by up to 2^-25: what the variance loses by it.
+        // Each moment is rounded to a float, by up to 2^-25: this is the variance's error from it.
         const double allowed = 1e-6 + 0x1p-23 / std::max(second - first * first, 1e-6);
         for (float z = 0.125f; z < 18.0f; z += 0.25f)
             EXPECT_NEAR(ray(z), chebyshev(first, second, z), allowed) << "case " << i << " at " << z;

@@ -15,8 +15,8 @@ inline ParameterValues defaults(const Technique& row) {
     return read_parameters(row.parameters, nlohmann::json::object(), "");
 }
 
-// The defaults first; every word with every other one; each number at its least and its greatest, among the default
-// words and among the last ones.
+// The defaults first; every word with every other one; each number at its least and its greatest, with the default
+// words and with the last ones.
 inline std::vector<ParameterValues> variants(const Technique& row) {
     std::vector<ParameterValues> found{defaults(row)};
     for (const Parameter& p : row.parameters)
@@ -44,8 +44,8 @@ inline std::vector<ParameterValues> variants(const Technique& row) {
     return found;
 }
 
-// The least that a lookup, or a stored function, may answer: what leaves [0, 1] within a bounded error falls below 0 by
-// at most that, twice it over mip levels.
+// The least possible answer of a lookup or a stored function: a function that leaves [0, 1] within a bounded error
+// falls below 0 by at most that error, or twice it over mip levels.
 inline double least_answer(const Technique& row, const ParameterValues& values, const rays::MapLayout& layout) {
     const double bound = row.error_bound(values, layout);
     return promises(row, values).unit_range || !std::isfinite(bound) ? 0.0 : -2.0 * bound;
@@ -57,12 +57,12 @@ inline ParameterValues unbiased(const Technique& row, ParameterValues values) {
     return values;
 }
 
-// What is added to stored depths, at most.
+// The most that is added to stored depths.
 inline double bias_of(const Technique& row, const ParameterValues& values) {
     return row.traits.biases.empty() ? 0.0 : values.number(row.traits.biases.back());
 }
 
-// Settings under which a lookup of width 0 answers the stored function of its cell.
+// Settings with which a lookup of width 0 answers the stored function of its cell.
 inline ParameterValues pointwise(const Technique& row, const ParameterValues& values) {
     return with(unbiased(row, values), row.traits.pointwise);
 }

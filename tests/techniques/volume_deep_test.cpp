@@ -129,7 +129,7 @@ TEST(VolumeDeep, AnOpaqueWallIsBlackBehindItsStep) {
 }
 
 TEST(VolumeDeep, TheStepsAreItsOwn) {
-    // The same medium in one segment, and in pieces that have nothing to do with the steps.
+    // The same medium in one segment, and in pieces that do not match the steps.
     std::vector<Segment> pieces;
     for (int i = 0; i < 97; ++i)
         pieces.push_back({2 + 6 * static_cast<float>(i) / 97, 2 + 6 * static_cast<float>(i + 1) / 97,
@@ -154,28 +154,28 @@ TEST(VolumeDeep, ATexelIsFourFloats) {
     EXPECT_EQ(slab(1).map->bytes(), 16u);
 }
 
-// What is stored where a threshold is never reached is the maximum opacity, at a depth of the ray.
+// If a threshold is never reached, the texel stores the maximum opacity, at a depth of the ray.
 RC_GTEST_PROP(VolumeDeep, AThresholdThatIsNeverReachedActsAsTheMaximum, ()) {
     const testing::HandRays given{1, 1, 1, {*testing::any_segments()}};
     const Technique& row = find("volume_deep", "");
     ParameterValues values = testing::defaults(row);
     values.values["steps"] = static_cast<double>(*rc::gen::element(512, 1, 2, 33));
     if (*rc::gen::arbitrary<bool>()) values.values["interpolation"] = std::string("bucket");
-    const testing::HandMap made = make_map(row, values, given);
+    const testing::HandMap built = make_map(row, values, given);
     double through = 1.0;
     for (const Segment& s : given.rays[0]) through *= s.through;
-    const float left = made({0.5f, 0.5f, INFINITY, 0.0f}), most = 1.0f - left;
+    const float left = built({0.5f, 0.5f, INFINITY, 0.0f}), most = 1.0f - left;
     RC_ASSERT(std::abs(left - through) <= 1e-6);
 
     curves::Curve stored;
-    made.map->stored(0, 0, 0, {}, stored);
+    built.map->stored(0, 0, 0, {}, stored);
     RC_ASSERT(!stored.empty() || left == 1.0f);
     if (stored.empty()) return;
     RC_ASSERT(curves::is_visibility(stored));
     RC_ASSERT(stored.front().value == 1.0f);
     RC_ASSERT(stored.back().value == left);
-    RC_ASSERT(stored.front().z >= made.layout.z_min);
-    RC_ASSERT(stored.back().z <= made.layout.z_max);
+    RC_ASSERT(stored.front().z >= built.layout.z_min);
+    RC_ASSERT(stored.back().z <= built.layout.z_max);
     RC_ASSERT(stored.size() % 2 == 0u);
     if (most < 0.1f) RC_ASSERT(stored.size() == 2u);
     // Before the last depth nothing is darker than the last threshold that was reached.

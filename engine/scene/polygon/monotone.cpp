@@ -3,7 +3,7 @@
 namespace shadowbench::scene {
 namespace {
 
-// Leaves triangles without area out.
+// Drops triangles without area.
 void emit(std::uint32_t a, std::uint32_t b, std::uint32_t c, const std::vector<GridPoint>& points,
           std::vector<Triple>& triangles) {
     if (turn(points[a], points[b], points[c]) > 0) triangles.push_back({a, b, c});

@@ -1,6 +1,6 @@
-// Triangles of a polygon whose outline is two chains from its first point to its last one, both of them rising in the
-// order of the sweep, built while the points arrive (M. R. Garey, D. S. Johnson, F. P. Preparata, R. E. Tarjan,
-// "Triangulating a simple polygon", Information Processing Letters 7(4), 1978).
+// Triangulates a polygon whose outline is two chains from its first point to its last one, both monotone in the order
+// of the sweep, while the points arrive (M. R. Garey, D. S. Johnson, F. P. Preparata, R. E. Tarjan, "Triangulating a
+// simple polygon", Information Processing Letters 7(4), 1978).
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace shadowbench::scene {
 
-// On a grid of whole numbers up to max_grid, so that `turn` is exact.
+// A point on a grid of whole numbers up to max_grid, so that `turn` is exact.
 struct GridPoint {
     std::int64_t x = 0, y = 0;
     friend auto operator<=>(const GridPoint&, const GridPoint&) = default;  // the order of the sweep
@@ -29,17 +29,17 @@ class MonotonePolygon {
 public:
     explicit MonotonePolygon(std::uint32_t first) : open_{first} {}
 
-    // The point follows the last one in the order of the sweep; `side` is the chain that it belongs to.
+    // Adds the next point in the order of the sweep; `side` is the chain that it belongs to.
     void add(std::uint32_t point, Side side, const std::vector<GridPoint>& points, std::vector<Triple>& triangles);
-    // The point where the chains meet.
+    // Adds the last point, where the chains meet.
     void finish(std::uint32_t point, const std::vector<GridPoint>& points, std::vector<Triple>& triangles);
 
     std::uint32_t last() const { return open_.back(); }
     Side last_side() const { return side_; }
 
 private:
-    std::vector<std::uint32_t> open_;  // what still borders on the part to come: one chain that bends inward
-    Side side_ = Side::lower;          // of that chain
+    std::vector<std::uint32_t> open_;  // the points whose triangles are not complete yet: one chain that bends inward
+    Side side_ = Side::lower;          // the side of that chain
 };
 
 }  // namespace shadowbench::scene

@@ -11,17 +11,17 @@ namespace {
 
 constexpr int most_detours = 64;
 
-// From one point to a later one. `winding` is how often it is passed forward less how often backward.
+// Runs from one point to a later one. `winding` is how often the outline passes it forward minus how often backward.
 struct Segment {
     std::uint32_t from = 0, to = 0;
     int winding = 0;
-    std::uint32_t source = 0;  // the segment of the outline it lies on
+    std::uint32_t source = 0;  // the segment of the outline that it lies on
 };
 
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-// What lies between two neighbouring edges: one monotone polygon, or two that met at their last point and wait for the
-// next one to part them.
+// The area between two neighbouring edges: one monotone polygon, or two that met at their last point until the next
+// point parts them.
 struct Region {
     std::size_t lower = none, upper = none;
 };
@@ -34,13 +34,13 @@ struct Edge {
 
 class Sweeper {
 public:
-    // `points` in the order of the sweep.
+    // `points` must be in the order of the sweep.
     Sweeper(const std::vector<GridPoint>& points, const std::vector<Segment>& segments)
         : points_(points), begins_(points.size()), status_(Below{this}) {
         for (const Segment& segment : segments) begins_[segment.from].push_back(segment);
     }
 
-    // False when two segments cross: `crossing`.
+    // Returns false if two segments cross; crossing() names them.
     bool run() {
         for (std::uint32_t point = 0; point < points_.size() && !crossing_; ++point) pass(point);
         return !crossing_;
@@ -54,7 +54,7 @@ private:
     struct At {
         std::uint32_t point;
     };
-    // The order of the edges that the line meets, from below.
+    // The order of the edges that the sweep line meets, from below.
     struct Below {
         using is_transparent = void;
         const Sweeper* sweeper;
@@ -67,7 +67,7 @@ private:
     std::int64_t turn_at(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
         return turn(points_[a], points_[b], points_[c]);
     }
-    // Positive when the point lies above the edge.
+    // Positive if the point lies above the edge.
     std::int64_t side(std::size_t edge, std::uint32_t point) const {
         return turn_at(edges_[edge].segment.from, edges_[edge].segment.to, point);
     }
@@ -82,7 +82,7 @@ private:
         Edge* under = first == status_.begin() ? nullptr : &edges_[*std::prev(first)];
         const int winding = under ? under->winding_above : 0;
         const bool ends = first != last;
-        Region above;  // above all that ends here
+        Region above;  // above all edges that end here
         for (auto it = first; it != last; ++it) {
             const Edge& edge = edges_[*it];
             if (edge.segment.to != point)
@@ -123,8 +123,8 @@ private:
 
     std::size_t first_of(Status::iterator next) const { return next == status_.begin() ? none : *std::prev(next); }
 
-    // The segments that begin at a point, from below, one a direction: where several run over each other, up to the
-    // nearest end; what is left of the others begins there.
+    // The segments that begin at a point, from below, one for each direction. Where several overlap, they become one up
+    // to the nearest end; the rest of the others begins there.
     std::vector<Segment> starting_at(std::uint32_t point) {
         std::vector<Segment> list = std::move(begins_[point]);
         std::sort(list.begin(), list.end(), [&](const Segment& a, const Segment& b) {
@@ -177,14 +177,14 @@ private:
         finish(region.upper, point);
     }
 
-    // The point is one of the region's upper edge.
+    // Adds a point of the region's upper edge.
     void touch_from_below(Region& region, std::uint32_t point) {
         finish(region.upper, point);
         region.upper = none;
         add(region.lower, point, Side::upper);
     }
 
-    // The point is one of the region's lower edge.
+    // Adds a point of the region's lower edge.
     void touch_from_above(Region& region, std::uint32_t point) {
         if (region.lower == none) return;
         if (region.upper != none) {
@@ -194,7 +194,7 @@ private:
         add(region.lower, point, Side::lower);
     }
 
-    // The point lies inside the region: what is below it stays there, what is above it is returned.
+    // Splits the region at a point inside it: the part below stays in `region`, the part above is returned.
     Region split(Region& region, std::uint32_t point) {
         if (region.upper == none) {
             // A new side runs from the region's last point to this one.
@@ -231,7 +231,7 @@ private:
     std::optional<std::pair<Segment, Segment>> crossing_;
 };
 
-// The distance of a point from a segment, where the foot of its perpendicular lies inside; infinite elsewhere.
+// The distance of a point from a segment if the foot of its perpendicular lies inside the segment; otherwise infinite.
 double distance(const GridPoint& point, const GridPoint& from, const GridPoint& to) {
     const double x = static_cast<double>(to.x - from.x), y = static_cast<double>(to.y - from.y);
     const double along = x * static_cast<double>(point.x - from.x) + y * static_cast<double>(point.y - from.y);
@@ -243,7 +243,7 @@ double distance(const GridPoint& point, const GridPoint& from, const GridPoint& 
 // The points of an outline, each once, in the order of the sweep.
 struct Points {
     std::vector<GridPoint> at;
-    std::vector<std::uint32_t> corner;     // the first that stands at the point
+    std::vector<std::uint32_t> corner;     // the first corner at the point
     std::vector<std::uint32_t> of_corner;  // the point of each corner
 };
 
@@ -278,7 +278,7 @@ std::vector<Segment> segments_of(const std::vector<Path>& paths) {
     return segments;
 }
 
-// Leads one of two crossing edges through an end of the other one, if one is near enough.
+// Leads one of two crossing edges through an end of the other one, if an end is near enough.
 bool detour(const std::pair<Segment, Segment>& crossing, const std::vector<GridPoint>& points, double tolerance,
             std::vector<Path>& paths) {
     const auto& [a, b] = crossing;

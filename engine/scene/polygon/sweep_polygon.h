@@ -1,7 +1,7 @@
-// Splits a polygon of the plane into triangles of its corners. A line sweeps over the corners; what it meets between
-// two neighbouring edges is kept as monotone polygons (F. P. Preparata, M. I. Shamos, Computational Geometry, 1985,
-// section 6.2; the merging of coincident edges by winding numbers is that of the GLU tessellator). Everything is
-// decided in whole numbers, without rounding.
+// Splits a polygon of the plane into triangles of its corners. A line sweeps over the corners; the areas between
+// neighbouring edges that it meets are kept as monotone polygons (F. P. Preparata, M. I. Shamos, Computational
+// Geometry, 1985, section 6.2; coincident edges are merged by winding numbers as in the GLU tessellator). All decisions
+// use whole numbers, without rounding.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@ namespace shadowbench::scene {
 
 struct Sweep {
     std::vector<Triple> triangles;  // indices of corners, in left turns, each with an area
-    // Two edges that cross, each by the corner it begins at; there are no triangles then.
+    // Two edges that cross, each named by the corner it begins at; there are no triangles then.
     std::optional<std::pair<std::uint32_t, std::uint32_t>> crossing;
-    // What is wound around twice, or backward: twice its area.
+    // Twice the area that is wound around twice or backward.
     double overlap = 0.0;
 };
 
-// The area that an outline of n corners surrounds, to the left of its edges (corner n - 1 leads back to corner 0).
-// Corners may coincide, also with points of other edges. Edges that run over each other there and back cancel out, so
-// that a hole may be joined to the outer edge by such a bridge. An edge that crosses another one within `tolerance` of
-// a corner is led through that corner: at most 64 times, so that time stays within O(n log n).
+// Triangulates the area to the left of an outline of n corners (corner n - 1 leads back to corner 0). Corners may
+// coincide, also with points of other edges. Edges that run over each other there and back cancel out, so such a bridge
+// may join a hole to the outer edge. An edge that crosses another one within `tolerance` of a corner is led through
+// that corner, at most 64 times, so that time stays within O(n log n).
 Sweep sweep_polygon(const std::vector<GridPoint>& outline, double tolerance);
 
 }  // namespace shadowbench::scene

@@ -19,8 +19,9 @@ bool less(const Vec3f& a, const Vec3f& b) {
     return a.z < b.z;
 }
 
-// Where a closed list of corners begins when it is written in its least order, whatever corner it came from (the
-// minimal rotation of a word; Y. Shiloach, "Fast canonization of circular strings", Journal of Algorithms 2, 1981).
+// Where a closed list of corners begins when it is written in its least order. The result does not depend on the corner
+// that the list begins with (the minimal rotation of a word; Y. Shiloach, "Fast canonization of circular strings",
+// Journal of Algorithms 2, 1981).
 std::size_t least_rotation(const std::vector<Vec3f>& word) {
     const std::size_t n = word.size();
     std::size_t i = 0, j = 1, same = 0;
@@ -37,15 +38,15 @@ std::size_t least_rotation(const std::vector<Vec3f>& word) {
     return std::min(i, j);
 }
 
-// The polygon from its least corner on, without corners that repeat the one before, as seen along its normal.
+// The polygon from its least corner on, without corners that repeat the one before, seen along its normal.
 struct View {
-    std::vector<std::uint32_t> corner;  // of the polygon
+    std::vector<std::uint32_t> corner;  // the index of each in the polygon
     std::vector<Vec3d> offset;          // from the first corner
-    double rounding = 0.0;              // that floats leave in the offsets
+    double rounding = 0.0;              // the rounding that floats leave in the offsets
     double perimeter = 0.0;
-    Vec3d normal{0, 0, 0};  // unit length; 0: all corners lie on one line
+    Vec3d normal{0, 0, 0};  // unit length; 0 if all corners lie on one line
     std::vector<GridPoint> grid;
-    double cell = 0.0;  // of the grid
+    double cell = 0.0;  // the grid's step
 
     std::size_t size() const { return corner.size(); }
 };
@@ -72,8 +73,8 @@ void order_corners(const Polygon& polygon, View& view) {
         view.perimeter += (view.offset[(i + 1) % view.size()] - view.offset[i]).length();
 }
 
-// Newell's: twice the area. Where rounding alone would make that, as of a symmetric bow tie, the normal of the three
-// corners that span most with the first one.
+// Newell's normal, whose length is twice the area. Where it may be rounding only, as for a symmetric bow tie, takes the
+// normal of the three corners that span most with the first one.
 void find_normal(View& view) {
     Vec3d newell(0, 0, 0);
     for (std::size_t i = 1; i + 1 < view.size(); ++i) newell += view.offset[i].cross(view.offset[i + 1]);
@@ -84,7 +85,7 @@ void find_normal(View& view) {
         Vec3d widest(0, 0, 0);
         for (const Vec3d& offset : view.offset)
             if (far.cross(offset).length2() > widest.length2()) widest = far.cross(offset);
-        constexpr double on_one_line = 1e-12;  // far above what doubles leave of a cross product
+        constexpr double on_one_line = 1e-12;  // far above the rounding of a cross product in double
         if (!(widest.length() > on_one_line * far.length2())) widest = Vec3d(0, 0, 0);
         view.normal = widest.dot(newell) < 0.0 ? -widest : widest;
     }
@@ -93,7 +94,8 @@ void find_normal(View& view) {
 
 void project(View& view) {
     const Vec3d& n = view.normal;
-    // Whole axes stay whole, so that what lies on one line there does so on the grid.
+    // In a plane perpendicular to a world axis, u and v are world axes: corners on one line along an axis stay on one
+    // line on the grid.
     Vec3d axis(0, 0, 0);
     const double least = std::min({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
     (std::abs(n.x) == least ? axis.x : std::abs(n.y) == least ? axis.y : axis.z) = 1.0;
@@ -112,7 +114,7 @@ void project(View& view) {
         view.grid.push_back({std::llround((at.x - lower.x) / view.cell), std::llround((at.y - lower.y) / view.cell)});
 }
 
-// Turns left everywhere, and once around.
+// Whether the outline turns left at every corner, and once around.
 bool is_convex(const std::vector<GridPoint>& outline) {
     const std::size_t n = outline.size();
     int reversals = 0;
@@ -124,7 +126,7 @@ bool is_convex(const std::vector<GridPoint>& outline) {
     return reversals == 2;
 }
 
-// Whether a value of each corner is a linear function over the plane, up to `tolerance`.
+// Whether a value at each corner is a linear function over the plane, up to `tolerance`.
 template <typename Value>
 bool is_linear(const std::vector<GridPoint>& at, double tolerance, const Value& value) {
     // The plane through the three corners that span most.
@@ -160,7 +162,7 @@ bool is_flat(const View& view, const Polygon& polygon) {
     return true;
 }
 
-// Around one of the view's corners.
+// A fan around one of the view's corners.
 void fan(const View& view, std::size_t around, Triangulation& result) {
     const std::size_t n = view.size();
     for (std::size_t i = 1; i + 1 < n; ++i)
@@ -177,7 +179,7 @@ std::size_t middle_of_fan(const View& view, const Polygon& polygon) {
 }
 
 void sweep(const View& view, Triangulation& result) {
-    const double rounding = 1.0 + view.rounding / view.cell;  // in cells; the grid's own is below 1
+    const double rounding = 1.0 + view.rounding / view.cell;  // in cells; the grid's own rounding is below 1
     const Sweep swept = sweep_polygon(view.grid, 2.0 * rounding);
     if (swept.crossing) {
         const auto name = [&](std::uint32_t from) {

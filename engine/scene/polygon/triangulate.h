@@ -1,4 +1,4 @@
-// Triangles of a polygon in space.
+// Splits a polygon in space into triangles.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@ namespace shadowbench::scene {
 
 struct Polygon {
     std::vector<Vec3f> positions;  // of its corners, in order
-    std::vector<Vec2f> uv;         // one a corner, or empty
+    std::vector<Vec2f> uv;         // one for each corner, or empty
 };
 
 struct Triangulation {
-    std::vector<std::array<std::uint32_t, 3>> triangles;  // indices of corners, turning as the polygon turns
+    std::vector<std::array<std::uint32_t, 3>> triangles;  // indices of corners, in the polygon's sense of rotation
     std::string fault;  // what is wrong with the polygon, corners counted from 1; there are no triangles then
 };
 
 // Covers the polygon once, wherever its list of corners begins; a polygon without area has no triangles. Three corners
-// are the triangle as it is. Others are looked at along Newell's normal (I. E. Sutherland, R. F. Sproull,
-// R. A. Schumacker, "A characterization of ten hidden-surface algorithms", 1974), where corners may coincide, lie on
-// one line, and on other edges. A convex polygon is the fan around its first corner if it is flat, its texture
-// coordinates too; if not, around the corner that its shorter diagonal (of four corners) or the order of its
-// coordinates (of more) tells. All others are swept (sweep_polygon.h). At fault is one that crosses itself, or covers a
-// part of itself twice or backward, by more than floats round its corners. O(n log n).
+// give the triangle as it is. Other polygons are seen along Newell's normal (I. E. Sutherland, R. F. Sproull, R. A.
+// Schumacker, "A characterization of ten hidden-surface algorithms", 1974); their corners may coincide, lie on one
+// line, and lie on other edges. A convex polygon becomes a fan: around its first corner if it is flat, its texture
+// coordinates too; otherwise around the corner given by its shorter diagonal (four corners) or by the order of its
+// coordinates (more corners). All others are swept (sweep_polygon.h). A polygon is at fault if it crosses itself, or
+// covers a part of itself twice or backward, by more than the rounding of its corners in float. Takes O(n log n).
 Triangulation triangulate(const Polygon& polygon);
 
 }  // namespace shadowbench::scene

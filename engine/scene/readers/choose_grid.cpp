@@ -81,8 +81,8 @@ std::size_t choose_grid(const std::filesystem::path& file, std::span<const VdbGr
     return chosen;
 }
 
-// File::findDescriptor: of the grids with the name that it is given, or, where there are none, with that name up to its
-// suffix, it takes the first. Only "name[number]" makes it look at the number too, unless a grid is called just so.
+// File::findDescriptor takes the first grid with the given name or, if there is none, the first with that name up to
+// its suffix. Only "name[number]" makes it look at the number too, unless a grid has exactly that name.
 std::optional<std::string> library_name(std::span<const VdbGridName> grids, std::size_t grid) {
     const VdbGridName& wanted = grids[grid];
     for (std::size_t i = 0; i < grids.size(); ++i)

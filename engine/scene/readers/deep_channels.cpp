@@ -1,6 +1,6 @@
 // Names after "OpenEXR: Technical Introduction" and "Interpreting OpenEXR Deep Pixels" (Hillman, Welford 2013): a
-// channel is "<layer>.<base name>" or a base name; AR, AG and AB are the alpha of one colour each, A is that of those
-// that have none of their own.
+// channel is "<layer>.<base name>" or a base name. AR, AG and AB are the alpha of one colour each; A is the alpha of
+// the colours that have none of their own.
 #include "scene/readers/deep_channels.h"
 
 #include <map>
@@ -54,7 +54,7 @@ DeepChannels find_deep_channels(const std::vector<std::string>& names, const std
         layers[named ? names[i].substr(0, dot) : ""].emplace(named ? names[i].substr(dot + 1) : names[i],
                                                              static_cast<int>(i));
     }
-    std::vector<std::string> fit;  // layers, the one without a name first
+    std::vector<std::string> fit;  // layers; the one without a name first
     for (const auto& [name, channels] : layers)
         if (complete(channels_of(channels))) fit.push_back(name);
 

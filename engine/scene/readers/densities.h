@@ -1,4 +1,4 @@
-// What the readers of grids share: densities below 0.
+// Handles densities below 0, for all readers of grids.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace shadowbench::scene {
 
-// Takes each density below 0 as 0; adds a line to the notes when there was one.
+// Sets each density below 0 to 0, and adds a line to the notes if there was one.
 void clamp_negatives(std::vector<float>& density, ReadNotes& notes);
 
-// The message for those who asked for a refusal.
+// The message of a reader that refuses densities below 0.
 std::string negative_refused(float density);
 
 }  // namespace shadowbench::scene

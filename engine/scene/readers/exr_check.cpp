@@ -1,6 +1,6 @@
-// The format as "OpenEXR File Layout" (openexr.com) has it: a magic number, a version with flags, the header of each
-// part, tables of the places of their chunks, chunks. A header is attributes: name, type, size, value; an empty name
-// ends it.
+// The format follows "OpenEXR File Layout" (openexr.com): a magic number, a version with flags, the header of each
+// part, tables of the positions of their chunks, chunks. A header consists of attributes: name, type, size, value. An
+// empty name ends it.
 #include "scene/readers/exr_check.h"
 
 #include <array>
@@ -43,7 +43,8 @@ public:
         if (reader_.value<std::uint32_t>("header") != magic) reader_.fail(0, "not an OpenEXR file");
         const auto version = reader_.value<std::uint32_t>("header");
         if ((version & 0xff) != 2 || (version & ~(0xff | tiled | long_names | deep | multi_part)) != 0)
-            reader_.fail(4, fmt::format("version {:#x} of the format; 2 is read", version));
+            reader_.fail(
+                4, fmt::format("version {:#x} of the format is not supported; save the file as version 2", version));
         std::uint32_t parts = 0;
         while (header())
             if (++parts > most_parts)
@@ -58,7 +59,7 @@ private:
         bool channels = false, window = false;
     };
 
-    // False at the empty header that ends those of several parts.
+    // Returns false at the empty header, which ends the headers of a file of several parts.
     bool header() {
         const std::uint64_t at = reader_.position();
         Found found;
@@ -72,21 +73,21 @@ private:
             check_size(name, type, size);
             attribute(name, type, end, found);
             if (reader_.position() > end)
-                reader_.fail(value, fmt::format("the attribute {} is longer than it says", name));
+                reader_.fail(value, fmt::format("the attribute {} is longer than its stated size", name));
             reader_.seek(end, "attribute");
         }
-        if (!found.channels || !found.window) reader_.fail(at, "a header without channels or without a data window");
+        if (!found.channels || !found.window) reader_.fail(at, "a header has no channels or no data window");
         return true;
     }
 
-    // The library reads a value of these types at its own size and goes on behind that, whatever size the file tells:
-    // what it takes for the next attribute would not have been checked.
+    // The library reads a value of these types at its own size and continues after that, whatever size the file states:
+    // it would take unchecked bytes for the next attribute.
     void check_size(const std::string& name, const std::string& type, std::uint32_t size) const {
         for (const TypeSize& row : fixed_sizes)
             if (row.type == type && row.bytes != size)
-                fail(fmt::format("the attribute {} of {} bytes, where a {} has {}", name, size, type, row.bytes));
+                fail(fmt::format("the attribute {} has {} bytes, but a {} has {}", name, size, type, row.bytes));
         if (type == "floatvector" && size % 4 != 0)
-            fail(fmt::format("the attribute {} of {} bytes, which are no whole numbers", name, size));
+            fail(fmt::format("the attribute {} has {} bytes, not a multiple of 4", name, size));
     }
 
     void attribute(const std::string& name, const std::string& type, std::uint64_t end, Found& found) {
@@ -103,15 +104,15 @@ private:
         } else if (name == "tiles" && type == "tiledesc") {
             const auto side = reader_.value<std::array<std::uint32_t, 2>>("tiles");
             for (const std::uint32_t pixels : side)
-                if (pixels < 1 || pixels > max_image_side) fail(fmt::format("tiles of {} pixels a side", pixels));
+                if (pixels < 1 || pixels > max_image_side) fail(fmt::format("the tiles have {} pixels a side", pixels));
         } else if (name == "compression") {
             in_range(name, reader_.value<std::uint8_t>("compression"), last_compression);
         } else if (name == "lineOrder") {
             in_range(name, reader_.value<std::uint8_t>("line order"), last_line_order);
         } else if (name == "chunkCount") {
-            // Each has its place in a table.
+            // Each chunk has its position in a table.
             const auto chunks = reader_.value<std::uint32_t>("chunks");
-            if (chunks > reader_.size() / 8) fail(fmt::format("{} chunks, for which the file is too short", chunks));
+            if (chunks > reader_.size() / 8) fail(fmt::format("the file is too short for its {} chunks", chunks));
         }
     }
 
@@ -128,25 +129,25 @@ private:
                                  sampling[0], sampling[1]));
             if (reader_.position() > end) return;
         }
-        if (count == 0) fail("an image without channels");
-        if (reader_.position() < end) fail("the list of channels is shorter than it says");
+        if (count == 0) fail("the image has no channels");
+        if (reader_.position() < end) fail("the list of channels is shorter than its stated size");
     }
 
-    // Each behind its length.
+    // Each text follows its length.
     void strings(std::uint64_t end) {
         while (reader_.position() < end) {
             const auto length = reader_.value<std::uint32_t>("text");
-            if (reader_.position() > end || length > end - reader_.position()) fail("a text longer than its list");
+            if (reader_.position() > end || length > end - reader_.position()) fail("a text is longer than its list");
             reader_.seek(reader_.position() + length, "text");
         }
     }
 
-    // Width, height, and four bytes a pixel.
+    // Width, height, and four bytes for each pixel.
     void preview(const std::string& name, std::uint64_t end) {
         const auto side = reader_.value<std::array<std::uint32_t, 2>>("preview");
         const std::uint64_t pixels = std::uint64_t{side[0]} * side[1];  // both below 2^32
         if (reader_.position() > end || pixels > reader_.size() || 4 * pixels != end - reader_.position())
-            fail(fmt::format("the attribute {} holds other than {} x {} pixels", name, side[0], side[1]));
+            fail(fmt::format("the attribute {} does not hold {} x {} pixels", name, side[0], side[1]));
     }
 
     void window() {
@@ -162,19 +163,19 @@ private:
         if (value < 0 || value > last) fail(fmt::format("the {} {} is unknown; 0 to {} are read", name, value, last));
     }
 
-    // Up to its zero byte.
+    // Reads up to the zero byte.
     std::string text(const char* what) {
         constexpr std::size_t longest = 255;
         std::string result;
         for (char c = reader_.value<char>(what); c != '\0'; c = reader_.value<char>(what)) {
             result += c;
-            if (result.size() > longest) fail(fmt::format("the name of an {} of over {} bytes", what, longest));
+            if (result.size() > longest) fail(fmt::format("the name of an {} has more than {} bytes", what, longest));
         }
         return result;
     }
 
     [[noreturn]] void fail(const std::string& message) const {
-        reader_.fail(reader_.position(), "the header is damaged or of a kind that is not read: " + message);
+        reader_.fail(reader_.position(), "the header is damaged or of an unsupported kind: " + message);
     }
 
     FileReader reader_;

@@ -1,5 +1,5 @@
-// A binary file read front to back. Every fault is an Error whose place is "file:offset", and nothing is allocated
-// before the file is known to be long enough for it.
+// Reads a binary file front to back. The place of every Error is "file:offset". Nothing is allocated before the file is
+// known to be long enough for it.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ public:
 
     void seek(std::uint64_t offset, const char* what);
 
-    // Values as they lie in the file; `what` names them in the message when the file is too short.
+    // Reads values in the file's own byte order; `what` names them in the message if the file is too short.
     template <typename T>
     T value(const char* what) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -40,13 +40,13 @@ public:
         return result;
     }
 
-    // Throws unless `count` items of `bytes` each are left to read.
+    // Throws unless at least `count` items of `bytes` bytes each are left to read.
     void need(std::uint64_t count, std::uint64_t bytes, const char* what) const;
 
     // Throws Error{bad_input} at an offset.
     [[noreturn]] void fail(std::uint64_t offset, const std::string& message) const;
 
-    // Throws at the first value that is not finite or beyond max_coordinate; `offset` is where the array begins.
+    // Throws at the first value that is not finite or is beyond max_coordinate; the array begins at `offset`.
     void check_finite(const std::vector<float>& values, std::uint64_t offset, const char* what) const;
 
 private:

@@ -21,7 +21,8 @@ namespace {
 using base::Error;
 using base::ErrorCode;
 
-// What else a line may begin with; what it is called when it is passed over, or nothing when no surface is lost by it.
+// The other words that may begin a line, with the name under which such a line is passed over; the name is empty if no
+// surface is lost.
 struct Keyword {
     std::string_view word, lost;
 };
@@ -38,7 +39,7 @@ constexpr std::array keywords{
     Keyword{"cdp", free_form},
     Keyword{"call", other_files},
     Keyword{"csh", other_files},
-    // Normals, parameters, names, materials, and how to show things.
+    // Normals, parameters, names, materials, and display settings.
     Keyword{"vn", ""},
     Keyword{"vp", ""},
     Keyword{"g", ""},
@@ -72,7 +73,7 @@ constexpr std::array keywords{
     Keyword{"con", ""},
 };
 
-// The words of a line, taken one by one; empty at its end.
+// Takes the next word of a line; empty at its end.
 std::string_view next_word(std::string_view& line) {
     const std::size_t from = line.find_first_not_of(" \t\r");
     if (from == std::string_view::npos) return {};
@@ -82,7 +83,7 @@ std::string_view next_word(std::string_view& line) {
     return word;
 }
 
-// Whether the line goes on in the next one; the mark of that is taken off. Comments do not.
+// Whether the line continues in the next one; removes the mark of continuation. Comments do not continue.
 bool take_continuation(std::string_view& line) {
     std::string_view words = line;
     if (next_word(words).starts_with('#')) return false;
@@ -114,7 +115,7 @@ public:
         }
     }
 
-    // Faces may stand before their vertices, so whether all of these are there is known at the end only.
+    // Faces may stand before their vertices, so only the end shows whether all of these exist.
     ObjLines finish() {
         if (vertices_ == 0 && unknown_ > 0)
             throw Error(ErrorCode::bad_input, name_.string(),
@@ -175,7 +176,7 @@ private:
                 fail(fmt::format("\"{}\" is not a finite number below {}", word.substr(0, 40), max_coordinate));
             result_.kept.append(1, ' ').append(word);
         }
-        if (count < least) fail(fmt::format("{} numbers where {} are needed", count, least));
+        if (count < least) fail(fmt::format("the line has {} numbers; it needs {}", count, least));
         result_.kept += '\n';
     }
 
@@ -204,7 +205,7 @@ private:
         // The index of a normal may follow.
         if (read.ec != std::errc() || (read.ptr != last && *read.ptr != '/') ||
             word.find_first_not_of("0123456789-/") != std::string_view::npos)
-            fail(fmt::format("\"{}\" is not a face's corner", word.substr(0, 40)));
+            fail(fmt::format("\"{}\" is not a corner of a face", word.substr(0, 40)));
         // Negative numbers count back from the last one so far.
         check_back(vertex, vertices_, "vertex");
         if (has_uv) check_back(uv, uvs_, "texture coordinate");

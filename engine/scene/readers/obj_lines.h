@@ -11,13 +11,13 @@
 namespace shadowbench::scene {
 
 struct ObjLines {
-    std::string kept;                       // lines "v", "vt" and "f", with their numbers and nothing else
+    std::string kept;                       // the lines "v", "vt" and "f", with nothing but their numbers
     std::vector<std::size_t> line_of_face;  // in the file, from 1
 };
 
-// Counts in `file` what is passed over: faces of fewer than 3 corners, lines and points, free-form curves and surfaces,
-// and words that OBJ does not know. Throws Error{bad_input} with file:line for a number that is none, an index of
-// nothing, and a line that begins with no word at all; and for a file in which OBJ's own words are missing.
+// Counts in `file` what it passes over: faces of fewer than 3 corners, lines and points, free-form curves and surfaces,
+// and words that OBJ does not know. Throws Error{bad_input} with file:line for a word that is not a number, an index
+// that does not exist, and a line that does not begin with a word; also for a file without any of OBJ's own words.
 ObjLines check_obj(const std::string& text, const std::filesystem::path& name, MeshFile& file);
 
 }  // namespace shadowbench::scene

@@ -130,7 +130,7 @@ void PlySource::read_header() {
         } else if (keyword == "element") {
             PlyElement element;
             element.name = name;
-            if (!(words >> element.count)) fail("an element without a count");
+            if (!(words >> element.count)) fail("an element has no count");
             elements_.push_back(element);
         } else if (keyword == "property") {
             read_property(text);
@@ -138,12 +138,12 @@ void PlySource::read_header() {
             fail(fmt::format("the header line \"{}\" is unknown", keyword.substr(0, 40)));
         }
     }
-    if (!has_format) fail("the header names no format");
+    if (!has_format) fail("the header states no format");
 }
 
 // "property float x" or "property list uchar int vertex_indices".
 void PlySource::read_property(const std::string& text) {
-    if (elements_.empty()) fail("a property before the first element");
+    if (elements_.empty()) fail("a property stands before the first element");
     std::istringstream words(text);
     std::string keyword, type, count_type;
     PlyProperty property;
@@ -153,7 +153,7 @@ void PlySource::read_property(const std::string& text) {
         words >> count_type >> type;
         const std::optional<PlyType> known = type_of(count_type);
         if (!known || *known == PlyType::float32 || *known == PlyType::float64)
-            fail(fmt::format("a list is counted by \"{}\", which is no integer type", count_type));
+            fail(fmt::format("a list is counted by \"{}\", which is not an integer type", count_type));
         property.count_type = *known;
     }
     const std::optional<PlyType> known = type_of(type);
@@ -164,7 +164,7 @@ void PlySource::read_property(const std::string& text) {
 }
 
 std::uint64_t PlySource::least_bytes(PlyType type) const {
-    // A digit and what parts it from the next one; the last of the file needs no such thing.
+    // A digit and a separator; the last number of the file needs no separator.
     return encoding_ == Encoding::ascii ? 2 : size_of(type);
 }
 
@@ -174,7 +174,7 @@ void PlySource::check_length(const PlyElement& element) const {
         bytes += least_bytes(property.is_list ? property.count_type : property.type);
     if (element.count > max_mesh_elements)
         fail(fmt::format("{} elements \"{}\"; the limit is {}", element.count, element.name, max_mesh_elements));
-    // max_mesh_elements times the properties of a header that is in memory fits 64 bits.
+    // The product of max_mesh_elements and the number of properties of a header in memory fits 64 bits.
     if (element.count * bytes > left() + 1)
         fail(fmt::format("the file is too short for {} elements \"{}\"", element.count, element.name));
 }
@@ -205,7 +205,7 @@ std::uint64_t PlySource::list_size(const PlyProperty& property) {
     const double count = value(property.count_type);
     if (!(count >= 0.0) || count != std::floor(count) ||
         count * static_cast<double>(least_bytes(property.type)) > static_cast<double>(left() + 1))
-        fail(fmt::format("a list of {} items, for which the file is too short", count));
+        fail(fmt::format("the file is too short for a list of {} items", count));
     return static_cast<std::uint64_t>(count);
 }
 

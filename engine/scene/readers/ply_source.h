@@ -1,4 +1,4 @@
-// A PLY file as its header and a stream of numbers, whatever its encoding.
+// Reads a PLY file as a header and a stream of numbers, whatever its encoding.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ struct PlyProperty {
     std::string name;
     PlyType type = PlyType::float32;
     bool is_list = false;
-    PlyType count_type = PlyType::uint8;  // of a list
+    PlyType count_type = PlyType::uint8;  // for a list
 };
 
 struct PlyElement {
@@ -31,12 +31,12 @@ public:
 
     const std::vector<PlyElement>& elements() const { return elements_; }
 
-    // Throws unless the rest of the file can hold the element: called before memory is taken for it.
+    // Throws unless the rest of the file can hold the element. Call it before memory is allocated for the element.
     void check_length(const PlyElement& element) const;
 
-    // The next number; may be any float, not a number too.
+    // The next number; it may be any float, including NaN.
     double value(PlyType type);
-    // The count at the head of a list, at most as many items as the rest of the file can hold.
+    // The count at the head of a list: at most as many items as the rest of the file can hold.
     std::uint64_t list_size(const PlyProperty& property);
     void skip(const PlyProperty& property);
 
@@ -49,7 +49,7 @@ private:
     std::string line();
     void read_header();
     void read_property(const std::string& words);
-    // Bytes that a value takes at least.
+    // The least number of bytes of a value.
     std::uint64_t least_bytes(PlyType type) const;
     std::uint64_t left() const { return bytes_.size() - position_; }
 

@@ -20,23 +20,23 @@
 namespace shadowbench::scene {
 namespace {
 
-// Index of the channel that holds alpha, or -1.
+// The index of the channel that holds alpha, or -1.
 int alpha_channel(const OIIO::ImageSpec& spec) {
     const int named = spec.channelindex("A");
     return named >= 0 ? named : spec.alpha_channel;
 }
 
-// Of pixels without compression: so many bits each, and which of them are a channel's.
+// Checks pixels without compression: `bits` bits for each pixel, and the masks of the channels.
 void check_dds_masks(const OIIO::ImageSpec& spec, const std::filesystem::path& file, std::uint32_t bits,
                      const std::array<std::uint32_t, 4>& masks) {
-    if (bits == 0) refuse_image(file, "pixels of no bits");
+    if (bits == 0) refuse_image(file, "its pixels have 0 bits; save it again");
     const bool coloured = spec.nchannels > 2, alpha = spec.nchannels % 2 == 0;
     if (masks[0] == 0 || (coloured && (masks[1] == 0 || masks[2] == 0)) || (alpha && masks[3] == 0))
-        refuse_image(file, "it tells of a channel, but of no bits for it");
+        refuse_image(file, "it has a channel of 0 bits; save it again");
 }
 
-// The DDS reader of OpenImageIO 2.4 gives pixels also for a file that ends before them, and never ends on a channel of
-// no bits. Layout: Microsoft, DDS_HEADER.
+// The DDS reader of OpenImageIO 2.4 returns pixels even if the file ends before them, and never ends on a channel of 0
+// bits. Layout: Microsoft, DDS_HEADER.
 void check_dds(const OIIO::ImageSpec& spec, const std::filesystem::path& file) {
     FileReader reader(file);
     reader.seek(88, "pixel format");
@@ -48,7 +48,7 @@ void check_dds(const OIIO::ImageSpec& spec, const std::filesystem::path& file) {
     if (compression.empty()) {
         check_dds_masks(spec, file, bits, masks);
     } else {
-        // The library divides whole numbers by alpha to undo it, and alpha may be 0.
+        // To undo the multiplication by alpha, the library divides whole numbers by alpha, which may be 0.
         if (compression == "DXT2" || compression == "DXT4")
             refuse_image(file, "a " + compression + " file holds colours multiplied by alpha: save it as DXT3 or DXT5");
         // 4 x 4 texels a block.
@@ -59,8 +59,8 @@ void check_dds(const OIIO::ImageSpec& spec, const std::filesystem::path& file) {
     reader.need(bytes, 1, "pixels");
 }
 
-// OpenImageIO 2.4 loses memory when a PNG file ends inside a chunk. Layout: PNG specification, section 5: a signature,
-// chunks of a length, a type, so many bytes and a checksum; IEND is the last one.
+// OpenImageIO 2.4 leaks memory if a PNG file ends inside a chunk. Layout: PNG specification, section 5: a signature,
+// then chunks of a length, a type, that many bytes and a checksum; IEND is the last chunk.
 void check_png_chunks(const std::filesystem::path& file) {
     FileReader reader(file);
     std::uint64_t next = 8;
@@ -75,17 +75,17 @@ void check_png_chunks(const std::filesystem::path& file) {
     }
 }
 
-// What a file is shows in its first bytes, but for a TARGA file, which only its name tells. OpenImageIO knows many more
-// formats, and would try each; few of their readers stand damaged files.
+// The first bytes of a file show its format; only a TARGA file is known by its name. OpenImageIO supports many more
+// formats and would try each, but few of their readers withstand damaged files.
 struct Format {
-    const char* name;  // OpenImageIO's
+    const char* name;  // OpenImageIO's name
     std::string_view begin;
 };
 constexpr std::array formats{
     Format{"png", "\x89PNG"},     Format{"jpeg", "\xff\xd8\xff"},        Format{"tiff", {"II*\0", 4}},
     Format{"tiff", {"MM\0*", 4}}, Format{"openexr", "\x76\x2f\x31\x01"}, Format{"dds", "DDS "}};
 
-// Empty when it is none of them.
+// Empty if the file is of none of these formats.
 std::string format_of(const std::filesystem::path& file) {
     FileReader reader(file);
     const std::vector<char> begin = reader.array<char>(std::min<std::uint64_t>(reader.size(), 4), "header");
@@ -118,7 +118,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file) 
 }
 
 void refuse_image(const std::filesystem::path& file, const std::string& message) {
-    // The library's messages often name the file, in quotes or not; the error's place does so already.
+    // The library's messages often name the file, in quotes or not; the error's place already names it.
     std::string rest = message;
     for (const std::string& name : {'"' + file.string() + '"', file.string()})
         for (std::size_t at = rest.find(name); at != std::string::npos; at = rest.find(name))
@@ -131,7 +131,7 @@ AlphaTexture read_alpha(const std::filesystem::path& file) {
         const std::unique_ptr<OIIO::ImageInput> input = open_image(file);
         const OIIO::ImageSpec spec = input->spec();
         if (std::string_view(input->format_name()) == "dds") check_dds(spec, file);
-        if (spec.deep) refuse_image(file, "a deep image is no texture");
+        if (spec.deep) refuse_image(file, "a deep image cannot be a texture; use a flat one");
         const std::uint64_t texels = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
         const int channels = spec.nchannels;
         if (spec.depth > 1 || channels < 1 || texels * static_cast<std::uint64_t>(channels) > max_texels)
@@ -142,7 +142,7 @@ AlphaTexture read_alpha(const std::filesystem::path& file) {
             refuse_image(file, fmt::format("{} x {} pixels in a file of {} bytes: it is damaged", spec.width,
                                            spec.height, bytes));
         std::vector<float> values(texels * static_cast<std::uint64_t>(channels));
-        // Some of its readers say that they read an image, and leave an error behind.
+        // Some readers report success but leave an error behind.
         if (!input->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, values.data()) || input->has_error())
             refuse_image(file, "damaged or cut short: " + input->geterror());
 

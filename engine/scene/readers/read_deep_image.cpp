@@ -1,5 +1,5 @@
-// Deep images: Interpreting OpenEXR Deep Pixels (Hillman, Welford 2013). A sample spans Z to ZBack (Z alone: a surface)
-// and takes alpha of the light.
+// Deep images: Interpreting OpenEXR Deep Pixels (Hillman, Welford 2013). A sample spans Z to ZBack (a surface if there
+// is only Z) and absorbs alpha of the light.
 #include <OpenImageIO/deepdata.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 namespace shadowbench::scene {
 namespace {
 
-// Alpha of half precision, filtered by a renderer, misses the range by less than this.
+// Alpha in half precision that a renderer has filtered leaves the range by less than this.
 constexpr float alpha_slack = 1e-2f;
 constexpr float farthest = static_cast<float>(max_coordinate);
 
@@ -70,13 +70,14 @@ int choose_part(OIIO::ImageInput& input, const DeepChoice& choice, const std::fi
         if (is_meant(part, choice)) meant.push_back(part);
     const bool named = !std::holds_alternative<std::monostate>(choice.part);
     if (meant.empty() && !named) refuse_image(file, "not a deep image");
-    if (meant.empty()) refuse_image(file, fmt::format("the \"part\" is not there; the deep ones are: {}", list(parts)));
+    if (meant.empty())
+        refuse_image(file, fmt::format("there is no such \"part\"; the deep parts are: {}", list(parts)));
     if (meant.size() > 1)
         refuse_image(file, fmt::format("{} parts {}: give \"part\", the number (or name) of one of: {}", meant.size(),
                                        named ? "have this name" : "are deep images", list(parts)));
     if (!meant[0].deep)
         refuse_image(
-            file, fmt::format("the part {} is not a deep image; the deep ones are: {}", shown(meant[0]), list(parts)));
+            file, fmt::format("the part {} is not a deep image; the deep parts are: {}", shown(meant[0]), list(parts)));
     if (parts.size() > 1) notes.lines.push_back(fmt::format("of {} parts {} is read", parts.size(), shown(meant[0])));
     return meant[0].number;
 }
@@ -84,7 +85,7 @@ int choose_part(OIIO::ImageInput& input, const DeepChoice& choice, const std::fi
 // Moves to the part.
 OIIO::ImageSpec open_part(OIIO::ImageInput& input, int part, const std::filesystem::path& file) {
     OIIO::ImageSpec spec = input.spec(part, 0);
-    // Reading the pixels of a deep file with levels damages the heap in OpenImageIO 2.4.
+    // OpenImageIO 2.4 damages the heap when it reads the pixels of a deep file with levels.
     if (spec.get_int_attribute("openexr:levelmode", 0) != 0 || input.seek_subimage(part, 1))
         refuse_image(file, "a deep image with mip levels; only the plain kind is read");
     const std::uint64_t pixels = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
@@ -103,7 +104,7 @@ Sample read_sample(const OIIO::DeepData& data, const DeepChannels& channels, std
     return sample;
 }
 
-// Empty when nothing is wrong.
+// Says what is wrong with a sample; empty if nothing is.
 std::string fault_of(const Sample& sample) {
     if (std::isnan(sample.z_front) || std::isnan(sample.z_back)) return "a depth is not a number";
     if (sample.z_front < -farthest) return fmt::format("Z {} is before {}", sample.z_front, -farthest);
@@ -115,7 +116,7 @@ std::string fault_of(const Sample& sample) {
     return "";
 }
 
-// Makes samples what DeepImage promises, and counts what it changes.
+// Makes samples fulfil what DeepImage promises, and counts what it changes.
 class Mender {
 public:
     void mend(Sample& sample) {
@@ -132,7 +133,7 @@ public:
         clamped_ += clamped;
         if (sample.z_back <= farthest) return;
         ++far_;
-        // An endless stretch holds nothing near its front, however much it does in all, unless it lets nothing through.
+        // A sample that reaches to infinity has no density near its front, whatever its alpha, unless it is opaque.
         const auto& through = sample.transmittance;
         if (sample.z_front > farthest || std::find(through.begin(), through.end(), 0.0f) == through.end()) return;
         for (float& transmittance : sample.transmittance) transmittance = transmittance == 0.0f ? 0.0f : 1.0f;
@@ -155,7 +156,7 @@ private:
     std::uint64_t flat_ = 0, clamped_ = 0, far_ = 0, endless_ = 0;
 };
 
-// Three channels that are the same everywhere become one.
+// Reduces three channels that are equal everywhere to one.
 void drop_equal_channels(DeepImage& image) {
     std::vector<float>& t = image.transmittance;
     for (std::size_t i = 0; i < t.size(); i += 3)

@@ -1,5 +1,5 @@
 // The HAIR file format (Cem Yuksel, www.cemyuksel.com/research/hairmodels): a header of 128 bytes, then the arrays that
-// its bits announce: segments (uint16, one a strand), points, thickness, transparency and colours (float).
+// its bits announce: segments (uint16, one for each strand), points, thickness, transparency and colours (float).
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -32,7 +32,7 @@ struct Header {
 };
 static_assert(sizeof(Header) == 128);
 
-// All arrays that the header announces, those that are not read here as well: a file cut anywhere is noticed.
+// Counts all arrays that the header announces, including those that are not read, to detect a file cut anywhere.
 void check_size(const FileReader& reader, const Header& header) {
     if (std::memcmp(header.signature, "HAIR", 4) != 0) reader.fail(0, "the file does not begin with HAIR");
     if (!(header.bits & has_points)) reader.fail(12, "the file has no points");
@@ -52,7 +52,7 @@ std::vector<std::uint32_t> read_strands(FileReader& reader, const Header& header
     if (header.bits & has_segments) {
         segments = reader.array<std::uint16_t>(header.strands, "segments");
     } else if (header.strands > header.points) {
-        reader.fail(4, fmt::format("{} strands of {} points", header.strands, header.points));
+        reader.fail(4, fmt::format("the header states {} strands but only {} points", header.strands, header.points));
     }
     std::vector<std::uint32_t> begin{0};
     begin.reserve(header.strands + std::size_t{1});
@@ -63,8 +63,8 @@ std::vector<std::uint32_t> read_strands(FileReader& reader, const Header& header
         begin.push_back(static_cast<std::uint32_t>(total));
     }
     if (total != header.points)
-        reader.fail(8, fmt::format("the header says {} points, the segments of the strands need {}{}", header.points,
-                                   total > header.points ? "at least " : "", total));
+        reader.fail(8, fmt::format("the header states {} points, but the segments of the strands need {}{}",
+                                   header.points, total > header.points ? "at least " : "", total));
     return begin;
 }
 

@@ -1,4 +1,4 @@
-// What the readers of images share: OpenImageIO behind Error.
+// Opens images with OpenImageIO and reports its failures as Error, for all readers of images.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace shadowbench::scene {
 // PNG, JPEG, TIFF, OpenEXR, DDS and TGA. Throws Error: no_such_file, io, or bad_input for other files and damaged ones.
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& file);
 
-// Throws Error{bad_input} with the file as place, and nowhere else in the message.
+// Throws Error{bad_input}, place the file; the message does not name the file.
 [[noreturn]] void refuse_image(const std::filesystem::path& file, const std::string& message);
 
 }  // namespace shadowbench::scene

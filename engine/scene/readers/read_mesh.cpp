@@ -16,7 +16,7 @@ MeshFile read_mesh(const std::filesystem::path& file) {
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (extension == ".obj") return read_obj(file);
     if (extension == ".ply") return read_ply(file);
-    throw base::Error(base::ErrorCode::bad_input, file.string(), "mesh files end in .obj or .ply");
+    throw base::Error(base::ErrorCode::bad_input, file.string(), "the name of a mesh file must end in .obj or .ply");
 }
 
 void pass_over(MeshFile& file, std::string_view what, std::uint64_t count) {

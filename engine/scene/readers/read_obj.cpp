@@ -1,7 +1,7 @@
-// Wavefront OBJ through tinyobjloader. The library takes what is not a number as 0, drops faces it cannot use, and
-// takes memory for counts that stand in other lines. So it is given vertices, texture coordinates and faces alone,
-// checked; that also gives faults their line. It hands them over one by one: its own meshes hold a polygon's corners in
-// a byte.
+// Wavefront OBJ through tinyobjloader. The library reads a word that is not a number as 0, drops faces it cannot use,
+// and allocates memory for counts that stand in other lines. So it gets only vertices, texture coordinates and faces,
+// which have been checked; that check also gives faults their line. The library reports them one by one, because its
+// own meshes hold the number of a polygon's corners in a byte.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ using base::ErrorCode;
 
 constexpr int no_uv = -1;
 
-// Faces may stand before their vertices: they are split when all is there.
+// Faces may stand before their vertices, so they are split when everything has been read.
 struct Content {
     std::vector<Vec3f> positions;
     std::vector<Vec2f> uvs;
@@ -72,7 +72,7 @@ Content read_content(std::string lines) {
 void check_content(const Content& content, const std::filesystem::path& name) {
     const auto fail = [&](const std::string& message) { throw Error(ErrorCode::bad_input, name.string(), message); };
     if (content.vertex.size() > 3 * max_mesh_elements) fail(fmt::format("over {} triangles", max_mesh_elements));
-    // The library's own reading of digits and exponents: it can lose numbers that the lines hold.
+    // The library parses digits and exponents in its own way and can lose numbers that the lines hold.
     const auto finite = [](const auto& at) { return std::isfinite(at.x) && std::isfinite(at.y); };
     for (const Vec3f& at : content.positions)
         if (!finite(at) || !std::isfinite(at.z)) fail("a number has more digits or a larger exponent than can be read");
@@ -90,7 +90,7 @@ MeshFile read_obj(const std::filesystem::path& name) {
     Content content = read_content(std::move(lines.kept));
     check_content(content, name);
     file.mesh.positions = std::move(content.positions);
-    // Texture coordinates are kept when every corner has them.
+    // Texture coordinates are kept if every corner has them.
     bool textured = true;
     std::vector<int> corners;
     std::vector<Vec2f> uv;

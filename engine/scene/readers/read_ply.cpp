@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-// Where in an element the property with one of these names stands.
+// The index in an element of the property with one of these names.
 std::size_t find(const PlyElement& element, std::initializer_list<const char*> names) {
     for (const char* name : names)
         for (std::size_t i = 0; i < element.properties.size(); ++i)
@@ -27,7 +27,7 @@ std::size_t find(const PlyElement& element, std::initializer_list<const char*> n
     return none;
 }
 
-// Returns the texture coordinates: one a vertex, or none.
+// Returns the texture coordinates: one for each vertex, or none.
 std::vector<Vec2f> read_vertices(PlySource& source, const PlyElement& element, std::vector<Vec3f>& positions) {
     const std::array at{find(element, {"x"}), find(element, {"y"}), find(element, {"z"})};
     const std::array uv_at{find(element, {"u", "s", "texture_u"}), find(element, {"v", "t", "texture_v"})};
@@ -69,7 +69,7 @@ constexpr int strip_end = -1;
 
 int read_index(PlySource& source, PlyType type, std::size_t vertices, const List& list, bool strip) {
     const double index = source.value(type);
-    // Counted without a sign, -1 is the largest number; no file has so many vertices.
+    // Read as unsigned, -1 is the largest number; no file has so many vertices.
     constexpr double unsigned_end = std::numeric_limits<std::uint32_t>::max();
     if (strip && (index == strip_end || index == unsigned_end)) return strip_end;
     if (!(index >= 0.0 && index < static_cast<double>(vertices)) || index != std::floor(index))
@@ -88,8 +88,8 @@ void add_face(PlySource& source, const std::vector<Vec2f>& uvs, const std::vecto
         source.fail(fmt::format("over {} triangles", max_mesh_elements));
 }
 
-// Every vertex from the third on makes a triangle with the two before it, which turns the other way each time. A strip
-// repeats vertices to go on elsewhere: what that makes are no triangles.
+// Every vertex from the third on makes a triangle with the two before it, with alternating orientation. A strip repeats
+// vertices to continue elsewhere: those triangles are degenerate and are dropped.
 void add_strips(PlySource& source, const std::vector<Vec2f>& uvs, const std::vector<int>& strips, const List& list,
                 MeshFile& file) {
     const auto end_of_strip = [&](std::size_t vertices) {
@@ -111,7 +111,7 @@ void add_strips(PlySource& source, const std::vector<Vec2f>& uvs, const std::vec
     end_of_strip(strips.size() - begin);
 }
 
-// Faces, or with `strips` triangle strips.
+// Reads faces or, with `strips`, triangle strips.
 void read_faces(PlySource& source, const PlyElement& element, bool strips, const std::vector<Vec2f>& uvs,
                 MeshFile& file) {
     const std::size_t at = find(element, {"vertex_indices", "vertex_index"});
@@ -140,7 +140,7 @@ MeshFile read_ply(const std::filesystem::path& file) {
     for (const PlyElement& element : source.elements()) {
         source.check_length(element);
         if (element.name == "vertex") {
-            // Faces name the vertices of the first.
+            // Faces refer to the vertices of the first element.
             if (uvs) source.fail("a second element \"vertex\"; one is read");
             uvs = read_vertices(source, element, result.mesh.positions);
         } else if (element.name == "face" || element.name == "tristrips") {

@@ -36,10 +36,10 @@ GridVolume read_raw_volume(const std::filesystem::path& file, Vec3i size, const 
     FileReader reader(file);
     if (size.x < 1 || size.y < 1 || size.z < 1) reader.fail(0, "a volume needs at least one voxel along every axis");
     if (type != "uint8" && type != "float32")
-        reader.fail(0, fmt::format("values of type \"{}\"; uint8 and float32 are known", type));
+        reader.fail(0, fmt::format("the type \"{}\" is unknown; give uint8 or float32", type));
     const std::uint64_t row = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
     const std::uint64_t bytes = type == "uint8" ? 1 : 4;
-    // By division: the product of three sizes may not fit 64 bits.
+    // Divides, since the product of three sizes may not fit 64 bits.
     if (reader.size() % bytes != 0 || reader.size() / bytes % row != 0 ||
         reader.size() / bytes / row != static_cast<std::uint64_t>(size.z))
         reader.fail(reader.size(), fmt::format("the file has {} bytes, which is not {} x {} x {} values of {}",

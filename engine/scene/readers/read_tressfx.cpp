@@ -1,6 +1,6 @@
-// TressFX hair (AMD GPUOpen). Version 3: positions of three floats at a fixed place behind the header. Version 4, as in
-// TressFXAsset.h (TressFXTFXFileHeader): the header holds their offset, and they have four floats, the last of which is
-// the inverse mass.
+// TressFX hair (AMD GPUOpen). Version 3 has positions of three floats at a fixed offset after the header. Version 4 is
+// as in TressFXAsset.h (TressFXTFXFileHeader): the header holds their offset, and they have four floats, the last of
+// which is the inverse mass.
 #include <cmath>
 #include <cstdint>
 
@@ -22,10 +22,10 @@ Hair read_tressfx(const std::filesystem::path& file, float radius) {
     FileReader reader(file);
     const auto version = reader.value<float>("header");
     if (!(version >= 3.0f && version < 5.0f))
-        reader.fail(0, fmt::format("TressFX version {}; versions 3 and 4 are known", version));
+        reader.fail(0, fmt::format("TressFX version {} is not supported; versions 3 and 4 are", version));
     const auto strands = reader.value<std::uint32_t>("header");
     const auto per_strand = reader.value<std::uint32_t>("header");
-    if (per_strand < 2) reader.fail(8, fmt::format("{} points a strand; a segment needs 2", per_strand));
+    if (per_strand < 2) reader.fail(8, fmt::format("the strands have {} points each; a segment needs 2", per_strand));
     const std::uint64_t count = static_cast<std::uint64_t>(strands) * per_strand;
     if (count > max_hair_points)
         reader.fail(4, fmt::format("{} points of hair; the limit is {}", count, max_hair_points));

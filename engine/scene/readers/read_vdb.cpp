@@ -1,4 +1,4 @@
-// The only file that includes OpenVDB: it takes long to compile.
+// The only file that includes OpenVDB, which takes long to compile.
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
@@ -31,7 +31,7 @@ using base::ErrorCode;
     throw Error(ErrorCode::bad_input, file.string(), message);
 }
 
-// Number of voxels in a box, which must not be over the limit.
+// The number of voxels in a box; throws if it is over the limit.
 double check_box(const openvdb::CoordBBox& box, std::uint64_t most_voxels, const std::filesystem::path& file) {
     double voxels = 1.0;
     for (int axis = 0; axis < 3; ++axis) voxels *= static_cast<double>(box.max()[axis]) - box.min()[axis] + 1.0;
@@ -50,7 +50,7 @@ openvdb::FloatGrid::Ptr read_grid(const std::filesystem::path& file, const VdbGr
     return result;
 }
 
-// The world axis along which each of the grid's runs, and whether it runs backwards.
+// The world axis along which each axis of the grid runs, and whether it runs backwards.
 struct Axes {
     std::array<int, 3> to{0, 1, 2};
     std::array<bool, 3> mirrored{false, false, false};
@@ -58,8 +58,8 @@ struct Axes {
     bool as_they_are() const { return to == std::array{0, 1, 2} && mirrored == std::array{false, false, false}; }
 };
 
-// What is left of right angles by float matrices and short values of pi: entries next to the one of the axis, relative
-// to it, and how far they move a voxel of the box at most, in voxels.
+// The deviation from right angles that float matrices and short values of pi leave: off-axis entries relative to the
+// entry of the axis, and how far they move a voxel of the box at most, in voxels.
 constexpr double most_skew = 1e-5, most_shift = 0.1;
 
 Axes find_axes(const openvdb::math::Transform& transform, const openvdb::Coord& size,
@@ -92,7 +92,8 @@ Axes find_axes(const openvdb::math::Transform& transform, const openvdb::Coord& 
     return axes;
 }
 
-// x fastest along the world's axes. A slab of the grid at a time, so that turning it takes little memory.
+// Copies densities, x fastest along the world's axes, one slab of the grid at a time, so that turning it needs little
+// memory.
 void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& box, const Axes& axes,
                     GridVolume& volume) {
     using Dense = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
@@ -110,7 +111,7 @@ void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& bo
         step[i] = axes.mirrored[i] ? -stride : stride;
         if (axes.mirrored[i]) first += stride * (size[static_cast<int>(i)] - 1);
     }
-    constexpr int thick = 8;  // voxels, as leaves are
+    constexpr int thick = 8;  // voxels, the thickness of a leaf
     std::vector<float> slab;
     for (int z = 0; z < size.z(); z += thick) {
         const int layers = std::min(thick, size.z() - z);
@@ -139,7 +140,7 @@ GridVolume convert(const openvdb::FloatGrid& grid, std::uint64_t most_voxels, co
     volume.density.resize(static_cast<std::size_t>(voxels));
     copy_densities(grid, box, axes, volume);
 
-    // Index coordinates are voxel centres.
+    // Index coordinates refer to voxel centres.
     const openvdb::Vec3d half(0.5);
     const openvdb::Vec3d first = grid.transform().indexToWorld(box.min().asVec3d() - half);
     const openvdb::Vec3d last = grid.transform().indexToWorld(box.max().asVec3d() + half);
@@ -208,7 +209,7 @@ GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, N
         fail(file, "the file is damaged or too large: there is not enough memory for what it says it holds");
     } catch (const std::ios_base::failure&) {
         fail(file, "the file is cut short or damaged");
-    } catch (const std::exception& fault) {  // openvdb::Exception, and what a damaged file makes the library throw
+    } catch (const std::exception& fault) {  // openvdb::Exception, and others if the file is damaged
         fail(file, fmt::format("not a readable OpenVDB file: {}", fault.what()));
     }
 }

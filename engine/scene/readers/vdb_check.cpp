@@ -1,5 +1,5 @@
-// The format as OpenVDB 10 reads and writes it (io/Archive, io/GridDescriptor, io/Compression, tree/*.h), from version
-// 222 (2013) to 224.
+// The format as OpenVDB 10 reads and writes it (io/Archive, io/GridDescriptor, io/Compression, tree/*.h), versions 222
+// (2013) to 224.
 #include "scene/readers/vdb_check.h"
 
 #include <array>
@@ -27,7 +27,7 @@ constexpr std::uint32_t max_name = 65536;  // bytes
 // Compression flags of a grid.
 enum Compression : std::uint32_t { zip = 1, active_mask = 2, blosc = 4 };
 
-// What is stored of a node's inactive values: its first byte.
+// How a node's inactive values are stored: its first byte.
 enum Inactive : std::int8_t { one_value = 2, mask_none = 3, mask_one = 4, mask_two = 5, all_values = 6 };
 
 struct TypeSize {
@@ -43,7 +43,7 @@ constexpr std::array map_sizes{
     TypeSize{"ScaleTranslateMap", 144},
     TypeSize{"UniformScaleTranslateMap", 144},
 };
-// Metadata that the library reads at its own size, whatever size the file tells.
+// Metadata that the library reads at its own size, whatever size the file states.
 constexpr std::array metadata_sizes{
     TypeSize{"bool", 1},   TypeSize{"int32", 4},  TypeSize{"int64", 8},  TypeSize{"float", 4},
     TypeSize{"double", 8}, TypeSize{"vec2i", 8},  TypeSize{"vec2s", 8},  TypeSize{"vec2d", 16},
@@ -54,7 +54,7 @@ constexpr std::array metadata_sizes{
 struct Grid {
     std::string parent;  // unique name of the grid whose tree this one shares
     bool half = false;
-    std::uint64_t begin = 0, end = 0;  // in the file
+    std::uint64_t begin = 0, end = 0;  // positions in the file
 };
 
 template <std::size_t log2_side>
@@ -80,8 +80,8 @@ public:
         if (!grids_[chosen].parent.empty()) check_grid(parent_of(chosen));
         const std::optional<std::string> asked = library_name(names_, chosen);
         if (!asked)
-            reader_.fail(grids_[chosen].begin, fmt::format("the grid \"{}\" has a name by which it cannot be told from "
-                                                           "others: rename it in the program that wrote it",
+            reader_.fail(grids_[chosen].begin, fmt::format("the grid \"{}\" has a name that other grids share or "
+                                                           "hide; rename it in the program that wrote it",
                                                            shown(names_[chosen])));
         VdbGrid result{names_[chosen], *asked, {}};
         for (std::size_t i = 0; i < grids_.size(); ++i)
@@ -116,7 +116,8 @@ private:
         return {text.begin(), text.end()};
     }
 
-    // Name, type, size and value of each entry. Gives the place of the value called `key` where it has `bytes`.
+    // Reads the name, type, size and value of each entry. Returns the position of the value called `key` if it has
+    // `bytes` bytes.
     std::optional<std::uint64_t> metadata(std::string_view key, std::uint32_t bytes) {
         std::optional<std::uint64_t> place;
         for (auto left = reader_.value<std::uint32_t>("metadata"); left > 0; --left) {
@@ -127,31 +128,33 @@ private:
             const std::uint64_t at = reader_.position();
             if (name == key && size == bytes) place = at;
             for (const TypeSize& row : metadata_sizes)
-                if (row.type == type && row.bytes != size) damaged(fmt::format("a {} of {} bytes", type, size));
+                if (row.type == type && row.bytes != size)
+                    damaged(fmt::format("its metadata has a {} of {} bytes", type, size));
             if (type == "__delayedload" && size > 0) check_leaf_sizes(at + size);
             reader_.seek(at + size, "metadata");
         }
         return place;
     }
 
-    // A number of leaves, then a byte and 8 bytes of each, both behind the length of their compressed form; 0: as they
-    // are, all bits set: left out.
+    // A number of leaves, then a byte and 8 bytes for each, both after the length of their compressed form. A length of
+    // 0 means that they are not compressed; one with all bits set, that they are left out.
     void check_leaf_sizes(std::uint64_t end) {
         const std::uint64_t leaves = reader_.value<std::uint32_t>("metadata");
-        if (leaves > reader_.size()) damaged("it tells of more leaves than it has bytes");
+        if (leaves > reader_.size()) damaged("it claims more leaves than it has bytes");
         for (const std::uint64_t each : {1, 8}) {
             const auto packed = reader_.value<std::uint32_t>("metadata");
             if (each == 8 && packed == 0xffffffff) continue;
             skip(packed > 0 ? packed : leaves * each, "metadata");
         }
-        if (reader_.position() > end) damaged("the sizes of its leaves are longer than they say");
+        if (reader_.position() > end) damaged("the sizes of its leaves take more bytes than their header says");
     }
 
     void read_header() {
         if (reader_.value<std::int64_t>("header") != magic) reader_.fail(0, "not an OpenVDB file");
         const auto version = reader_.value<std::uint32_t>("header");
         if (version > last_version)
-            reader_.fail(8, fmt::format("version {} of the format; up to {} are read", version, last_version));
+            reader_.fail(8, fmt::format("version {} of the format is not supported; versions up to {} are", version,
+                                        last_version));
         if (version < first_version)
             reader_.fail(8, fmt::format("version {} of the format, written before 2013; save it with OpenVDB 1.2 or "
                                         "later",
@@ -193,7 +196,7 @@ private:
     void check_grid(std::size_t index) {
         const Grid& grid = grids_[index];
         const VdbGridName& name = names_[index];
-        // Before anything of it is read: others are not checked.
+        // Before its data is read, since the types of other grids are not checked.
         if (name.type != vdb_float_tree)
             reader_.fail(grid.begin, fmt::format("the grid \"{}\" is a {}, not float", shown(name), name.type));
         half_ = grid.half;
@@ -235,15 +238,16 @@ private:
                              : fmt::format("the file is damaged: its transform is a \"{}\"", type.substr(0, 40)));
     }
 
-    // Nodes of 32^3, 16^3 and 8^3 below a root: first all topology, then the values of the leaves, both depth first.
+    // Nodes of 32^3, 16^3 and 8^3 below a root: first the whole topology, then the values of the leaves, both depth
+    // first.
     void check_tree(std::uint64_t end) {
-        if (reader_.value<std::int32_t>("tree") != 1) damaged("a tree has one buffer");
+        if (reader_.value<std::int32_t>("tree") != 1) damaged("the tree does not have exactly one buffer");
         skip(4, "background");
         const auto tiles = reader_.value<std::uint32_t>("root");
         const auto children = reader_.value<std::uint32_t>("root");
         constexpr std::uint64_t tile_bytes = 12 + 4 + 1, child_bytes = 12 + 2 * sizeof(Node<5>::Mask);
         if (reader_.position() > end || tiles * tile_bytes + children * child_bytes > end - reader_.position())
-            damaged(fmt::format("it tells of {} nodes and {} tiles", children, tiles));
+            damaged(fmt::format("it claims {} nodes and {} tiles", children, tiles));
         skip(tiles * tile_bytes, "tiles");
         leaves_ = 0;
         for (std::uint32_t i = 0; i < children; ++i) {
@@ -257,7 +261,7 @@ private:
         for (; leaves_ > 0; --leaves_) values<3>(reader_.value<Node<3>::Mask>("leaf"));
     }
 
-    // The number of its children.
+    // Returns the number of its children.
     template <std::size_t log2_side>
     std::uint64_t internal_node() {
         const auto children = reader_.value<typename Node<log2_side>::Mask>("node");
@@ -269,7 +273,7 @@ private:
     template <std::size_t log2_side>
     void values(const typename Node<log2_side>::Mask& active) {
         const auto inactive = reader_.value<std::int8_t>("values");
-        if (inactive < 0 || inactive > all_values) damaged(fmt::format("a node of the kind {}", inactive));
+        if (inactive < 0 || inactive > all_values) damaged(fmt::format("a node has the unknown kind {}", inactive));
         if (inactive == one_value || inactive == mask_one) skip(4, "values");
         if (inactive == mask_two) skip(8, "values");
         if (inactive == mask_none || inactive == mask_one || inactive == mask_two) skip(sizeof active, "values");
@@ -278,17 +282,17 @@ private:
         if (half_ && count == 0) return;
         const std::uint64_t bytes = count * (half_ ? 2 : 4);
         if ((compression_ & (zip | blosc)) == 0) return skip(bytes, "values");
-        // Bytes that follow; below 0: as they are, without compression.
+        // The number of bytes that follow; negative if they are not compressed.
         const auto packed = reader_.value<std::int64_t>("values");
         if (packed <= 0 && static_cast<std::uint64_t>(-(packed + 1)) + 1 != bytes && !(packed == 0 && bytes == 0))
-            damaged(fmt::format("a node of {} bytes tells of {}", bytes, packed));
+            damaged(fmt::format("a node of {} bytes claims {}", bytes, packed));
         skip(packed > 0 ? static_cast<std::uint64_t>(packed) : bytes, "values");
     }
 
     std::filesystem::path file_;
     FileReader reader_;
     std::vector<Grid> grids_;
-    std::vector<VdbGridName> names_;  // of each of them
+    std::vector<VdbGridName> names_;  // of each grid
     std::uint32_t compression_ = 0;
     bool half_ = false;
     std::uint64_t leaves_ = 0;

@@ -1,5 +1,5 @@
-// What a .vdb file claims, held against its bytes before OpenVDB reads it: the library trusts the counts and sizes in a
-// file, takes memory for them and does not look whether its reads succeed.
+// Checks what a .vdb file claims against its bytes before OpenVDB reads it: the library trusts the counts and sizes in
+// a file, allocates memory for them and does not check whether its reads succeed.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,11 @@ namespace shadowbench::scene {
 
 struct VdbGrid : VdbGridName {
     std::string library_name;              // for File::readGrid
-    std::vector<std::string> passed_over;  // the file's other grids, as people read them
+    std::vector<std::string> passed_over;  // the file's other grids, as shown to people
 };
 
-// Walks over all of the headers and over the nodes of the grid that is meant, which it returns. Throws Error:
-// no_such_file, io, what choose_grid throws, or bad_input with "file:offset" of what is damaged, cut short or of a kind
-// that is not read.
+// Walks over all headers and over the nodes of the chosen grid, which it returns. Throws Error: no_such_file, io, the
+// errors of choose_grid, or bad_input with "file:offset" of data that is damaged, cut short or of an unsupported kind.
 VdbGrid check_vdb(const std::filesystem::path& file, const GridChoice& choice);
 
 }  // namespace shadowbench::scene

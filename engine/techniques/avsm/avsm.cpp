@@ -9,16 +9,16 @@ namespace shadowbench::techniques {
 namespace {
 
 const Parameter parameters[] = {
-    {"nodes", ParameterKind::integer, "nodes a texel", 8, 2, 64},
+    {"nodes", ParameterKind::integer, "nodes per texel", 8, 2, 64},
     {.name = "order",
      .kind = ParameterKind::choice,
-     .doc = "in which a ray's segments are inserted: by depth, as they were submitted, or at random",
+     .doc = "the order in which a ray's segments are inserted: by depth, as they were submitted, or at random",
      .standard_word = "sorted",
      .words = {"sorted", "captured", "shuffled"}},
-    {"seed", ParameterKind::integer, "of the random order", 1, 0, 1e9},
+    {"seed", ParameterKind::integer, "seed of the random order", 1, 0, 1e9},
     {.name = "sampling",
      .kind = ParameterKind::choice,
-     .doc = "between two nodes transmittance is linear, or falls exponentially",
+     .doc = "how transmittance falls between two nodes: linearly or exponentially",
      .standard_word = "linear",
      .words = {"linear", "exponential"}},
     filter_parameter,
@@ -35,7 +35,7 @@ Sampling read_sampling(const ParameterValues& values) {
 }
 
 // A texel is 2 * nodes floats: depths, then values. Each is made by streaming its ray's segments through one curve of a
-// fixed size and written once: besides the map, nothing grows with the scene.
+// fixed size and is written once: besides the map, no memory grows with the scene.
 class Avsm final : public TexelMap<Avsm> {
 public:
     explicit Avsm(const ParameterValues& values)
@@ -71,7 +71,7 @@ public:
     void add(const rays::LightRays& rays) override {
         if (order_ == Order::captured && rays.submission.size() != rays.segments())
             throw base::Error(base::ErrorCode::internal, "/techniques",
-                              "avsm: the light rays do not tell the order of their segments");
+                              "avsm: the light rays do not hold the order of their segments");
         with_stream([&](auto& stream) {
             for_each_texel(rays, [&](float* texel, std::size_t cell, std::size_t ray) {
                 if (rays.begin[ray] == rays.begin[ray + 1]) return store_empty(texel);
@@ -86,7 +86,7 @@ public:
 
     float prepare(float z) const { return z; }
     float evaluate(const float* texel, float z) const { return evaluate_(texel, nodes_, z); }
-    // Nodes but those that repeat the one at the far plane.
+    // The number of nodes, except those that repeat the one at the far plane.
     int nodes_of(const float* t) const {
         int n = nodes_;
         while (n > 1 && t[n - 2] == t[n - 1] && t[nodes_ + n - 2] == t[nodes_ + n - 1]) --n;
@@ -106,7 +106,7 @@ public:
     }
 
 private:
-    // Segment numbers of a ray, in the order of insertion.
+    // Visits the segment numbers of a ray in the order of insertion.
     template <class Visit>
     void for_each_segment(const rays::LightRays& rays, std::size_t ray, std::size_t cell, const Visit& visit) const {
         const std::uint32_t begin = rays.begin[ray], end = rays.begin[ray + 1];
@@ -125,7 +125,7 @@ private:
         std::fill_n(t + nodes_, nodes_, 1.0f);
     }
 
-    // Nodes not needed stand at the far plane with the last value.
+    // Unused nodes are at the far plane with the last value.
     template <class Stream>
     void store(const Stream& stream, float* t) const {
         int i = 0;

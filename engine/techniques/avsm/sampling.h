@@ -1,4 +1,4 @@
-// What a texel's curve does between two nodes (Salvi et al. 2010, section 3.3).
+// The curve of a texel between two nodes (Salvi et al. 2010, section 3.3).
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@ enum class Sampling {
     exponential,  // extinction is constant: the logarithm of transmittance is linear
 };
 
-// Value at `share` in [0, 1] of the way between two nodes of constant extinction, before >= behind. As everywhere in a
-// medium, a transmittance of 0 counts as the smallest normal float until its end.
+// The value at `share` in [0, 1] of the way between two nodes of constant extinction, before >= behind. A transmittance
+// of 0 counts as the smallest normal float until its end, as in every medium.
 inline float decay(float before, float behind, float share) {
     if (before == behind || before <= 0.0f) return before;
     const float ratio = std::max(behind, std::numeric_limits<float>::min()) / before;
     return std::clamp(before * std::exp(share * std::log(ratio)), behind, before);
 }
 
-// Value at z between two nodes, left.z < z <= right.z.
+// The value at z between two nodes, left.z < z <= right.z.
 template <Sampling sampling>
 float join_nodes(const curves::Vertex& left, const curves::Vertex& right, float z) {
     if constexpr (sampling == Sampling::linear) return curves::join(left, right, z);

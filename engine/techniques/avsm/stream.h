@@ -1,4 +1,4 @@
-// The streaming compression of one texel (Salvi et al. 2010, section 3.2): insert a segment, then drop the nodes that
+// The streaming compression of one texel (Salvi et al. 2010, section 3.2): inserts a segment, then drops the nodes that
 // change the area under the curve least until no more than the texel's number are left.
 #pragma once
 
@@ -13,16 +13,16 @@
 namespace shadowbench::techniques {
 
 // A transmittance curve of at most `capacity` nodes, 2 to max_capacity, sampled between them as lookups will. The last
-// one is always at the far plane; depths do not decrease, values neither increase nor leave [0, 1]; the value before
-// the first node is its own. Each segment rounds the values behind it by up to 2^-24 of themselves, as the published
-// floats do.
+// node is always at the far plane. Depths do not decrease; values do not increase and stay in [0, 1]; the value before
+// the first node is that node's. Each segment rounds the values behind it by up to 2^-24 of themselves, as the
+// published floats do.
 //
-// Segments may come in any order. While no node has been dropped, the order changes the curve by rounding alone as long
-// as everything between two nodes is what the sampling takes it for: always for surfaces, and for overlapping media
-// with exponential sampling. With linear sampling, a node that a later segment puts inside a medium lies on its chord.
+// Segments may come in any order. While no node has been dropped, the order changes the curve only by rounding, if
+// everything between two nodes is what the sampling assumes: always for surfaces, and for overlapping media with
+// exponential sampling. With linear sampling, a node that a later segment puts inside a medium lies on its chord.
 //
-// Nodes stay in their slots, linked in order of depth, so that nothing moves when one goes: a segment behind all
-// others, which is what sorted input brings, costs the same few steps however many nodes there are.
+// Nodes stay in their slots, linked in order of depth, so that removing one moves nothing: a segment behind all others,
+// as in sorted input, costs the same few steps however many nodes there are.
 template <int max_capacity, Sampling sampling = Sampling::linear>
 class TransmittanceStream {
 public:
@@ -32,21 +32,21 @@ public:
         size_ = 1;
         depth_[far_slot] = far_plane;
         value_[far_slot] = 1.0f;
-        previous_[far_slot] = next_[far_slot] = far_slot;  // a ring: behind the last node comes the first
+        previous_[far_slot] = next_[far_slot] = far_slot;  // a ring: the first node follows the last
         rank_.fill(never);
         free_ = all_free();
         free_count_ = slots - 1;
     }
 
-    // A segment with constant extinction from front to back (front == back: a surface) that transmits `through`. All of
-    // it lies before the far plane.
+    // Inserts a segment with constant extinction from front to back (front == back: a surface) that transmits
+    // `through`. All of it must lie before the far plane.
     void insert(float front, float back, float through) {
         if (through >= 1.0f) return;
         const int last = previous_[far_slot];
         const bool joins = size_ > 1 && front == depth_[last] && back > front;  // right behind the segment before
         if (size_ == 1 || front > depth_[last] || joins) {
             const float before = value_before_far(front);
-            if (before <= 0.0f) return;  // nothing is left to take
+            if (before <= 0.0f) return;  // no light is left
             const float after = value_before_far(back) * through;
             value_[far_slot] *= through;
             if (!joins) link_before(far_slot, front, before);
@@ -93,7 +93,7 @@ private:
         return result;
     }
 
-    // Anywhere: nodes inside the segment follow the medium's own curve, those behind it are scaled.
+    // At any depth: nodes inside the segment follow the medium's own curve, and nodes behind it are scaled.
     void insert_between(float front, float back, float through) {
         int at = far_slot;  // first node not before the segment
         while (previous_[at] != far_slot && depth_[previous_[at]] >= front) at = previous_[at];
@@ -103,8 +103,8 @@ private:
         while (end != far_slot && depth_[end] <= back) end = next_[end];
         const float after = value_at(end, back) * through;
 
-        // Nodes that stand at the segment's ends serve as its ends: the first one at `front` holds the value before it,
-        // the last one at `back`, if it is another one, the value behind it.
+        // Nodes at the segment's ends serve as its ends: the first one at `front` holds the value before the segment,
+        // and the last one at `back`, if it is another node, the value behind it.
         const bool has_front = depth_[at] == front;
         const bool has_back = end != at && depth_[previous_[end]] == back && !(front == back && previous_[end] == at);
         const float log_through = std::log(through > 0.0f ? through : std::numeric_limits<float>::min());
@@ -125,22 +125,21 @@ private:
         for (int node = next_[far_slot]; node != far_slot; node = next_[node]) update(node);
     }
 
-    // Value at z, between the last node before the far plane and the far plane.
+    // The value at z, between the last node before the far plane and the far plane.
     float value_before_far(float z) const {
         const int last = previous_[far_slot];
         if (last == far_slot) return 1.0f;
         return value_between(last, far_slot, z);
     }
 
-    // Value at z, where `node` is the first that is not before z.
+    // The value at z, where `node` is the first that is not before z.
     float value_at(int node, float z) const {
         if (node == next_[far_slot]) return 1.0f;
         if (depth_[node] == z) return value_[node];
         return value_between(previous_[node], node, z);
     }
 
-    // Never outside of the two values, by no digit: the node that it makes would rise above one or fall below the
-    // other.
+    // Stays between the two values in every digit: otherwise the new node would rise above one or fall below the other.
     float value_between(int before, int behind, float z) const {
         const float u = (z - depth_[before]) / (depth_[behind] - depth_[before]);
         if constexpr (sampling == Sampling::exponential) return decay(value_[before], value_[behind], u);
@@ -190,7 +189,7 @@ private:
     int capacity_;
     int size_;
     std::array<float, slots> depth_, value_;
-    std::array<std::int32_t, slots> rank_;  // area and slot; `never` for the first, the last and for free slots
+    std::array<std::int32_t, slots> rank_;  // area and slot; `never` for the first, the last and free slots
     std::array<std::uint8_t, slots> previous_, next_;
     std::array<std::uint8_t, slots> free_;  // a stack of free slots
     int free_count_;

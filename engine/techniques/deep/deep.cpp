@@ -36,7 +36,7 @@ const Parameter parameters[] = {
      0,
      "box",
      {"box", "tent", "gaussian"}},
-    {"radius", ParameterKind::number, "of the filter, in pixels; a box of 0.5 is the pixel itself", 0.5, 0.5, 8},
+    {"radius", ParameterKind::number, "radius of the filter in pixels; a box of 0.5 is exactly the pixel", 0.5, 0.5, 8},
     {"mip",
      ParameterKind::choice,
      "coarser levels for wide lookups, each within half the tolerance of the one before, so within twice the tolerance "
@@ -48,8 +48,8 @@ const Parameter parameters[] = {
      {"none", "nearest", "blend"}},
     {"kernel",
      ParameterKind::choice,
-     "how a lookup weighs pixels: box, by the part of each that its footprint covers; tent, twice as wide, bilinear at "
-     "one pixel's width; pixels, the paper's box: whole pixels, those whose centres lie within the filter radius",
+     "how a lookup weights pixels: box, by the part of each that its footprint covers; tent, twice as wide, bilinear "
+     "at one pixel's width; pixels, the paper's box: whole pixels whose centres lie within the filter radius",
      0,
      0,
      0,
@@ -57,8 +57,8 @@ const Parameter parameters[] = {
      {"box", "tent", "pixels"}},
     {"search",
      ParameterKind::choice,
-     "how a lookup finds the segment of a function: cached starts at the one that the same batch used last in that "
-     "pixel. Answers are the same",
+     "how a lookup finds the segment of a function: cached starts at the segment that the same batch used last in that "
+     "pixel; all give the same answers",
      0,
      0,
      0,
@@ -103,7 +103,7 @@ public:
         map_.rule = rule_of(values);
     }
 
-    // A map of given functions, one pixel high. There are no rays to filter.
+    // A map of given functions, one pixel high. It has no rays to filter.
     Deep(const ParameterValues& values, std::span<const curves::Curve> functions) : Deep(values) {
         map_.compression.tolerance = static_cast<float>(tolerance_of(values, 1));
         map_.filter = {};
@@ -146,7 +146,7 @@ private:
     int channels_ = 1;
 };
 
-// Offsets, colour flags and padding, which every level has.
+// The offsets, colour flags and padding that every level has.
 std::size_t least_bytes(const ParameterValues& values, const rays::MapLayout& layout) {
     const int levels = values.word("mip") == "none" ? 1 : mip_levels(layout.width, layout.height);
     std::size_t sum = 0;
@@ -185,7 +185,7 @@ Technique deep() {
                 const bool bounded = !is_published(values);
                 return {.monotone = bounded, .unit_range = bounded};
             },
-            // Values that are twice the tolerance apart are joined or not as they are rounded, and that depends on the
+            // Values that are twice the tolerance apart are joined or not depending on their rounding, and so on the
             // order of their sums: no two products of round numbers are twice this apart.
             .traits = {.pointwise = {{"mip", "none"}, {"kernel", "box"}},
                        .order_free = {{"tolerance", 0.0131}},

@@ -10,7 +10,7 @@ namespace shadowbench::techniques {
 
 Technique deep();
 
-// What a finished deep shadow map holds, level 0 and then its mip levels; nothing of a map of another technique.
+// The level 0 and mip levels of a finished deep shadow map; nothing for a map of another technique.
 std::span<const DeepLevel> levels(const Map& map);
 
 }  // namespace shadowbench::techniques

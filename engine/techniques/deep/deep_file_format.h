@@ -1,4 +1,4 @@
-// What writing and reading share of the format in deep_file.h.
+// What writing and reading the format of deep_file.h share.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace shadowbench::techniques::deep_format {
 
-static_assert(std::endian::native == std::endian::little, "numbers are read and written as they lie in the file");
+static_assert(std::endian::native == std::endian::little, "numbers are read and written in the file's byte order");
 
 constexpr std::array<unsigned char, 8> magic{0x53, 0x42, 0x44, 0x53, 0x4d, 0x0d, 0x0a, 0x1a};
 constexpr std::uint32_t byte_order = 0x01020304;
@@ -29,14 +29,14 @@ struct Header {
 };
 static_assert(sizeof(Header) == 64);
 
-// CRC-32; pass the result on to go on with what follows.
+// CRC-32; pass a result as `before` to continue with the bytes that follow.
 std::uint32_t checksum(const void* bytes, std::size_t count, std::uint32_t before = 0);
 
 inline std::uint32_t header_checksum(const Header& header) {
     return checksum(&header, sizeof header - sizeof header.checksum);
 }
 
-// Levels of a map of this size, down to one pixel.
+// The number of levels of a map of this size, down to one pixel.
 constexpr std::uint32_t max_levels(std::uint32_t width, std::uint32_t height) {
     std::uint32_t levels = 1;
     for (; width > 1 || height > 1; ++levels) {
@@ -48,7 +48,7 @@ constexpr std::uint32_t max_levels(std::uint32_t width, std::uint32_t height) {
 
 std::vector<DeepTiling> tilings(int width, int height, int levels, int tile_size);
 
-// Words of a tile before its floats.
+// The number of words of a tile before its floats.
 constexpr std::size_t colour_words(std::size_t pixels, int channels) {
     return channels == 3 ? (pixels + 31) / 32 : 0;
 }

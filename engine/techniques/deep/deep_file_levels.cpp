@@ -1,4 +1,4 @@
-// A whole file back into memory.
+// Reads a whole file back into memory.
 #include <algorithm>
 
 #include "techniques/deep/deep_file.h"
@@ -28,7 +28,7 @@ std::uint32_t floats_of(const DeepFunction& f) {
     return f.nodes * static_cast<std::uint32_t>(1 + f.channels);
 }
 
-// Twice over the tiles: rows of pixels run across tiles, so that offsets must be known before floats find their place.
+// Reads the tiles twice: rows of pixels run across tiles, so the offsets must be known before the floats can be placed.
 DeepLevel read_level(const DeepFile& file, int number, std::vector<std::byte>& tile) {
     const DeepTiling& tiling = file.levels()[static_cast<std::size_t>(number)];
     const std::size_t pixels = static_cast<std::size_t>(tiling.width) * tiling.height;

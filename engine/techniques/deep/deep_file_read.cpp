@@ -30,7 +30,7 @@ std::uint32_t word(const std::byte* tile, std::size_t index) {
     return value;
 }
 
-// Empty when the numbers of a header whose checksum is right can be.
+// Says what is impossible about the numbers of a header whose checksum is right; empty if nothing is.
 std::string fault_of(const Header& h) {
     const auto side = [](std::uint32_t n) { return n >= 1 && n <= max_side; };
     if (!side(h.width) || !side(h.height)) return fmt::format("a map of {} x {} pixels", h.width, h.height);
@@ -92,13 +92,14 @@ void DeepFile::read_header() {
     if (h.magic != magic) fail(0, "not a deep shadow map file, or one damaged by a transfer as text");
     if (h.byte_order != byte_order) fail(offsetof(Header, byte_order), "the byte order is not little-endian");
     if (h.version != version)
-        fail(offsetof(Header, version), fmt::format("version {} of the format; {} is read here", h.version, version));
+        fail(offsetof(Header, version),
+             fmt::format("version {} of the format is not supported; version {} is", h.version, version));
     if (h.checksum != header_checksum(h))
         fail(offsetof(Header, checksum), "the header is damaged: its checksum differs");
     if (const std::string fault = fault_of(h); !fault.empty())
-        fail(offsetof(Header, width), fmt::format("the header tells of {}", fault));
+        fail(offsetof(Header, width), fmt::format("the header states {}", fault));
     if (h.file_bytes != file_bytes_)
-        fail(file_bytes_, fmt::format("the file has {} bytes where its header tells {}: it was cut, or something "
+        fail(file_bytes_, fmt::format("the file has {} bytes but its header states {}: it was cut, or something "
                                       "was appended",
                                       file_bytes_, h.file_bytes));
     channels_ = static_cast<int>(h.channels);
@@ -121,24 +122,23 @@ void DeepFile::read_directory() {
     read(sizeof(Header), notes_.text.data(), text_bytes_);
     directory_.resize(tiles);
     read(start, directory_.data(), tiles * sizeof(Entry));
-    std::uint32_t told;
-    read(end, &told, sizeof told);
-    if (told != checksum(directory_.data(), tiles * sizeof(Entry), checksum(notes_.text.data(), text_bytes_)))
+    std::uint32_t stored;
+    read(end, &stored, sizeof stored);
+    if (stored != checksum(directory_.data(), tiles * sizeof(Entry), checksum(notes_.text.data(), text_bytes_)))
         fail(end, "the text or the directory is damaged: their checksum differs");
 
-    std::uint64_t next = end + sizeof told;
+    std::uint64_t next = end + sizeof stored;
     for (std::size_t tile = 0; tile < tiles; ++tile) {
         const std::uint64_t at = start + tile * sizeof(Entry);
         if (directory_[tile].offset != next)
-            fail(at, fmt::format("tile {} begins at byte {} where the one before ends at {}", tile,
+            fail(at, fmt::format("tile {} begins at byte {}, but the one before ends at {}", tile,
                                  directory_[tile].offset, next));
         if (directory_[tile].words < table_words(tile_pixels(tile), channels_) ||
             directory_[tile].words > (file_bytes_ - next) / 4)
-            fail(at, fmt::format("tile {} has {} words, which cannot be", tile, directory_[tile].words));
+            fail(at, fmt::format("tile {} has the impossible size of {} words", tile, directory_[tile].words));
         next += std::uint64_t{directory_[tile].words} * 4;
     }
-    if (next != file_bytes_)
-        fail(next, fmt::format("the last tile ends here, and the file only at byte {}", file_bytes_));
+    if (next != file_bytes_) fail(next, fmt::format("the last tile ends here, but the file at byte {}", file_bytes_));
 }
 
 std::size_t DeepFile::bytes() const {
@@ -172,7 +172,7 @@ void DeepFile::check_table(const Entry& entry, std::size_t pixels, const std::by
         begin = end;
     }
     if (begin != floats)
-        fail(entry.offset + pixels * 4, fmt::format("the tile has {} floats, its pixels {}", floats, begin));
+        fail(entry.offset + pixels * 4, fmt::format("the tile has {} floats, but its pixels have {}", floats, begin));
 }
 
 // Lookups search the depths and join the values, and must not leave [0, 1].

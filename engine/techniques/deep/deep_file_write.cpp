@@ -23,7 +23,7 @@ struct Entry {
 };
 static_assert(sizeof(Entry) == 16);
 
-// Empty when the level can be written.
+// Says why a level cannot be written; empty if it can.
 std::string fault_of(const DeepLevel& level) {
     const auto side = [](int n) { return n >= 1 && n <= static_cast<int>(max_side); };
     if (!side(level.width) || !side(level.height)) return "its size";
@@ -43,11 +43,11 @@ void check(const std::filesystem::path& file, std::span<const DeepLevel> levels,
            const DeepFileNotes& notes) {
     if (tile_size < 1 || tile_size > max_deep_tile)
         throw Error(ErrorCode::bad_input, file.string(),
-                    fmt::format("a tile of {} pixels a side; it can be 1 to {}", tile_size, max_deep_tile));
+                    fmt::format("a tile of {} pixels a side; choose 1 to {}", tile_size, max_deep_tile));
     if (notes.text.size() > max_text)
         throw Error(ErrorCode::bad_input, file.string(),
                     fmt::format("a text of {} bytes; the limit is {}", notes.text.size(), max_text));
-    if (levels.empty()) throw Error(ErrorCode::internal, file.string(), "a deep shadow map without levels");
+    if (levels.empty()) throw Error(ErrorCode::internal, file.string(), "the deep shadow map has no levels");
     for (std::size_t i = 0; i < levels.size(); ++i) {
         std::string fault = fault_of(levels[i]);
         if (i > 0 && (levels[i].width != (levels[i - 1].width + 1) / 2 ||
@@ -62,11 +62,11 @@ void check(const std::filesystem::path& file, std::span<const DeepLevel> levels,
             for (std::size_t i = std::size_t{level.offsets[p]} + level.nodes(p); i < level.offsets[p + 1]; ++i)
                 if (!(level.floats[i] >= 0.0f && level.floats[i] <= 1.0f))
                     throw Error(ErrorCode::bad_input, file.string(),
-                                fmt::format("pixel {} has the visibility {}, and the file holds values in [0, 1] alone",
+                                fmt::format("pixel {} has the visibility {}, but the file holds only values in [0, 1]",
                                             p, level.floats[i]));
 }
 
-// The words of one tile, appended to `words`.
+// Appends the words of one tile to `words`.
 void append_tile(const DeepLevel& level, int x0, int y0, int x1, int y1, std::vector<std::uint32_t>& words) {
     const std::size_t pixels = static_cast<std::size_t>(x1 - x0) * (y1 - y0), table = words.size();
     words.resize(table + table_words(pixels, level.channels), 0);
@@ -106,7 +106,7 @@ std::vector<Entry> put_tiles(std::ostream& stream, std::span<const DeepLevel> le
                 append_tile(level, x, y, std::min(x + tile_size, level.width), std::min(y + tile_size, level.height),
                             words);
                 if (words.size() > std::numeric_limits<std::uint32_t>::max())
-                    throw Error(ErrorCode::bad_input, file.string(), "a tile of more than 16 GiB: take smaller tiles");
+                    throw Error(ErrorCode::bad_input, file.string(), "a tile has more than 16 GiB; use smaller tiles");
                 const std::size_t bytes = words.size() * sizeof(std::uint32_t);
                 directory.push_back({offset, static_cast<std::uint32_t>(words.size()), checksum(words.data(), bytes)});
                 put(stream, words.data(), words.size());

@@ -6,14 +6,14 @@
 namespace shadowbench::techniques {
 namespace {
 
-// A function's value where `next` is the first of its n depths that is not less than z.
+// The value of a function, where `next` is the first of its n depths that is not less than z.
 inline float value_at(const float* depths, const float* values, std::uint32_t n, std::uint32_t next, float z) {
     if (next == 0) return values[0];
     if (next == n) return values[n - 1];
     return curves::join({depths[next - 1], values[next - 1]}, {depths[next], values[next]}, z);
 }
 
-// The values of a pixel at depth z in each channel: curves::evaluate, to the bit.
+// The values of a pixel at depth z in each channel, with the same bits as curves::evaluate.
 template <int channels, class SegmentSearch>
 inline std::array<float, channels> evaluate(const DeepLevel& level, std::size_t pixel, float z, SegmentSearch& search) {
     const std::uint32_t begin = level.offsets[pixel], size = level.offsets[pixel + 1] - begin;
@@ -39,8 +39,8 @@ public:
         : levels_(levels), rule_(rule), search_(search) {}
 
     void run(std::span<const Query> queries, std::span<float> visibility) {
-        // Queries go in blocks: the lines of a whole block are asked for before the first is used, so that their misses
-        // overlap. First the offsets, then the nodes that they point to. This pays where a lookup reads few pixels.
+        // Queries go in blocks: the cache lines of a whole block are prefetched before the first is used, so that their
+        // misses overlap. First the offsets, then the nodes that they point to. This pays if a lookup reads few pixels.
         constexpr std::size_t block = 32;
         Few few[block];
         for (std::size_t start = 0; start < queries.size(); start += block) {
@@ -66,9 +66,9 @@ public:
 private:
     using Values = std::array<float, channels>;
 
-    // A footprint of 2 x 2 pixels of the map at most.
+    // A footprint of at most 2 x 2 pixels of the map.
     struct Few {
-        bool any = false;  // else it is wider, or reads other levels, or asks outside the map
+        bool any = false;  // else it is wider, or reads other levels, or is outside the map
         Stretch across, down;
     };
 
@@ -78,7 +78,7 @@ private:
         const float widest = rule_.mip == Mip::none ? 2.0f : narrowest_mip(rule_);
         if (rule_.kernel == Kernel::tent || !(width_of(q) <= widest) || !grid_of(map).find(q.x, q.y, x, y)) return {};
         if (rule_.kernel == Kernel::pixels) {
-            // Of a pixel's width the nearest one, whose centre is within half of that.
+            // A footprint of a pixel's width includes the nearest pixel, whose centre is within half of that.
             if (width_of(q) > 1.0f) return {};
             return {true, {x, x + 1}, {y, y + 1}};
         }
@@ -162,7 +162,7 @@ void touch_pixel(const DeepLevel& level, std::size_t p, float z, Search search, 
     const std::uint32_t next = BinarySearch()(depths, n, z);
     touch_search(depths, n, next, z, search, lines);
     const std::uint32_t left = next ? next - 1 : 0, right = std::min(next, n - 1);
-    const std::uint32_t rows = level.has_colour(p) ? 4 : 2;  // one of depths, then one of values a channel
+    const std::uint32_t rows = level.has_colour(p) ? 4 : 2;  // one row of depths, then one of values for each channel
     for (std::uint32_t row = 0; row < rows; ++row)
         touch_lines(depths + row * n + left, (right - left + 1) * sizeof(float), lines);
 }

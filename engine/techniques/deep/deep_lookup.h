@@ -11,26 +11,26 @@
 namespace shadowbench::techniques {
 
 enum class Mip {
-    none,     // the map alone
+    none,     // only the map
     nearest,  // one level
-    blend,    // that level and the next coarser one, weighed by how near each is
+    blend,    // that level and the next coarser one, weighted by how near each is
 };
 
 enum class Kernel {
     box,     // the part of each pixel that the footprint covers
-    tent,    // 1 - |d| / width, twice as wide; bilinear interpolation at a width of 1, which is the least
-    pixels,  // 1 within width / 2, at least the nearest pixel
+    tent,    // 1 - |d| / width, twice as wide; bilinear interpolation at a width of 1, the least
+    pixels,  // 1 within width / 2; at least the nearest pixel
 };
 
-// How a lookup weighs pixels around (x, y) over a footprint of `width`, all in pixels of the level in question. A box
-// is the footprint of the truth, cut to the map, over functions that each stand for a pixel. The others are the paper's
-// filter (section 3.4): pixel (i, j) weighs f(i + 1/2 - x) f(j + 1/2 - y), "over all pixels within the filter radius";
-// one that the map's edge cuts, of a coarser level than the map, weighs as much less.
+// How a lookup weights pixels around (x, y) over a footprint of `width`, all in pixels of the level in question. A box
+// is the footprint of the reference, cut to the map, over functions that each stand for a pixel. The others are the
+// paper's filter (section 3.4): pixel (i, j) has the weight f(i + 1/2 - x) f(j + 1/2 - y), "over all pixels within the
+// filter radius"; a pixel of a coarser level that the map's edge cuts has proportionally less.
 //
 // With mip levels, let l = log2(width / 1.5), for a tent log2(width), width in map pixels. `nearest` reads level
-// floor(l), where a box is 1.5 to 3 pixels wide, a tent's half 1 to 2; `blend` that one and the next with weights
-// 1 - frac(l) and frac(l). So a lookup reads 4 x 4 pixels of one level and 3 x 3 of another at most, however wide it
-// is.
+// floor(l), where a box is 1.5 to 3 pixels wide, a tent's half 1 to 2; `blend` reads that level and the next with
+// weights 1 - frac(l) and frac(l). So a lookup reads at most 4 x 4 pixels of one level and 3 x 3 of another, whatever
+// its width.
 struct LookupRule {
     Kernel kernel = Kernel::box;
     Mip mip = Mip::none;

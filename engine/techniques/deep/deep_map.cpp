@@ -10,7 +10,7 @@
 namespace shadowbench::techniques {
 namespace {
 
-// What a tile's pixels are made with.
+// The memory for making a tile's pixels.
 struct TileScratch {
     PixelScratch pixel;
     std::vector<curves::WeightedRay> chosen;
@@ -29,7 +29,7 @@ bool is_grey(const rays::LightRays& tile, std::size_t first, std::size_t count) 
     return true;
 }
 
-// Makes the functions of pixel (x, y), one if its channels are surely equal; returns how many.
+// Makes the functions of pixel (x, y): only one if its channels are surely equal. Returns how many.
 int make_functions(const PixelFilter& filter, const rays::LightRays& tile, int x, int y, double linearisation,
                    TileScratch& scratch) {
     auto& functions = scratch.pixel.function;

@@ -20,30 +20,30 @@ struct DeepMap {
     std::vector<DeepLevel> levels;  // the map, then its mip levels if the rule asks for them
     std::size_t peak_bytes = 0;
 
-    // Throws Error{bad_input} when the layout's apron is narrower than the filter's.
+    // Throws Error{bad_input} if the layout's apron is narrower than the filter's.
     void begin(const rays::MapLayout& map_layout);
     void add(const rays::LightRays& tile);
     void finish();
-    // Instead of those three: given functions, one pixel high.
+    // Replaces those three calls: makes a map one pixel high from given functions.
     void make(std::span<const curves::Curve> functions);
 
-    // See Map::weights; while the rays are still there.
+    // See Map::weights; call it while the rays still exist.
     void weights(int x, int y, const rays::LightRays& tile, std::vector<curves::WeightedRay>& out) const;
 
     std::size_t bytes() const;
-    NodeStats stats() const;  // of the map's own functions, mip levels apart
+    NodeStats stats() const;  // of the map's own functions, without mip levels
 
 private:
     void put_together(std::span<const PixelRun> runs, std::size_t scratch_bytes, int width, int height, int channels);
     void add_coarser_levels();
 
     rays::MapLayout layout_;
-    std::vector<PixelRun> runs_;              // one a tile
-    std::vector<std::size_t> scratch_bytes_;  // a tile
+    std::vector<PixelRun> runs_;              // one for each tile
+    std::vector<std::size_t> scratch_bytes_;  // for each tile
 };
 
-// The share of a tolerance that goes into drawing a medium's exponentials as lines; compression has the rest, so that
-// both together stay inside it.
+// The share of a tolerance for drawing a medium's exponentials as lines. Compression has the rest, so that both
+// together stay within the tolerance.
 double linearisation_of(double tolerance);
 
 }  // namespace shadowbench::techniques

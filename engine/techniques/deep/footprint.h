@@ -1,4 +1,4 @@
-// Which pixels of which levels a lookup's footprint covers, and how much each weighs; see LookupRule.
+// Finds the pixels of the levels that a lookup's footprint covers, and their weights; see LookupRule.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 
 namespace shadowbench::techniques {
 
-// A lookup reads level `fine`, and with a share above 0 the next coarser one too.
+// A lookup reads level `fine` and, if the share is above 0, the next coarser one too.
 struct LevelChoice {
     int fine = 0;
     float coarser = 0.0f;
 };
 
-// The widest footprint, in pixels of the map, that is the map's own matter.
+// The widest footprint, in pixels of the map, for which a lookup reads only the map.
 inline float narrowest_mip(const LookupRule& rule) {
     return rule.kernel == Kernel::tent ? 1.0f : 1.5f;
 }
@@ -36,7 +36,7 @@ inline CellGrid grid_of(const DeepLevel& level) {
 // Along one side of a level: pixels [begin, end) and the weights that a kernel gives their centres.
 class Side {
 public:
-    // Around `centre`, `width` wide, in the level's pixels, of which the map fills the first `filled`.
+    // A footprint `width` wide around `centre`, in the level's pixels, of which the map fills the first `filled`.
     Side(Kernel kernel, float centre, float width, float filled)
         : centre_(centre), width_(width), filled_(filled), tent_(kernel == Kernel::tent) {
         const float reach = tent_ ? width : 0.5f * width, last = std::ceil(filled);
@@ -63,7 +63,7 @@ private:
     bool tent_;
 };
 
-// Calls visit(x, y, weight) for each pixel of level `number` of a map of so many pixels. The query lies in the map.
+// Calls visit(x, y, weight) for each pixel of level `number` of a map of this size. The query must lie in the map.
 template <class Visit>
 void for_each_pixel(int map_width, int map_height, int number, Kernel kernel, const Query& q, const Visit& visit) {
     const float scale = 1.0f / static_cast<float>(1u << number);
@@ -86,7 +86,7 @@ void for_each_pixel(std::span<const DeepLevel> levels, int number, const LookupR
 // The weighted mean of values in each channel.
 template <int channels>
 struct WeightedMean {
-    std::array<double, channels> sum{};  // of up to a million pixels: sums of float would lose digits
+    std::array<double, channels> sum{};  // of up to a million pixels: float sums would lose digits
     double weights = 0.0;
 
     void add(const std::array<float, channels>& values, double weight) {

@@ -13,7 +13,7 @@ struct Children {
     std::array<double, 4> share{};
 };
 
-// Map pixels, along one side, that a pixel of a level covers.
+// The number of map pixels, along one side, that a pixel of a level covers.
 int covered(int at, int level, int map_size) {
     return static_cast<int>(std::min(1LL << level, map_size - (static_cast<long long>(at) << level)));
 }

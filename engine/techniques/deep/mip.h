@@ -9,25 +9,25 @@
 
 namespace shadowbench::techniques {
 
-// A pixel of level l covers 2^l by 2^l pixels of the map, fewer at the right and bottom edges of a map whose size is no
-// power of two. Its function is the mean of the stored functions of the four pixels (or two, or one) that it covers of
-// level l - 1, weighed by how many map pixels each covers, compressed within epsilon / 2^l, where level 0 was made
+// A pixel of level l covers 2^l by 2^l pixels of the map, fewer at the right and bottom edges if the map's size is not
+// a power of two. Its function is the mean of the stored functions of the four pixels (or two, or one) of level l - 1
+// that it covers, weighted by how many map pixels each covers, compressed within epsilon / 2^l; level 0 was compressed
 // within epsilon.
 //
 // So the error e_l against the mean of the uncompressed functions of the map pixels covered is at most
 //     e_0 <= epsilon,  e_l <= (weighted mean of the four e_(l-1)) + epsilon / 2^l,
-// whence e_l <= epsilon (1 + 1/2 + ... + 1/2^l) = epsilon (2 - 2^-l) < 2 epsilon, up to the rounding of floats.
+// hence e_l <= epsilon (1 + 1/2 + ... + 1/2^l) = epsilon (2 - 2^-l) < 2 epsilon, up to the rounding of floats.
 
-// Levels of a map down to a single pixel, the map itself included.
+// The number of levels of a map down to a single pixel, including the map.
 int mip_levels(int width, int height);
 
-// Side of a level, in its pixels, of a map side of `size` pixels.
+// The side of a level, in its pixels, for a map side of `size` pixels.
 inline int mip_size(int size, int level) {
     return static_cast<int>((static_cast<long long>(size) + (1LL << level) - 1) >> level);
 }
 
-// Appends all coarser levels to a map's level 0, made by this compression. Returns the bytes held at most while
-// building one level, apart from the levels themselves.
+// Appends all coarser levels to a map's level 0, which this compression made. Returns the most bytes held while
+// building one level, apart from the levels.
 std::size_t add_mip_levels(std::vector<DeepLevel>& levels, const Compression& compression);
 
 }  // namespace shadowbench::techniques

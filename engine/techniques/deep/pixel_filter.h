@@ -1,4 +1,4 @@
-// The filter that makes a pixel's function of the light rays around its centre: Lokovic and Veach 2000, equation (1).
+// The filter that makes a pixel's function from the light rays around its centre: Lokovic and Veach 2000, equation (1).
 #pragma once
 
 #include <algorithm>
@@ -13,28 +13,28 @@ namespace shadowbench::techniques {
 
 enum class FilterShape { box, tent, gaussian };
 
-// Weighs a ray at (dx, dy) pixels from a pixel's centre by f(dx) f(dy), where f is 0 outside [-radius, radius).
+// The weight of a ray at (dx, dy) pixels from a pixel's centre is f(dx) f(dy), where f is 0 outside [-radius, radius).
 //   box: 1;  tent: 1 - |d| / radius;  gaussian: exp(-2 (d / radius)^2), as RenderMan's filter of that name.
 struct PixelFilter {
     FilterShape shape = FilterShape::box;
-    double radius = 0.5;  // pixels, at least 0.5: a pixel always takes its own rays
+    double radius = 0.5;  // pixels, at least 0.5: a pixel always includes its own rays
 
-    // Whether the filter is the pixel itself.
+    // Whether the filter covers exactly the pixel.
     bool is_pixel() const { return shape == FilterShape::box && radius == 0.5; }
-    // Pixels beyond a pixel that it reaches into.
+    // The number of pixels around a pixel that it reaches into.
     int apron() const;
 };
 
-// Where a ray lies in its pixel, [0, 1) each way.
+// The position of a ray in its pixel, [0, 1) each way.
 struct RayOffset {
     float x, y;
 };
 
 RayOffset ray_offset(const rays::MapLayout& layout, const rays::LightRays& tile, std::size_t ray);
 
-// The rays that pixel (x, y) stands for, with weights above 0 that sum to 1; `out` is replaced. At the map's edges it
-// stands for the rays that there are. The tile must cover what the filter reaches of the map. `offset(ray)` is
-// ray_offset, or what it gave before.
+// The rays that pixel (x, y) represents, with weights above 0 that sum to 1; `out` is replaced. At the map's edges only
+// the rays that exist count. The tile must cover all of the map that the filter reaches. `offset(ray)` is
+// ray_offset(ray), or a stored result of it.
 template <class Offset>
 void filter_rays(const PixelFilter& filter, const rays::LightRays& tile, const Offset& offset, int x, int y,
                  std::vector<curves::WeightedRay>& out);
@@ -42,7 +42,7 @@ void filter_rays(const PixelFilter& filter, const rays::LightRays& tile, const O
 // Whether any ray within the filter's reach of pixel (x, y) crosses anything.
 bool any_segment(const PixelFilter& filter, const rays::LightRays& tile, int x, int y);
 
-// Pixels of the tile that the filter of pixel (x, y) reaches.
+// The pixels of the tile that the filter of pixel (x, y) reaches.
 struct FilterWindow {
     int x0, x1, y0, y1;
 };
@@ -84,7 +84,7 @@ void filter_rays(const PixelFilter& filter, const rays::LightRays& tile, const O
             gather([](double u) { return std::exp(-2.0 * u * u); });
             break;
     }
-    if (out.empty()) {  // all rays stand where a tent is 0
+    if (out.empty()) {  // all rays are where a tent is 0
         const std::size_t first = first_ray(tile, x, y);
         for (std::size_t s = 0; s < static_cast<std::size_t>(tile.samples); ++s) out.push_back({first + s, 1.0});
         total = tile.samples;

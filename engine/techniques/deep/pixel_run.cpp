@@ -72,8 +72,9 @@ DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun
     std::size_t total = 0;
     for (const PixelRun& run : runs) total += run.floats.size();
     if (total > std::numeric_limits<std::uint32_t>::max())
-        throw base::Error(base::ErrorCode::bad_input, "/techniques",
-                          "a deep map holds at most 2^32 numbers a level: raise the tolerance or lower the resolution");
+        throw base::Error(
+            base::ErrorCode::bad_input, "/techniques",
+            "a level of a deep map holds at most 2^32 numbers: raise the tolerance or lower the resolution");
     level.offsets.assign(pixels + 1, 0);
     if (channels == 3) level.coloured.assign((pixels + 63) / 64, 0);
     for (const PixelRun& run : runs)

@@ -1,4 +1,4 @@
-// Building a DeepLevel: functions are compressed pixel by pixel into runs, and runs are put together.
+// Builds a DeepLevel: compresses functions pixel by pixel into runs, and assembles the runs.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct PixelRun {
     }
 };
 
-// One pixel before it is compressed, and the memory for making it; one a thread.
+// One pixel before it is compressed, and the memory for making it; each thread has its own.
 struct PixelScratch {
     std::array<curves::Curve, 3> function;
     std::vector<curves::ColourVertex> colour;
@@ -46,7 +46,7 @@ struct Compression {
 // are stored as one.
 void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression);
 
-// Runs that fill the level. Throws Error{bad_input} when it would hold more than 2^32 floats.
+// Puts together runs that fill the level. Throws Error{bad_input} if it would hold more than 2^32 floats.
 DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun> runs);
 
 // The function of a channel; `out` is replaced.

@@ -1,4 +1,4 @@
-// Which segment of a stored function holds a depth. All searches give the same answer.
+// Finds the segment of a stored function that holds a depth. All searches give the same answer.
 #pragma once
 
 #include <array>
@@ -12,12 +12,13 @@
 namespace shadowbench::techniques {
 
 enum class Search {
-    binary,  // by halves down to a few depths, which are compared at once
+    binary,  // bisects down to a few depths, which are compared at once
     linear,  // from the front
     cached,  // from the segment used last in the same pixel (Lokovic and Veach 2000, section 3.4), else binary
 };
 
-// Each gives the first of n sorted depths that is not less than z, n where there is none; n > 0. 0 where z is no
+// Each returns the first of n sorted depths that is not less than z, or n if there is none; n > 0. A NaN returns 0.
+// `depths` may be read up to DeepLevel::padding floats further.
 // number. `depths` may be read as far as DeepLevel::padding floats.
 
 struct BinarySearch {
@@ -34,7 +35,8 @@ struct BinarySearch {
         const Lanes number([](auto lane) { return static_cast<float>(lane); });
         const auto before = (Lanes(first, std::experimental::element_aligned) < z) &&
                             (number < static_cast<float>(static_cast<int>(n)));
-        // They are the first ones: the last one set tells how many, without an instruction that counts bits.
+        // They are the first ones, so the position of the last bit set gives their number, without an instruction that
+        // counts bits.
         const std::uint32_t count = any_of(before) ? static_cast<std::uint32_t>(find_last_set(before)) + 1 : 0;
         return static_cast<std::uint32_t>(first - depths) + count;
     }
@@ -48,11 +50,11 @@ struct LinearSearch {
     }
 };
 
-// Remembers segments for one batch of lookups, so that threads share nothing. The paper's pointer a pixel would cost as
-// many bytes as the offsets; this is a small table of the pixels used last.
+// Remembers segments for one batch of lookups, so that threads share nothing. The paper's pointer for each pixel would
+// cost as many bytes as the offsets; this is a small table of the pixels used last.
 class CachedSearch {
 public:
-    // A table that suits a batch of so many lookups.
+    // A table that suits a batch of this many lookups.
     explicit CachedSearch(std::size_t lookups) : mask_(std::bit_ceil(lookups < most ? lookups + 1 : most) - 1) {
         for (std::size_t i = 0; i <= mask_; ++i) entries_[i].depths = nullptr;
     }
@@ -72,7 +74,7 @@ public:
 private:
     static constexpr std::size_t most = 1024;
     struct Entry {
-        const float* depths;  // tell the pixel
+        const float* depths;  // identify the pixel
         std::uint32_t next;
     };
     std::size_t mask_;

@@ -53,7 +53,7 @@ std::uint32_t TileCache::load(std::size_t tile) {
     if (s.capacity < bytes) {
         tile_bytes_ -= s.capacity;
         s.capacity = 0;
-        s.memory.reset();  // before the larger one comes
+        s.memory.reset();  // before the larger one is allocated
         s.memory = std::make_unique_for_overwrite<std::byte[]>(bytes);
         s.capacity = bytes;
         tile_bytes_ += bytes;
@@ -79,7 +79,7 @@ void lookup_channels(TileCache& cache, int level, std::span<const Query> queries
         values.fill(1.0f);
         int cx, cy;
         if (grid.find(q.x, q.y, cx, cy)) {
-            WeightedMean<channels> mean;  // as the map in memory, to the bit
+            WeightedMean<channels> mean;  // the same bits as the map in memory
             for_each_pixel(map.width, map.height, level, Kernel::box, q, [&](int x, int y, double weight) {
                 const DeepFunction function = cache.function(x, y, level);
                 for (int c = 0; c < channels; ++c) values[c] = evaluate(function, c, q.z);

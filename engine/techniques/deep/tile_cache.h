@@ -1,4 +1,4 @@
-// Reading a deep shadow map file through a fixed number of tiles in memory (Lokovic and Veach 2000, section 5.4).
+// Reads a deep shadow map file through a fixed number of tiles in memory (Lokovic and Veach 2000, section 5.4).
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@
 
 namespace shadowbench::techniques {
 
-// Holds up to `slots` tiles, of all levels together; a new one takes the place of the one used longest ago. A slot's
-// memory grows to the largest tile that it has held and never shrinks.
+// Holds up to `slots` tiles of all levels together; a new tile replaces the one used longest ago. A slot's memory grows
+// to the largest tile that it has held and never shrinks.
 //
-// Not thread-safe, and on purpose: a function stays valid only while its tile stays, which another thread could end.
-// Each thread has a cache of its own; they share the DeepFile, which must outlive them.
+// Deliberately not thread-safe: a function is valid only while its tile is held, which another thread could end. Each
+// thread has a cache of its own; they share the DeepFile, which must outlive them.
 class TileCache {
 public:
-    // At least one slot; slots beyond the file's tiles are not made. Opens and reads nothing yet.
+    // Makes at least one slot, and none beyond the number of the file's tiles. Opens and reads nothing yet.
     TileCache(const DeepFile& file, std::size_t slots);
 
     const DeepFile& file() const { return *file_; }
@@ -38,7 +38,7 @@ public:
     std::uint64_t hits() const { return hits_; }
     std::uint64_t misses() const { return misses_; }
     std::size_t tile_bytes() const { return tile_bytes_; }  // memory of the slots
-    std::size_t bytes() const;                              // all that the cache holds
+    std::size_t bytes() const;                              // everything that the cache holds
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
@@ -59,15 +59,16 @@ private:
     const DeepFile* file_;
     std::vector<Slot> slots_;
     std::vector<std::uint32_t> free_;     // slots without a tile
-    std::vector<std::uint32_t> slot_of_;  // of every tile of the file
+    std::vector<std::uint32_t> slot_of_;  // for every tile of the file
     std::uint32_t newest_ = none, oldest_ = none;
     std::uint64_t hits_ = 0, misses_ = 0;
     std::size_t tile_bytes_ = 0;
 };
 
 // Answers queries, which are in pixels of level 0, from one level: the mean over the level's pixels that the footprint
-// covers, each weighed by the part that is covered (Kernel::box in deep_lookup.h). Channel after channel: visibility[c
-// * queries.size() + i] is the answer to queries[i]. Outside the map: lit. Throws what TileCache::function throws.
+// covers, each weighted by the part that is covered (Kernel::box in deep_lookup.h). Channel after channel:
+// visibility[c * queries.size() + i] is the answer to queries[i]. Outside the map: lit. Throws what TileCache::function
+// throws.
 void lookup(TileCache& cache, int level, std::span<const Query> queries, std::span<float> visibility);
 
 }  // namespace shadowbench::techniques

@@ -11,10 +11,10 @@
 namespace shadowbench::techniques {
 namespace {
 
-// Names of figure 4 of the paper; values that section 4.2 calls typical. Its biases of 0.3 and 0.4 are for worlds of
-// 100 units; receivers carry the scenario's own bias, so none is added here by default.
+// The names of figure 4 of the paper; values that section 4.2 calls typical. Its biases of 0.3 and 0.4 are for worlds
+// of 100 units; receivers carry the scenario's own bias, so none is added here by default.
 const Parameter parameters[] = {
-    {"num_samples", ParameterKind::integer, "depths compared in one lookup, about (NumSamples)", 16, 1, 4096},
+    {"num_samples", ParameterKind::integer, "number of depths compared in one lookup, about (NumSamples)", 16, 1, 4096},
     {"res_factor", ParameterKind::number, "widens the region (ResFactor); below 1 the map's aliases show", 3, 1, 1000},
     {"min_size", ParameterKind::number, "least half-size of the region in cells (MinSize)", 2, 0, 10000},
     {"min_samples", ParameterKind::integer, "least samples along each side of the region (MinSamples)", 2, 1, 64},
@@ -22,8 +22,8 @@ const Parameter parameters[] = {
     {"bias1", ParameterKind::number, "largest bias of a sample, world length (Bias1); at least bias0", 0, 0, 1e6},
     {"placement",
      ParameterKind::choice,
-     "of samples (figure 3): anywhere in the region's bounding box, Gaussian in it, jittered in it, or jittered in the "
-     "region's own shape",
+     "where the samples lie (figure 3): anywhere in the region's bounding box, Gaussian in it, jittered in it, or "
+     "jittered in the region's own shape",
      0,
      0,
      0,
@@ -31,9 +31,8 @@ const Parameter parameters[] = {
      {"uniform", "gaussian", "jittered", "shape"}},
     {"region",
      ParameterKind::number_or_word,
-     "what is filtered over: the width that a lookup asks for, the receiver's pixel mapped into the map (the width "
-     "where "
-     "it is not known), or a width of this many map pixels",
+     "the region of the filter: a square of the query's width, the receiver's pixel mapped into the map (or that "
+     "square if the pixel is not known), or a square of this many map pixels",
      0,
      1e-6,
      1e6,
@@ -50,7 +49,7 @@ Placement read_placement(const ParameterValues& values) {
     return word == "shape" ? Placement::shape : Placement::jittered;
 }
 
-// Random numbers of a lookup: of what is asked alone.
+// The key of a lookup's random numbers, which depends only on the query.
 std::uint64_t key_of(const Query& q) {
     const std::uint64_t place =
         static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(q.x)) << 32 | std::bit_cast<std::uint32_t>(q.y);
@@ -110,7 +109,7 @@ private:
         float x, y;       // cells
         CellRange range;  // that its samples lie in
         bool inside;      // no sample leaves the map
-        int known = -1;   // samples in shadow, where it can be told without sampling
+        int known = -1;   // the number of samples in shadow, if it is known without sampling; else -1
     };
 
     const CellGrid& grid() const { return depths_.store.grid(); }
@@ -141,7 +140,7 @@ private:
         return square_region(settings_, grid(), width_ > 0.0f ? width_ : width);
     }
 
-    // False where the point is lit without asking the map: behind the light, or outside of the map.
+    // Returns false if the point is lit whatever the map holds: behind the light, or outside the map.
     template <class Depths>
     bool find(const Depths& depths, const Region& region, const Query& q, Place& p) const {
         int cx, cy;
@@ -167,8 +166,8 @@ private:
         return x >= 0.0f && y >= 0.0f && x < static_cast<float>(grid().width) && y < static_cast<float>(grid().height);
     }
 
-    // Samples spread over their whole parts of the region: the printed code moves them by half a part in one direction
-    // only, which would shift every shadow. Those outside the map are lit.
+    // Samples spread over their whole parts of the region. The printed code moves them by half a part in one direction
+    // only, which would shift every shadow. Samples outside the map are lit.
     template <Placement placement, class Depths>
     int count_shadowed(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
         if (p.known >= 0) return p.known;
@@ -178,7 +177,7 @@ private:
         return sample<placement, false, true>(depths, region, q, p);
     }
 
-    // `drawn`: the bias of each sample is, else all have one.
+    // If `drawn`, each sample draws its bias; otherwise all have one.
     template <Placement placement, bool inside, bool drawn, class Depths>
     int sample(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
         int shadowed = 0;
@@ -195,7 +194,7 @@ private:
                 std::span<float> visibility) const {
         const bool each = pixel_ && !footprints.empty();
         Region region;
-        float width = -1.0f;  // that the region is of: most lookups ask for the same
+        float width = -1.0f;  // the width that the region is for: most lookups have the same
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const Query& q = queries[i];
             if (each || q.width != width) {

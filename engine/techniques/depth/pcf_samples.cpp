@@ -5,9 +5,9 @@
 namespace shadowbench::techniques {
 namespace {
 
-constexpr float largest_half = 1e9f;  // cells or pixels: beyond, a footprint says nothing about the map
+constexpr float largest_half = 1e9f;  // cells or pixels: a larger footprint says nothing about the map
 
-// The box with these half-sizes around the place of a lookup.
+// The box with these half-sizes around the position of a lookup.
 Region box_region(const PcfSettings& settings, float sres, float tres) {
     const Partition p = partition(settings, sres, tres);
     Region r;
@@ -22,11 +22,11 @@ Region box_region(const PcfSettings& settings, float sres, float tres) {
 
 }  // namespace
 
-// Figure 4 cuts sizes plus a half to whole numbers. Where few cells lie in the region there is about one sample a cell;
-// else num_samples, divided between the sides as the region is.
+// Figure 4 truncates sizes plus a half to whole numbers. If few cells lie in the region there is about one sample for
+// each cell; otherwise num_samples, divided between the sides as the region is.
 Partition partition(const PcfSettings& settings, float sres, float tres) {
     const float most = std::max(settings.num_samples, settings.min_samples);
-    const auto whole = [&](float n) {  // n >= 0; cut to what an int holds first
+    const auto whole = [&](float n) {  // n >= 0; limited first to what an int holds
         const float cut = static_cast<float>(static_cast<int>(std::min(n + 0.5f, most)));
         return std::max(cut, settings.min_samples);
     };
@@ -42,7 +42,7 @@ Partition partition(const PcfSettings& settings, float sres, float tres) {
 }
 
 Region square_region(const PcfSettings& settings, const CellGrid& grid, float width) {
-    const float half = std::min(std::max(0.0f, 0.5f * width), largest_half);  // 0 for what is not a number
+    const float half = std::min(std::max(0.0f, 0.5f * width), largest_half);  // 0 for a NaN
     return box_region(settings, std::max(half * grid.per_pixel_x * settings.res_factor, settings.min_size),
                       std::max(half * grid.per_pixel_y * settings.res_factor, settings.min_size));
 }
@@ -81,7 +81,7 @@ Extent extent(const Region& r, float x, float y) {
 
 const GaussianTable& gaussian_table() {
     static const GaussianTable table = [] {
-        GaussianTable made;
+        GaussianTable result;
         const double edge = 2.0;  // standard deviations
         const double half = std::erf(edge / std::sqrt(2.0));
         for (int i = 0; i <= GaussianTable::steps; ++i) {
@@ -91,9 +91,9 @@ const GaussianTable& gaussian_table() {
                 const double middle = 0.5 * (low + high);
                 (std::erf(middle / std::sqrt(2.0)) < wanted ? low : high) = middle;
             }
-            made.quantile[i] = static_cast<float>(0.5 + 0.25 * (low + high) / edge);
+            result.quantile[i] = static_cast<float>(0.5 + 0.25 * (low + high) / edge);
         }
-        return made;
+        return result;
     }();
     return table;
 }

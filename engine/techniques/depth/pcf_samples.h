@@ -1,5 +1,5 @@
-// Where percentage closer filtering samples the depth map: the region of a lookup, its partition, and the four ways to
-// place samples. Reeves, Salesin, Cook 1987, figures 3 and 4.
+// Places the samples of percentage closer filtering in the depth map: the region of a lookup, its partition, and the
+// four ways to place samples. Reeves, Salesin, Cook 1987, figures 3 and 4.
 #pragma once
 
 #include <cstdint>
@@ -21,37 +21,38 @@ struct PcfSettings {
     float num_samples, res_factor, min_size, min_samples, bias0, bias1;
 };
 
-// How many samples along each side of a region with these half-sizes (in cells).
+// The number of samples along each side of a region with these half-sizes (in cells).
 struct Partition {
     int ns, nt;
 };
 Partition partition(const PcfSettings& settings, float sres, float tres);
 
-// Positions (left + s ax + t bx, bottom + s ay + t by) around the place of a lookup, in cells; s in [0, ns], t in
-// [0, nt], a part of the region between whole numbers. ay and bx are 0 but in a shape.
+// Positions (left + s ax + t bx, bottom + s ay + t by) relative to the position of a lookup, in cells; s in [0, ns], t
+// in [0, nt], with one part of the region between whole numbers. ay and bx are 0 except for a shape.
 struct Region {
     float left = 0, bottom = 0;
     float ax = 0, ay = 0, bx = 0, by = 0;
     int ns = 1, nt = 1;
 };
 
-// The region of a square of `width` map pixels, as technique.h understands widths. Its half-sizes are those of the
-// square in cells times res_factor, and at least min_size.
+// The region of a square of `width` map pixels; technique.h defines widths. Its half-sizes are those of the square in
+// cells times res_factor, and at least min_size.
 Region square_region(const PcfSettings& settings, const CellGrid& grid, float width);
 
 // The region of a known footprint: its bounding box, treated likewise, or the parallelogram stretched along the axes of
-// the map until it fills that box. False where it has no extent, or none that is a number: then the square counts.
+// the map until it fills that box. Returns false if it has no extent, or one that is not finite: then the square
+// applies.
 bool footprint_region(const PcfSettings& settings, const CellGrid& grid, const Footprint& footprint, bool shape,
                       Region& out);
 
-// No sample of a lookup at (x, y) lies outside, roundings included: each operation that places one is monotone, and
-// these are the same at the ends.
+// The samples of a lookup at (x, y) lie inside these bounds, roundings included: each operation that places one is
+// monotone, and these bounds use the same operations at the ends.
 struct Extent {
     float x0, x1, y0, y1;
 };
 Extent extent(const Region& region, float x, float y);
 
-// Inverse distribution function of the Gaussian in [0, 1], cut at its ends two standard deviations from the middle.
+// The inverse distribution function of the Gaussian in [0, 1], cut at its ends two standard deviations from the middle.
 struct GaussianTable {
     static constexpr int steps = 1024;
     float quantile[steps + 1];
@@ -65,8 +66,8 @@ struct GaussianTable {
 };
 const GaussianTable& gaussian_table();
 
-// The next 64 random bits of a key that is random itself: wyrand (Wang Yi, wyhash final version 4), one multiplication
-// a sample, where base::mix takes two.
+// The next 64 random bits of a key that is itself random: wyrand (Wang Yi, wyhash final version 4), one multiplication
+// per sample, where base::mix takes two.
 inline std::uint64_t sample_bits(std::uint64_t& key) {
     __extension__ using Wide = unsigned __int128;
     key += 0xa0761d6478bd642full;
@@ -75,7 +76,7 @@ inline std::uint64_t sample_bits(std::uint64_t& key) {
 }
 
 // Calls visit(x, y, u) for the samples of a lookup at (x, y), all in cells; u is uniform in [0, 1), for the bias.
-// Random numbers depend on the key and the number of the sample alone.
+// Random numbers depend only on the key and the number of the sample.
 template <Placement placement, class Visit>
 void for_each_sample(const Region& r, float x, float y, std::uint64_t key, const Visit& visit) {
     const auto unit = [](std::uint64_t bits) {
@@ -84,7 +85,7 @@ void for_each_sample(const Region& r, float x, float y, std::uint64_t key, const
     const GaussianTable* table = placement == Placement::gaussian ? &gaussian_table() : nullptr;
     const float x0 = x + r.left, y0 = y + r.bottom;
     const float ns = static_cast<float>(r.ns), nt = static_cast<float>(r.nt);
-    // Whole numbers as float: counting them up costs less than to convert them.
+    // Whole numbers as float: counting them up costs less than converting them.
     for (float j = 0.0f; j < nt; j += 1.0f)
         for (float i = 0.0f; i < ns; i += 1.0f) {
             const std::uint64_t bits = sample_bits(key);

@@ -19,7 +19,7 @@ public:
     void add(const rays::LightRays& tile) override { depths_.map.add(tile); }
     void finish() override { depths_.finish(); }
 
-    // One cell is read sooner than its tile's bounds are weighed: their branches cost more, in random order.
+    // Reads the one cell directly: checking its tile's bounds first costs more, since its branches mispredict.
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
         depths_.store.read([&](const auto& depths) {
             for (std::size_t i = 0; i < queries.size(); ++i) {

@@ -11,11 +11,12 @@ const Parameter parameters[] = {
      "terms of the series, each a cosine and a sine coefficient; the first one is the mean", 16, 1, most_terms},
     {.name = "range",
      .kind = ParameterKind::choice,
-     .doc = "where ringing makes the series rise above 1: clamped to 1, or raw",
+     .doc = "where ringing lifts the series above 1: clamped to 1, or left as it is (raw)",
      .standard_word = "clamped",
      .words = {"clamped", "raw"}},
     {"opaque_depth", ParameterKind::number,
-     "largest absorption of one segment, and that of something opaque; ln 256 makes it black in 8 bits", 5.545, 1, 80},
+     "largest absorption of one segment, also used for opaque surfaces; ln 256 makes them black in 8 bits", 5.545, 1,
+     80},
     filter_parameter,
     cells_parameter,
 };
@@ -23,8 +24,8 @@ const Parameter parameters[] = {
 constexpr float highest_raw = 1e30f;  // raw answers stay finite
 
 // A texel is padded(terms) floats, see series.h. At 16 terms these are the 128 bytes that Salvi et al. 2010, table 1,
-// count for "16 terms". Depth is normalised between the bounds of the whole map. Lookups filter transmittance, as those
-// of all techniques here do; the series itself, which could be filtered too, is not.
+// count for "16 terms". Depth is normalised between the bounds of the whole map. Lookups filter transmittance, as in
+// all techniques here; the series, which could also be filtered, is not.
 class Fourier final : public TexelMap<Fourier> {
 public:
     explicit Fourier(const ParameterValues& values)

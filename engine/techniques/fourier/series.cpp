@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// 1 / (2 pi k); 0 for k = 0, whose weight is another.
+// 1 / (2 pi k); 0 for k = 0, which has another weight.
 const Harmonics& reciprocals() {
     static const Harmonics table = [] {
         Harmonics result{};
@@ -30,7 +30,7 @@ const std::array<float, most_terms>& weight_scales() {
     return table;
 }
 
-// sin(2 pi t) for t in [-1/4, 1/4]: the odd polynomial of degree 9 whose largest error is least (3.3e-9, found by
+// sin(2 pi t) for t in [-1/4, 1/4]: the odd polynomial of degree 9 with the least maximum error (3.3e-9, found by
 // Remez's exchange); within 1.9e-7 in float.
 inline float sine_of_turn(float t) {
     const float u = t * t;
@@ -65,8 +65,8 @@ void harmonics(double x, int terms, Harmonics& cosines, Harmonics& sines) {
         }
 }
 
-// Over [front, back] with middle m and width w the means of cos(2 pi k x) and sin(2 pi k x) are those at m times
-// sin(pi k w) / (pi k w): no difference of nearly equal numbers, however thin the segment.
+// Over [front, back] with middle m and width w the means of cos(2 pi k x) and sin(2 pi k x) are the values at m times
+// sin(pi k w) / (pi k w). This avoids differences of nearly equal numbers, however thin the segment.
 void Series::add(double front, double back, double absorption, int terms) {
     Harmonics cosines, sines;
     harmonics(pi * (front + back), terms, cosines, sines);
@@ -96,9 +96,9 @@ void Series::store(int terms, float* texel) const {
     std::fill(texel + 2 * terms, texel + padded(terms), 0.0f);
 }
 
-// Without a call of the library. The angles are counted in turns of 2^32 steps, so that k d loses its whole turns
-// without error: with r the rest, in [-1/2, 1/2), sin(2 pi k d) = 2 sin(pi r) cos(pi r) and 1 - cos(2 pi k d) =
-// 2 sin(pi r)^2, which keeps its digits where it is small.
+// Calls no library function. Angles are counted in turns of 2^32 steps, so that k d loses its whole turns without
+// error: with r the rest, in [-1/2, 1/2), sin(2 pi k d) = 2 sin(pi r) cos(pi r) and 1 - cos(2 pi k d) = 2 sin(pi r)^2,
+// which keeps its digits where it is small.
 void make_weights(double d, int terms, Weights& weights) {
     const auto step = static_cast<std::uint32_t>(static_cast<std::uint64_t>(d * 0x1p32 + 0.5));
     const std::array<float, most_terms>& scale = weight_scales();

@@ -13,20 +13,20 @@
 namespace shadowbench::techniques {
 
 constexpr int most_terms = 64;
-constexpr int lanes = 8;  // numbers that a loop takes at once; rows are padded to a multiple of them with zeros
+constexpr int lanes = 8;  // numbers that a loop handles at once; rows are padded to a multiple of it with zeros
 
 using Harmonics = std::array<double, most_terms>;
 
-// Floats of a texel of so many terms: all a_k, all b_k, zeros.
+// The number of floats of a texel with this many terms: all a_k, all b_k, zeros.
 constexpr int padded(int terms) {
     return (2 * terms + lanes - 1) / lanes * lanes;
 }
 
-// cosines[k] = cos(k x), sines[k] = sin(k x) for k below `terms` (and on up to the next multiple of `lanes`). One call
-// of the library; the rest by rotations, at most terms / 8 + 3 after each other, so that errors stay near 1e-15.
+// cosines[k] = cos(k x), sines[k] = sin(k x) for k below `terms` (and up to the next multiple of `lanes`). Makes one
+// call of the library; the others are rotations, at most terms / 8 + 3 in sequence, so that errors stay near 1e-15.
 void harmonics(double x, int terms, Harmonics& cosines, Harmonics& sines);
 
-// Sums of a ray under construction.
+// The sums of a ray under construction.
 struct Series {
     Harmonics a, b;
 
@@ -34,19 +34,19 @@ struct Series {
         a.fill(0.0);
         b.fill(0.0);
     }
-    // Absorption spread evenly over [front, back]; all of it at one place when they are equal.
+    // Adds absorption spread evenly over [front, back]; all of it at one depth if they are equal.
     void add(double front, double back, double absorption, int terms);
     // Writes padded(terms) floats.
     void store(int terms, float* texel) const;
 };
 
-// By what a texel's floats are multiplied to give the integral to one depth.
+// The factors of a texel's floats that give the integral up to one depth.
 struct Weights {
     alignas(64) std::array<float, 2 * most_terms> of;
 };
 void make_weights(double d, int terms, Weights& weights);
 
-// The integral: the sum of the products, `lanes` partial sums side by side.
+// The integral: the sum of the products, as `lanes` partial sums.
 inline float integral(const float* texel, const Weights& weights, int floats) {
     namespace simd = std::experimental;
     using Lanes = simd::fixed_size_simd<float, lanes>;

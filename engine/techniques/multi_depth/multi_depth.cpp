@@ -1,4 +1,4 @@
-// Several depths a cell and a test with several outcomes: Pagot, Comba, Oliveira, Multiple-Depth Shadow Maps, 2004.
+// Several depths per cell and a test with several outcomes: Pagot, Comba, Oliveira, Multiple-Depth Shadow Maps, 2004.
 #include <limits>
 #include <utility>
 
@@ -10,26 +10,24 @@ namespace {
 
 // Defaults: the 3-SM with a kernel of 3 x 3 of the paper's figures 1, 6 and 7, with its q = 9 of section 6.
 const Parameter parameters[] = {
-    {"n", ParameterKind::integer, "depths a cell", 3, 1, most_depths},
+    {"n", ParameterKind::integer, "depths per cell", 3, 1, most_depths},
     {"select",
      ParameterKind::choice,
-     "which depths beside the cell's own: the n - 1 deepest or nearest of the q samples, half of each, or the middles "
-     "of "
-     "n groups of the sorted samples",
+     "the depths kept beside the cell's own: the n - 1 deepest or nearest of the q samples, half of each, or the "
+     "middles of n groups of the sorted samples",
      0,
      0,
      0,
      "both",
      {"maximum", "minimum", "both", "sorted"}},
-    {"q", ParameterKind::integer, "samples of the base map around a cell, itself among them; 9, 25, 49: squares", 9, 1,
-     289},
+    {"q", ParameterKind::integer, "samples of the base map around a cell, including its own; 9, 25 and 49 are squares",
+     9, 1, 289},
     {"kernel", ParameterKind::integer, "cells along each side of a lookup's kernel, k = kernel^2 in PCF(k, n)", 3, 1,
      16},
     {"region",
      ParameterKind::choice,
-     "of the kernel: adjacent cells, those outside the map lit, or spread evenly over what the width that a lookup "
-     "asks "
-     "for has inside the map",
+     "the region of the kernel: adjacent cells, where cells outside the map are lit, or positions spread evenly over "
+     "the part of the query's footprint inside the map",
      0,
      0,
      0,
@@ -62,7 +60,7 @@ public:
 
     void begin(const BuildInput& input) override { base_.begin(input.layout); }
     void add(const rays::LightRays& tile) override { base_.add(tile); }
-    // The base map is whole now: no tile's border is in the way of a search region.
+    // The base map is complete now, so search regions may cross the borders of tiles.
     void finish() override {
         const std::vector<float> base = std::exchange(base_.depth, {});
         store_.keep(way_, base_.grid, n_, select_all(selection_, q_, n_, base_.grid, base));
@@ -104,7 +102,7 @@ public:
     }
 
 private:
-    // The cells of one lookup, those inside the map: column[0, columns) x row[0, rows), ascending.
+    // The cells of one lookup inside the map: column[0, columns) x row[0, rows), ascending.
     struct Kernel {
         int columns = 0, rows = 0;
         int column[16], row[16];
@@ -117,8 +115,9 @@ private:
         }
     };
 
-    // A regular grid of side x side places: adjacent cells, the middle one where the lookup asks, those outside the map
-    // left out; or the middles of equal parts of what the footprint has inside the map. False outside the map: lit.
+    // A regular grid of side x side positions: adjacent cells around the lookup's own, without those outside the map;
+    // or the middles of equal parts of the footprint's area inside the map. Returns false outside the map, which is
+    // lit.
     bool find(const Query& q, Kernel& kernel) const {
         const CellGrid& grid = store_.grid();
         int x, y;
@@ -144,7 +143,7 @@ private:
         return kernel.columns > 0 && kernel.rows > 0;
     }
 
-    // The sum of the n-shadow-tests' numerators where the bounds tell it; else -1.
+    // The sum of the n-shadow-tests' numerators if the bounds determine it; else -1.
     template <class Depths>
     int known(const Depths& depths, const Kernel& kernel, float z) const {
         if constexpr (Depths::bounded) {
@@ -176,38 +175,39 @@ private:
     bool spread_;
     float bias_;
     Storage way_;
-    DepthMap base_;  // its depths go once the map is finished
+    DepthMap base_;  // its depths are freed when the map is finished
     DepthStore store_;
 };
 
 }  // namespace
 
 Technique multi_depth() {
-    return {
-        .id = "multi_depth",
-        .title = "several depths a cell, and a shadow test with as many steps",
-        .paper = "Pagot, Comba, Oliveira 2004",
-        .version = 2,
-        .promises = {.opaque_only = true},
-        .parameters = parameters,
-        .create = create_map<MultiDepth>,
-        // With more depths than its own a cell stands for its neighbours too: no bound on the error against its ray.
-        .error_bound =
-            [](const ParameterValues& values, const rays::MapLayout& layout) {
-                const bool own = values.integer("n") == 1 || values.integer("q") == 1;
-                return own ? 0.0 : no_bound(values, layout);
-            },
-        .least_bytes =
-            [](const ParameterValues& values, const rays::MapLayout& layout) {
-                return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)),
-                                         values.integer("n"));
-            },
-        // A lookup answers one minus a count over its number, where the function holds the rest of the count over it.
-        .traits = {.beyond_footprint = true,
-                   .filters = false,
-                   .lookup_rounding = 1e-7,
-                   .biases = {"bias"},
-                   .pointwise = {{"kernel", 1.0}}}};
+    return {.id = "multi_depth",
+            .title = "several depths a cell, and a shadow test with as many steps",
+            .paper = "Pagot, Comba, Oliveira 2004",
+            .version = 2,
+            .promises = {.opaque_only = true},
+            .parameters = parameters,
+            .create = create_map<MultiDepth>,
+            // With more depths than its own, a cell also represents its neighbours: there is no bound on the error
+            // against its ray.
+            .error_bound =
+                [](const ParameterValues& values, const rays::MapLayout& layout) {
+                    const bool own = values.integer("n") == 1 || values.integer("q") == 1;
+                    return own ? 0.0 : no_bound(values, layout);
+                },
+            .least_bytes =
+                [](const ParameterValues& values, const rays::MapLayout& layout) {
+                    return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)),
+                                             values.integer("n"));
+                },
+            // A lookup answers one minus a count divided by its number; the function holds the remaining count divided
+            // by it.
+            .traits = {.beyond_footprint = true,
+                       .filters = false,
+                       .lookup_rounding = 1e-7,
+                       .biases = {"bias"},
+                       .pointwise = {{"kernel", 1.0}}}};
 }
 
 }  // namespace shadowbench::techniques

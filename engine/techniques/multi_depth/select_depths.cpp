@@ -9,7 +9,7 @@
 namespace shadowbench::techniques {
 namespace {
 
-// The middle of each of n groups of the sorted samples. The cell's own depth stands for the group that it falls into.
+// The middle of each of n groups of the sorted samples. The cell's own depth represents the group that it falls into.
 void choose_of_groups(std::span<const float> sorted, float own, std::span<float> chosen) {
     const std::size_t q = sorted.size(), n = chosen.size();
     // Group g holds the ranks from floor(g q / n) to before floor((g + 1) q / n).
@@ -27,7 +27,7 @@ void choose_of_ends(std::span<const float> sorted, float own, std::size_t neares
         chosen[i] = i <= nearest ? sorted[std::min(i - 1, last)] : sorted[last - std::min(i - 1 - nearest, last)];
 }
 
-// `sorted` by as much as the ends need: one from each end is found without sorting.
+// Sorts `samples` only as far as the ends need: one from each end is found without sorting.
 void sort_ends(std::span<float> samples, std::size_t nearest, std::size_t deepest) {
     if (nearest > 1 || deepest > 1) return std::sort(samples.begin(), samples.end());
     const auto [least, greatest] = std::minmax_element(samples.begin(), samples.end());

@@ -13,19 +13,19 @@ const Parameter parameters[] = {
     {"slices", ParameterKind::integer, "depths at which a texel holds the optical depth so far", 32, 1, most_slices},
     {.name = "bounds",
      .kind = ParameterKind::choice,
-     .doc = "between which depths the slices stand: those of all that casts shadows in the map, or of each texel alone",
+     .doc = "the depths between which the slices lie: those of all shadow casters in the map, or those of each texel",
      .standard_word = "map",
      .words = {"map", "texel"}},
     {"opaque_depth", ParameterKind::number,
-     "largest optical depth of one segment, and that of something opaque; ln 256 makes it black in 8 bits", 5.545, 1,
+     "largest optical depth of one segment, also used for opaque surfaces; ln 256 makes them black in 8 bits", 5.545, 1,
      80},
     filter_parameter,
     cells_parameter,
 };
 
-// A texel is the optical depth from the light to each slice; slice i stands at the end of interval i, and before the
-// first interval there is nothing. Texels with bounds of their own hold two floats more, behind the slices: where the
-// intervals begin, and how many there are in a unit of depth.
+// A texel is the optical depth from the light to each slice. Slice i is at the end of interval i; before the first
+// interval the optical depth is 0. Texels with bounds of their own hold two more floats after the slices: the depth
+// where the intervals begin, and the number of intervals per unit of depth.
 // Between slices the optical depth is linear, as published, and so the extinction constant.
 class Opacity final : public TexelMap<Opacity> {
 public:
@@ -57,7 +57,7 @@ public:
         });
     }
 
-    // Where all texels have the same slices, the place among them is the same for all texels of a lookup.
+    // If all texels have the same slices, the position among them is the same for all texels of a lookup.
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
         if (own_bounds_) return TexelMap::lookup(queries, visibility);
         texels_.lookup(
@@ -100,7 +100,8 @@ private:
         return slices;
     }
 
-    // From the first depth of a ray to just behind its last: what stands there is behind no slice but the last.
+    // From the first depth of a ray to just behind its last, so that segments at the last depth are before only the
+    // last slice.
     Slices bounds_of(const rays::LightRays& rays, std::size_t ray) const {
         float low = layout_.z_max, high = layout_.z_min;
         for (std::uint32_t s = rays.begin[ray]; s < rays.begin[ray + 1]; ++s) {

@@ -1,4 +1,4 @@
-// No map: shadow rays through the scene for every lookup. The cost and quality without any of the techniques.
+// Shadow rays through the scene for every lookup, without a map: the cost and quality of doing without the techniques.
 #include <algorithm>
 #include <bit>
 
@@ -12,10 +12,10 @@ namespace shadowbench::techniques {
 namespace {
 
 const Parameter parameters[] = {
-    {"samples", ParameterKind::integer, "rays a lookup, jittered over its footprint", 16, 1, 65536},
+    {"samples", ParameterKind::integer, "rays per lookup, jittered over its footprint", 16, 1, 65536},
 };
 
-// One side of a footprint, cut to a map of so many pixels.
+// One side of a footprint, cut to a map of this many pixels.
 class Side {
 public:
     Side(double middle, double width, int pixels)
@@ -33,7 +33,7 @@ public:
     void begin(const BuildInput& input) override {
         if (!input.tracer)
             throw base::Error(base::ErrorCode::bad_input, "/techniques",
-                              "ray_traced needs a scene to trace; ready-made light rays have none");
+                              "ray_traced needs a scene to trace, but ready-made light rays have none; remove it");
         view_ = input.view;
         tracer_ = input.tracer;
         channel_ = input.channel;
@@ -50,13 +50,13 @@ public:
             const Query& q = queries[i];
             visibility[i] = 1.0f;
             if (!inside(q.x, view_.resolution.x) || !inside(q.y, view_.resolution.y) || !(q.z > 0.0f)) continue;
-            // The jitter depends on the query alone; so do the times, which spread over the shutter.
+            // The jitter depends only on the query; so do the times, which spread over the shutter.
             const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
             const std::uint64_t key = base::hash(bits(q.x) << 32 | bits(q.y), bits(q.z));
             base::Random random(key);
             rays::MapLayout pattern = pattern_;
             pattern.seed = key;
-            // What of the footprint lies in the map: one that hangs over has as many samples.
+            // The part of the footprint inside the map: a footprint that the map's edge cuts has as many samples.
             const Side across(q.x, width_of(q), view_.resolution.x), down(q.y, width_of(q), view_.resolution.y);
             double sum = 0.0;
             for (int sy = 0; sy < pattern_.samples_y; ++sy)

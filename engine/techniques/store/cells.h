@@ -1,4 +1,4 @@
-// The cells of a map, and which of them a lookup's footprint covers.
+// The cells of a map, and those that a lookup's footprint covers.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 
 namespace shadowbench::techniques {
 
-// A map's cells: one a sample of the layout, or one a pixel.
+// A map's cells: one for each sample of the layout, or one for each pixel.
 struct CellGrid {
     int width = 0, height = 0;
     float per_pixel_x = 1, per_pixel_y = 1;
 
     std::size_t count() const { return static_cast<std::size_t>(width) * height; }
     std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
-    // Cell of a map position in pixels; false outside the map.
+    // Finds the cell of a map position in pixels; returns false outside the map.
     bool find(float px, float py, int& x, int& y) const {
         const float fx = px * per_pixel_x, fy = py * per_pixel_y;
         if (!(fx >= 0.0f && fy >= 0.0f && fx < static_cast<float>(width) && fy < static_cast<float>(height)))
@@ -41,8 +41,8 @@ inline CellGrid make_cells(const rays::MapLayout& layout, Cells cells) {
 inline const Parameter cells_parameter{
     "cells",
     ParameterKind::choice,
-    "one stored function a sample (the map is as much larger), or one a pixel, of the "
-    "ray in the middle of the pixel",
+    "one stored function per sample (which makes the map that many times larger), or one per pixel, of the ray in "
+    "the middle of the pixel",
     0,
     0,
     0,
@@ -53,8 +53,8 @@ inline const Parameter averaged_cells_parameter{
     .name = "cells",
     .kind = ParameterKind::choice,
     .doc =
-        "one stored function a pixel, of all its rays; one a sample (the map is as much larger); or one a pixel, of "
-        "the ray in the middle of the pixel",
+        "one stored function per pixel, of all its rays; one per sample (which makes the map that many times larger); "
+        "or one per pixel, of the ray in the middle of the pixel",
     .standard_word = "pixel",
     .words = {"pixel", "sample", "centre"}};
 inline Cells read_cells(const ParameterValues& values) {
@@ -77,9 +77,9 @@ void for_each_cell(const rays::MapLayout& layout, const CellGrid& grid, Cells ce
         }
 }
 
-// The width of a query's filter: 0 for what is no width.
+// The width of a query's filter; 0 if it is negative or NaN.
 inline float width_of(const Query& q) {
-    return std::max(0.0f, q.width);  // in this order: a comparison with what is not a number is false
+    return std::max(0.0f, q.width);  // in this order, since a comparison with NaN is false
 }
 
 // A rectangle of cells [x0, x1) x [y0, y1).
@@ -88,16 +88,16 @@ struct CellRange {
 };
 
 // Along one side of a map: the cells [begin, end) that a footprint reaches, at least one, and how much of each it
-// covers. In double: what is left of a border cell is a small difference of large places.
+// covers. In double, since the covered part of a border cell is a small difference of large positions.
 struct Stretch {
     int begin = 0, end = 1;
-    double first = 1.0, last = 1.0;  // covered of cells `begin` and `end` - 1, in cells
+    double first = 1.0, last = 1.0;  // covered part of cells `begin` and `end` - 1, in cells
 
     double weight(int cell) const { return cell == begin ? first : cell + 1 == end ? last : 1.0; }
 };
 
-// Of a footprint `width` cells wide around `centre`, cut to the map's [0, filled), in which the centre lies; `filled`
-// may end inside its last cell. The cell of the centre where the footprint is too narrow to cover anything.
+// The cells of a footprint `width` cells wide around `centre`, cut to the map's [0, filled), in which the centre must
+// lie; `filled` may end inside its last cell. The cell of the centre if the footprint is too narrow to cover anything.
 inline Stretch stretch(double centre, double width, double filled) {
     const double low = std::max(centre - 0.5 * width, 0.0), high = std::min(centre + 0.5 * width, filled);
     const int nearest = static_cast<int>(centre);
@@ -117,9 +117,9 @@ void for_each_of(const Side& across, const Side& down, const Visit& visit) {
     }
 }
 
-// The cells that the footprint of a query covers, each weighed by the part of its area that is covered: a box filter as
-// the truth has it (the rays within half the footprint's width, inside the map), for functions that each stand for a
-// cell. The query must lie in the map.
+// Visits the cells that the footprint of a query covers, each weighted by the part of its area that is covered: the box
+// filter of the reference (the rays within half the footprint's width, inside the map), for functions that each stand
+// for a cell. The query must lie in the map.
 template <class Visit>
 void for_each_covered(const CellGrid& grid, const Query& q, const Visit& visit) {
     const double width = width_of(q);

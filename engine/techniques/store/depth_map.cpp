@@ -42,7 +42,7 @@ void steps_of(const float* depths, int n, curves::Curve& out) {
     for (int i = 0; i < n && depths[i] != no_depth; ++i) {
         const float before = static_cast<float>(n - i) / static_cast<float>(n);
         const float behind = static_cast<float>(n - i - 1) / static_cast<float>(n);
-        if (!out.empty() && out.back().z == depths[i]) {  // one step of as many parts
+        if (!out.empty() && out.back().z == depths[i]) {  // one step for all equal depths
             out.back().value = behind;
         } else {
             out.push_back({depths[i], before});

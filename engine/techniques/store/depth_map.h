@@ -1,5 +1,5 @@
-// The nearest depth of every cell: what shadow_map, pcf and multi_depth build from. Williams 1978; Reeves, Salesin,
-// Cook 1987, section 3.1.
+// The nearest depth of every cell, from which shadow_map, pcf and multi_depth are built. Williams 1978; Reeves,
+// Salesin, Cook 1987, section 3.1.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace shadowbench::techniques {
 
-// Under construction: `no_depth` where a ray crosses nothing. Whatever transmits less than everything counts as opaque;
-// a medium counts from where it begins.
+// The map under construction: `no_depth` where a ray crosses nothing. Every surface that absorbs anything counts as
+// opaque; a medium counts from where it begins.
 struct DepthMap {
     Cells kind = Cells::sample;
     rays::MapLayout layout;
@@ -20,7 +20,7 @@ struct DepthMap {
     void add(const rays::LightRays& tile);
 };
 
-// A map of one stored depth a cell, for those that keep no more.
+// A map of one stored depth per cell, for techniques that keep no more.
 struct StoredDepths {
     DepthMap map;  // empty once finished
     Storage way = Storage::raw;
@@ -28,7 +28,7 @@ struct StoredDepths {
 
     explicit StoredDepths(const ParameterValues& values);
     void finish();
-    std::size_t working_bytes() const;  // the map and what is kept of it, before the map goes
+    std::size_t working_bytes() const;  // the map and the stored depths together, before the map is freed
     void stored(int x, int y, curves::Curve& out) const;
 };
 

@@ -1,7 +1,7 @@
 // Depths of a grid of cells, n floats each, kept in one of the three ways of Reeves, Salesin, Cook 1987, section 3.3:
-// raw; inside the bounding box of what is finite; in tiles, of which those with nothing in them are not kept, and each
-// knows its least and greatest depth, so that a lookup wholly before or behind a tile need not read its cells.
-// Lookups give the same answers, bit by bit, whichever way it is.
+// raw; inside the bounding box of the finite depths; in tiles. Empty tiles are not kept, and each tile knows its least
+// and greatest depth, so that a lookup wholly before or behind a tile need not read its cells. Lookups give the same
+// bits in all three.
 #pragma once
 
 #include <cmath>
@@ -38,10 +38,10 @@ struct DepthBounds {
     float least = -no_depth, greatest = no_depth;
 };
 
-// The three ways to read. All have:
+// The three readers. All have:
 //   at(x, y)       the depths of a cell inside the grid
-//   window(range)  the part of the memory that holds all cells of a range, if there is one: then those are read faster
-//   bounds(range)  of the cells of a range inside the grid, told without reading cells; where `bounded` alone
+//   window(range)  the memory that holds all cells of a range, if there is one: reads from it are faster
+//   bounds(range)  the bounds of the cells of a range inside the grid, found without reading cells; only if `bounded`
 //   touch...       the lines that the two read
 inline constexpr float empty_cell[most_depths] = {no_depth, no_depth, no_depth, no_depth,
                                                   no_depth, no_depth, no_depth, no_depth};
@@ -115,7 +115,7 @@ struct TiledDepths {
     const DepthTile* tiles;
     int tiles_x, per_cell;
 
-    // Unsigned: divisions by a power of two are shifts then.
+    // Unsigned, so that divisions by a power of two become shifts.
     static unsigned tile_of(int cell) { return static_cast<unsigned>(cell) / tile_side; }
     static unsigned inside_tile(int cell) { return static_cast<unsigned>(cell) % tile_side; }
     const DepthTile& tile(int x, int y) const {
@@ -166,10 +166,11 @@ private:
 
 class DepthStore {
 public:
-    // Takes `per_cell` (1 to most_depths) depths a cell of the grid, row after row; a cell of no depths has no_depth.
+    // Takes `per_cell` (1 to most_depths) depths for each cell of the grid, row after row; a cell without depths has
+    // no_depth.
     void keep(Storage way, const CellGrid& grid, int per_cell, std::vector<float>&& depths);
 
-    // visit(one of the three ways to read)
+    // visit(one of the three readers)
     template <class Visit>
     void read(const Visit& visit) const {
         switch (way_) {
@@ -187,7 +188,7 @@ public:
     int per_cell() const { return per_cell_; }
     const CellGrid& grid() const { return grid_; }
     std::size_t bytes() const { return depths_.capacity() * sizeof(float) + tiles_.capacity() * sizeof(DepthTile); }
-    NodeStats nodes() const;  // finite depths a cell
+    NodeStats nodes() const;  // finite depths per cell
 
 private:
     int tiles_x() const { return (grid_.width + tile_side - 1) / tile_side; }
@@ -202,7 +203,7 @@ private:
     std::vector<float> depths_;
 };
 
-// What a store of this grid holds at least, in bytes, whatever the depths are.
+// The least number of bytes that a store of this grid holds, whatever the depths are.
 std::size_t least_store_bytes(Storage way, const CellGrid& grid, int per_cell);
 
 }  // namespace shadowbench::techniques

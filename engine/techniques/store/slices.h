@@ -1,4 +1,4 @@
-// Uniform intervals of depth, and the optical depth that the segments of a ray put into each.
+// Uniform intervals of depth, and the optical depth that the segments of a ray add to each.
 #pragma once
 
 #include <algorithm>
@@ -9,16 +9,16 @@
 
 namespace shadowbench::techniques {
 
-// Optical depth of a segment that transmits `through`; of one that is darker than `most`, `most`.
+// The optical depth of a segment that transmits `through`, at most `most`.
 inline double optical_depth(float through, double most) {
     return through > 0.0f ? std::min(-static_cast<double>(std::log(through)), most) : most;
 }
 
-// Interval i of `count` reaches from depth(i) to depth(i + 1). Where low and high are equal or nearly so (all depths
-// denormal) the scale is infinite: then what lies behind `near` lies behind all intervals.
+// Interval i of `count` reaches from depth(i) to depth(i + 1). If low and high are equal or nearly so (all depths
+// denormal) the scale is infinite: then everything behind `near` is behind all intervals.
 struct Slices {
     float near = 0.0f;
-    float scale = 0.0f;  // intervals a unit of depth
+    float scale = 0.0f;  // intervals per unit of depth
     int count = 1;
 
     Slices() = default;
@@ -27,7 +27,7 @@ struct Slices {
           scale(static_cast<float>(intervals / (static_cast<double>(high) - static_cast<double>(low)))),
           count(intervals) {}
 
-    // In [0, count], never falling with z. What is no depth at all lies before everything.
+    // In [0, count], never falling with z. A NaN lies before everything.
     float place(float z) const {
         const float u = (z - near) * scale;
         return u > 0.0f ? std::min(u, static_cast<float>(count)) : 0.0f;
@@ -42,8 +42,8 @@ struct Slices {
     }
 
     // Calls add(interval, part) for the parts of a segment of constant extinction. A surface goes as a whole into the
-    // interval that begins at its depth or before: at the slice where that interval ends it is felt, at the slice where
-    // it stands it is not.
+    // interval that begins at its depth or before: it counts at the slice where that interval ends, not at the slice at
+    // its own depth.
     template <class Add>
     void spread(float front, float back, double depth_of_segment, const Add& add) const {
         const int first = interval(place(front));
@@ -65,7 +65,7 @@ struct Slices {
         add(last, rest);
     }
 
-    // The same for all segments of a ray; returns the last interval that got something, -1 when none did.
+    // The same for all segments of a ray; returns the last interval with optical depth, or -1 if there is none.
     template <class Add>
     int spread_ray(const rays::LightRays& rays, std::size_t ray, double most, const Add& add) const {
         int last = -1;

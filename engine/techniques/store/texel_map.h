@@ -1,5 +1,5 @@
-// The usual storage, whole: one texel a cell, each of the same number of floats, and lookups that filter over texels.
-// A technique of this kind is a class Own : TexelMap<Own> that says what stands in a texel. It gives
+// The usual storage, complete: one texel for each cell, each of the same number of floats, and lookups that filter over
+// texels. A technique of this kind is a class Own : TexelMap<Own> that defines the content of a texel. It has
 //
 //   explicit Own(const ParameterValues&)                hands the values on to TexelMap
 //   static int floats_a_texel(const ParameterValues&)
@@ -11,7 +11,7 @@
 //   int own_depths(const float* texel, float* out) const    the depths, sorted, that stored() samples its function at
 //                                                           beside those it is given; their number
 //
-// and overrides what is otherwise with it: one that overrides stored() needs no own depths. Row fields:
+// and overrides the rest where it differs; a class that overrides stored() needs no own depths. Row fields:
 // create_map<Own>, Own::least_bytes, texel_traits().
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace shadowbench::techniques {
 
-// Of the parameters filter_parameter and cells_parameter.
+// The traits for the parameters filter_parameter and cells_parameter.
 inline Traits texel_traits() {
     return {.pointwise = {{"filter", "point"}}, .whole_pixel = {{"filter", "footprint"}, {"cells", "sample"}}};
 }
@@ -31,8 +31,8 @@ inline Traits texel_traits() {
 template <class Own>
 class TexelMap : public Map {
 public:
-    // Not 0: a filter is of the texels' floats, so many, and `evaluate` is asked once, with their means as doubles.
-    // 0: `evaluate` is asked for each texel, and the filter is of its answers.
+    // If not 0: lookups filter this many floats of the texels, and call `evaluate` once, with their means as doubles.
+    // If 0: lookups call `evaluate` for each texel and filter its answers.
     static constexpr int filtered_floats = 0;
 
     static constexpr int most_own_depths = 0;
@@ -91,8 +91,8 @@ protected:
         texels_.allocate(layout_, floats_);
     }
 
-    // Calls visit(texel, cell, ray) for every texel that a tile fills. Where a texel stands for a whole pixel, `ray` is
-    // the first ray of the pixel, and those that follow are the others.
+    // Calls visit(texel, cell, ray) for every texel that a tile fills. If a texel stands for a whole pixel, `ray` is
+    // the first ray of the pixel, and the others follow it.
     template <class Visit>
     void for_each_texel(const rays::LightRays& tile, const Visit& visit) {
         const std::size_t each = rays_a_texel(tile);

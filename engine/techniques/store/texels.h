@@ -1,5 +1,5 @@
-// Maps of one texel a ray, each of the same number of floats: their memory, and the filters that lookups share. What a
-// texel holds and how it is evaluated is each technique's own.
+// Maps of one texel for each ray, all of the same number of floats: their memory, and the filters of lookups. Each
+// technique defines the content and evaluation of its texels.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ inline Filter read_filter(const ParameterValues& values) {
     return word == "point" ? Filter::point : word == "bilinear" ? Filter::bilinear : Filter::footprint;
 }
 
-// Calls visit(x, y, weight) for the four cells around a place in the map, with their bilinear weights; at the border
+// Calls visit(x, y, weight) for the four cells around a position in the map, with their bilinear weights; at the border
 // the outermost cells repeat.
 template <class Visit>
 void for_each_of_four(const CellGrid& grid, const Query& q, const Visit& visit) {
@@ -45,17 +45,18 @@ void for_each_of_four(const CellGrid& grid, const Query& q, const Visit& visit) 
 }
 
 // Texels row after row, without gaps, from the start of a cache line on. They are all that a map holds, built or under
-// construction: what a thread needs to fill one is small, of a fixed size and on its stack, and is not counted.
+// construction: the memory that a thread needs to fill one is small, of a fixed size and on its stack, and is not
+// counted.
 struct Texels {
     Cells kind = Cells::sample;
     Filter filter = Filter::footprint;
     CellGrid grid;
-    int stride = 0;        // floats a texel
-    float highest = 1.0f;  // limit of the answers: rounding must not lift a mean above the values that it is of
+    int stride = 0;        // floats per texel
+    float highest = 1.0f;  // limit of the answers: rounding must not lift a mean above its values
 
     explicit Texels(const ParameterValues& values) : kind(read_cells(values)), filter(read_filter(values)) {}
 
-    // The memory is not cleared: every texel is written once, by the thread that builds it.
+    // The memory is not cleared: the thread that builds a texel writes it once.
     void allocate(const rays::MapLayout& layout, int floats_a_texel) {
         grid = make_cells(layout, kind);
         stride = floats_a_texel;
@@ -67,8 +68,8 @@ struct Texels {
     std::size_t bytes() const { return grid.count() * sizeof(float) * stride; }
     float* at(std::size_t cell) const { return memory_.get() + cell * stride; }
 
-    // visibility[i]: the weighted mean of evaluate(texel, prepare(z)) over the texels of queries[i]'s filter. What
-    // depends on the depth alone is prepared once a query.
+    // visibility[i]: the weighted mean of evaluate(texel, prepare(z)) over the texels of queries[i]'s filter. prepare
+    // computes once for each query what depends only on the depth.
     template <class Prepare, class Evaluate>
     void lookup(std::span<const Query> queries, std::span<float> visibility, const Prepare& prepare,
                 const Evaluate& evaluate) const {
@@ -83,7 +84,7 @@ struct Texels {
                 visibility[i] = evaluate(at(grid.index(x, y)), depth);
                 continue;
             }
-            double sum = 0.0, weights = 0.0;  // of up to millions of texels: sums of float would stop growing
+            double sum = 0.0, weights = 0.0;  // over up to millions of texels: float sums would stop growing
             for_each(queries[i], [&](std::size_t cell, double weight) {
                 sum += weight * evaluate(at(cell), depth);
                 weights += weight;
@@ -92,8 +93,8 @@ struct Texels {
         }
     }
 
-    // visibility[i]: evaluate(means, prepare(z)) of the weighted means of the first `count` floats over the texels of
-    // queries[i]'s filter, as doubles: of what can be averaged before it is evaluated.
+    // visibility[i]: evaluate(means, prepare(z)), where `means` are the weighted means, in double, of the first `count`
+    // floats over the texels of queries[i]'s filter. For values that can be averaged before they are evaluated.
     template <int count, class Prepare, class Evaluate>
     void lookup_means(std::span<const Query> queries, std::span<float> visibility, const Prepare& prepare,
                       const Evaluate& evaluate) const {

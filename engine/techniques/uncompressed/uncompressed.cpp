@@ -1,4 +1,5 @@
-// Every captured segment, kept and evaluated exactly: the reference of Salvi et al. 2010, and the truth of the rays.
+// Every captured segment, kept and evaluated exactly: the reference of Salvi et al. 2010, and the exact answer of the
+// rays.
 #include <algorithm>
 #include <cmath>
 
@@ -11,15 +12,15 @@ namespace {
 
 using Node = curves::Vertex;
 
-// Transmittance functions of one tile's rays, in the order of its rays. Without media a node is a surface: its depth
-// and the transmittance behind it. With media nodes are as in curves/composite.h.
+// The transmittance functions of one tile's rays, in the order of its rays. Without media a node is a surface: its
+// depth and the transmittance behind it. With media, nodes are as in curves/composite.h.
 struct TileFunctions {
     int x0 = 0, y0 = 0, width = 0;
     std::vector<std::uint32_t> begin;
     std::vector<Node> nodes;
 };
 
-// Values are floats, and below the smallest normal one they no longer tell how steeply a function falls. Where one
+// Values are floats; below the smallest normal float they no longer show how steeply a function falls. If a function
 // falls through it between two nodes, the last float depth above gets a node, and the next one, so that neither end of
 // the fall is drawn with the slope of the other.
 void add_where_floats_end(const curves::Node& a, const curves::Node& b, std::vector<Node>& out) {
@@ -80,8 +81,8 @@ public:
 
     void finish() override {}
 
-    // By the footprint filter the mean over the rays whose samples lie inside it; of the nearest cell's ray when none
-    // does.
+    // With the footprint filter, the mean over the rays whose samples lie inside the footprint; the nearest cell's ray
+    // if there are none.
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
         for (std::size_t i = 0; i < queries.size(); ++i) {
             double sum = 0.0, weights = 0.0;
@@ -151,7 +152,7 @@ public:
     }
 
 private:
-    // Where the function of a ray stands.
+    // The position of a ray's function.
     struct Place {
         const TileFunctions& tile;
         std::size_t ray;

@@ -1,18 +1,19 @@
 // Variance shadow maps: Donnelly and Lauritzen, Variance Shadow Maps, 2006.
 //
-// A texel holds the first two moments, E(c) and E(c^2), of the depth c at which light is taken. Moments can be averaged
-// over any footprint, and then Chebyshev's inequality (section 4, equation 5) bounds the light that gets past a depth:
+// A texel holds the first two moments, E(c) and E(c^2), of the depth c at which light is absorbed. Moments can be
+// averaged over any footprint, and then Chebyshev's inequality (section 4, equation 5) bounds the light that passes a
+// depth:
 //   P(c >= t) <= variance / (variance + (t - mean)^2)   for t > mean, and 1 before.
-// The bound is the answer. It is exact where all is taken at one depth, or at two and asked at the deeper one;
-// elsewhere it is too light, which is the method's light bleeding, and never darker than the truth.
+// The answer is this bound. It is exact if all light is absorbed at one depth, or at two and the query is at the deeper
+// one; elsewhere it is too light, which is the method's light bleeding, and never darker than the truth.
 //
-// The paper's surfaces are opaque. Here a ray's light is taken a part at a time: a surface takes its opacity of what
-// arrives, at its depth; a medium takes along its depths; what passes everything is taken at the far end. P(c >= t) is
-// then the transmittance up to t, and opaque surfaces give the paper's own moments, with its cleared depth as the far
-// end.
+// The paper's surfaces are opaque. Here a ray's light is absorbed in parts: a surface absorbs its opacity of what
+// arrives, at its depth; a medium absorbs along its depths; light that passes everything is absorbed at the far end.
+// P(c >= t) is then the transmittance up to t, and opaque surfaces give the paper's own moments, with its cleared depth
+// as the far end.
 //
-// c is -1 at the map's first depth, 0 at its last and 1 at the far end, which is the place of all receivers behind the
-// last depth. So squares stay below 1 and the difference E(c^2) - E(c)^2 keeps what digits a float has.
+// c is -1 at the map's first depth, 0 at its last and 1 at the far end, which stands for all receivers behind the last
+// depth. So squares stay below 1, and the difference E(c^2) - E(c)^2 keeps as many digits as a float allows.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -38,15 +39,15 @@ constexpr double far_end = 1.0;
 struct Moments {
     double first = 0.0, second = 0.0;
 
-    // `taken` at one place, which is c = at.
+    // Adds `taken`, the light absorbed at one depth, c = at.
     void add(double taken, double at) {
         first += taken * at;
         second += taken * at * at;
     }
 
-    // `taken` from a to b by a constant extinction of `depth` in all: the moments of a truncated exponential. With s
-    // the share of the way, and the light falling as exp(-depth s), E(s) = 1/depth - 1/(exp(depth) - 1) and E(s^2) =
-    // 2/depth^2 - (1 + 2/depth)/(exp(depth) - 1); of thin media their series.
+    // Adds `taken`, the light absorbed from a to b by a constant extinction of optical depth `depth`: the moments of a
+    // truncated exponential. With s the share of the way, and the light falling as exp(-depth s), E(s) = 1/depth -
+    // 1/(exp(depth) - 1) and E(s^2) = 2/depth^2 - (1 + 2/depth)/(exp(depth) - 1); for thin media their series.
     void add(double taken, double a, double b, double depth) {
         double s = 0.5 - depth / 12.0, s2 = 1.0 / 3.0 - depth / 12.0 + depth * depth / 360.0;
         if (depth > 1e-3) {
@@ -60,7 +61,7 @@ struct Moments {
     }
 };
 
-// Of E(c) and E(c^2), floats or doubles.
+// Chebyshev's bound for E(c) and E(c^2), floats or doubles.
 template <class Value>
 double variance_of(const Value* texel, double least) {
     const double mean = texel[0];
@@ -94,7 +95,7 @@ public:
     }
 
     int nodes_of(const float* texel) const { return texel[0] == 1.0f ? 0 : 2; }
-    // At t = mean + deviation * tan(angle) the bound is cos(angle)^2: even angles draw it evenly.
+    // At t = mean + deviation * tan(angle) the bound is cos(angle)^2, so equal angles sample it evenly.
     static constexpr int most_own_depths = 67;
     int own_depths(const float* texel, float* out) const {
         const double deviation = std::sqrt(variance_of(texel, least_));
@@ -143,8 +144,9 @@ private:
     double least_;
 };
 
-// Behind everything a distribution on [-1, 0] with a part at 1 is off by r / (1 + r) at most, r the largest ratio of
-// its variance to its squared distance from the far end: 1/8, at a mean of -1/3; or the least variance, at a mean of 0.
+// Behind everything, a distribution on [-1, 0] with a part at 1 is off by at most r / (1 + r), where r is the largest
+// ratio of its variance to its squared distance from the far end: 1/8, at a mean of -1/3; or the least variance, at a
+// mean of 0.
 Promises promised(const ParameterValues& values) {
     const double ratio = std::max(1.0 / 8.0, values.number("min_variance"));
     return {.localised = false, .approximate = true, .leak = ratio / (1.0 + ratio)};

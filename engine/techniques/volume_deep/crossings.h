@@ -14,10 +14,10 @@ enum class Crossing {
 };
 
 // A threshold that is never reached has the depth where the ray leaves the last step in which it lost light: there the
-// opacity is the maximum, which is then what belongs to that depth. So the texel has no depth that means "none": below
-// 10 % in all, the ray is lit up to its exit and has the maximum behind it; an empty ray has a maximum of 0.
+// opacity is the maximum, which belongs to that depth. So no depth in the texel means "none": below a total of 10 %,
+// the ray is lit up to its exit and has the maximum behind it; an empty ray has a maximum of 0.
 struct Crossings {
-    std::array<float, 3> depth;  // of 10, 50 and 90 % opacity; do not decrease
+    std::array<float, 3> depth;  // at 10, 50 and 90 % opacity; do not decrease
     float most;                  // opacity at the exit
 };
 
@@ -28,8 +28,8 @@ inline double smooth_step(double t) {
     return t * t * (3.0 - 2.0 * t);
 }
 
-// The texel of a ray whose opacity at the end of step i is opacity[i], not decreasing, and whose step i reaches from
-// depth(i) to depth(i + 1).
+// Makes the texel of a ray whose opacity at the end of step i is opacity[i], not decreasing, and whose step i reaches
+// from depth(i) to depth(i + 1).
 template <class Depth>
 Crossings make_crossings(std::span<const double> opacity, const Depth& depth, Crossing placed) {
     Crossings result{{depth(0), depth(0), depth(0)}, 0.0f};
@@ -52,13 +52,13 @@ Crossings make_crossings(std::span<const double> opacity, const Depth& depth, Cr
     return result;
 }
 
-// Opacity that belongs to crossing i: the threshold, or the maximum where that is less.
+// The opacity that belongs to crossing i: the threshold, or the maximum if that is less.
 inline double opacity_at(const Crossings& c, std::size_t i) {
     return std::min(thresholds[i], static_cast<double>(c.most));
 }
 
-// Visibility at z: 1 up to the first depth, 1 - most behind the last, between two depths their opacities mixed by a
-// smooth step. In double, so that it does not rise by rounding.
+// Visibility at z: 1 up to the first depth, 1 - most behind the last, and between two depths a smooth step between
+// their values. In double, so that it does not rise by rounding.
 inline float visibility(const Crossings& c, float z) {
     if (!(z > c.depth[0])) return 1.0f;
     if (z > c.depth[2]) return 1.0f - c.most;
@@ -69,7 +69,7 @@ inline float visibility(const Crossings& c, float z) {
     return static_cast<float>(1.0 - (from + (to - from) * t));
 }
 
-// Just behind crossing i, which is the last one at its depth.
+// The visibility just behind crossing i, which is the last one at its depth.
 inline float visibility_behind(const Crossings& c, std::size_t i) {
     return i == 2 ? 1.0f - c.most : static_cast<float>(1.0 - opacity_at(c, i));
 }

@@ -1,5 +1,5 @@
-// Deep shadow maps from volumetric data: the depths at which a ray has lost 10, 50 and 90 % of its light, and how much
-// it loses in all.
+// Deep shadow maps from volumetric data: the depths at which a ray has lost 10, 50 and 90 % of its light, and its total
+// loss.
 #include <cstring>
 
 #include "techniques/store/slices.h"
@@ -10,7 +10,7 @@ namespace shadowbench::techniques {
 namespace {
 
 constexpr int most_steps = 512;
-// What something opaque absorbs: nothing is left of a float's 1 behind it.
+// The optical depth of an opaque surface: behind it, nothing is left of a float's 1.
 constexpr double opaque_depth = 80.0;
 
 const Parameter parameters[] = {
@@ -18,7 +18,8 @@ const Parameter parameters[] = {
      most_steps},
     {.name = "interpolation",
      .kind = ParameterKind::choice,
-     .doc = "where a threshold is crossed: inside its step by smooth step, or at the end of the last step before",
+     .doc = "where the depth of a threshold lies: inside the step that crosses it, by smooth step, or at the end of "
+            "the last step before",
      .standard_word = "smooth",
      .words = {"smooth", "bucket"}},
     filter_parameter,
@@ -29,7 +30,7 @@ constexpr int texel_floats = 4;
 static_assert(sizeof(Crossings) == texel_floats * sizeof(float));
 
 // The technique marches on its own: regular steps from the map's first to its last depth, whatever the steps of the
-// light rays are. The light lost in a step is what the ray's segments take in it, so that a step sees thin things too.
+// light rays are. A step loses the light that the ray's segments absorb in it, so that it includes thin segments too.
 class VolumeDeep final : public TexelMap<VolumeDeep> {
 public:
     explicit VolumeDeep(const ParameterValues& values)
@@ -65,7 +66,7 @@ public:
     float evaluate(const float* texel, float z) const { return visibility(read(texel), z); }
     int nodes_of(const float* texel) const { return read(texel).most > 0.0f ? texel_floats : 0; }
 
-    // At each depth of the texel the function may jump.
+    // The function may jump at each depth of the texel.
     void stored(int x, int y, int, std::span<const float> depths, curves::Curve& out) const override {
         out.clear();
         const Crossings c = read(texels_.at(texels_.grid.index(x, y)));
@@ -74,7 +75,7 @@ public:
         for (std::size_t i = 0; i < c.depth.size(); ++i) {
             const float z = c.depth[i];
             if (i > 0 && z == c.depth[i - 1])
-                out.pop_back();  // what lies behind several crossings belongs to the last
+                out.pop_back();  // only the last of several crossings at one depth counts
             else {
                 for (; k < depths.size() && depths[k] < z; ++k) out.push_back({depths[k], visibility(c, depths[k])});
                 out.push_back({z, visibility(c, z)});
