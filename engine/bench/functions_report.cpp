@@ -58,7 +58,8 @@ std::string to_table(std::span<const FunctionResult> results) {
                    time(&FunctionTimes::build_ns_per_vertex), time(&FunctionTimes::lookup_random_ns),
                    time(&FunctionTimes::lookup_coherent_ns), r.times ? "ok" : "failed: a promise is broken"});
     }
-    return table.text("") + "broken: functions that rise or leave [0, 1] where the technique promises that none does\n";
+    return table.text("") +
+           "broken: functions that rise or leave [0, 1] although the technique promises the contrary\n";
 }
 
 }  // namespace shadowbench::bench
