@@ -14,7 +14,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// One byte more, one technique slower in 20 pairs, one gone.
+// One byte more, one technique slower in 20 pairs, one missing.
 Comparison changed() {
     json gone = made_result();
     json third = cell_of(gone, 1);
@@ -44,7 +44,7 @@ TEST(Report, TextListsWhatIsNotTheSameWithItsCommand) {
     EXPECT_THAT(text, HasSubstr("note: a note\n"));
     EXPECT_THAT(text, HasSubstr("exit code 2: larger or less accurate"));
     EXPECT_THAT(text, HasSubstr("Holm"));
-    EXPECT_THAT(text, HasSubstr("smallest slowdown told from none"));
+    EXPECT_THAT(text, HasSubstr("smallest slowdown detected"));
     EXPECT_THAT(text, Not(HasSubstr("nodes.total")));
     EXPECT_THAT(to_text(changed(), true), HasSubstr("nodes.total"));
 }
@@ -56,7 +56,7 @@ TEST(Report, TextCountsInconclusiveTimesInsteadOfListingThem) {
     EXPECT_THAT(to_text(comparison, true), HasSubstr("lookup_image"));
 }
 
-TEST(Report, MarkdownIsATableWhoseCellsHoldNoBars) {
+TEST(Report, MarkdownIsATableWithBarsEscaped) {
     const std::string text = to_markdown(changed());
     EXPECT_THAT(text, HasSubstr("## shadowbench: exit code 2: larger or less accurate\n"));
     EXPECT_THAT(text, HasSubstr("| larger | made / key / deep tolerance=0.02 | bytes | 1000 -\\> 1001 |"));
@@ -64,7 +64,7 @@ TEST(Report, MarkdownIsATableWhoseCellsHoldNoBars) {
     EXPECT_THAT(text, HasSubstr("<code>shadowbench run file.json"));
 }
 
-TEST(Report, JUnitHasAFailureForWhatFailsAlone) {
+TEST(Report, JUnitHasFailuresOnlyForFailures) {
     const Comparison comparison = changed();
     const std::string text = to_junit(comparison);
     int fails = 0;
@@ -76,7 +76,7 @@ TEST(Report, JUnitHasAFailureForWhatFailsAlone) {
     EXPECT_THAT(text, HasSubstr("name=\"nodes.total\"/>"));
 }
 
-TEST(Report, JsonHasAllOfIt) {
+TEST(Report, JsonHasEverything) {
     const Comparison comparison = changed();
     const json report = json::parse(to_json(comparison).dump());
     EXPECT_EQ(report["schema_version"], 1);
@@ -95,7 +95,7 @@ TEST(Report, JsonHasAllOfIt) {
         }
 }
 
-// The answer to "what could this have seen?": equal builds, and still a number.
+// Even a comparison of equal builds states the smallest slowdown that it would have found.
 TEST(Report, EqualBuildsStateTheSmallestDifference) {
     std::vector<json> a(20, made_result()), b(20, made_result());
     Noise noise(3);
@@ -104,7 +104,7 @@ TEST(Report, EqualBuildsStateTheSmallestDifference) {
         make_times(b[i], noise);
     }
     const Comparison comparison = compare(side(a, "ab"), side(b, "ab"), {});
-    EXPECT_THAT(sensitivity(comparison), HasSubstr("smallest slowdown told from none: "));
+    EXPECT_THAT(sensitivity(comparison), HasSubstr("smallest slowdown detected: "));
     EXPECT_EQ(sensitivity(compare(side({made_result()}), side({made_result()}), {})), "");
 }
 

@@ -7,7 +7,8 @@ namespace shadowbench::kernels::callgrind {
 
 bool running();
 
-// Counts what this program does from start() to stop(), which dumps the count under this name and sets it to 0.
+// Counts the instructions of this program from start() to stop(), which dumps the count under this name and resets it
+// to 0.
 void start();
 void stop(const std::string& name);
 
