@@ -71,7 +71,7 @@ private:
     double t_ = 0.0;
 };
 
-// What the view rays of a row reuse.
+// Memory that the view rays of a row reuse.
 struct Scratch {
     std::vector<rays::SurfaceHit> surfaces;
     std::vector<rays::TracedSegment> segments;

@@ -1,3 +1,4 @@
+// A stopwatch of wall time.
 #pragma once
 
 #include <chrono>

@@ -53,7 +53,7 @@ std::size_t find_light(const std::vector<std::string>& names, const std::string&
     std::size_t index = 0;
     const auto [rest, fault] = std::from_chars(name.data(), name.data() + name.size(), index);
     if (fault == std::errc() && rest == name.data() + name.size() && index < names.size()) return index;
-    throw Error(ErrorCode::usage, prefix + name, "there is no such light; there are: " + list);
+    throw Error(ErrorCode::usage, prefix + name, "there is no such light; the scenario has: " + list);
 }
 
 OneLight::OneLight(const nlohmann::json& document, const RunOptions& options, const std::string& light)

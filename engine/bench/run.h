@@ -21,7 +21,7 @@ struct RunOptions {
 };
 
 // Expands the document, then captures, checks and times every variant, light and technique. Throws Error: bad_input,
-// no_such_file, io, or usage for `only`. A technique's failure is no error; its cell says so.
+// no_such_file, io, or usage for `only`. A failed technique is not an error; its cell says so.
 results::Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress);
 
 struct Validated {

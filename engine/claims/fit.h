@@ -1,3 +1,4 @@
+// Fits of laws to measured points.
 #pragma once
 
 #include <span>

@@ -133,7 +133,7 @@ Row measure_row(const Context& context, int samples) {
 }
 
 void add_figure_7_table(PaperReport& report, const std::vector<Row>& rows) {
-    Table table{"Figure 7: deep maps and depth maps of as many samples, 256 x 256 pixels",
+    Table table{"Figure 7: deep maps and depth maps with equal numbers of samples, 256 x 256 pixels",
                 {"N", "0.5 / sqrt N", "deep ns", "depth ns", "deep bytes", "depth bytes", "deep rms", "depth rms",
                  "nodes a pixel"},
                 {}};
@@ -269,7 +269,7 @@ void figure_9(const Context& context) {
                              plain.low > 8.0   ? Verdict::holds
                              : plain.low > 2.0 ? Verdict::in_shape
                                                : Verdict::fails,
-                             "1,024 times the area covers about 1,024 times as many functions.",
+                             "1,024 times the area covers about 1,024 times the functions.",
                              {plain}});
     const LightResult& light = light_of(result, {"/receivers/filter_width=1"});
     const Value size = exactly(static_cast<double>(cell_of(light, "deep", {"mip=nearest"}).bytes) /
@@ -288,8 +288,9 @@ void section_5_2(const Context& context) {
     const results::Result grey = context.run(hair_ball, {deep}, {"rays.resolution=128"});
     const results::Result colour =
         context.run(hair_ball, {"/scene/objects/0/opacity=[0.9,0.6,0.35]", deep}, {"rays.resolution=128"});
-    const results::Result one = context.run(hair_ball, {"/scene/objects/0/opacity=0.6", deep}, {"rays.resolution=128"});
-    const Cell &three = cell_of(light_of(colour), "deep"), &single = cell_of(light_of(one), "deep");
+    const results::Result one_channel =
+        context.run(hair_ball, {"/scene/objects/0/opacity=0.6", deep}, {"rays.resolution=128"});
+    const Cell &three = cell_of(light_of(colour), "deep"), &single = cell_of(light_of(one_channel), "deep");
     const Value size = exactly(static_cast<double>(three.bytes) / static_cast<double>(single.bytes));
     report.claims.push_back({"section 5.2",
                              "three-channel maps are only twice as large as one-channel maps",

@@ -163,17 +163,17 @@ double transition(double res_factor) {
 }
 
 void figure_8(PaperReport& report) {
-    const double one = transition(1), three = transition(3), eight = transition(8);
+    const double narrow = transition(1), middle = transition(3), wide = transition(8);
     report.claims.push_back(
         {"section 4.2, figure 8",
          "increasing ResFactor produces softer shadow edges",
-         fmt::format("edges are {:.2f}, {:.2f}, {:.2f} cells wide (10 to 90 %) with ResFactor 1, 3, 8", one, three,
-                     eight),
-         three > one && eight > 2.0 * three ? Verdict::holds
-         : eight > one                      ? Verdict::in_shape
-                                            : Verdict::fails,
+         fmt::format("edges are {:.2f}, {:.2f}, {:.2f} cells wide (10 to 90 %) with ResFactor 1, 3, 8", narrow, middle,
+                     wide),
+         middle > narrow && wide > 2.0 * middle ? Verdict::holds
+         : wide > narrow                        ? Verdict::in_shape
+                                                : Verdict::fails,
          "The width of the region is the width of the edge.",
-         {exactly(one), exactly(three), exactly(eight)}});
+         {exactly(narrow), exactly(middle), exactly(wide)}});
 }
 
 // Errors against the visibility of the point itself: the footprint is a hundredth of a cell, and the receiver bias only

@@ -122,9 +122,9 @@ Cell make_cell(const results::Cell& from, const json& scenario, const std::vecto
 
     cell.rerun.source = source;
     cell.rerun.only = from.technique;
-    const json alone = technique_of(scenario, from);
-    if (alone.is_null()) return cell;
-    cell.rerun.technique = alone.dump();
+    const json technique = technique_of(scenario, from);
+    if (technique.is_null()) return cell;
+    cell.rerun.technique = technique.dump();
     json sweeps = json::object();
     for (const document::Setting& setting : settings)
         sweeps[setting.pointer] = json::array({json::parse(setting.value)});

@@ -66,9 +66,9 @@ std::string method(const Comparison& comparison) {
         comparison.judged_times, of,
         comparison.interleaved ? "" : ", if the machine was in the same state for both blocks");
     if (comparison.enough > 0)
-        text +=
-            fmt::format(". There are too few processes to call a time slower, however slow: so many times need {} {}",
-                        comparison.enough, comparison.interleaved ? "pairs" : "processes a side");
+        text += fmt::format(". There are too few processes to call a time slower, however slow: {} times need {} {}",
+                            comparison.judged_times, comparison.enough,
+                            comparison.interleaved ? "pairs" : "processes a side");
     return text;
 }
 

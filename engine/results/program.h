@@ -12,7 +12,7 @@ struct Program {
     std::string build_type;
 };
 
-// Those of the running program.
+// The version and build of the running program.
 Program this_program();
 
 }  // namespace shadowbench::results

@@ -65,7 +65,7 @@ Matrix matrix_of(std::span<const ScenarioOutcome> outcomes, std::span<const std:
     for (const ScenarioOutcome& outcome : outcomes) worst.push_back(worst_of_defaults(outcome.result));
     Matrix matrix;
     for (const std::string& id : techniques)
-        if (std::any_of(worst.begin(), worst.end(), [&](const auto& each) { return each.contains(id); }))
+        if (std::any_of(worst.begin(), worst.end(), [&](const auto& entry) { return entry.contains(id); }))
             matrix.header.push_back(id);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         std::vector<std::string> line{outcomes[i].result.name};
@@ -101,7 +101,7 @@ std::string place_of(const Result& result, const VariantResult& variant, const L
     for (const document::Setting& setting : variant.settings)
         text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", setting.pointer, setting.value);
     const bool lights = std::any_of(result.variants.begin(), result.variants.end(),
-                                    [](const VariantResult& each) { return each.lights.size() > 1; });
+                                    [](const VariantResult& entry) { return entry.lights.size() > 1; });
     if (lights) text += fmt::format("{}light {}", text.empty() ? "" : ", ", light.name);
     return text;
 }

@@ -174,11 +174,11 @@ TEST_F(Contenders, that_refuse_the_layout_are_bad_input) {
 }
 
 TEST_F(Contenders, are_judged_alike_if_the_rays_are_captured_again) {
-    const RaySource anew(capture_, layout_, 0, {});
-    EXPECT_FALSE(anew.kept());
-    EXPECT_EQ(anew.segments(), source_.segments());
+    const RaySource recaptured(capture_, layout_, 0, {});
+    EXPECT_FALSE(recaptured.kept());
+    EXPECT_EQ(recaptured.segments(), source_.segments());
     std::size_t rays = 0;
-    anew.for_each_batch(0, [&](RaySource::Batch batch) {
+    recaptured.for_each_batch(0, [&](RaySource::Batch batch) {
         for (const rays::LightRays& tile : batch) rays += tile.rays();
     });
     EXPECT_EQ(rays, source_.rays());

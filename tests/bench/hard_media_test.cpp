@@ -92,7 +92,7 @@ TEST(HardMedia, AWideConePassesMediaAtTheLengthOfItsRays) {
     const HardCase hard("wide_cone", one_ray);
     std::vector<Query> queries;
     std::vector<long double> expected;
-    for (const float at : {16.5f, 18.5f, 24.5f, 29.5f, 31.5f})  // the diagonal; no sphere stands there
+    for (const float at : {16.5f, 18.5f, 24.5f, 29.5f, 31.5f})  // on the diagonal, without spheres
         for (const float z : {0.5f, 1.0f, 1.001f, 1.1f, 1.5f, 2.0f, 2.9f, 3.1f, 50.0f}) {
             const long double length = rays::length_per_depth(hard.view(), at, at);
             queries.push_back({at, at, z, 1e-6f});

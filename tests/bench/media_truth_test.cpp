@@ -158,7 +158,7 @@ void expect_exact(const scene::Scene& scene, int receivers) {
             }
         }
     }
-    EXPECT_GT(within, receivers / 2) << "receivers that tell something";
+    EXPECT_GT(within, receivers / 2) << "enough receivers inside the media";
 }
 
 TEST(MediaTruth, IsExactInASmallGridWithHoles) {

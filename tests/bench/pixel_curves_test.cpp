@@ -99,11 +99,11 @@ TEST(PixelCurves, are_those_of_the_whole_map) {
     ASSERT_GT(light.layout().tiles(), 1);
     const PixelCurves curves = probe.at(33, 24);
     ASSERT_EQ(curves.curves.size(), techniques::all().size());
-    for (const TechniqueCurve& one : curves.curves) {
-        if (!one.absent.empty()) continue;
-        const Contender whole = light.build(document::read_any_technique(one.technique), {});
+    for (const TechniqueCurve& curve : curves.curves) {
+        if (!curve.absent.empty()) continue;
+        const Contender whole = light.build(document::read_any_technique(curve.technique), {});
         const std::vector<float> depths = even_depths(curves);
-        const int nx = one.cells == techniques::Cells::sample ? 4 : 1;
+        const int nx = curve.cells == techniques::Cells::sample ? 4 : 1;
         std::vector<double> mean(depths.size());
         for (int sy = 0; sy < nx; ++sy)
             for (int sx = 0; sx < nx; ++sx) {
@@ -113,8 +113,8 @@ TEST(PixelCurves, are_those_of_the_whole_map) {
                     mean[i] += curves::evaluate(stored_curve, depths[i]) / static_cast<double>(nx * nx);
             }
         for (std::size_t i = 0; i < depths.size(); ++i)
-            EXPECT_NEAR(curves::evaluate(one.channels[0], depths[i]), mean[i], 0.02)
-                << one.technique << " " << depths[i];
+            EXPECT_NEAR(curves::evaluate(curve.channels[0], depths[i]), mean[i], 0.02)
+                << curve.technique << " " << depths[i];
     }
 }
 

@@ -156,9 +156,9 @@ TEST(QueriesOfPoints, keep_footprints_beside_their_queries_when_some_are_dropped
     EXPECT_FLOAT_EQ(set.footprints[0].ux, 4.0f);
     EXPECT_FLOAT_EQ(set.footprints[1].ux, 8.0f);
     const std::size_t second[] = {1};
-    const QuerySet one = pick(set.asked(), second);
-    EXPECT_EQ(one.queries[0].x, set.queries[1].x);
-    EXPECT_EQ(one.footprints[0].ux, 8.0f);
+    const QuerySet picked = pick(set.asked(), second);
+    EXPECT_EQ(picked.queries[0].x, set.queries[1].x);
+    EXPECT_EQ(picked.footprints[0].ux, 8.0f);
 }
 
 }  // namespace

@@ -85,9 +85,9 @@ TEST(Run, gives_the_same_numbers_on_one_thread_and_on_two) {
 }
 
 TEST(Run, gives_the_same_numbers_if_rays_are_captured_again) {
-    RunOptions kept, anew;
-    anew.limits.kept_rays = 0;
-    nlohmann::ordered_json a = without_times(quickstart(), kept), b = without_times(quickstart(), anew);
+    RunOptions kept, recaptured;
+    recaptured.limits.kept_rays = 0;
+    nlohmann::ordered_json a = without_times(quickstart(), kept), b = without_times(quickstart(), recaptured);
     EXPECT_EQ(a["variants"][0]["lights"][0]["rays_kept"], true);
     EXPECT_EQ(b["variants"][0]["lights"][0]["rays_kept"], false);
     for (auto* result : {&a, &b}) (*result)["variants"][0]["lights"][0].erase("rays_kept");

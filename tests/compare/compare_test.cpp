@@ -165,8 +165,8 @@ TEST(Compare, ASlowdownThatMayBeChanceAmongManyIsInconclusive) {
     }
     std::vector<json> a(5, many), b(5, many);
     Noise noise(1);
-    for (json& one : a) make_times(one, noise);
-    for (json& one : b) make_times(one, noise, 0, 1.5);
+    for (json& result : a) make_times(result, noise);
+    for (json& result : b) make_times(result, noise, 0, 1.5);
     const Comparison comparison = compare(side(a), side(b), {});
     EXPECT_EQ(comparison.judged_times, 66u);
     EXPECT_EQ(line(comparison, "deep", "lookup_random").verdict, Verdict::inconclusive);

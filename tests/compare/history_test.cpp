@@ -33,8 +33,8 @@ protected:
     static Ordered measure(const Ordered& history, const std::string& title, const std::string& name) {
         for (const Ordered& cell : history.at("cells"))
             if (cell.at("title") == title)
-                for (const Ordered& one : cell.at("measures"))
-                    if (one.at("name") == name) return one;
+                for (const Ordered& measure : cell.at("measures"))
+                    if (measure.at("name") == name) return measure;
         ADD_FAILURE() << title << " " << name;
         return {};
     }

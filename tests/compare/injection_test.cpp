@@ -17,8 +17,8 @@ TEST(Injection, EqualResultsAreTheSame) {
     const Comparison comparison = compared(made_result(), made_result());
     EXPECT_EQ(exit_code(comparison), 0);
     EXPECT_TRUE(comparison.fronts.empty());
-    for (const Line& one : comparison.lines)
-        EXPECT_TRUE(one.verdict == Verdict::same || one.verdict == Verdict::inconclusive) << title_of(one);
+    for (const Line& result : comparison.lines)
+        EXPECT_TRUE(result.verdict == Verdict::same || result.verdict == Verdict::inconclusive) << title_of(result);
 }
 
 TEST(Injection, OneByteIsLarger) {
@@ -132,8 +132,8 @@ Comparison measured(std::uint64_t seed, std::size_t processes, bool turns, doubl
             if (i % 2 == 1) make_times(a[i], noise);
         }
     else {
-        for (json& one : a) make_times(one, noise);
-        for (json& one : b) make_times(one, noise, 0, factor);
+        for (json& result : a) make_times(result, noise);
+        for (json& result : b) make_times(result, noise, 0, factor);
     }
     const char* const mark = turns ? "ab" : "";
     return compare(side(a, mark), side(b, mark), {});
@@ -200,10 +200,10 @@ TEST(Injection, SlowdownsAreFoundBeyondTheMinimumEffect) {
 TEST(Injection, AnotherStateOfTheMachineIsNotSlower) {
     std::vector<json> a(10, made_result()), b(10, made_result());
     Noise noise(1);
-    for (json& one : a) make_times(one, noise);
-    for (json& one : b) {
-        make_times(one, noise, 0, 1.5);
-        one["variants"][0]["lights"][0]["capture"]["embree_check"]["times"]["embree_rays_per_second"] = 1.4e6;
+    for (json& result : a) make_times(result, noise);
+    for (json& result : b) {
+        make_times(result, noise, 0, 1.5);
+        result["variants"][0]["lights"][0]["capture"]["embree_check"]["times"]["embree_rays_per_second"] = 1.4e6;
     }
     Comparison comparison = compare(side(a), side(b), {});
     EXPECT_EQ(exit_code(comparison), 0);

@@ -38,7 +38,7 @@ TEST(Report, TextListsWhatIsNotTheSameWithItsCommand) {
     const std::string text = to_text(changed(), false);
     EXPECT_THAT(text, HasSubstr("old -> new\n"));
     EXPECT_THAT(text, HasSubstr("made / key / deep tolerance=0.02\n  larger          bytes  1000 -> 1001  +1 (+0.1 %)\n"
-                                "  alone: shadowbench run file.json --set 'techniques="));
+                                "  rerun: shadowbench run file.json --set 'techniques="));
     EXPECT_THAT(text, HasSubstr("slower          build"));
     EXPECT_THAT(text, HasSubstr("missing"));
     EXPECT_THAT(text, HasSubstr("note: a note\n"));
@@ -68,7 +68,7 @@ TEST(Report, JUnitHasFailuresOnlyForFailures) {
     const Comparison comparison = changed();
     const std::string text = to_junit(comparison);
     int fails = 0;
-    for (const Line& one : comparison.lines) fails += code_of(one, comparison.options) > 0;
+    for (const Line& line : comparison.lines) fails += code_of(line, comparison.options) > 0;
     EXPECT_THAT(text, HasSubstr("failures=\"" + std::to_string(fails) + "\""));
     EXPECT_THAT(text, HasSubstr("<testcase classname=\"made / key / deep tolerance=0.02\" name=\"bytes\"><failure "
                                 "type=\"larger\" message=\"larger: 1000 -&gt; 1001; +1 (+0.1 %)\">shadowbench run"));
@@ -87,11 +87,11 @@ TEST(Report, JsonHasEverything) {
     EXPECT_EQ(report["lines"][0]["code"], 2);
     EXPECT_EQ(report["lines"][0]["current"], 1001);
     EXPECT_EQ(report["counts"]["larger"], 1);
-    for (const json& one : report["lines"])
-        if (one["cell"] == "uncompressed" && one["measure"] == "build") {
-            EXPECT_EQ(one["verdict"], "slower");
-            EXPECT_EQ(one["time"]["processes"], 20);
-            EXPECT_GT(one["time"]["interval95"][0], 1.05);
+    for (const json& line : report["lines"])
+        if (line["cell"] == "uncompressed" && line["measure"] == "build") {
+            EXPECT_EQ(line["verdict"], "slower");
+            EXPECT_EQ(line["time"]["processes"], 20);
+            EXPECT_GT(line["time"]["interval95"][0], 1.05);
         }
 }
 

@@ -24,7 +24,8 @@ inline bool few_variants(const nlohmann::json& document) {
     if (techniques == document.end()) return true;
     if (techniques->is_array() &&
         std::any_of(techniques->begin(), techniques->end(), [](const nlohmann::json& technique) {
-            return technique.is_object() && technique.value("type", nlohmann::json()) == "*";  // stands for a dozen
+            return technique.is_object() &&
+                   technique.value("type", nlohmann::json()) == "*";  // stands for about a dozen
         }))
         variants *= 12;
     return count(*techniques);

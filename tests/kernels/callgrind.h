@@ -1,4 +1,4 @@
-// Whether callgrind watches this program, and what it counts. Without its header nothing ever runs under it.
+// Controls callgrind. If its header is missing at build time, running() is always false.
 #pragma once
 
 #include <string>

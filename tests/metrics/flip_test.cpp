@@ -157,12 +157,13 @@ Seen look(const Picture& p, double ppd) {
 }
 
 Grid flip(const Picture& a, const Picture& b, double ppd) {
-    const Seen one = look(a, ppd), two = look(b, ppd);
+    const Seen seen_a = look(a, ppd), seen_b = look(b, ppd);
     Grid map;
-    for (std::size_t i = 0; i < one.lab.size(); ++i) {
-        const double edge = std::abs(one.edge[i] - two.edge[i]), point = std::abs(one.point[i] - two.point[i]);
+    for (std::size_t i = 0; i < seen_a.lab.size(); ++i) {
+        const double edge = std::abs(seen_a.edge[i] - seen_b.edge[i]),
+                     point = std::abs(seen_a.point[i] - seen_b.point[i]);
         const double features = std::sqrt(std::max(edge, point) / std::sqrt(2.0));
-        map.push_back(std::pow(redistributed(distance(one.lab[i], two.lab[i])), 1 - features));
+        map.push_back(std::pow(redistributed(distance(seen_a.lab[i], seen_b.lab[i])), 1 - features));
     }
     return map;
 }

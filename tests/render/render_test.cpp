@@ -219,7 +219,7 @@ TEST(ShadingPoints, have_the_edges_of_a_view_rays_footprint) {
     const ShadingPoints points = find_shading_points(scene, lights, settings, rays::Tracer(scene, false), {});
     ASSERT_EQ(points.points(), 8u * 8 * 4);
     for (std::size_t pixel = 0; pixel < 64; ++pixel) {
-        const std::size_t first = 4 * pixel;  // right of it stands the second, below it the third
+        const std::size_t first = 4 * pixel;  // the second is to its right, the third below it
         const base::Vec3d right = points.place[first + 1] - points.place[first];
         const base::Vec3d down = points.place[first + 2] - points.place[first];
         EXPECT_NEAR((base::Vec3d(points.across[first]) - right).length(), 0.0, 0.01 * right.length());
@@ -308,8 +308,8 @@ TEST(WritePictures, writes_exactly_the_files_that_images_json_names) {
     std::set<std::string> named{"images.json"}, found;
     for (const std::string name : written["reference"]["files"]) named.insert(name);
     for (const char* several : {"techniques", "lights"})
-        for (const json& one : written[several])
-            for (const std::string name : one["files"]) named.insert(name);
+        for (const json& entry : written[several])
+            for (const std::string name : entry["files"]) named.insert(name);
     for (const auto& entry : fs::directory_iterator(folder)) {
         found.insert(entry.path().filename().string());
         EXPECT_GT(entry.file_size(), 0u) << entry.path();

@@ -99,9 +99,9 @@ TEST(VerdictsMarkdown, does_not_depend_on_the_clock_and_the_machine) {
         outcome.result.times = {"2026-01-01T00:00:00Z", 5.0, 8};
         outcome.result.machine = {"another", 99};
         for (VariantResult& variant : outcome.result.variants)
-            for (LightResult& each : variant.lights) {
-                each.times = {1.0, 2.0, 3.0};
-                for (Cell& one : each.cells) one.times = CellTimes{};
+            for (LightResult& light : variant.lights) {
+                light.times = {1.0, 2.0, 3.0};
+                for (Cell& cell : light.cells) cell.times = CellTimes{};
             }
     }
     EXPECT_EQ(verdicts_markdown(three(), columns), verdicts_markdown(other, columns));
