@@ -202,7 +202,7 @@ TEST_F(Read, SaysWhatIsMissing) {
 TEST_F(Read, SaysWhereJsonIsBroken) {
     const std::string text = made_result().dump(1);
     fails(write("cut/result.json", text.substr(0, text.size() / 2)), base::ErrorCode::bad_input,
-          "was it written to its end?");
+          "it was not written completely");
     fails(write("nan/result.json", "{\n \"schema_version\": NaN}"), base::ErrorCode::bad_input, "result.json:2:");
     fails(write("huge/result.json", "{\"a\": 1e999}"), base::ErrorCode::bad_input, "result.json");
     fails(write("none/result.json", ""), base::ErrorCode::bad_input, "result.json:1:1");
