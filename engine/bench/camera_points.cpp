@@ -12,8 +12,7 @@ namespace {
 
 using base::Vec3d;
 
-constexpr std::uint64_t which_surface =
-    0x73757266616365;  // makes these random numbers independent of others of the seed
+constexpr std::uint64_t which_surface = 0x73757266616365;  // separates these random numbers from others
 
 struct Span {
     double front, back;

@@ -108,9 +108,8 @@ bool is_checked(const CellRays& cell, std::uint64_t share) {
 struct Pass {
     const MapLayout& layout;
     std::span<const CheckedMap> maps;
-    int apron;  // of the tiles; maps of other aprons are checked in other passes
-    std::vector<std::uint64_t> share,
-        fine_share;        // one cell in so many is checked, a number for each technique; 0: none
+    int apron;                                     // of the tiles; maps of other aprons are checked in other passes
+    std::vector<std::uint64_t> share, fine_share;  // one cell in so many is checked, by technique; 0: none
     double coarse, finer;  // errors of the lines that approximate exponentials in the two references
 
     double linearisation(bool fine) const { return fine ? finer : coarse; }

@@ -76,8 +76,7 @@ struct Suite {
     std::string only;     // technique types that the run was limited to; empty: all
     std::string started;  // time of the first result
     std::size_t results = 0;
-    std::vector<double>
-        speed;  // of the machine, one per result: Embree's rays per second, which no change of this program affects
+    std::vector<double> speed;  // Embree's rays a second, one per result: no change of the program affects them
     std::vector<Cell> cells;
 };
 

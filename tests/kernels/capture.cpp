@@ -35,7 +35,7 @@ Subject prepare(Kind kind, int map, int samples) {
     subject.pass = [input, capture] {
         for (int t = 0; t < input->layout.tiles(); ++t) benchmark::DoNotOptimize(capture->tile(t).begin.data());
     };
-    // Vertices are the rays of the output; each primitive of the scene is read once for all rays that it covers.
+    // The floor reads the rays of the output; each primitive of the scene is read only once for all rays it covers.
     std::vector<const void*> lines;
     append_lines(*tiles, lines);
     subject.floor = [tiles, read = floor_of(std::move(lines))] { return read(); };
