@@ -18,8 +18,8 @@ using base::Vec3d;
 using rays::LightRays;
 using rays::MapLayout;
 
-constexpr std::size_t timed_rays = std::size_t{1} << 18;  // captured on one thread, at least, where there are so many
-constexpr double same_transmittance = 1e-3;  // a texture's place is a float: 1e-4 of a texel, and so of its alpha
+constexpr std::size_t timed_rays = std::size_t{1} << 18;  // captured at least, on one thread, if there are so many
+constexpr double same_transmittance = 1e-3;  // texture coordinates are floats: 1e-4 of a texel, and so of its alpha
 
 struct TracedRay {
     Vec3d origin, direction;  // unit length
@@ -71,7 +71,7 @@ Crossed crossed(const std::vector<rays::TracedSegment>& segments) {
     return result;
 }
 
-// Tiles in an order that depends on the layout alone, so that the first few are spread over the map.
+// Tiles in an order that depends only on the layout and spreads the first few over the map.
 std::vector<int> spread_tiles(const MapLayout& layout) {
     std::vector<int> order(static_cast<std::size_t>(layout.tiles()));
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
@@ -97,9 +97,9 @@ ChosenRay choose(const LightRays& tile, const MapLayout& layout, const rays::Lig
 
 void compare(const std::vector<ChosenRay>& chosen, const Check& check, results::Agreement& agreement) {
     std::vector<rays::TracedSegment> segments;
-    for (const ChosenRay& one : chosen) {
-        trace(check, one.traced, segments);
-        const Crossed ours = crossed(*one.tile, one.ray), theirs = crossed(segments);
+    for (const ChosenRay& ray : chosen) {
+        trace(check, ray.traced, segments);
+        const Crossed ours = crossed(*ray.tile, ray.ray), theirs = crossed(segments);
         bool differs = false;
         for (int c = 0; c < 3; ++c)
             differs = differs || std::abs(ours.transmittance[c] - theirs.transmittance[c]) > same_transmittance;
@@ -112,7 +112,7 @@ void compare(const std::vector<ChosenRay>& chosen, const Check& check, results::
 double rate_of_tracer(const std::vector<ChosenRay>& chosen, const Check& check) {
     std::vector<rays::TracedSegment> segments;
     const Stopwatch stopwatch;
-    for (const ChosenRay& one : chosen) trace(check, one.traced, segments);
+    for (const ChosenRay& ray : chosen) trace(check, ray.traced, segments);
     return static_cast<double>(chosen.size()) / stopwatch.seconds();
 }
 

@@ -1,4 +1,4 @@
-// The capture beside an independent way to the same rays: Embree's all-hits query.
+// Compares the capture with an independent way to the same rays: Embree's all-hits query.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace shadowbench::bench {
 
-// Captures tiles spread over the map on one thread, then traces up to `max_rays` of their rays on one thread.
-// `tracer` sees what casts shadows. Which rays are compared depends on the layout alone.
+// Captures tiles spread over the map on one thread, then traces up to `max_rays` of their rays on one thread. `tracer`
+// sees the casters. Only the layout decides which rays are compared.
 results::Agreement compare_with_tracer(const rays::Capture& capture, const rays::MapLayout& layout,
                                        const rays::LightView& view, const rays::Tracer& tracer, std::size_t max_rays);
 

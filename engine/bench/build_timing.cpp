@@ -27,10 +27,10 @@ void add_timed(TimedBuild& build, RaySource::Batch batch) {
     for (const rays::LightRays& tile : batch) {
         const std::size_t parts = build.maps.parts.size();
         for (std::size_t p = 0; p < parts; ++p) {
-            rays::LightRays one;
-            if (parts > 1) one = rays::channel(tile, static_cast<int>(p));
+            rays::LightRays single;
+            if (parts > 1) single = rays::channel(tile, static_cast<int>(p));
             const Stopwatch stopwatch;
-            build.maps.parts[p]->add(parts > 1 ? one : tile);
+            build.maps.parts[p]->add(parts > 1 ? single : tile);
             build.seconds += stopwatch.seconds();
         }
     }
@@ -48,7 +48,7 @@ void finish_timed(TimedBuild& build, std::vector<std::vector<double>>& seconds) 
 void time_builds(std::span<const Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
                  std::vector<std::vector<double>>& seconds) {
     for (const int apron : aprons_of(contenders)) {
-        std::vector<TimedBuild> builds;  // that grow together, where each pass captures anew
+        std::vector<TimedBuild> builds;  // those that grow together if each pass captures the rays again
         for (std::size_t i = 0; i < contenders.size(); ++i) {
             if (!contenders[i].ok() || contenders[i].needs.apron != apron) continue;
             TimedBuild build = begin_timed(contenders, i, input);

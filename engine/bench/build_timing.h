@@ -1,4 +1,4 @@
-// Builds against the clock, on one thread.
+// Timed builds, on one thread.
 #pragma once
 
 #include <span>
@@ -9,9 +9,9 @@
 
 namespace shadowbench::bench {
 
-// One full build of every contender that is ok, in order; seconds of each are appended to seconds[i]. Capturing and
-// splitting colours into channels are not part of the time. Maps are dropped at once when the light rays are kept; else
-// all of them grow together, since each pass captures anew.
+// Builds every contender that is ok once, in order, and appends the seconds of each to seconds[i]. Capturing and
+// splitting colours into channels are not timed. Each map is dropped at once if the light rays are kept; otherwise all
+// maps grow together, since each pass captures the rays again.
 void time_builds(std::span<const Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
                  std::vector<std::vector<double>>& seconds);
 

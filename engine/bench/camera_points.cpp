@@ -12,13 +12,13 @@ namespace {
 
 using base::Vec3d;
 
-constexpr std::uint64_t which_surface = 0x73757266616365;  // sets these random numbers apart from others of the seed
+constexpr std::uint64_t which_surface = 0x73757266616365;  // separates these random numbers from others
 
 struct Span {
     double front, back;
 };
 
-// Where the ray is inside of any medium: disjoint, in order.
+// The parts of the ray inside any medium: disjoint, in order.
 std::vector<Span> media_spans(const std::vector<rays::TracedSegment>& segments) {
     std::vector<Span> spans;
     for (const rays::TracedSegment& segment : segments) {
@@ -70,7 +70,7 @@ private:
     double t_ = 0.0;
 };
 
-// What the view rays of a row reuse.
+// Memory that the view rays of a row reuse.
 struct Scratch {
     std::vector<rays::SurfaceHit> surfaces;
     std::vector<rays::TracedSegment> segments;
@@ -114,7 +114,7 @@ CameraPoint camera_point(const rays::ImagePlane& plane, const Vec3d& through, co
 std::size_t draw_surface(const std::vector<rays::SurfaceHit>& surfaces,
                          const std::vector<rays::TracedSegment>& segments, double u) {
     if (surfaces.size() == 1) return 0;
-    thread_local std::vector<double> seen;  // of this surface and all before it
+    thread_local std::vector<double> seen;  // cumulative shares, up to and including each surface
     seen.clear();
     Vec3d left(1.0);
     Passed media(segments);

@@ -1,10 +1,11 @@
+// A stopwatch of wall time.
 #pragma once
 
 #include <chrono>
 
 namespace shadowbench::bench {
 
-// Wall time since it was made.
+// Wall time since construction.
 class Stopwatch {
 public:
     double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

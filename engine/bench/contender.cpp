@@ -17,10 +17,10 @@ namespace {
 
 using techniques::Query;
 
-constexpr std::size_t max_checked_cells = std::size_t{1} << 20;  // of one map: more take long and tell little
-constexpr float rounding = 1e-6f;                                // of an answer beyond [0, 1], or from 1
+constexpr std::size_t max_checked_cells = std::size_t{1} << 20;  // of one map: more take long and add little
+constexpr float rounding = 1e-6f;  // by which an answer may leave [0, 1], or differ from 1
 
-// A layout that a technique cannot serve is bad input, not a fault of the technique: the message names its place.
+// A layout that a technique cannot serve is bad input, not a fault of the technique: the error names its place.
 Maps begin_served(const Contender& contender, const techniques::BuildInput& input) {
     try {
         return begin_maps(*contender.row, contender.values, input);
@@ -42,7 +42,7 @@ void begin_all(std::span<Contender> contenders, const techniques::BuildInput& in
     }
 }
 
-// Adds a batch to every map that asks for this apron. Of several tiles that fail, the first one's reason counts.
+// Adds a batch to every map that needs this apron. If several tiles fail, the reason of the first one is kept.
 void add_batch(std::span<Contender> contenders, int apron, RaySource::Batch batch) {
     for (Contender& contender : contenders) {
         if (!contender.ok() || contender.needs.apron != apron) continue;
@@ -205,8 +205,9 @@ void check_lookups(std::span<Contender> contenders, const Asked& judged, const T
 void check_lit(std::span<Contender> contenders) {
     for (Contender& contender : contenders)
         if (contender.ok() && !(contender.cell.lookup->norms.max <= rounding))
-            fail(contender, fmt::format("the light sees nothing that casts a shadow, but an answer is {:.6g} from 1",
-                                        contender.cell.lookup->norms.max));
+            fail(contender,
+                 fmt::format("the light sees nothing that casts a shadow, but an answer differs from 1 by {:.6g}",
+                             contender.cell.lookup->norms.max));
 }
 
 }  // namespace shadowbench::bench

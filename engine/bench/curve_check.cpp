@@ -21,14 +21,14 @@ using rays::MapLayout;
 using techniques::Cells;
 
 constexpr double rounding = 1e-6;     // of stored floats, allowed beyond every promise
-constexpr double finest = 0x1p-24;    // than this, floats do not tell lines from exponentials
-constexpr double fine_bound = 16e-6;  // promises up to this are judged beside a reference of their own
+constexpr double finest = 0x1p-24;    // finer than this, floats do not distinguish lines from exponentials
+constexpr double fine_bound = 16e-6;  // promises up to this are judged with the finer reference
 
-// Rays whose cells are judged beside the finer reference; it has up to forty times the vertices of the other.
+// Number of rays whose cells are judged with the finer reference, which has up to forty times as many vertices.
 constexpr std::size_t fine_rays = std::size_t{1} << 14;
 constexpr std::size_t least_fine_cells = 64;
 
-// What one tile tells of one technique.
+// The errors of one technique within one tile.
 struct TileErrors {
     std::vector<double> max;  // one a checked cell
     double l1 = 0.0, worst = -1.0;
@@ -43,7 +43,7 @@ struct CellRays {
     std::size_t count;  // of rays
 };
 
-// The cells of pixel `p` of a tile, and the rays that each stands for.
+// The cells of pixel `p` of a tile, and the rays of each.
 void cells_of_pixel(Cells kind, const LightRays& tile, const MapLayout& layout, std::size_t p,
                     std::vector<CellRays>& out) {
     out.clear();
@@ -62,7 +62,7 @@ void cells_of_pixel(Cells kind, const LightRays& tile, const MapLayout& layout, 
                            y * layout.samples_y + static_cast<int>(s) / layout.samples_x, p * samples + s, 1});
 }
 
-// Why this function breaks a promise; empty when it does not.
+// How this function breaks a promise; empty if it does not.
 std::string fault_of(const Curve& curve, const techniques::Promises& promises) {
     for (std::size_t i = 0; i < curve.size(); ++i) {
         const double value = curve[i].value;
@@ -77,7 +77,7 @@ std::string fault_of(const Curve& curve, const techniques::Promises& promises) {
     return {};
 }
 
-// Where a technique promises values before and behind all that casts shadows, how it strays there; empty: it does not.
+// How a function breaks its promise of values before and behind all casters; empty if it does not.
 std::string fault_of_ends(const Curve& stored, const Curve& reference, bool early, double allowed) {
     const auto first = [](const Curve& curve) { return curve.empty() ? 1.0 : curve.front().value; };
     const auto last = [](const Curve& curve) { return curve.empty() ? 1.0 : curve.back().value; };
@@ -90,7 +90,7 @@ std::string fault_of_ends(const Curve& stored, const Curve& reference, bool earl
     return {};
 }
 
-// The reference curves of the cells that stand for a pixel, shared by all techniques that store such cells.
+// Scratch for the cells of a pixel. The reference curve of a cell is shared by all techniques that store such cells.
 struct PixelScratch {
     curves::SweepScratch sweep;
     Curve reference, stored;
@@ -108,17 +108,17 @@ bool is_checked(const CellRays& cell, std::uint64_t share) {
 struct Pass {
     const MapLayout& layout;
     std::span<const CheckedMap> maps;
-    int apron;                                     // of the tiles; maps of other aprons wait for theirs
-    std::vector<std::uint64_t> share, fine_share;  // one cell in so many, one number a technique; 0: none
-    double coarse, finer;                          // how closely the two references join exponentials by lines
+    int apron;                                     // of the tiles; maps of other aprons are checked in other passes
+    std::vector<std::uint64_t> share, fine_share;  // one cell in so many is checked, by technique; 0: none
+    double coarse, finer;  // errors of the lines that approximate exponentials in the two references
 
     double linearisation(bool fine) const { return fine ? finer : coarse; }
 
-    // Whether this cell of a map is held to the finer reference, or to the other.
+    // Whether this cell of a map is held to the reference in question: the finer or the coarser one.
     bool checks(std::size_t m, Cells kind, bool fine, const CellRays& cell) const {
         if (maps[m].apron != apron || cells(*maps[m].maps) != kind) return false;
-        const bool finely = is_checked(cell, fine_share[m]);
-        return fine ? finely : !finely && is_checked(cell, share[m]);
+        const bool in_fine_share = is_checked(cell, fine_share[m]);
+        return fine ? in_fine_share : !in_fine_share && is_checked(cell, share[m]);
     }
 };
 
@@ -132,7 +132,7 @@ bool is_fine(const CheckedMap& map, const MapLayout& layout) {
     return layout.media && map.bound_holds && map.error_bound <= fine_bound;
 }
 
-// A sixteenth of the smallest bound of those that this reference is for.
+// A sixteenth of the smallest bound that this reference is for.
 double linearisation_for(const Pass& pass, bool fine) {
     double smallest = std::numeric_limits<double>::infinity();
     for (const CheckedMap& map : pass.maps)
@@ -166,7 +166,7 @@ void measure(const curves::Distance& d, const Curve& stored, const CellRays& cel
     errors.worst_y = cell.y;
 }
 
-// `fine`: beside which of the two references.
+// `fine`: whether `scratch` holds the finer reference.
 void check_cell(const Pass& pass, std::size_t m, bool fine, int channel, const CellRays& cell, PixelScratch& scratch,
                 TileErrors& errors) {
     const CheckedMap& checked = pass.maps[m];
@@ -204,7 +204,7 @@ void check_kind(const Pass& pass, Cells kind, bool fine, int channel, const Ligh
     }
 }
 
-// Cells of rays that their technique weighs: each technique has its own reference.
+// For cells whose technique weighs rays: each technique has its own reference.
 void check_filtered(const Pass& pass, bool fine, int channel, const LightRays& rays, int x, int y,
                     PixelScratch& scratch, std::vector<TileErrors>& errors) {
     const CellRays cell{x, y, 0, 0};

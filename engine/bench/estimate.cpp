@@ -5,8 +5,8 @@
 namespace shadowbench::bench {
 namespace {
 
-// Seconds of one ray captured, of one ray built into a map or checked there, and of one lookup. A ray through media
-// has tens of segments.
+// Seconds for capturing one ray, for building it into a map or checking it there, and for one lookup. A ray through
+// media has tens of segments.
 constexpr double capture = 0.4e-6, build = 0.15e-6, lookup = 1e-6, media_factor = 12.0;
 
 }  // namespace
@@ -16,7 +16,7 @@ double estimate_seconds(const scene::Scenario& scenario, const rays::MapLayout& 
     const double rays = pixels * layout.samples();
     const double factor = (layout.media ? media_factor : 1.0) * layout.channels;
     const double repetitions = scenario.timing.repetitions, rows = static_cast<double>(techniques);
-    // The truth captures whole tiles around its queries, at most all.
+    // The truth captures whole tiles around its queries, at most all tiles.
     const double tile = static_cast<double>(layout.tile_width) * layout.tile_height;
     const double touched = std::min(pixels, tile * scenario.reference.queries);
     const double judged = scenario.scene.deep_image ? rays : touched * scenario.reference.samples_per_pixel;

@@ -1,4 +1,4 @@
-// How long a run will take, guessed before any of it is done.
+// Estimates how long a run will take, before any work is done.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace shadowbench::bench {
 
-// Seconds of one light's run with so many techniques. A coarse guess by what its parts took on two cores of 2020, for
-// refusing what would run for hours: the committed scenarios take between a third and three times as long.
+// Seconds for one light's run with this number of techniques. A coarse guess from the times of its parts on two cores
+// of 2020, meant for refusing runs of hours: the committed scenarios take between a third and three times as long.
 double estimate_seconds(const scene::Scenario& scenario, const rays::MapLayout& layout, std::size_t techniques);
 
 }  // namespace shadowbench::bench

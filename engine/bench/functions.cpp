@@ -43,8 +43,7 @@ std::vector<float> depths_of(const Curve& function) {
     return depths;
 }
 
-// The largest rise from any depth to a deeper one, and the largest distance from [0, 1]; infinite where a value is no
-// number.
+// The largest rise from any depth to a deeper one, and the largest distance from [0, 1]; infinite if a value is NaN.
 struct Shape {
     double rise = 0.0, outside = 0.0;
 };
@@ -84,16 +83,16 @@ void check(const Map& map, const techniques::Promises& promises, std::span<const
     if (result.tolerance) result.over_tolerance = over;
 }
 
-// Places spread evenly over the functions, and in each over its depths and a little beyond, front to back.
+// Queries spread evenly over the functions, and in each over its depths and a little beyond, front to back.
 std::vector<Query> coherent_queries(std::span<const Curve> functions) {
-    const std::size_t each = (lookups + functions.size() - 1) / functions.size();
+    const std::size_t per_function = (lookups + functions.size() - 1) / functions.size();
     std::vector<Query> queries;
     for (std::size_t i = 0; i < functions.size(); ++i) {
         const Curve& f = functions[i];
         const double low = f.empty() ? 0.0 : f.front().z, high = f.empty() ? 1.0 : f.back().z;
         const double margin = 0.05 * (high - low);
-        for (std::size_t k = 0; k < each; ++k) {
-            const double at = (static_cast<double>(k) + 0.5) / static_cast<double>(each);
+        for (std::size_t k = 0; k < per_function; ++k) {
+            const double at = (static_cast<double>(k) + 0.5) / static_cast<double>(per_function);
             const double z = low - margin + at * (high - low + 2.0 * margin);
             queries.push_back({static_cast<float>(i) + 0.5f, 0.5f, static_cast<float>(z), 1.0f});
         }
@@ -160,14 +159,15 @@ void time_all(std::span<const Curve> functions, std::span<const document::Techni
     for (const Curve& function : functions) vertices += static_cast<double>(function.size());
     std::vector<float> out;
     const auto warm_ns = [&](const Map& map, std::span<const Query> queries) {
-        lookup_ns(map, queries, out);  // untimed: the build before it took the cache
+        lookup_ns(map, queries, out);  // untimed: the build has filled the cache
         return lookup_ns(map, queries, out);
     };
     for (int r = 0; r < repetitions; ++r)
-        for (Timed& one : timed) {
-            one.build.push_back(1e9 * build_seconds(techniques[one.index], functions) / std::max(vertices, 1.0));
-            one.coherent.push_back(warm_ns(*one.map, coherent));
-            one.random.push_back(warm_ns(*one.map, random));
+        for (Timed& technique : timed) {
+            technique.build.push_back(1e9 * build_seconds(techniques[technique.index], functions) /
+                                      std::max(vertices, 1.0));
+            technique.coherent.push_back(warm_ns(*technique.map, coherent));
+            technique.random.push_back(warm_ns(*technique.map, random));
         }
 }
 
@@ -184,10 +184,10 @@ std::vector<FunctionResult> measure_functions(std::span<const Curve> functions,
         if (keeps_promises(results.back())) timed.push_back({i, std::move(map), {}, {}, {}});
     }
     time_all(functions, techniques, repetitions, timed);
-    for (Timed& one : timed)
-        results[one.index].times =
-            FunctionTimes{results::summarise(std::move(one.build)), results::summarise(std::move(one.random)),
-                          results::summarise(std::move(one.coherent))};
+    for (Timed& technique : timed)
+        results[technique.index].times = FunctionTimes{results::summarise(std::move(technique.build)),
+                                                       results::summarise(std::move(technique.random)),
+                                                       results::summarise(std::move(technique.coherent))};
     return results;
 }
 

@@ -1,4 +1,4 @@
-// Techniques held to given functions of depth: no scene, no light rays.
+// Measures techniques on given functions of depth, without a scene or light rays.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 namespace shadowbench::bench {
 
 struct FunctionTimes {
-    results::Sample build_ns_per_vertex;  // one thread, the whole map, per vertex that goes in
+    results::Sample build_ns_per_vertex;  // one thread, the whole map, per input vertex
     results::Sample lookup_random_ns, lookup_coherent_ns;
 };
 
@@ -25,17 +25,17 @@ struct FunctionResult {
     std::string technique, parameters, parameters_json;
     std::uint64_t functions = 0, vertices_in = 0, nodes_out = 0;
     std::size_t bytes = 0;
-    double error_max = 0.0, error_rms = 0.0;      // over the functions, of each one's largest error (exact)
-    std::optional<double> tolerance;              // the promised largest error; nothing when none is promised
+    double error_max = 0.0, error_rms = 0.0;      // over the functions, of the largest error of each (exact)
+    std::optional<double> tolerance;              // the promised largest error; absent if none is promised
     std::optional<std::uint64_t> over_tolerance;  // functions whose error is larger
-    double rise_max = 0.0, outside_max = 0.0;     // by how much functions rise with depth, and leave [0, 1], at most
-    std::uint64_t broken = 0;                     // functions that do so though the technique promises that none does
-    std::optional<FunctionTimes> times;           // nothing when a promise is broken
+    double rise_max = 0.0, outside_max = 0.0;     // largest rise of a function with depth, and distance from [0, 1]
+    std::uint64_t broken = 0;                     // functions that rise or leave [0, 1] against the promise
+    std::optional<FunctionTimes> times;           // absent if a promise is broken
     std::vector<curves::Curve> stored;            // the functions as the technique holds them
 };
 
-// One map of all functions a technique, checked and then timed: repetitions interleaved. No function, or a technique
-// that cannot take functions, is Error{bad_input} or {usage}.
+// Builds one map of all functions for each technique, checks it, then times it; repetitions are interleaved. Throws
+// Error{bad_input} if there is no function, and Error{usage} for a technique that cannot take functions.
 std::vector<FunctionResult> measure_functions(std::span<const curves::Curve> functions,
                                               std::span<const document::TechniqueChoice> techniques, int repetitions);
 

@@ -50,15 +50,16 @@ std::string to_table(std::span<const FunctionResult> results) {
         const auto time = [&](const results::Sample FunctionTimes::*sample) {
             return r.times ? fmt::format("{:.2f}", ((*r.times).*sample).median) : std::string("-");
         };
-        table.add({r.parameters.empty() ? r.technique : r.technique + " " + r.parameters,
-                   fmt::format("{}", r.functions), fmt::format("{}", r.vertices_in), fmt::format("{}", r.nodes_out),
-                   fmt::format("{}", r.bytes), fmt::format("{:.6g}", r.error_max), fmt::format("{:.6g}", r.error_rms),
+        table.add({results::title(r.technique, r.parameters), fmt::format("{}", r.functions),
+                   fmt::format("{}", r.vertices_in), fmt::format("{}", r.nodes_out), fmt::format("{}", r.bytes),
+                   fmt::format("{:.6g}", r.error_max), fmt::format("{:.6g}", r.error_rms),
                    r.over_tolerance ? fmt::format("{}", *r.over_tolerance) : "-", fmt::format("{:.3g}", r.rise_max),
                    fmt::format("{:.3g}", r.outside_max), fmt::format("{}", r.broken),
                    time(&FunctionTimes::build_ns_per_vertex), time(&FunctionTimes::lookup_random_ns),
                    time(&FunctionTimes::lookup_coherent_ns), r.times ? "ok" : "failed: a promise is broken"});
     }
-    return table.text("") + "broken: functions that rise or leave [0, 1] where the technique promises that none does\n";
+    return table.text("") +
+           "broken: functions that rise or leave [0, 1] although the technique promises the contrary\n";
 }
 
 }  // namespace shadowbench::bench

@@ -45,7 +45,8 @@ PartsByPixel sort_parts(const LightRays& tile, const std::vector<FilterBox>& foo
     return result;
 }
 
-// The transmittance of one ray at ever larger depths: what rays::transmittance gives, without starting anew.
+// The transmittance of one ray at growing depths: equal to rays::transmittance(), without starting again for each
+// depth.
 class RayWalk {
 public:
     void start(const LightRays& tile, std::size_t ray) {
@@ -98,12 +99,12 @@ Cell cell_of(const LightRays& tile, const MapLayout& layout, std::size_t ray) {
             (tile.y0 + pixel / tile.width) * layout.samples_y + sample / layout.samples_x};
 }
 
-// What the grid volumes leave of one ray's light at some depths.
+// The transmittance of the grid volumes along one ray at some depths.
 class MediaWalk {
 public:
     MediaWalk(const GridsInLight& media, const MapLayout& layout) : media_(media), layout_(layout) {}
 
-    void start(const Cell& cell, std::span<const double> depths) {  // that ascend
+    void start(const Cell& cell, std::span<const double> depths) {  // ascending
         if (media_.grids.empty()) return;
         const rays::SamplePosition place = rays::sample_position(layout_, cell.i, cell.j);
         optical_depth_.resize(depths.size());

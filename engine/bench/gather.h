@@ -1,6 +1,6 @@
-// Sums of the exact transmittance of all light rays of a tile over the footprints of queries. Grid volumes are not
-// among the rays' segments, whose extinction is constant: they are integrated along the rays, up to each depth that is
-// asked for. Internal to reference.cpp.
+// Sums the exact transmittance of all light rays of a tile over the footprints of queries. Segments of rays have
+// constant extinction, so grid volumes are not among them: they are integrated along the rays, up to each depth of a
+// query. Internal to reference.cpp.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,7 @@ struct Moments {
     }
 };
 
-// What one tile adds to one query.
+// The contribution of one tile to one query.
 struct Part {
     std::size_t query;
     Moments moments;
@@ -43,12 +43,12 @@ struct GridsInLight {
     const rays::LightView& view;
 };
 
-// Adds to each part the rays of this tile inside its query's footprint. Each ray is walked once for all queries that it
-// answers, front to back.
+// Adds to each part the rays of this tile inside its query's footprint. Walks each ray once, front to back, for all
+// queries whose footprints hold it.
 void gather_footprints(const rays::LightRays& tile, const rays::MapLayout& layout,
                        std::span<const techniques::Query> queries, const GridsInLight& media, std::span<Part> parts);
 
-// Adds the one ray of the sample cell that holds (x, y), if it is this tile's.
+// Adds the ray of the sample cell that holds (x, y), if it belongs to this tile.
 void gather_nearest(const rays::LightRays& tile, const rays::MapLayout& layout,
                     std::span<const techniques::Query> queries, const GridsInLight& media, std::span<Part> parts);
 

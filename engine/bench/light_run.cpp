@@ -38,7 +38,7 @@ QuerySet make_queries(const LightJob& job, const rays::LightView& view) {
                                                : probe_queries(receivers, view);
     if (!set.queries.empty()) return set;
     throw base::Error(base::ErrorCode::bad_input, "/receivers",
-                      set.dropped == 0 ? "there is nothing to ask for: the camera sees no surface and no medium"
+                      set.dropped == 0 ? "there are no receivers: the camera sees no surface and no medium"
                                        : fmt::format("none of the {} receivers is inside the map of light \"{}\"",
                                                      set.dropped, light_of(job).name));
 }
@@ -96,11 +96,11 @@ std::vector<LookupMeasurement> plan_all(const LightJob& job, std::span<const Con
     return plans;
 }
 
-// Builds and lookups, interleaved: every technique once, then every technique once more.
+// Times builds and lookups, interleaved: every technique once, then every technique again.
 void time_all(const LightJob& job, std::span<Contender> contenders, const RaySource& source,
               const techniques::BuildInput& input, const Asked& asked) {
     const std::size_t repetitions = static_cast<std::size_t>(job.scenario.timing.repetitions);
-    // The first builds find the allocator and the caches as the checks left them: they do not count.
+    // The first builds do not count: they find the allocator and the caches as the checks left them.
     std::vector<std::vector<double>> seconds(contenders.size()), warming(contenders.size());
     time_builds(contenders, source, input, warming);
     for (std::size_t r = 0; r < repetitions; ++r) {
@@ -110,23 +110,24 @@ void time_all(const LightJob& job, std::span<Contender> contenders, const RaySou
     std::vector<LookupMeasurement> plans = plan_all(job, contenders, asked);
     for (std::size_t r = 0; r < repetitions; ++r) {
         const base::ThreadLimit one_thread(1);
-        for (LookupMeasurement& one : plans) time_repetition(contenders[one.contender].maps, one.plan, r % 2 == 1);
+        for (LookupMeasurement& measured : plans)
+            time_repetition(contenders[measured.contender].maps, measured.plan, r % 2 == 1);
         if (job.watch) job.watch("timing lookups", r + 1, repetitions);
     }
-    for (const LookupMeasurement& one : plans) {
-        // Far more places are timed than judged, and nothing may answer there what is no visibility either.
-        for (const LookupOrder* order : {&one.plan.image, &one.plan.random})
-            check_answers(contenders[one.contender], order->asked(), order->answers);
-        if (!contenders[one.contender].ok()) continue;
+    for (const LookupMeasurement& measured : plans) {
+        // Many more places are timed than judged; their answers must be valid too.
+        for (const LookupOrder* order : {&measured.plan.image, &measured.plan.random})
+            check_answers(contenders[measured.contender], order->asked(), order->answers);
+        if (!contenders[measured.contender].ok()) continue;
         results::CellTimes times;
-        for (double& s : seconds[one.contender]) s *= 1e3;
-        times.build_ms = results::summarise(std::move(seconds[one.contender]));
+        for (double& s : seconds[measured.contender]) s *= 1e3;
+        times.build_ms = results::summarise(std::move(seconds[measured.contender]));
         times.ns_per_segment =
             source.segments() ? 1e6 * times.build_ms.median / static_cast<double>(source.segments()) : 0.0;
-        times.image_order = summarise(one.plan.image);
-        times.random_order = summarise(one.plan.random);
-        times.lookups = one.plan.image.queries.size();
-        contenders[one.contender].cell.times = std::move(times);
+        times.image_order = summarise(measured.plan.image);
+        times.random_order = summarise(measured.plan.random);
+        times.lookups = measured.plan.image.queries.size();
+        contenders[measured.contender].cell.times = std::move(times);
     }
 }
 

@@ -19,16 +19,16 @@ using StageWatch = std::function<void(const char* stage, std::size_t done, std::
 
 struct LightJob {
     const scene::Scenario& scenario;
-    std::size_t light;                  // its number
+    std::size_t light;                  // its index
     const rays::Tracer* casters;        // null for a deep image
-    std::span<const CameraPoint> seen;  // receivers in world space, with a camera
+    std::span<const CameraPoint> seen;  // the camera's receivers in the world; none without a camera
     MemoryLimits limits;
     StageWatch watch;
 };
 
-// Throws Error{bad_input}: no receiver is in the light's map, the memory limit is exceeded, or a technique cannot serve
-// this layout. A fault of a technique is not an error: its cell is marked failed. Nor is a light that sees nothing: all
-// is lit then, and every answer has to be 1.
+// Throws Error{bad_input} if no receiver is in the light's map, the memory limit is exceeded, or a technique cannot
+// serve this layout. A fault of a technique is not an error: its cell is marked as failed. A light that sees no caster
+// is not an error either: everything is lit, and every answer must be 1.
 results::LightResult run_light(const LightJob& job, std::vector<Contender> contenders);
 
 }  // namespace shadowbench::bench

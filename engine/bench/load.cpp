@@ -13,7 +13,7 @@ bool same_part(const json& a, const json& b, const char* part) {
     return a.value(part, json()) == b.value(part, json());
 }
 
-// The same settings over a scene that costs nothing to make.
+// The same settings with a scene that costs nothing to load.
 json without_scene(json document) {
     document["scene"] = {{"objects", {{{"type", "sphere"}, {"centre", {0, 0, 0}}, {"radius", 1}}}}};
     document["lights"] = {{{"type", "directional"}, {"direction", {0, -1, 0}}}};
@@ -26,7 +26,7 @@ ScenarioLoader::ScenarioLoader(scene::SearchPath data) : data_(std::move(data)) 
 
 const scene::Scenario& ScenarioLoader::load(const document::Variant& variant) {
     const json& document = *variant.document;
-    // A deep image also sets the size of the map, so it is read anew; it is small.
+    // A deep image also sets the size of the map, so it is read again; it is small.
     const bool same_scene = loaded_ && !scenario_.scene.deep_image && same_part(*loaded_, document, "scene") &&
                             same_part(*loaded_, document, "lights");
     if (same_scene) {
@@ -37,7 +37,7 @@ const scene::Scenario& ScenarioLoader::load(const document::Variant& variant) {
         scene::check_marching(scenario_);
     } else {
         loaded_ = nullptr;
-        scenario_ = {};  // the old scene goes before the new one comes
+        scenario_ = {};  // frees the old scene before the new one is loaded
         scenario_ = scene::load_scenario(document, data_);
     }
     loaded_ = variant.document;

@@ -1,4 +1,4 @@
-// Variants -> scenarios, one after the other.
+// Loads the scenarios of variants, one after the other.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace shadowbench::bench {
 
-// Loads the scenarios of variants in turn. Variants that differ in neither scene nor lights share what was loaded
-// first.
+// Loads the scenarios of variants in turn. Variants that differ in neither scene nor lights share the scene that was
+// loaded first.
 class ScenarioLoader {
 public:
     explicit ScenarioLoader(scene::SearchPath data);
@@ -25,7 +25,7 @@ private:
     std::shared_ptr<const nlohmann::json> loaded_;
 };
 
-// The techniques of a variant's scenario, their messages naming the places in the original document.
+// The techniques of a variant's scenario. Errors name their places in the original document.
 std::vector<Contender> make_contenders(const scene::Scenario& scenario, const document::Variant& variant);
 
 }  // namespace shadowbench::bench

@@ -14,12 +14,12 @@ namespace {
 
 constexpr std::size_t run_length = 64;
 constexpr double longest_pass = 0.050;         // seconds
-constexpr double longest_warm_pass = 0.100;    // seconds: only 64 lookups that take longer stay cold
-constexpr double longest_random_pass = 0.010;  // seconds: of several random orders
-constexpr double unforgotten = 65536.0;        // lookups in a row that are more than a branch predictor learns
+constexpr double longest_warm_pass = 0.100;    // seconds: only passes of 64 lookups that take longer stay cold
+constexpr double longest_random_pass = 0.010;  // seconds, of several random orders
+constexpr double beyond_prediction = 65536.0;  // number of lookups beyond what a branch predictor learns
 constexpr int least_warm_passes = 2, most_warm_passes = 16;
-constexpr double warm_time = 0.050;      // seconds: a map of the size of L3 takes several passes to settle there
-constexpr double shortest_pass = 0.002;  // seconds: the clock and a late interrupt stay below 1 %
+constexpr double warm_time = 0.050;      // seconds: a map of the size of L3 needs several passes to fill it
+constexpr double shortest_pass = 0.002;  // seconds: keeps clock errors and late interrupts below 1 %
 constexpr std::size_t most_lines = std::size_t{1} << 21;  // 16 MiB of addresses an order
 
 double seconds_of_pass(const Maps& maps, const Asked& asked, int rounds, std::vector<float>& out) {
@@ -29,7 +29,7 @@ double seconds_of_pass(const Maps& maps, const Asked& asked, int rounds, std::ve
     return stopwatch.seconds();
 }
 
-// Whoever reads this has used the floor's sum.
+// Stores the floor's sum, so that the compiler cannot remove it.
 void consume(unsigned value) {
     volatile unsigned sink = value;
     static_cast<void>(sink);
@@ -50,9 +50,9 @@ void append_shuffled(const LookupOrder& all, base::Random& random, LookupOrder& 
     to.queries.insert(to.queries.end(), all.queries.begin(), all.queries.end());
     to.footprints.insert(to.footprints.end(), all.footprints.begin(), all.footprints.end());
     for (std::size_t i = count; i > 1; --i) {
-        const std::size_t one = first + i - 1, other = first + random.below(i);
-        std::swap(to.queries[one], to.queries[other]);
-        if (!to.footprints.empty()) std::swap(to.footprints[one], to.footprints[other]);
+        const std::size_t a = first + i - 1, b = first + random.below(i);
+        std::swap(to.queries[a], to.queries[b]);
+        if (!to.footprints.empty()) std::swap(to.footprints[a], to.footprints[b]);
     }
 }
 
@@ -61,7 +61,7 @@ int rounds_of(double seconds_a_round) {
     return static_cast<int>(std::min(1000.0, std::ceil(shortest_pass / seconds_a_round)));
 }
 
-// Seconds a lookup, from passes that grow until one is long enough to tell.
+// Seconds per lookup, from passes that grow until one is long enough to measure.
 double calibrate(const Maps& maps, const Asked& asked) {
     std::vector<float> out;
     const std::size_t all = asked.queries.size();
@@ -74,7 +74,7 @@ double calibrate(const Maps& maps, const Asked& asked) {
     }
 }
 
-// Untimed passes until the caches have settled: twice at least, then while there is time.
+// Makes untimed passes until the caches have settled: at least two, then more while there is time.
 template <typename Pass>
 void warm_up(const Pass& pass) {
     double seconds = 0.0;
@@ -85,9 +85,10 @@ void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bo
     const int rounds = order.rounds;
     const double lookups = static_cast<double>(order.queries.size()) * rounds;
     const double read = static_cast<double>(order.covered) * rounds;
-    // Each warms up for itself: what ran before, the other or another technique, must not tell.
+    // Lookups and floor each warm up, so that what ran before has no influence.
     const auto time_lookups = [&] {
-        // The floor's reads settle lines in the cache that lookups alone do not: with them, order does not matter.
+        // The floor's reads leave lines in the cache that lookups do not. Reading them here makes the order of the two
+        // irrelevant.
         if (plan.warm && !order.lines.empty()) warm_up([&] { return seconds_of_floor(order.lines, 1); });
         if (plan.warm) warm_up([&] { return seconds_of_pass(maps, order.asked(), 1, order.answers); });
         order.ns.push_back(1e9 * seconds_of_pass(maps, order.asked(), rounds, order.answers) / lookups);
@@ -121,13 +122,13 @@ std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count) {
 
 std::size_t random_orders(std::size_t queries, double seconds_a_lookup) {
     const double count = static_cast<double>(std::max<std::size_t>(queries, 1));
-    const double enough = std::ceil(unforgotten / count), fit = longest_random_pass / (seconds_a_lookup * count);
+    const double enough = std::ceil(beyond_prediction / count), fit = longest_random_pass / (seconds_a_lookup * count);
     return static_cast<std::size_t>(std::clamp(fit, 1.0, std::max(enough, 1.0)));
 }
 
 LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed) {
-    const double each = calibrate(maps, asked);
-    const double fit = each > 0.0 ? longest_pass / each : static_cast<double>(most);
+    const double lookup_seconds = calibrate(maps, asked);
+    const double fit = lookup_seconds > 0.0 ? longest_pass / lookup_seconds : static_cast<double>(most);
     const std::size_t count =
         std::clamp(static_cast<std::size_t>(std::min(fit, 1e15)), run_length, std::max(most, run_length));
 
@@ -136,14 +137,14 @@ LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, 
     plan.image.queries = std::move(chosen.queries);
     plan.image.footprints = std::move(chosen.footprints);
     base::Random random(base::hash(seed));
-    const std::size_t orders = random_orders(plan.image.queries.size(), each);
+    const std::size_t orders = random_orders(plan.image.queries.size(), lookup_seconds);
     for (std::size_t o = 0; o < orders; ++o) append_shuffled(plan.image, random, plan.random);
     for (LookupOrder* order : {&plan.image, &plan.random}) {
         order->covered = touched(maps, order->asked(), most_lines, order->lines);
         order->lines.shrink_to_fit();
-        order->rounds = rounds_of(each * static_cast<double>(order->queries.size()));
+        order->rounds = rounds_of(lookup_seconds * static_cast<double>(order->queries.size()));
     }
-    plan.warm = each * static_cast<double>(plan.image.queries.size()) < longest_warm_pass;
+    plan.warm = lookup_seconds * static_cast<double>(plan.image.queries.size()) < longest_warm_pass;
     return plan;
 }
 

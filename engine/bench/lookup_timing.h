@@ -1,4 +1,4 @@
-// Lookups against the clock: the same queries in image order and in random order, each pass beside its floor.
+// Timed lookups: the same queries in image order and in random order, each pass with its floor.
 #pragma once
 
 #include <cstddef>
@@ -12,39 +12,39 @@
 
 namespace shadowbench::bench {
 
-// What one timed pass in one order looks up.
+// The queries and times of one order.
 struct LookupOrder {
     std::vector<techniques::Query> queries;
-    std::vector<techniques::Footprint> footprints;  // one a query, or none
-    std::vector<const void*> lines;  // that the first `covered` of the queries read; empty: no map is read
+    std::vector<techniques::Footprint> footprints;  // one per query, or none
+    std::vector<const void*> lines;  // cache lines that the first `covered` queries read; empty: no map is read
     std::size_t covered = 0;
-    int rounds = 1;  // a pass goes over its queries so often: more than once when once is too short for the clock
+    int rounds = 1;  // how often a pass goes over its queries: more than once if once is too short for the clock
     std::vector<float> answers;        // of the last pass, channel after channel
-    std::vector<double> ns, floor_ns;  // a lookup; one of each a repetition (floor_ns: none without lines)
+    std::vector<double> ns, floor_ns;  // per lookup, one value per repetition (floor_ns: none without lines)
 
     Asked asked() const { return {queries, footprints}; }
 };
 
 struct LookupPlan {
     LookupOrder image, random;
-    bool warm = false;  // each pass follows untimed ones of its kind, so that it finds in the cache what fits into it
+    bool warm = false;  // whether untimed passes go before each pass, so that the cache holds what fits into it
 };
 
 // Indices of `count` of `total` queries: all, or runs of 64 neighbours spread evenly.
 std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count);
 
-// How many different random orders of `queries` lookups follow one another in a pass, when one lookup takes so long. A
-// processor learns the branches of up to some 20,000 lookups by heart when they come in the same order again and again,
-// and then a deep shadow map answers in random order in half the time; so that a pass holds more than that, or takes
-// 10 ms, beside which mispredicted branches are small.
+// The number of different random orders of `queries` lookups in one pass, if one lookup takes so long. A processor
+// learns the branches of up to about 20,000 lookups if they come in the same order again and again; a deep shadow map
+// then answers in random order in half the time. So a pass has more lookups than that, or takes 10 ms, which makes
+// mispredicted branches negligible.
 std::size_t random_orders(std::size_t queries, double seconds_a_lookup);
 
-// Warms up, and chooses for this map how many of the queries (at most `most`, at least 64 where there are so many) keep
-// one pass at or under 50 ms.
+// Warms up, and chooses for this map how many of the queries (at most `most`, and at least 64 if there are so many)
+// keep one pass at or under 50 ms.
 LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed);
 
-// One repetition of both orders on this thread, appended to the plan's times. `floor_first` says which of a lookup and
-// its floor goes first: alternate it, so that neither always finds the other's lines in the cache.
+// Times one repetition of both orders on this thread, and appends the times to the plan. `floor_first` says whether the
+// floor goes before the lookups. Alternate it, so that neither always finds the other's lines in the cache.
 void time_repetition(const Maps& maps, LookupPlan& plan, bool floor_first);
 
 results::LookupTimes summarise(const LookupOrder& order);

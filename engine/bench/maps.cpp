@@ -30,9 +30,9 @@ void finish(Maps& maps) {
 }
 
 void lookup(const Maps& maps, const Asked& asked, std::span<float> visibility) {
-    const std::size_t each = asked.queries.size() * static_cast<std::size_t>(maps.parts[0]->channels());
+    const std::size_t per_map = asked.queries.size() * static_cast<std::size_t>(maps.parts[0]->channels());
     for (std::size_t p = 0; p < maps.parts.size(); ++p) {
-        const std::span<float> answers = visibility.subspan(p * each, each);
+        const std::span<float> answers = visibility.subspan(p * per_map, per_map);
         if (asked.footprints.empty())
             maps.parts[p]->lookup(asked.queries, answers);
         else
@@ -88,12 +88,12 @@ std::size_t working_bytes(const Maps& maps) {
 techniques::NodeStats nodes(const Maps& maps) {
     techniques::NodeStats sum;
     for (const auto& map : maps.parts) {
-        const techniques::NodeStats one = map->nodes();
-        sum.cells += one.cells;
-        sum.total += one.total;
-        sum.max = std::max(sum.max, one.max);
-        if (sum.histogram.size() < one.histogram.size()) sum.histogram.resize(one.histogram.size());
-        for (std::size_t n = 0; n < one.histogram.size(); ++n) sum.histogram[n] += one.histogram[n];
+        const techniques::NodeStats stats = map->nodes();
+        sum.cells += stats.cells;
+        sum.total += stats.total;
+        sum.max = std::max(sum.max, stats.max);
+        if (sum.histogram.size() < stats.histogram.size()) sum.histogram.resize(stats.histogram.size());
+        for (std::size_t n = 0; n < stats.histogram.size(); ++n) sum.histogram[n] += stats.histogram[n];
     }
     return sum;
 }

@@ -1,4 +1,4 @@
-// The map of one technique: one Map, or, for coloured light rays and a technique that sees one channel, one a channel.
+// The map of one technique: one Map or, for coloured light rays and a technique of one channel, one Map per channel.
 #pragma once
 
 #include <concepts>
@@ -11,7 +11,7 @@
 
 namespace shadowbench::bench {
 
-// What maps are asked. Where a camera's pixels ask, their footprints stand beside the queries, one each; else none do.
+// Queries to maps. The pixels of a camera have footprints, one per query; other receivers have none.
 struct Asked {
     std::span<const techniques::Query> queries;
     std::span<const techniques::Footprint> footprints;
@@ -26,7 +26,7 @@ struct Asked {
 };
 
 struct Maps {
-    // What the maps were begun with: the light rays' layout, as the maps see it. Stays where it is.
+    // The layout with which the maps were begun: that of the light rays, as the maps see it. Must not move.
     std::unique_ptr<rays::MapLayout> layout;
     std::vector<std::unique_ptr<techniques::Map>> parts;
 
@@ -41,13 +41,13 @@ Maps begin_maps(const techniques::Technique& row, const techniques::ParameterVal
 void add(Maps& maps, const rays::LightRays& tile);
 void finish(Maps& maps);
 
-// Answers stand channel after channel: visibility has queries.size() * channels() places.
+// Answers are stored channel after channel: `visibility` has queries.size() * channels() places.
 void lookup(const Maps& maps, const Asked& asked, std::span<float> visibility);
 // The same for many queries, on all threads.
 std::vector<float> lookup_all(const Maps& maps, const Asked& asked);
 
-// Appends the lines that a lookup of all these queries reads, in the order in which it reads them, until there are
-// `limit` or more. Returns how many queries were covered in every channel.
+// Appends the cache lines that a lookup of all these queries reads, in the order of the reads, until there are `limit`
+// or more. Returns how many queries were covered in every channel.
 std::size_t touched(const Maps& maps, const Asked& asked, std::size_t limit, std::vector<const void*>& lines);
 
 std::size_t bytes(const Maps& maps);

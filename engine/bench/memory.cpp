@@ -14,9 +14,9 @@ namespace {
 
 constexpr double gib = 1024.0 * 1024.0 * 1024.0;
 constexpr double ray_bytes = 12.0;   // an offset and one surface
-constexpr double tile_bytes = 64.0;  // what the capture and the truth keep of every tile, rays or none
+constexpr double tile_bytes = 64.0;  // what the capture and the truth keep for every tile, even without rays
 
-// Of the tiles that are captured at a time.
+// The rays of the tiles that are captured at a time.
 double in_flight_bytes(const rays::MapLayout& layout) {
     const double pixels = static_cast<double>(layout.width) * layout.height;
     const double tile = static_cast<double>(layout.tile_width) * layout.tile_height;
@@ -37,12 +37,12 @@ double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& referen
     rays::MapLayout one_channel = layout;
     one_channel.channels = 1;
     for (const Contender& contender : contenders) {
-        const double one =
+        const double map_bytes =
             contender.row->coloured
                 ? static_cast<double>(contender.row->least_bytes(contender.values, layout))
                 : layout.channels * static_cast<double>(contender.row->least_bytes(contender.values, one_channel));
-        maps += one;
-        largest = std::max(largest, one);  // a second one while its build is timed
+        maps += map_bytes;
+        largest = std::max(largest, map_bytes);  // a second map exists while its build is timed
     }
     // The truth is found before any map is built.
     const double building = in_flight_bytes(layout) + maps + largest;

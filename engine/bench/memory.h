@@ -1,4 +1,4 @@
-// What a light's run will hold, estimated before any of it is done.
+// Estimates the memory of a light's run before any work is done.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@
 namespace shadowbench::bench {
 
 struct MemoryLimits {
-    std::size_t all = std::size_t{16} << 30;       // bytes; a run that surely needs more is refused
-    std::size_t kept_rays = std::size_t{4} << 30;  // light rays beyond this are captured anew for every pass
+    std::size_t all = std::size_t{16} << 30;       // bytes; a run that certainly needs more is refused
+    std::size_t kept_rays = std::size_t{4} << 30;  // bytes; more light rays are captured again for every pass
 };
 
-// Bytes that a run holds at least: the light rays that are kept or in flight with one crossing a ray, what is kept of
-// every tile, and the larger of what finding the truth needs and what the maps surely hold.
+// A lower bound for the bytes of a run: the light rays that are kept or in flight, with one crossing per ray; what is
+// kept for every tile; and the larger of what the truth and the maps need at least.
 double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& reference,
                    std::span<const Contender> contenders, const MemoryLimits& limits);
 
-// The bytes that a scenario needs at least. Throws Error{bad_input} at `where` when that is more than the limit.
+// The least bytes that a scenario needs. Throws Error{bad_input} at `where` if they exceed the limit.
 double check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
                     const MemoryLimits& limits, const std::string& where);
 

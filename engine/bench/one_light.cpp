@@ -43,7 +43,7 @@ std::vector<std::string> names_of(const std::vector<scene::Light>& lights) {
     return names;
 }
 
-std::size_t find_light(const std::vector<std::string>& names, const std::string& name, const std::string& asked) {
+std::size_t find_light(const std::vector<std::string>& names, const std::string& name, const std::string& prefix) {
     if (name.empty()) return 0;
     std::string list;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -53,7 +53,7 @@ std::size_t find_light(const std::vector<std::string>& names, const std::string&
     std::size_t index = 0;
     const auto [rest, fault] = std::from_chars(name.data(), name.data() + name.size(), index);
     if (fault == std::errc() && rest == name.data() + name.size() && index < names.size()) return index;
-    throw Error(ErrorCode::usage, asked + name, "there is no such light; there are: " + list);
+    throw Error(ErrorCode::usage, prefix + name, "there is no such light; the scenario has: " + list);
 }
 
 OneLight::OneLight(const nlohmann::json& document, const RunOptions& options, const std::string& light)
@@ -85,9 +85,9 @@ Contender OneLight::build(const document::TechniqueChoice& technique, const Prog
     const std::string where = fmt::format("--technique {}", technique.row->id);
     Contender contender =
         make_contender({technique.row->id, techniques::to_json(technique.values).dump(), where}, where);
-    const std::span<Contender> one(&contender, 1);
-    capture(one, progress, [&](const RaySource& source, const PreparedLight& prepared) {
-        build_all(one, source, {prepared.layout, prepared.view, casters_.get()}, options_.limits.all,
+    const std::span<Contender> contenders(&contender, 1);
+    capture(contenders, progress, [&](const RaySource& source, const PreparedLight& prepared) {
+        build_all(contenders, source, {prepared.layout, prepared.view, casters_.get()}, options_.limits.all,
                   stage(progress, "build", prepared.layout));
     });
     if (!contender.ok()) throw Error(ErrorCode::internal, where, contender.cell.reason);

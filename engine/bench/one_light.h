@@ -1,4 +1,4 @@
-// One light of one scenario, for those who keep what a run throws away: its light rays, or the map of one technique.
+// One light of one scenario, for commands that need what a run drops: its light rays, or the map of one technique.
 #pragma once
 
 #include <cstddef>
@@ -24,14 +24,14 @@ namespace shadowbench::bench {
 
 std::vector<std::string> names_of(const std::vector<scene::Light>& lights);
 
-// The number of a light by its name, or by its number from 0 on; empty: the first. Throws Error{usage}, whose place is
-// `asked` and the name: "--light moon".
-std::size_t find_light(const std::vector<std::string>& names, const std::string& name, const std::string& asked);
+// The index of a light given by its name or by its number, from 0 on; empty: the first. Throws Error{usage}, place:
+// `prefix` and the name, as in "--light moon".
+std::size_t find_light(const std::vector<std::string>& names, const std::string& name, const std::string& prefix);
 
 class OneLight {
 public:
-    // `light` is a name or a number from 0 on; empty: the first. Throws what run() throws of a document, and
-    // Error{usage} for a light that is not there and for sweeps that leave several scenarios to choose from.
+    // `light` is a name or a number from 0 on; empty: the first. Throws what run() throws for a document, and
+    // Error{usage} for a light that does not exist and for sweeps that leave a choice of scenarios.
     OneLight(const nlohmann::json& document, const RunOptions& options, const std::string& light);
     OneLight(const OneLight&) = delete;
     OneLight& operator=(const OneLight&) = delete;
@@ -40,12 +40,12 @@ public:
     const scene::Light& light() const { return *light_; }
     const rays::MapLayout& layout() const { return prepared_.layout; }
 
-    // Calls body with all light rays, some tiles at a time, in order. Throws Error{bad_input} for a light that sees
-    // nothing, or more than the memory limit.
+    // Calls body with all light rays, some tiles at a time, in order. Throws Error{bad_input} for a light that sees no
+    // caster, or that needs more than the memory limit.
     void for_each_batch(const std::function<void(RaySource::Batch)>& body, const ProgressCallback& progress) const;
 
-    // The finished map. Throws the same, and Error{bad_input} when the technique cannot serve the light, internal when
-    // it fails.
+    // The finished map. Throws the same, Error{bad_input} if the technique cannot serve the light, and Error{internal}
+    // if it fails.
     Contender build(const document::TechniqueChoice& technique, const ProgressCallback& progress) const;
 
 private:
@@ -57,7 +57,7 @@ private:
     const scene::Scenario* scenario_ = nullptr;
     const scene::Light* light_ = nullptr;
     std::size_t index_ = 0;                  // of the light
-    PreparedLight prepared_;                 // for no technique
+    PreparedLight prepared_;                 // prepared for no technique
     std::unique_ptr<rays::Tracer> casters_;  // null for a deep image
 };
 

@@ -27,9 +27,9 @@ using curves::Curve;
 using rays::LightRays;
 using techniques::Cells;
 
-constexpr double linearisation = 1e-4;         // of media's exponentials, in the exact functions
-constexpr int even_depths = 128;               // that functions which are not piecewise linear are also sampled at
-constexpr const char* asked_light = "light=";  // as the service is asked
+constexpr double linearisation = 1e-4;  // error of the lines that approximate exponentials in the exact functions
+constexpr int even_depths = 128;        // extra samples of functions that are not piecewise linear
+constexpr const char* light_prefix = "light=";  // of places in errors: the service's parameter
 
 document::Variant take_variant(const nlohmann::json& document, const RunOptions& options, std::size_t index) {
     std::vector<document::Variant> variants = document::expand(document::select_variant(document, index));
@@ -37,7 +37,7 @@ document::Variant take_variant(const nlohmann::json& document, const RunOptions&
     return std::move(variants[0]);
 }
 
-// A tile as the maps of one apron are built from it, and its channels.
+// A tile as the maps of one apron are built from it, with its channels.
 struct Tile {
     LightRays rays;
     std::vector<LightRays> channels;
@@ -78,19 +78,20 @@ struct PixelProbe::State {
     std::unique_ptr<rays::Tracer> casters;
     std::unique_ptr<rays::Capture> capture;
 
-    int built = -1;                           // the tile that maps and tiles are of
+    int built = -1;                           // index of the tile in `maps` and `tiles`
     std::vector<std::pair<int, Tile>> tiles;  // by apron
-    std::vector<std::optional<Maps>> maps;    // one a contender; none: it failed
-    std::vector<std::string> faults;          // why
+    std::vector<std::optional<Maps>> maps;    // one per contender; absent if it failed
+    std::vector<std::string> faults;          // why contenders failed
     curves::SweepScratch scratch;
 
-    State(const nlohmann::json& document, const RunOptions& told, const std::string& light_name, std::size_t index)
-        : options(told),
-          threads(told.threads),
-          variant(take_variant(document, told, index)),
-          loader(told.data),
+    State(const nlohmann::json& document, const RunOptions& run_options, const std::string& light_name,
+          std::size_t index)
+        : options(run_options),
+          threads(run_options.threads),
+          variant(take_variant(document, run_options, index)),
+          loader(run_options.data),
           scenario(loader.load(variant)),
-          light(scenario.lights[find_light(names_of(scenario.lights), light_name, asked_light)]) {
+          light(scenario.lights[find_light(names_of(scenario.lights), light_name, light_prefix)]) {
         contenders = make_contenders(scenario, variant);
         PreparedLight prepared =
             prepare_light(scenario, static_cast<std::size_t>(&light - &scenario.lights[0]), contenders, options.limits);
@@ -115,12 +116,12 @@ struct PixelProbe::State {
         if (std::find(aprons.begin(), aprons.end(), 0) == aprons.end()) aprons.push_back(0);
         for (const int apron : aprons) tiles.emplace_back(apron, capture_tile(*capture, tile, apron));
         base::parallel_for(contenders.size(), [&](std::size_t i) {
-            const Contender& one = contenders[i];
+            const Contender& contender = contenders[i];
             try {
-                Maps made = begin_maps(*one.row, one.values, {layout, view, casters.get()});
-                add(made, tile_of(one.needs.apron).rays);
-                finish(made);
-                maps[i] = std::move(made);
+                Maps technique_maps = begin_maps(*contender.row, contender.values, {layout, view, casters.get()});
+                add(technique_maps, tile_of(contender.needs.apron).rays);
+                finish(technique_maps);
+                maps[i] = std::move(technique_maps);
             } catch (const Error& error) {
                 faults[i] = error.message();
             }
@@ -136,17 +137,17 @@ struct PixelProbe::State {
         return curve;
     }
 
-    // What the stored functions of the pixel are held against.
-    Curve reference(const Maps& made, const Tile& tile, int x, int y, int channel) {
+    // The exact function of the rays that a stored function of the pixel represents.
+    Curve reference(const Maps& technique_maps, const Tile& tile, int x, int y, int channel) {
         const std::size_t samples = static_cast<std::size_t>(layout.samples()), first = tile.pixel(x, y) * samples;
         const std::size_t middle =
             static_cast<std::size_t>((layout.samples_y / 2) * layout.samples_x + layout.samples_x / 2);
-        if (cells(made) == Cells::centre) return exact(tile, channel, first + middle, 1);
-        if (cells(made) != Cells::filtered) return exact(tile, channel, first, samples);
+        if (cells(technique_maps) == Cells::centre) return exact(tile, channel, first + middle, 1);
+        if (cells(technique_maps) != Cells::filtered) return exact(tile, channel, first, samples);
         std::vector<curves::WeightedRay> weights;
         Curve curve;
         const LightRays& rays = tile.channels[static_cast<std::size_t>(channel)];
-        made.parts[0]->weights(x, y, rays, weights);
+        technique_maps.parts[0]->weights(x, y, rays, weights);
         curves::visibility(rays, weights, linearisation, scratch, curve);
         return curve;
     }
@@ -162,15 +163,16 @@ struct PixelProbe::State {
         return depths;
     }
 
-    // The function that the maps hold for the pixel, and its nodes.
-    Curve shown(const Maps& made, int x, int y, int channel, const std::vector<float>& depths, std::uint64_t& nodes) {
-        const bool each = cells(made) == Cells::sample;
-        const int nx = each ? layout.samples_x : 1, ny = each ? layout.samples_y : 1;
+    // The function that the maps hold for the pixel. Adds its nodes to `nodes`.
+    Curve stored_curve(const Maps& technique_maps, int x, int y, int channel, const std::vector<float>& depths,
+                       std::uint64_t& nodes) {
+        const bool per_sample = cells(technique_maps) == Cells::sample;
+        const int nx = per_sample ? layout.samples_x : 1, ny = per_sample ? layout.samples_y : 1;
         std::vector<Curve> parts(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
         std::vector<curves::WeightedCurve> terms;
         for (std::size_t i = 0; i < parts.size(); ++i) {
             const int s = static_cast<int>(i);
-            stored(made, x * nx + s % nx, y * ny + s / nx, channel, depths, parts[i]);
+            stored(technique_maps, x * nx + s % nx, y * ny + s / nx, channel, depths, parts[i]);
             nodes += parts[i].size();
             terms.push_back({parts[i], 1.0 / static_cast<double>(parts.size())});
         }
@@ -196,7 +198,7 @@ struct PixelProbe::State {
         const Tile& tile = tile_of(contenders[i].needs.apron);
         for (int c = 0; c < layout.channels; ++c) {
             const Curve truth = reference(*maps[i], tile, x, y, c);
-            Curve curve = shown(*maps[i], x, y, c, depths_for(truth), out.nodes);
+            Curve curve = stored_curve(*maps[i], x, y, c, depths_for(truth), out.nodes);
             out.error_max = std::max(out.error_max, curves::distance(curve, truth, layout.z_min, layout.z_max).max);
             out.channels.push_back(with_ends(std::move(curve), layout));
         }
@@ -205,7 +207,7 @@ struct PixelProbe::State {
 };
 
 void check_light(const nlohmann::json& document, const std::string& light, std::size_t variant) {
-    find_light(scene::light_names(document::select_variant(document, variant)), light, asked_light);
+    find_light(scene::light_names(document::select_variant(document, variant)), light, light_prefix);
 }
 
 PixelProbe::PixelProbe(const nlohmann::json& document, const RunOptions& options, const std::string& light,
@@ -250,7 +252,7 @@ const char* name_of(Cells cells) {
     return "none";
 }
 
-// Channels of one technique differ in their depths, so each beyond the first brings its own.
+// The depths of a technique's channels differ, so each channel beyond the first has its own column of depths.
 json to_json(const std::vector<Curve>& channels) {
     const auto column = [](const Curve& curve, float curves::Vertex::*member) {
         json values = json::array();

@@ -1,5 +1,5 @@
-// The visibility functions of one pixel of a light's map: the exact one, and what every technique of the scenario
-// stores for it. For looking at, so only what the pixel needs is captured and built: the tile that it lies in.
+// The visibility functions of one pixel of a light's map: the exact one, and those that the techniques of the scenario
+// store. For interactive use: only the tile of the pixel is captured and built.
 #pragma once
 
 #include <cstddef>
@@ -18,39 +18,39 @@ namespace shadowbench::bench {
 
 struct TechniqueCurve {
     std::string title, technique;
-    std::string absent;  // why there is none; empty: there is one
-    // One a channel, from z_min to z_max. Of a technique with a function a sample, the mean of the pixel's: what a
-    // lookup one pixel wide answers with.
+    std::string absent;  // why there is no function; empty if there is one
+    // One per channel, from z_min to z_max. If the technique stores a function per sample, the mean over the pixel's
+    // samples, which a lookup one pixel wide answers with.
     std::vector<curves::Curve> channels;
     techniques::Cells cells = techniques::Cells::none;
-    std::uint64_t nodes = 0;  // stored, of all channels and samples of the pixel
-    double error_max = 0.0;   // largest |shown - exact of the rays that it stands for|
+    std::uint64_t nodes = 0;  // stored, over all channels and samples of the pixel
+    double error_max = 0.0;   // largest |stored - exact function of the same rays|
 };
 
 struct PixelCurves {
     std::string light;
     int x = 0, y = 0;
     double z_min = 0.0, z_max = 0.0;
-    int rays = 0;                      // of the pixel
-    std::vector<curves::Curve> exact;  // one a channel, of all rays of the pixel
+    int rays = 0;                      // number of rays of the pixel
+    std::vector<curves::Curve> exact;  // one per channel, of all rays of the pixel
     std::vector<TechniqueCurve> curves;
 };
 
-// Throws Error{usage} where a light or variant, as PixelProbe is asked for them, is not there: "light=moon",
-// "variant=3". Loads nothing.
+// Throws Error{usage} for a light or variant, as given to PixelProbe, that does not exist: "light=moon", "variant=3".
+// Loads nothing.
 void check_light(const nlohmann::json& document, const std::string& light, std::size_t variant);
 
 class PixelProbe {
 public:
-    // `light` as in OneLight; `variant` counts the combinations of the scenario's sweeps. Throws what run() throws of
-    // a document, and Error{usage} for a light or variant that is not there.
+    // `light` is as in OneLight; `variant` counts the combinations of the scenario's sweeps. Throws what run() throws
+    // for a document, and Error{usage} for a light or variant that does not exist.
     PixelProbe(const nlohmann::json& document, const RunOptions& options, const std::string& light,
                std::size_t variant);
     ~PixelProbe();
     PixelProbe(const PixelProbe&) = delete;
     PixelProbe& operator=(const PixelProbe&) = delete;
 
-    // Pixels of one tile after the other are fast: the tile's maps are kept. Throws Error{usage} outside the map.
+    // Successive pixels of one tile are fast, since the tile's maps are kept. Throws Error{usage} outside the map.
     PixelCurves at(int x, int y);
 
 private:

@@ -1,4 +1,4 @@
-// One light of a scenario made ready to be captured: where it looks from, and what is captured for it.
+// One light of a scenario made ready for capture: its view and its layout.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@ namespace shadowbench::bench {
 
 struct PreparedLight {
     rays::LightView view;
-    rays::MapLayout layout;    // with what the contenders need
-    double least_bytes = 0.0;  // that a run with them holds, see memory.h
+    rays::MapLayout layout;    // with everything that the contenders need
+    double least_bytes = 0.0;  // of a run with the contenders: see memory.h
 };
 
-// JSON pointer of a light, or of the deep image that stands in its place.
+// JSON pointer of a light, or of the deep image that takes its place.
 std::string pointer_of(const scene::Scenario& scenario, std::size_t light);
 
-// The light with this number. Throws Error{bad_input}: a light that cannot see the scene, at its pointer; more than the
-// memory limit, at "/rays".
+// Prepares the light with this index. Throws Error{bad_input} at its pointer if it cannot see the scene, and at "/rays"
+// if it needs more than the memory limit.
 PreparedLight prepare_light(const scene::Scenario& scenario, std::size_t light, std::span<const Contender> contenders,
                             const MemoryLimits& limits);
 

@@ -1,4 +1,4 @@
-// How far a run is. The engine never prints: whoever starts a run may watch it.
+// The progress of a run. The engine never prints; the caller may pass a callback.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 namespace shadowbench::bench {
 
 struct Progress {
-    std::string place;  // which variant and light: "2/5 key"; empty when there is one of each
+    std::string place;  // variant and light: "2/5 key"; empty if there is one of each
     const char* stage;  // "capture", "build", ...
     std::size_t done = 0, total = 0;
 };
 
-// Called on the thread that runs, between pieces of work. An exception thrown from it ends the run.
+// Called between pieces of work, on the thread that runs. An exception from it ends the run.
 using ProgressCallback = std::function<void(const Progress&)>;
 
 }  // namespace shadowbench::bench

@@ -12,7 +12,7 @@ using base::Vec3d;
 using techniques::Footprint;
 using techniques::Query;
 
-constexpr double behind = 0.05;  // of the depth range: how far probes reach behind what casts shadows
+constexpr double behind = 0.05;  // of the depth range: how far probes reach behind the casters
 
 std::optional<Query> query_if_seen(const Vec3d& place, double width, const rays::LightView& view) {
     const Query query{static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z),
@@ -47,7 +47,7 @@ Footprint footprint_of(const CameraPoint& point, const rays::LightView& view) {
     Footprint f;
     in_map(point.across, f.ux, f.uy);
     in_map(point.down, f.vx, f.vy);
-    // Of a surface seen edge-on: as good as not known.
+    // Unbounded edges of a surface seen edge-on: treated as unknown.
     const bool finite = std::isfinite(f.ux) && std::isfinite(f.uy) && std::isfinite(f.vx) && std::isfinite(f.vy);
     return finite ? f : Footprint{};
 }

@@ -1,4 +1,4 @@
-// Receivers -> queries: the places of one light's map where visibility is asked for.
+// Turns receivers into queries: places of one light's map at which visibility is looked up.
 #pragma once
 
 #include <cstddef>
@@ -18,34 +18,34 @@ namespace shadowbench::bench {
 
 struct QuerySet {
     std::vector<techniques::Query> queries;  // in image order: row after row, each view ray from its front to its back
-    std::vector<techniques::Footprint> footprints;  // of the camera's pixels, one a query; none without a camera
+    std::vector<techniques::Footprint> footprints;  // of the camera's pixels, one per query; none without a camera
     std::uint64_t dropped = 0;                      // receivers outside the light's map
 
     Asked asked() const { return {queries, footprints}; }
 };
 
-// A world point as a query of one light, moved towards it by the bias; nothing when it is outside the light's map.
+// A world point as a query of one light, moved towards it by the bias; absent if it is outside the light's map.
 std::optional<techniques::Query> query_of_point(const base::Vec3d& point, const scene::Receivers& receivers,
                                                 const rays::LightView& view);
 
-// The pixel of a point as it lies in the light's map.
+// The pixel of a point, projected into the light's map.
 techniques::Footprint footprint_of(const CameraPoint& point, const rays::LightView& view);
 
-// All points as queries, in their order, and their pixels as they lie in the map: the edges under the derivative of the
-// projection at the point.
+// All points as queries, in their order, with their pixels projected into the map: the edges are mapped by the
+// derivative of the projection at the point.
 QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Receivers& receivers,
                            const rays::LightView& view);
 
-// The receivers' given points as queries, in their order; without footprints.
+// The receivers' given points as queries, in their order, without footprints.
 QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView& view);
 
-// Points spread evenly over the map and over the depths of what casts shadows, with a little behind it.
+// Points spread evenly over the map and over the depth range of the casters, and a little behind it.
 QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView& view);
 
-// Indices of `count` queries out of `total`, one in each of `count` equal stretches; all of them when there are fewer.
+// Indices of `count` queries out of `total`, one from each of `count` equal stretches; all if there are fewer.
 std::vector<std::size_t> choose_judged(std::size_t total, std::size_t count, std::uint64_t seed);
 
-// Those of what is asked.
+// The queries with these indices.
 QuerySet pick(const Asked& asked, std::span<const std::size_t> indices);
 
 }  // namespace shadowbench::bench

@@ -9,7 +9,7 @@
 namespace shadowbench::bench {
 namespace {
 
-// In a medium light dies away, even where none is left behind it.
+// Light fades inside a medium, even if none is left behind it.
 bool any_light(const rays::LightRays& tile) {
     for (std::size_t s = 0; s < tile.z_back.size(); ++s)
         if (tile.z_back[s] > tile.z_front[s]) return true;
@@ -47,7 +47,7 @@ void RaySource::for_each_batch(int apron, const std::function<void(Batch)>& body
 
 // Calls visit with each batch, which it may take.
 void RaySource::capture_all(int apron, const Visit& visit) const {
-    const int in_flight = 4 * base::thread_count();  // a few a thread, so that uneven tiles leave no thread idle
+    const int in_flight = 4 * base::thread_count();  // several per thread, so that uneven tiles leave no thread idle
     std::vector<rays::LightRays> batch;
     for (int first = 0; first < layout_.tiles(); first += in_flight) {
         batch.clear();

@@ -47,7 +47,7 @@ std::vector<Moments> reduce(const std::vector<std::vector<Part>>& parts, std::si
 using Gather = void (*)(const LightRays&, const MapLayout&, std::span<const Query>, const GridsInLight&,
                         std::span<Part>);
 
-// What casts shadows, in one light: grid volumes apart, since a segment's extinction is constant and theirs is not.
+// The casters of one light without grid volumes, whose extinction varies within a segment.
 struct Casters {
     Casters(const scene::Scene& scene, const rays::LightView& in, const MapLayout& map)
         : layout(map), capture(scene, in, map, rays::Capture::Grids::left_out), grids(scene, true), view(in) {}
@@ -96,7 +96,7 @@ void fill_empty(const Casters& casters, std::span<const Query> queries, std::vec
 
 double standard_error(const Moments& moments, int channel) {
     const double n = static_cast<double>(moments.count);
-    if (n < 2.0) return 0.5;  // one ray tells nothing: the widest that values in [0, 1] can vary
+    if (n < 2.0) return 0.5;  // unknown for one ray: the largest deviation of values in [0, 1]
     const double variance = (moments.squares[channel] - moments.sum[channel] * moments.sum[channel] / n) / (n - 1.0);
     return std::sqrt(std::max(variance, 0.0) / n);
 }

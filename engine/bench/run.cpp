@@ -39,14 +39,14 @@ std::vector<document::Variant> variants_of(const nlohmann::json& document, const
     return variants;
 }
 
-// "2/5 key" where there are several variants or lights.
+// "2/5 key" if there are several variants or lights.
 std::string place_of(std::size_t variant, std::size_t variants, const scene::Scenario& scenario, std::size_t light) {
     std::string place = variants > 1 ? fmt::format("{}/{}", variant + 1, variants) : "";
     if (scenario.lights.size() > 1) place += (place.empty() ? "" : " ") + scenario.lights[light].name;
     return place;
 }
 
-// What all lights of a variant share: Embree's trees and the camera's receivers.
+// Shared by all lights of a variant: Embree's trees and the camera's receivers.
 struct Shared {
     std::unique_ptr<rays::Tracer> casters;
     std::vector<CameraPoint> seen;

@@ -1,4 +1,4 @@
-// A scenario document -> its result. Everything else of this folder is a step of this one.
+// Runs a scenario document and returns its result. Everything else in this folder is a step of this.
 #pragma once
 
 #include <string>
@@ -20,21 +20,21 @@ struct RunOptions {
     MemoryLimits limits;
 };
 
-// Expands the document, and captures, checks and times every variant, light and technique.
-// Throws Error: bad_input, no_such_file, io, or usage for `only`. Whether a technique failed stands in its cell.
+// Expands the document, then captures, checks and times every variant, light and technique. Throws Error: bad_input,
+// no_such_file, io, or usage for `only`. A failed technique is not an error; its cell says so.
 results::Result run(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress);
 
 struct Validated {
     std::string name;
     std::size_t variants = 0, lights = 0, techniques = 0;  // lights and techniques: of the first variant
-    std::vector<std::string> blind;                        // lights that surely see nothing that casts a shadow
-    std::vector<std::string> notes;                        // of the files' readers: see scene::read_notes
-    int largest_side = 0, most_samples = 0;                // of the maps: pixels; rays a pixel, the truth's too
-    double least_bytes = 0.0;                              // of the variant that needs most
-    double seconds = 0.0;                                  // of the whole run, guessed: see estimate.h
+    std::vector<std::string> blind;                        // lights that certainly see no caster
+    std::vector<std::string> notes;                        // of the file readers: see scene::read_notes
+    int largest_side = 0, most_samples = 0;                // of the maps: pixels; rays a pixel, including the truth's
+    double least_bytes = 0.0;                              // of the variant that needs the most
+    double seconds = 0.0;                                  // estimate for the whole run: see estimate.h
 };
 
-// All that run() checks before it works: the document, its files, what its lights see, the memory limit,
+// Makes all checks that run() makes before it works: the document, its files, what its lights see, the memory limit,
 // and whether the techniques can take a deep image.
 Validated validate(const nlohmann::json& document, const RunOptions& options);
 

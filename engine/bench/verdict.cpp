@@ -11,13 +11,13 @@ using results::Cell;
 using results::Verdict;
 using techniques::Promises;
 
-// What a verdict without a bound goes by.
-struct Strayed {
+// The error that decides a verdict without a bound.
+struct JudgedError {
     double error;
     std::string text;
 };
 
-Strayed strayed(const Cell& cell) {
+JudgedError judged_error(const Cell& cell) {
     if (cell.curve) {
         const double error = cell.curve->norms.max;
         return {error, fmt::format("curve error {:.3g}", error)};
@@ -26,7 +26,7 @@ Strayed strayed(const Cell& cell) {
     return {error, fmt::format("lookup error rms {:.3g}", error)};
 }
 
-// How far functions rise and fall below 0 that promise neither.
+// How far functions rise or fall below 0, if the technique does not promise that they never do.
 std::string faults(const Cell& cell, const Promises& promises) {
     constexpr double rounding = 1e-6;
     std::string text;
@@ -52,7 +52,7 @@ std::string cause(const Cell& cell, const Promises& promises) {
 }  // namespace
 
 void judge(Cell& cell, const Promises& promises, double noise) {
-    const Strayed far = strayed(cell);
+    const JudgedError judged = judged_error(cell);
     if (cell.status == results::CellStatus::failed) {
         cell.verdict = Verdict::failed;
         cell.verdict_why = cell.reason;
@@ -60,13 +60,13 @@ void judge(Cell& cell, const Promises& promises, double noise) {
         cell.verdict = Verdict::kept;
         cell.verdict_why = fmt::format("curve error {:.3g}, promised {:.3g}{}", cell.curve->norms.max, cell.error_bound,
                                        faults(cell, promises));
-    } else if (far.error <= noise) {
+    } else if (judged.error <= noise) {
         cell.verdict = Verdict::kept;
         cell.verdict_why =
-            fmt::format("{}, within the noise tolerance {:.3g}{}", far.text, noise, faults(cell, promises));
+            fmt::format("{}, within the noise tolerance {:.3g}{}", judged.text, noise, faults(cell, promises));
     } else {
         cell.verdict = Verdict::degraded;
-        cell.verdict_why = fmt::format("{}: {}, noise tolerance {:.3g}{}", cause(cell, promises), far.text, noise,
+        cell.verdict_why = fmt::format("{}: {}, noise tolerance {:.3g}{}", cause(cell, promises), judged.text, noise,
                                        faults(cell, promises));
     }
 }

@@ -1,4 +1,4 @@
-// What a paper claims beside what is measured here, as plain values.
+// The claims of a paper beside our measurements, as plain values.
 #pragma once
 
 #include <string>
@@ -10,38 +10,38 @@
 namespace shadowbench::claims {
 
 enum class Verdict {
-    holds,      // the value is met, or bettered where the paper claims a bound
-    in_shape,   // the direction or the law is the paper's, the value is not
+    holds,      // the value is met, or bettered if the paper claims a bound
+    in_shape,   // only the direction or the law is the paper's
     fails,      // neither
     undecided,  // measured, but not judged: see undecided()
 };
 const char* to_string(Verdict verdict);  // "holds", "holds in shape", "does not hold here", "undecided"
 
-// A number with the interval that it lies in: of medians (95 % bootstrap), or twice itself where nothing varies.
+// A number with its interval: 95 % bootstrap for medians, or the number itself twice if nothing varies.
 struct Value {
     double value = 0.0, low = 0.0, high = 0.0;
 };
 Value exactly(double value);
 Value of(const results::Sample& sample);
-Value operator/(const Value& a, const Value& b);  // both above 0; the widest interval that theirs allow
+Value operator/(const Value& a, const Value& b);  // both above 0; the widest interval that the operands allow
 Value operator+(const Value& a, const Value& b);
 Value operator-(const Value& a, const Value& b);
 Value operator*(double factor, const Value& a);
 
-// "14.2 [13.9, 14.6]", or "14.2" where nothing varies.
+// "14.2 [13.9, 14.6]", or "14.2" if nothing varies.
 std::string to_text(const Value& value);
 
 struct Claim {
     std::string place;     // in the paper: "section 6, figure 7"
     std::string says;      // what the paper says, with its value
-    std::string measured;  // here, with its interval
+    std::string measured;  // our value with its interval
     Verdict verdict = Verdict::fails;
     std::string why;            // one sentence
     std::vector<Value> values;  // the numbers in `measured`, in their order
 };
 
-// A claim that is measured and gets no verdict until its experiment is done again. `reason`, half a sentence, says why;
-// it stands before the claim's own `why`.
+// A claim that is measured but gets no verdict until its experiment is done again. `reason`, half a sentence, goes
+// before the claim's own `why`.
 Claim undecided(Claim claim, const std::string& reason);
 
 // Rows of text under a header.
@@ -55,10 +55,10 @@ struct Table {
 struct Series {
     std::string name;
     std::vector<std::pair<double, double>> points;
-    bool line = true;  // joined; else points alone
+    bool line = true;  // joined by a line; otherwise only points
 };
 struct Plot {
-    std::string name;  // of the file, without ending
+    std::string name;  // of the file, without extension
     std::string title, x_label, y_label;
     bool log_x = false, log_y = false;
     std::vector<Series> series;
@@ -66,14 +66,14 @@ struct Plot {
 
 // Pictures side by side.
 struct Sheet {
-    std::string name;     // of the file, without ending
+    std::string name;     // of the file, without extension
     std::string caption;  // the columns, from left to right
     std::string png;      // the file's bytes
 };
 
 struct PaperReport {
     std::string id, title;
-    std::string conditions;              // what the measurements here differ in from the paper's, one paragraph
+    std::string conditions;              // how our measurements differ from the paper's, one paragraph
     std::vector<std::string> documents;  // "name hash" of each scenario that was run
     double seconds = 0.0;
     std::vector<Claim> claims;
@@ -82,10 +82,10 @@ struct PaperReport {
     std::vector<Sheet> sheets;
 };
 
-// Every judgement is of the value and of both ends of its interval: the worst of the three counts.
+// The functions below judge the value and both ends of its interval, and return the worst of the three verdicts.
 // Within a factor of `near` of the paper's ratio: holds; on the same side of 1: in shape.
 Verdict judge_ratio(double paper, const Value& measured, double near = 1.5);
-// Of a ratio that the paper gives as a gain: further from 1 than the paper's holds too.
+// The same for a gain: a ratio further from 1 than the paper's holds too.
 Verdict judge_gain(double paper, const Value& measured, double near = 1.5);
 // Within `tolerance` of the paper's value: holds; within `shape` of it: in shape.
 Verdict judge_value(double paper, const Value& measured, double tolerance, double shape);

@@ -1,3 +1,4 @@
+// Fits of laws to measured points.
 #pragma once
 
 #include <span>
@@ -5,7 +6,8 @@
 
 namespace shadowbench::claims {
 
-// Least squares of log y = log c + exponent * log x over points with x, y > 0; at least two different x.
+// Fits a power law by least squares: log y = log c + exponent * log x over points with x, y > 0. Needs at least two
+// different x.
 struct PowerLaw {
     double exponent, factor;
     double standard_error;  // of the exponent; 0 for two points

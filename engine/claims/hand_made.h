@@ -1,4 +1,4 @@
-// Lookups through a map of light rays that are written down instead of captured.
+// Lookups in a map of light rays that are given instead of captured.
 #pragma once
 
 #include <span>
@@ -11,8 +11,7 @@
 
 namespace shadowbench::claims {
 
-// Answers through the map that the technique makes of one tile, which is the whole map: one ray a pixel, depths from 0
-// to z_max.
+// The answers from the technique's map of one tile, which is the whole map: one ray a pixel, depths from 0 to z_max.
 std::vector<float> look_up(const char* technique, const nlohmann::json& parameters, const rays::LightRays& tile,
                            float z_max, std::span<const techniques::Query> queries);
 

@@ -16,14 +16,14 @@ using results::LightResult;
 
 constexpr const char* hair_ball = "lokovic2000_hairball";
 
-// Over the width asked for and no more, with as many samples as said.
+// Filters over exactly the width of the lookup, with this number of samples.
 std::string pcf(int samples, const char* cells) {
     return fmt::format(R"({{"type":"pcf","num_samples":{},"res_factor":1,"min_size":0,"min_samples":1,"cells":"{}"}})",
                        samples, cells);
 }
 
-// The paper's filter weighs whole pixels (section 3.4). By a tent it is as wide as a pixel wherever it stands; of a box
-// of a pixel's width the nearest pixel is left.
+// The paper's filter weighs whole pixels (section 3.4). A tent filter is as wide as a pixel wherever it lies. A box
+// filter of a pixel's width leaves only the nearest pixel.
 constexpr const char* tent = R"({"type":"deep","kernel":"tent"})";
 constexpr const char* pixels = R"({"type":"deep","kernel":"pixels"})";
 
@@ -35,8 +35,8 @@ std::string bytes_text(double bytes) {
     return bytes < 1048576.0 ? fmt::format("{:.3g} KiB", bytes / 1024.0) : fmt::format("{:.3g} MiB", bytes / 1048576.0);
 }
 
-// A map of 512 x 512 depths, one of 4096 x 4096, and a deep map of 512 x 512 pixels of 256 samples, all asked over one
-// pixel of the smaller maps.
+// A depth map of 512 x 512, one of 4096 x 4096, and a deep map of 512 x 512 pixels of 256 samples. All lookups are over
+// one pixel of the smaller maps.
 void figure_6(const Context& context) {
     PaperReport& report = *context.report;
     const results::Result small = context.run(
@@ -68,7 +68,7 @@ void figure_6(const Context& context) {
     add(fmt::format("depth map {}, 16 samples", map(small).width), coarse);
     add(fmt::format("depth map {}, 400 samples", map(large).width), fine);
     add(fmt::format("deep map {}, {} samples a pixel", map(deep).width, map(deep).samples()), stored);
-    add("the same, nearest pixel alone", cell_of(light_of(deep), "deep", {"kernel=pixels"}));
+    add("the same, only the nearest pixel", cell_of(light_of(deep), "deep", {"kernel=pixels"}));
     report.tables.push_back(table);
 
     const Value faster = time_of(fine) / time_of(stored);
@@ -85,7 +85,7 @@ void figure_6(const Context& context) {
          "deep map lookups take 37 s where the 512 map with 16 samples takes 19 s: 1.9 times slower",
          to_text(slower) + " times the time",
          judge_ratio(37.0 / 19.0, slower),
-         "The paper had not optimised deep lookups. Beside it stands what 16 tests cost.",
+         "The paper had not optimised deep lookups. Its lookups are compared with 16 depth tests.",
          {slower}});
     const Value smaller = exactly(static_cast<double>(fine.bytes) / static_cast<double>(stored.bytes));
     report.claims.push_back({"section 6, figure 6",
@@ -133,7 +133,7 @@ Row measure_row(const Context& context, int samples) {
 }
 
 void add_figure_7_table(PaperReport& report, const std::vector<Row>& rows) {
-    Table table{"Figure 7: deep maps and depth maps of as many samples, 256 x 256 pixels",
+    Table table{"Figure 7: deep maps and depth maps with equal numbers of samples, 256 x 256 pixels",
                 {"N", "0.5 / sqrt N", "deep ns", "depth ns", "deep bytes", "depth bytes", "deep rms", "depth rms",
                  "nodes a pixel"},
                 {}};
@@ -151,19 +151,20 @@ void figures_7_and_8(const Context& context) {
     for (const int samples : {1, 4, 16, 36, 64, 144, 256}) rows.push_back(measure_row(context, samples));
     add_figure_7_table(report, rows);
 
-    // The first N at which the deep map is faster, over the whole of both intervals.
+    // The first N at which the deep map is faster over the whole of both intervals.
     const auto faster =
         std::find_if(rows.begin(), rows.end(), [](const Row& r) { return r.pcf_ns.low > r.deep_ns.high; });
     const bool never = faster == rows.end();
-    report.claims.push_back(undecided({"section 6, figure 7",
-                                       "depth maps are faster only at 4 x 4 samples and fewer",
-                                       never ? "depth maps are not slower at any N"
-                                             : fmt::format("deep maps are faster from N = {} on", faster->samples),
-                                       Verdict::undecided,
-                                       "Where the crossing lies is the price of a search against that of a depth test.",
-                                       {exactly(never ? 0 : faster->samples)}},
-                                      "the rule asked for a crossing beyond N = 16, and was loosened to beyond N = 4 "
-                                      "shortly before the first results"));
+    report.claims.push_back(
+        undecided({"section 6, figure 7",
+                   "depth maps are faster only at 4 x 4 samples and fewer",
+                   never ? "depth maps are not slower at any N"
+                         : fmt::format("deep maps are faster from N = {} on", faster->samples),
+                   Verdict::undecided,
+                   "Where the times cross depends on the cost of a search against that of a depth test.",
+                   {exactly(never ? 0 : faster->samples)}},
+                  "the rule asked for a crossing beyond N = 16, and was loosened to beyond N = 4 "
+                  "shortly before the first results"));
     const Value growth = rows.back().deep_ns / rows[2].deep_ns;
     report.claims.push_back({"section 6, figure 7",
                              "deep lookup times are virtually constant as N grows",
@@ -268,7 +269,7 @@ void figure_9(const Context& context) {
                              plain.low > 8.0   ? Verdict::holds
                              : plain.low > 2.0 ? Verdict::in_shape
                                                : Verdict::fails,
-                             "1,024 times the area is about so many times the functions.",
+                             "1,024 times the area covers about 1,024 times the functions.",
                              {plain}});
     const LightResult& light = light_of(result, {"/receivers/filter_width=1"});
     const Value size = exactly(static_cast<double>(cell_of(light, "deep", {"mip=nearest"}).bytes) /
@@ -287,8 +288,9 @@ void section_5_2(const Context& context) {
     const results::Result grey = context.run(hair_ball, {deep}, {"rays.resolution=128"});
     const results::Result colour =
         context.run(hair_ball, {"/scene/objects/0/opacity=[0.9,0.6,0.35]", deep}, {"rays.resolution=128"});
-    const results::Result one = context.run(hair_ball, {"/scene/objects/0/opacity=0.6", deep}, {"rays.resolution=128"});
-    const Cell &three = cell_of(light_of(colour), "deep"), &single = cell_of(light_of(one), "deep");
+    const results::Result one_channel =
+        context.run(hair_ball, {"/scene/objects/0/opacity=0.6", deep}, {"rays.resolution=128"});
+    const Cell &three = cell_of(light_of(colour), "deep"), &single = cell_of(light_of(one_channel), "deep");
     const Value size = exactly(static_cast<double>(three.bytes) / static_cast<double>(single.bytes));
     report.claims.push_back({"section 5.2",
                              "three-channel maps are only twice as large as one-channel maps",
@@ -299,10 +301,10 @@ void section_5_2(const Context& context) {
     const bool grey_is_one = light_of(grey).layout.channels == 1;
     report.claims.push_back(
         {"section 5.2",
-         "what is monochrome stores one channel",
+         "monochrome maps store one channel",
          grey_is_one ? "a grey scene makes a map of one channel" : "a grey scene makes three channels",
          grey_is_one ? Verdict::holds : Verdict::fails,
-         "Per pixel too: where the three functions are equal, one is kept.",
+         "This holds for single pixels too: if the three functions are equal, one is kept.",
          {}});
 }
 
@@ -327,8 +329,8 @@ void figure_12(const Context& context) {
 void measure_lokovic(const Context& context) {
     context.report->conditions =
         "The hair ball is procedural (50,000 curly opaque hairs), lit by one of the paper's three spot lights; the "
-        "paper's "
-        "times are of whole images less the time without shadows, on one processor of its day, and here of lookups in "
+        "paper's times are of whole images less the time without shadows, on one processor of its day, and here of "
+        "lookups in "
         "image order, on one thread. Errors are against 1024 rays a pixel over the same footprint.";
     figure_6(context);
     figures_7_and_8(context);

@@ -15,7 +15,7 @@ namespace {
 using results::Cell;
 using results::LightResult;
 
-// How many answers lookups give, at 400,000 places and depths of a map of 128 x 128 random depths.
+// The number of different answers that lookups give at 400,000 places and depths of a map of 128 x 128 random depths.
 int outcomes_of(int side, int n) {
     rays::LightRays tile;
     tile.width = tile.height = 128;
@@ -31,7 +31,7 @@ int outcomes_of(int side, int n) {
                            static_cast<float>(8.0 + 112.0 * base::to_unit(base::hash(3, i))),
                            static_cast<float>(0.95 + 1.1 * base::to_unit(base::hash(4, i))), 1.0f});
     const std::vector<float> visibility = look_up("multi_depth", parameters, tile, 2.0f, queries);
-    std::set<int> seen;  // as multiples of a millionth: outcomes are 1 / 200 apart and more
+    std::set<int> seen;  // in millionths: outcomes are at least 1 / 200 apart
     for (const float v : visibility) seen.insert(static_cast<int>(v * 1e6f + 0.5f));
     return static_cast<int>(seen.size());
 }
@@ -71,7 +71,7 @@ const Cell& kernel(const LightResult& light, int n, int side) {
     return cell_of(light, "multi_depth", {fmt::format("n={}", n), fmt::format("kernel={}", side)});
 }
 
-// The smaller kernel on more depths against the larger one on a single depth.
+// Compares the smaller kernel on more depths with the larger one on a single depth.
 void compare(const LightResult& light, const char* place, int n, int small, int large, PaperReport& report) {
     const Cell &ours = kernel(light, n, small), &theirs = kernel(light, 1, large);
     report.claims.push_back(
@@ -86,8 +86,8 @@ void compare(const LightResult& light, const char* place, int n, int small, int 
                   "before the first results"));
 }
 
-// Section 6: with q samples a cell to select a second depth and r kernel samples saved a fragment, two depths pay when
-// there are more fragments than q / r a cell.
+// Section 6: selecting a second depth costs q samples a cell and saves r kernel samples a fragment. So two depths pay
+// if there are more than q / r fragments a cell.
 void crossing(const LightResult& light, PaperReport& report) {
     const double q = 9.0, r = 16.0 - 9.0, predicted = q / r;
     const double cells = static_cast<double>(light.layout.width) * light.layout.height;
@@ -103,7 +103,7 @@ void crossing(const LightResult& light, PaperReport& report) {
               : fmt::format("no crossing is measured: selection {} ns a cell, {} ns saved a lookup",
                             to_text((1.0 / cells) * select), to_text(saved)),
          !pays ? Verdict::fails : judge_value(predicted, fragments, 0.5 * predicted, 4.0 * predicted),
-         "The paper counts texture fetches alone; a depth that is compared costs something too.",
+         "The paper counts only texture fetches; comparing a depth has a cost too.",
          {fragments}});
 }
 

@@ -1,4 +1,4 @@
-// The papers whose claims are measured, one row each.
+// The papers whose claims are measured, one row for each.
 #pragma once
 
 #include <filesystem>
@@ -15,33 +15,33 @@
 
 namespace shadowbench::claims {
 
-// What a paper's measurements are made with.
+// The input of a paper's measurements.
 struct Context {
-    std::filesystem::path scenarios;  // the folder of <paper>*.json
+    std::filesystem::path scenarios;  // folder of <paper>*.json
     scene::SearchPath data;
     bool quick = false;  // smaller sizes, for a first look
     int threads = 0;     // 0: all processors
     bench::ProgressCallback progress;
-    PaperReport* report = nullptr;  // where the scenarios that run are noted
+    PaperReport* report = nullptr;  // receives the results, and the scenarios that run
 
     // scenarios/papers/<name>.json with these changes ("path=value").
     nlohmann::json document(const std::string& name, const std::vector<std::string>& set = {}) const;
 
-    // Runs scenarios/papers/<name>.json with these changes ("path=value"), and with `smaller` too when quick.
+    // Runs scenarios/papers/<name>.json with these changes ("path=value"), and also with `smaller` if quick.
     results::Result run(const std::string& name, const std::vector<std::string>& set,
                         const std::vector<std::string>& smaller) const;
 };
 
-// The one light of the one variant whose settings begin with these values ("pointer=value"); the first light when there
-// are several. Throws Error{internal} when there is none.
+// The light of the only variant whose settings begin with these values ("pointer=value"), or the first if there are
+// several. Throws Error{internal} if there is none.
 const results::LightResult& light_of(const results::Result& result, const std::vector<std::string>& settings = {});
 
-// The cell of a technique whose parameters have these values ("nodes=8"). Throws Error{internal} where there is none,
-// or when it failed: its reason.
+// The cell of a technique whose parameters have these values ("nodes=8"). Throws Error{internal} if there is none, or
+// if it failed, with its reason.
 const results::Cell& cell_of(const results::LightResult& light, const std::string& technique,
                              const std::vector<std::string>& parameters = {});
 
-// Nanoseconds of a lookup in image order.
+// Nanoseconds per lookup in image order.
 Value time_of(const results::Cell& cell);
 
 struct Paper {

@@ -27,7 +27,7 @@ double rms_of(const Cell& cell) {
 
 // --- table 1 -------------------------------------------------------------------------------------------------------
 
-// One thread, seconds of repetitions: finding what the camera sees and shading it, without any shadow.
+// Seconds of each repetition on one thread: finding what the camera sees and shading it, without shadows.
 Value shading_seconds(const Context& context, const std::string& name, std::size_t& points) {
     const auto variants = document::expand(context.document(name));
     bench::ScenarioLoader loader(context.data);
@@ -100,7 +100,7 @@ void table_2(const Context& context, const char* title, double box_paper, double
              fmt::format("{}: the {} scheme takes {:.2f} of the raw depth maps", title, scheme, paper),
              fmt::format("{:.2f}", measured),
              judge_value(paper, exactly(measured), 0.1, 0.35),
-             "How much of the map the casters cover decides it, and that was drawn from the figures.",
+             "It depends on how much of the map the casters cover, which was estimated from the figures.",
              {exactly(measured)}});
 }
 
@@ -134,7 +134,7 @@ void figures_6_and_7(const LightResult& light, PaperReport& report) {
          {exactly(four), exactly(sixteen), exactly(many), cost}});
 }
 
-// Width of the transition, from 90 to 10 % lit, of lookups across the straight edge of an opaque half-plane; cells.
+// Width in cells of the transition from 90 to 10 % lit, for lookups across the straight edge of an opaque half-plane.
 double transition(double res_factor) {
     rays::LightRays tile;
     tile.width = tile.height = 128;
@@ -163,21 +163,21 @@ double transition(double res_factor) {
 }
 
 void figure_8(PaperReport& report) {
-    const double one = transition(1), three = transition(3), eight = transition(8);
+    const double narrow = transition(1), middle = transition(3), wide = transition(8);
     report.claims.push_back(
         {"section 4.2, figure 8",
          "increasing ResFactor produces softer shadow edges",
-         fmt::format("edges are {:.2f}, {:.2f}, {:.2f} cells wide (10 to 90 %) with ResFactor 1, 3, 8", one, three,
-                     eight),
-         three > one && eight > 2.0 * three ? Verdict::holds
-         : eight > one                      ? Verdict::in_shape
-                                            : Verdict::fails,
+         fmt::format("edges are {:.2f}, {:.2f}, {:.2f} cells wide (10 to 90 %) with ResFactor 1, 3, 8", narrow, middle,
+                     wide),
+         middle > narrow && wide > 2.0 * middle ? Verdict::holds
+         : wide > narrow                        ? Verdict::in_shape
+                                                : Verdict::fails,
          "The width of the region is the width of the edge.",
-         {exactly(one), exactly(three), exactly(eight)}});
+         {exactly(narrow), exactly(middle), exactly(wide)}});
 }
 
-// Against the visibility of the point itself: a footprint of a hundredth of a cell, and a receiver bias that only
-// outweighs what is left of it.
+// Errors against the visibility of the point itself: the footprint is a hundredth of a cell, and the receiver bias only
+// outweighs the part of it that remains.
 void figure_9(const Context& context) {
     const auto pcf = [](const char* bias0, const char* bias1) {
         return fmt::format(R"({{"type":"pcf","num_samples":16,"res_factor":3,"region":1,"bias0":{},"bias1":{}}})",
@@ -191,21 +191,21 @@ void figure_9(const Context& context) {
     const auto mean = [&](const char* bias0) {
         return cell_of(light_of(result), "pcf", {fmt::format("bias0={}", bias0)}).lookup->signed_mean;
     };
-    const double none = mean("0"), some = mean("0.2"), more = mean("0.3"), far = mean("3");
+    const double none = mean("0"), some = mean("0.2"), more = mean("0.3"), most = mean("3");
     context.report->claims.push_back(
         {"section 4.2, figure 9",
          "bias removes false self-shadowing, and moves the boundary when it grows",
          fmt::format(
              "mean error {:+.4f}, {:+.4f}, {:+.4f} with bias 0, 0.2 to 0.3, 0.3 to 0.4, and {:+.4f} with 3 to 4", none,
-             some, more, far),
-         none < 0.0 && std::abs(more) < 0.3 * std::abs(none) && far > more ? Verdict::holds
-         : none < some && far > more                                       ? Verdict::in_shape
-                                                                           : Verdict::fails,
-         "In a world of 100 units, as in the paper; a mean below 0 is shadow where there is none.",
-         {exactly(none), exactly(some), exactly(more), exactly(far)}});
+             some, more, most),
+         none < 0.0 && std::abs(more) < 0.3 * std::abs(none) && most > more ? Verdict::holds
+         : none < some && most > more                                       ? Verdict::in_shape
+                                                                            : Verdict::fails,
+         "In a world of 100 units, as in the paper; a mean below 0 is shadow where there should be none.",
+         {exactly(none), exactly(some), exactly(more), exactly(most)}});
 }
 
-// The filter that is asked for keeps its width in the world: four cells of the largest map.
+// The filter keeps its width in the world: four cells of the largest map.
 void figure_10(const Context& context) {
     std::vector<double> errors;
     for (const int resolution : {256, 512, 1024}) {
@@ -232,10 +232,10 @@ void figure_10(const Context& context) {
 void measure_reeves(const Context& context) {
     PaperReport& report = *context.report;
     report.conditions =
-        "The sphere and plane and the three coloured lights are rebuilt from the figures, the bicycle store stands as "
-        "a "
-        "room full of things; Luxo Jr. and Red's Dream are not public. Images have 16 view rays a pixel, as theirs, "
-        "each shaded and looked up by itself; times are of one thread.";
+        "The sphere and plane and the three coloured lights are rebuilt from the figures, the bicycle store is "
+        "replaced by a room full of things; Luxo Jr. and Red's Dream are not public. Images have 16 view rays a pixel, "
+        "as theirs, "
+        "each shaded and looked up separately; times are of one thread.";
     const results::Result sphere = context.run("reeves1987_sphere", {}, {});
     const results::Result colours = context.run("reeves1987_lights", {}, {});
     const results::Result store = context.run("reeves1987_store", {}, {});

@@ -1,4 +1,4 @@
-// Reports of papers -> files.
+// Writes reports of papers to files.
 #pragma once
 
 #include <filesystem>
@@ -14,15 +14,15 @@ struct Conditions {
     std::string machine, build, date;
 };
 
-// How the verdicts are given, then for each paper a row a claim, its tables and its plots.
+// The rule of the verdicts, then for each paper a row for each claim, its tables and its plots.
 std::string to_markdown(std::span<const PaperReport> reports, const Conditions& conditions);
 std::string to_json(std::span<const PaperReport> reports, const Conditions& conditions);
 
-// SVG text of a plot, drawn by gnuplot. Throws Error{internal} when gnuplot is not there or refuses.
+// The SVG text of a plot, drawn by gnuplot. Throws Error{internal} if gnuplot is missing or fails.
 std::string to_svg(const Plot& plot);
 
-// <name>.md and <name>.json in this folder, the plots as SVG in its folder plots/, and the sheets in pictures/. Throws
-// Error{io}.
+// Writes <name>.md and <name>.json into this folder, the plots as SVG into its folder plots/, and the sheets into
+// pictures/. Throws Error{io}.
 void write_reports(const std::filesystem::path& folder, const std::string& name, std::span<const PaperReport> reports,
                    const Conditions& conditions);
 

@@ -9,15 +9,11 @@ namespace shadowbench::claims {
 namespace {
 
 constexpr const char* rules =
-    "Every number is measured by the scenarios named, on the machine named; absolute times do not travel, so times "
-    "stand "
-    "as ratios within one run. *holds*: the paper's value is met (a ratio within a factor of 1.5), or bettered where "
-    "the "
-    "paper claims a gain. *holds in shape*: the direction or the law is the paper's, the value is not. *does not hold "
-    "here*: neither. *undecided*: measured, but not judged; the last column says why. Intervals in brackets are of 95 "
-    "%; where one stands, the worst verdict of the value and of its "
-    "ends "
-    "counts.\n";
+    "Every number is measured with the scenarios and on the machine named below. Absolute times cannot be compared "
+    "between machines, so times are given as ratios within one run. *holds*: the paper's value is met (a ratio within "
+    "a factor of 1.5), or bettered if the paper claims a gain. *holds in shape*: only the direction or the law is the "
+    "paper's. *does not hold here*: neither. *undecided*: measured, but not judged; the last column says why. "
+    "Intervals in brackets are 95 % intervals; the verdict is then the worst of those of the value and of both ends.\n";
 
 std::string text_of(Verdict verdict) {
     const bool strong = verdict == Verdict::holds || verdict == Verdict::fails;
@@ -38,7 +34,7 @@ void add_paper(std::string& out, const PaperReport& report) {
     for (const Sheet& sheet : report.sheets)
         out += fmt::format(
             "![{0}](pictures/{1}.png)\n\nAbove the pictures, from left to right: {0}. Below: the reference's "
-            "visibility alone, then each difference from the reference, times four.\n\n",
+            "visibility, then each difference from the reference, times four.\n\n",
             sheet.caption, sheet.name);
     out += fmt::format("Scenarios (name, hash): {}. Measured in {:.0f} s.\n\n", fmt::join(report.documents, ", "),
                        report.seconds);

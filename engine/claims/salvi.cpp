@@ -16,7 +16,7 @@ namespace {
 using results::Cell;
 using results::LightResult;
 
-// A column of table 1: their milliseconds on a Radeon 5870 (lookup, compression) and their megabytes (of the map).
+// A column of table 1: the paper's milliseconds on a Radeon 5870 (lookup, compression) and megabytes (of the map).
 struct Column {
     const char* name;
     const char* technique;
@@ -41,7 +41,7 @@ std::string ratio_text(double theirs, const Value& ours) {
     return theirs > 0.0 ? fmt::format("{:.3g}", theirs) + " / " + to_text(ours) : "- / " + to_text(ours);
 }
 
-// Every column as a ratio to AVSM 8, theirs beside ours.
+// Every column as a ratio to AVSM 8, the paper's value beside ours.
 void table_1(const LightResult& light, PaperReport& report) {
     const Cell& eight = avsm(light, 8);
     Table table{fmt::format("Table 1: ratios to AVSM 8, theirs / ours ({} x {} texels)", light.layout.width,
@@ -75,7 +75,7 @@ void table_1(const LightResult& light, PaperReport& report) {
                                  fmt::format("{} builds in {:.2g} times AVSM 8's time", c.name, c.build_ms / 0.7),
                                  to_text(build) + " times",
                                  judge_ratio(c.build_ms / 0.7, build),
-                                 "Capture is not part of it; segments come sorted here.",
+                                 "Our times exclude capture, and segments come sorted.",
                                  {build}});
     }
     report.tables.push_back(std::move(table));
@@ -118,7 +118,7 @@ void quality(const LightResult& light, PaperReport& report) {
                                  ? Verdict::holds
                              : rms(four) > rms(eight) && rms(eight) >= rms(twelve) ? Verdict::in_shape
                                                                                    : Verdict::fails,
-                             "Uncompressed is what one ray a texel allows.",
+                             "The uncompressed error is that of one ray a texel.",
                              {exactly(rms(four)), exactly(rms(eight)), exactly(rms(twelve)), exactly(rms(all))}});
     for (const int nodes : {4, 8}) {
         const double sorted = rms(avsm(light, nodes)), captured = rms(avsm(light, nodes, "captured"));
@@ -145,17 +145,16 @@ void quality(const LightResult& light, PaperReport& report) {
                              : slower.value > 1.0 && build.value > 1.0 ? Verdict::in_shape
                                                                        : Verdict::fails,
                              "Theirs were linked lists on a GPU; here a deep map is one array, searched in a few "
-                             "steps, and shorter than AVSM's "
-                             "nodes where little happens.",
+                             "steps, and shorter than AVSM's nodes where little happens.",
                              {build, slower}});
 }
 
-// The same smoke in its own depth range, and with one puff far behind it.
+// The same smoke within its own depth range, and with one puff far behind it.
 void depth_range(const Context& context, const LightResult& near) {
     const results::Result result = context.run("salvi2010_depth", {}, {"rays.resolution=128"});
-    const LightResult& far = light_of(result);
+    const LightResult& with_puff = light_of(result);
     const auto growth = [&](const char* technique, const std::vector<std::string>& parameters) {
-        return cell_of(far, technique, parameters).curve->norms.rms /
+        return cell_of(with_puff, technique, parameters).curve->norms.rms /
                cell_of(near, technique, parameters).curve->norms.rms;
     };
     const double nodes = growth("avsm", {"nodes=8", "order=sorted"}), slices = growth("opacity", {}),
@@ -166,15 +165,16 @@ void depth_range(const Context& context, const LightResult& near) {
          fmt::format(
              "with {:.1f} times the depth range curve errors rms grow by {:.2f} (AVSM 8), {:.2f} (OSM 32), {:.2f} "
              "(FOM 16)",
-             (far.layout.z_max - far.layout.z_min) / (near.layout.z_max - near.layout.z_min), nodes, slices, terms),
+             (with_puff.layout.z_max - with_puff.layout.z_min) / (near.layout.z_max - near.layout.z_min), nodes, slices,
+             terms),
          nodes < 0.5 * std::min(slices, terms) ? Verdict::holds
          : nodes < std::min(slices, terms)     ? Verdict::in_shape
                                                : Verdict::fails,
-         "One puff far behind the smoke stretches what uniform slices and terms are spread over.",
+         "One puff far behind the smoke stretches the range over which slices and terms are spread evenly.",
          {exactly(nodes), exactly(slices), exactly(terms)}});
 }
 
-// Hair in smoke: steps and slopes, spread over a large depth.
+// Hair in smoke: steps and slopes over a large depth range.
 void figure_5(const Context& context) {
     const results::Result result = context.run("salvi2010_hair", {}, {"rays.resolution=128"});
     const LightResult& light = light_of(result);
@@ -187,7 +187,7 @@ void figure_5(const Context& context) {
          nodes < 0.5 * std::min(slices, terms) ? Verdict::holds
          : nodes < std::min(slices, terms)     ? Verdict::in_shape
                                                : Verdict::fails,
-         "A step is what slices smear over their interval, and what a series rings at.",
+         "Slices smear a step over their interval, and a series rings at it.",
          {exactly(nodes), exactly(slices), exactly(terms)}});
 }
 
@@ -215,7 +215,7 @@ void curve_figure(const Context& context, const char* scenario, const char* name
          fmt::format("12 nodes fit a curve of {} nodes almost exactly", nodes_there),
          fmt::format("largest error {:.3g} on a curve of {} segments", twelve, curves.segments),
          Verdict::undecided,
-         "The texel is the one with the most segments that are not all in the dark.",
+         "The texel has the most segments of those that are not dark by half their depth.",
          {exactly(twelve)}},
         "half of the claim was judged: the paper also finds the curve of figure 6 closer than slices and terms and "
         "like a deep map, and 16 nodes close in figure 7"));
@@ -226,10 +226,9 @@ void curve_figure(const Context& context, const char* scenario, const char* name
 void measure_salvi(const Context& context) {
     context.report->conditions =
         "Three procedural smoke columns, one light ray a texel, on one thread of a processor where the paper used a "
-        "GPU "
-        "(Radeon 5870): times stand as ratios to AVSM with 8 nodes. Lookups are bilinear over four texels. The scene "
-        "with "
-        "smoke and hair and the game level of the paper are not public.";
+        "GPU (Radeon 5870): times are given as ratios to AVSM with 8 nodes. Lookups are bilinear over four texels. The "
+        "scene "
+        "with smoke and hair and the game level of the paper are not public.";
     const results::Result result = context.run("salvi2010_smoke", {}, {"rays.resolution=128"});
     const LightResult& light = light_of(result);
     table_1(light, *context.report);

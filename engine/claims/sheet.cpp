@@ -29,14 +29,15 @@ Sheet picture_sheet(const Context& context, const std::string& name, const std::
     Sheet sheet;
     sheet.name = context.report->id;
     sheet.caption = fmt::format("{}: reference", name);
-    for (const render::TechniquePictures& one : rendering.techniques) {
-        const std::string label = results::title(one.cell);
-        if (one.cell.status == results::CellStatus::failed) {
-            sheet.caption += fmt::format("; {} failed ({})", label, one.cell.reason);
+    for (const render::TechniquePictures& pictures : rendering.techniques) {
+        const std::string label = results::title(pictures.cell);
+        if (pictures.cell.status == results::CellStatus::failed) {
+            sheet.caption += fmt::format("; {} failed ({})", label, pictures.cell.reason);
             continue;
         }
-        shown.push_back(&one);
-        sheet.caption += fmt::format("; {} (rms {:.2g}, FLIP {:.2g})", label, one.shaded.rms, one.shaded.flip_mean);
+        shown.push_back(&pictures);
+        sheet.caption +=
+            fmt::format("; {} (rms {:.2g}, FLIP {:.2g})", label, pictures.shaded.rms, pictures.shaded.flip_mean);
     }
     constexpr int gap = 4;
     const int columns = 1 + static_cast<int>(shown.size());

@@ -1,4 +1,4 @@
-// Pictures of one scene through several techniques, side by side on one sheet.
+// Sheets: pictures of one scene through several techniques, side by side.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace shadowbench::claims {
 
-// Renders scenarios/papers/<name>.json with these changes. Above, from left to right: the reference, then each
-// technique's picture; below: the reference's visibility alone, then each technique's difference from the reference,
-// times four. A technique that fails leaves its column out and is named in the caption.
+// Renders scenarios/papers/<name>.json with these changes. Upper row, from left to right: the reference, then each
+// technique's picture. Lower row: the reference's visibility, then each technique's difference from the reference,
+// times four. A technique that fails has no column; the caption names it.
 Sheet picture_sheet(const Context& context, const std::string& name, const std::vector<std::string>& set);
 
 }  // namespace shadowbench::claims

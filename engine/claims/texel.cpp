@@ -51,7 +51,7 @@ TexelCurves busiest_texel(const nlohmann::json& document, const scene::SearchPat
     const auto [view, layout, least] = bench::prepare_light(scenario, 0, contenders, {});
     if (layout.samples() != 1 || layout.apron > 0)
         throw base::Error(base::ErrorCode::internal, scenario.name,
-                          "a texel's curve needs one ray a pixel, and filters no wider");
+                          "a texel's curve needs one ray a pixel, and filters that are no wider");
     const rays::Capture capture(scenario.scene, view, layout);
     std::vector<rays::LightRays> tiles;
     for (int t = 0; t < layout.tiles(); ++t) tiles.push_back(capture.tile(t));
@@ -70,7 +70,7 @@ TexelCurves busiest_texel(const nlohmann::json& document, const scene::SearchPat
         depths.push_back(layout.z_min + (layout.z_max - layout.z_min) * static_cast<float>(i) / 400.0f);
     for (const bench::Contender& contender : contenders) {
         bench::Maps maps = bench::begin_maps(*contender.row, contender.values, {layout, view, nullptr});
-        for (const rays::LightRays& one : tiles) bench::add(maps, one);
+        for (const rays::LightRays& tile : tiles) bench::add(maps, tile);
         bench::finish(maps);
         bench::stored(maps, result.x, result.y, 0, depths, stored);
         result.series.push_back(to_series(results::title(contender.cell), stored, layout));

@@ -1,4 +1,4 @@
-// The functions that techniques store for one texel, beside the uncompressed one: what papers plot.
+// The functions that techniques store for one texel, with the uncompressed one, as papers plot them.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@ namespace shadowbench::claims {
 struct TexelCurves {
     int x = 0, y = 0;            // the texel
     std::uint64_t segments = 0;  // of its ray
-    std::vector<Series> series;  // one a technique of the document, in order; then the uncompressed function
-    std::vector<double> error;   // of each series, largest distance from the uncompressed function
+    std::vector<Series> series;  // one per technique of the document, in order; then the uncompressed function
+    std::vector<double> error;   // largest distance of each series from the uncompressed function
 };
 
-// Of the first light of a scenario of one ray a pixel: the texel whose ray crosses the most segments among those whose
-// light is not gone by half their depth.
+// Takes the first light of a scenario with one ray a pixel. Chooses the texel whose ray crosses the most segments among
+// those whose light is not gone by half their depth.
 TexelCurves busiest_texel(const nlohmann::json& document, const scene::SearchPath& data);
 
 }  // namespace shadowbench::claims

@@ -18,8 +18,8 @@ namespace {
 using results::Cell;
 using results::LightResult;
 
-constexpr double grey_step = 1.0 / 255.0;       // of a picture of 8 bits: less is not noticed
-constexpr double image_pixels = 512.0 * 512.0;  // of a frame; the paper names no size but the map's
+constexpr double grey_step = 1.0 / 255.0;       // of a picture of 8 bits: smaller differences are not noticed
+constexpr double image_pixels = 512.0 * 512.0;  // of a frame; the paper gives only the map's size
 constexpr double view_lookups = 128.0;          // a pixel
 
 struct DataSet {
@@ -29,7 +29,8 @@ struct DataSet {
 const DataSet data_sets[] = {
     {"box", "volume_box"}, {"bucky", "volume_bucky"}, {"rods", "volume_rods"}, {"clouds", "volume_clouds"}};
 
-// Of one data set: all techniques with receivers in the volume and on the plane, and some with the plane alone.
+// The results of one data set: all techniques with receivers in the volume and on the plane, and some with receivers
+// only on the plane.
 struct Measured {
     const char* name;
     results::Result both, plane;
@@ -68,7 +69,7 @@ template <class Holds>
 bool in_all(const Sets& sets, const Holds& holds) {
     return std::all_of(sets.begin(), sets.end(), holds);
 }
-// In more than half of them.
+// Whether it holds for more than half of the data sets.
 template <class Holds>
 bool in_most(const Sets& sets, const Holds& holds) {
     return 2 * std::count_if(sets.begin(), sets.end(), holds) > static_cast<std::ptrdiff_t>(sets.size());
@@ -88,7 +89,7 @@ void table_of_techniques(const Sets& sets, PaperReport& report) {
                 {}};
     for (const Measured& m : sets)
         for (const Cell& cell : m.light().cells) {
-            if (cell.status == results::CellStatus::failed) continue;  // the claims that need it will say so
+            if (cell.status == results::CellStatus::failed) continue;  // a claim that needs it will report it
             table.rows.push_back({m.name, results::title(cell), to_text(of(cell.times->build_ms)),
                                   to_text(time_of(cell)), fmt::format("{:.3g}", bytes_a_texel(cell, m.light())),
                                   fmt::format("{:.2g}", cell.curve->norms.max),
@@ -98,8 +99,8 @@ void table_of_techniques(const Sets& sets, PaperReport& report) {
     report.tables.push_back(std::move(table));
 }
 
-// One thread's milliseconds for a frame: marching through the data from the light, building the map, and the lookups of
-// an image that the volume fills.
+// Milliseconds of one thread for a frame: marching through the data from the light, building the map, and the lookups
+// of an image that the volume fills.
 struct Frame {
     Value march, build, lookups;
 
@@ -137,7 +138,7 @@ void frames_a_second(const Sets& sets, PaperReport& report) {
          : slowest >= 24.0 ? Verdict::in_shape
                            : Verdict::fails,
          "Theirs is a GPU (GeForce GTX 465), ours one thread of a processor; the view rays' own march through the data "
-         "is not counted. 24 in the slowest data set would be the shape.",
+         "is not counted. It would hold in shape with 24 in the slowest data set.",
          values(sets, rate)});
 }
 
@@ -154,21 +155,21 @@ void bucket(const Sets& sets, PaperReport& report) {
     };
     const bool unseen = in_most(sets, [&](const Measured& m) { return std::abs(more(m, 512)) <= grey_step; });
     const bool worse = in_most(sets, [&](const Measured& m) { return more(m, 512) > 0.0; });
-    report.claims.push_back(
-        {"section Implementation",
-         "recording the step before a crossing is less accurate, in most cases not noticeably",
-         "lookup error rms (mean), smooth / bucket: " + list(sets,
-                                                             [&](const Measured& m) {
-                                                                 return errors(volume_deep(m.light(), "smooth")) +
-                                                                        " / " +
-                                                                        errors(volume_deep(m.light(), "bucket"));
-                                                             }),
-         unseen && worse ? Verdict::holds
-         : unseen        ? Verdict::in_shape
-                         : Verdict::fails,
-         "Noticed is a difference above 1/255. A mean above 0 is too bright: up to the first depth a lookup takes the "
-         "light for whole, and the earlier depths of the bucket make up for some of that.",
-         values(sets, [&](const Measured& m) { return exactly(more(m, 512)); })});
+    report.claims.push_back({"section Implementation",
+                             "recording the step before a crossing is less accurate, in most cases not noticeably",
+                             "lookup error rms (mean), smooth / bucket: " +
+                                 list(sets,
+                                      [&](const Measured& m) {
+                                          return errors(volume_deep(m.light(), "smooth")) + " / " +
+                                                 errors(volume_deep(m.light(), "bucket"));
+                                      }),
+                             unseen && worse ? Verdict::holds
+                             : unseen        ? Verdict::in_shape
+                                             : Verdict::fails,
+                             "A difference above 1/255 counts as noticed. A mean above 0 is too bright: up to the "
+                             "first depth, a lookup answers "
+                             "1, and the earlier depths of the bucket make up for some of that.",
+                             values(sets, [&](const Measured& m) { return exactly(more(m, 512)); })});
     report.claims.push_back(
         {"section Implementation", "the more steps, the less the difference is noticed",
          "bucket less smooth at 64 / 512 steps: " +
@@ -178,7 +179,7 @@ void bucket(const Sets& sets, PaperReport& report) {
          : in_most(sets, [&](const Measured& m) { return std::abs(more(m, 512)) < std::abs(more(m, 64)); })
              ? Verdict::in_shape
              : Verdict::fails,
-         "Differences of lookup error rms; the law must hold in every data set, its shape in most.",
+         "Differences of lookup error rms. The claim holds if it does in every data set, and in shape if in most.",
          values(sets, [&](const Measured& m) { return exactly(more(m, 512)); })});
     report.claims.push_back(
         {"section Implementation", "and it is faster",
@@ -186,8 +187,9 @@ void bucket(const Sets& sets, PaperReport& report) {
          in_most(sets, [&](const Measured& m) { return faster(m).low > 1.0; })     ? Verdict::holds
          : in_most(sets, [&](const Measured& m) { return faster(m).value > 1.0; }) ? Verdict::in_shape
                                                                                    : Verdict::fails,
-         "Here a step is dear and the three crossings of a ray are not; the shape is a median above 1 in most data "
-         "sets, beyond its interval it holds.",
+         "Here a step is expensive and the three crossings of a ray are not. The claim holds if the interval is above "
+         "1 in "
+         "most data sets, and in shape if the median is.",
          values(sets, faster)});
 }
 
@@ -205,8 +207,9 @@ void shadows_behind(const Sets& sets, PaperReport& report) {
          in_all(sets, [&](const Measured& m) { return plane(m) <= plain(m) + grey_step; }) ? Verdict::holds
          : in_all(sets, [&](const Measured& m) { return plane(m) < inside(m); })           ? Verdict::in_shape
                                                                                            : Verdict::fails,
-         "Behind everything a texel answers with the maximum itself; what is left is the error of one ray a texel, "
-         "which the uncompressed map has too.",
+         "Behind everything a texel answers with the maximum itself. The remaining error is that of one ray a texel, "
+         "which "
+         "the uncompressed map has too.",
          values(sets, [&](const Measured& m) { return exactly(plane(m)); })});
 }
 
@@ -230,8 +233,9 @@ void thresholds(const Sets& sets, PaperReport& report) {
          better(4)   ? Verdict::holds
          : better(2) ? Verdict::in_shape
                      : Verdict::fails,
-         "It holds where lookups err no more than AVSM of 4 nodes (twice the bytes) in most data sets, its shape where "
-         "no more than AVSM of 2 (as many bytes): fixed levels jump by 10 % at the first and the last depth.",
+         "The claim holds if lookups err no more than AVSM with 4 nodes (twice the bytes) in most data sets, and in "
+         "shape if "
+         "no more than AVSM with 2 nodes (as many bytes). Fixed levels jump by 10 % at the first and the last depth.",
          values(sets, [&](const Measured& m) { return exactly(fixed(m).curve->norms.rms); })});
 }
 
@@ -257,7 +261,7 @@ void memory(const Sets& sets, PaperReport& report) {
          values(sets, ours)});
 }
 
-// One ray's function beside what maps keep of it.
+// The function of one ray beside what maps keep of it.
 void curve_figure(const Context& context, const DataSet& set) {
     const std::filesystem::path file = context.scenarios / (std::string(set.scenario) + ".json");
     nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
@@ -273,11 +277,12 @@ void curve_figure(const Context& context, const DataSet& set) {
 
 void measure_volume(const Context& context) {
     context.report->conditions = fmt::format(
-        "The Bucky ball is of the paper's name and size; box, rods and clouds are procedural, of its sizes. 512 x 512 "
-        "texels of one "
-        "light ray, {} data sets, 128 lookups a view ray, on one thread of a processor where the paper used a GPU. The "
+        "The Bucky ball has the paper's name and size; box, rods and clouds are procedural and have its sizes. 512 x "
+        "512 "
+        "texels of one light ray, {} data sets, 128 lookups a view ray, on one thread of a processor where the paper "
+        "used a GPU. The "
         "paper judged pictures by eye; here errors are against exact rays. Lookups take the mean over a footprint of a "
-        "texel's width but where one texel is named.",
+        "texel's width, except where one texel is named.",
         std::size(data_sets));
     const char* plane_alone = "receivers.media_lookups=0";
     const char* plane_techniques = R"(techniques=[{"type":"volume_deep"},{"type":"uncompressed"}])";

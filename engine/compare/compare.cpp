@@ -22,7 +22,8 @@ struct Pair {
     std::string label;
 };
 
-// Those of equal name and hash first; then those of equal name, where one is left on each side: the scenario changed.
+// Pairs suites of equal name and hash first, then suites of equal name if each side has one of it unpaired: the
+// scenario changed.
 std::vector<Pair> match(const std::vector<Suite>& baseline, const std::vector<Suite>& current) {
     std::map<std::string, std::pair<int, int>> count;
     for (const Suite& suite : baseline) ++count[suite.name].first;
@@ -32,13 +33,13 @@ std::vector<Pair> match(const std::vector<Suite>& baseline, const std::vector<Su
         return before > 1 || now > 1 ? fmt::format("{} [{}]", suite.name, suite.hash.substr(0, 8)) : suite.name;
     };
     std::vector<Pair> pairs;
-    std::vector<const Suite*> left;
-    for (const Suite& suite : current) left.push_back(&suite);
+    std::vector<const Suite*> unpaired;
+    for (const Suite& suite : current) unpaired.push_back(&suite);
     const auto take = [&](const auto& fits) -> const Suite* {
-        const auto found = std::find_if(left.begin(), left.end(), fits);
-        if (found == left.end()) return nullptr;
+        const auto found = std::find_if(unpaired.begin(), unpaired.end(), fits);
+        if (found == unpaired.end()) return nullptr;
         const Suite* const suite = *found;
-        left.erase(found);
+        unpaired.erase(found);
         return suite;
     };
     for (const Suite& suite : baseline)
@@ -50,7 +51,7 @@ std::vector<Pair> match(const std::vector<Suite>& baseline, const std::vector<Su
         if (!pair.current && count[name] == std::pair(1, 1))
             pair.current = take([&](const Suite* other) { return other->name == name; });
     }
-    for (const Suite* suite : left) pairs.push_back({nullptr, suite, label(*suite)});
+    for (const Suite* suite : unpaired) pairs.push_back({nullptr, suite, label(*suite)});
     return pairs;
 }
 
@@ -80,7 +81,7 @@ const Timed* find(const std::vector<Timed>& measures, const std::string& name) {
     return nullptr;
 }
 
-// How much longer work that does not change took on the current side.
+// The factor by which work that does not change took longer on the current side.
 double machine_of(const Pair& pair) {
     const std::vector<double>&before = pair.baseline->speed, &now = pair.current->speed;
     return before.empty() || now.empty() ? 1.0 : metrics::median(before) / metrics::median(now);
@@ -115,7 +116,8 @@ void Judge::promises(const Pair& pair, const Cell& baseline, const Cell& current
         line.reason = "broken as before: " + current.failure;
     } else if (baseline.degraded != current.degraded) {
         line.verdict = current.degraded ? Verdict::less_accurate : Verdict::more_accurate;
-        line.reason = current.degraded ? "degraded now: its error is above the noise of the rays" : "degraded no more";
+        line.reason =
+            current.degraded ? "degraded now: its error is above the noise of the rays" : "no longer degraded";
     }
     add(std::move(line));
 }
@@ -131,7 +133,7 @@ void Judge::exact(const Pair& pair, const Cell& baseline, const Cell& current, b
             if (before.kind == Kind::instructions && !one_machine) {
                 line.verdict = Verdict::not_comparable;
                 line.time = true;
-                line.reason = "another machine, where libraries may choose other code";
+                line.reason = "another machine, whose libraries may run other code";
             } else {
                 judge_exact(before, *now, options_, line);
             }
@@ -148,7 +150,7 @@ void Judge::exact(const Pair& pair, const Cell& baseline, const Cell& current, b
 }
 
 void Judge::times(const Pair& pair, const Cell& baseline, const Cell& current) {
-    if (baseline.failed || current.failed) return;  // a time of wrong answers is none
+    if (baseline.failed || current.failed) return;  // times of wrong answers are not compared
     for (const Timed& before : baseline.timed) {
         Line line = line_of(pair, &current, Verdict::missing, "not timed now");
         line.measure = before.name;
@@ -176,8 +178,8 @@ void Judge::cells(const Pair& pair, const Cell& baseline, const Cell& current, b
 void Judge::fronts(const Pair& pair, const std::map<Name, FrontCell>& all, bool times_compare) {
     std::map<std::string, std::vector<FrontCell>> groups;
     for (const auto& [name, cell] : all) {
-        const bool other = cell.baseline && cell.current && cell.baseline->version != cell.current->version;
-        if (!other) groups[name.first].push_back(cell);
+        const bool version_changed = cell.baseline && cell.current && cell.baseline->version != cell.current->version;
+        if (!version_changed) groups[name.first].push_back(cell);
     }
     for (const auto& [group, cells] : groups) {
         std::vector<FrontChange> changes =
@@ -191,11 +193,11 @@ void Judge::suites(const Pair& pair) {
         return fmt::format("{} cell{}", suite.cells.size(), suite.cells.size() == 1 ? "" : "s");
     };
     if (!pair.current) {
-        add(line_of(pair, nullptr, Verdict::missing, count(*pair.baseline) + ", no result of it now"));
+        add(line_of(pair, nullptr, Verdict::missing, count(*pair.baseline) + ", but no result now"));
         return;
     }
     if (!pair.baseline) {
-        add(line_of(pair, nullptr, Verdict::extra, count(*pair.current) + ", no result of it before"));
+        add(line_of(pair, nullptr, Verdict::extra, count(*pair.current) + ", but no result before"));
         return;
     }
     if (pair.baseline->hash != pair.current->hash) {
@@ -243,7 +245,7 @@ Comparison compare(const Measured& baseline, const Measured& current, const Opti
     comparison.interleaved = !baseline.interleaved.empty() && baseline.interleaved == current.interleaved;
     if (comparison.interleaved && baseline.files != current.files) {
         comparison.interleaved = false;
-        comparison.notes.push_back("not judged in pairs: one side has files that the other has not");
+        comparison.notes.push_back("not judged in pairs: the sides do not hold the same files");
     }
     for (const auto& [side, measured] : {std::pair("baseline", &baseline), std::pair("current", &current)})
         for (const std::string& note : measured->notes) comparison.notes.push_back(fmt::format("{}: {}", side, note));

@@ -15,8 +15,8 @@ std::vector<Line> suspicious(const Comparison& comparison) {
 
 namespace {
 
-// The line of the same measure of the same cell: by its name, else by its technique, for a cell that runs alone is not
-// swept, and is not named after what the sweep had set.
+// Finds the same measure of the same cell by the cell's name, or else by its technique: a cell that runs alone is not
+// swept, so its name lacks the swept values.
 const Line* find_again(const Comparison& again, const Line& line) {
     const auto find = [&](const auto& same_cell) {
         const auto found = std::find_if(again.lines.begin(), again.lines.end(), [&](const Line& other) {
@@ -41,8 +41,9 @@ void confirm(Comparison& first, const Comparison& again) {
             continue;
         }
         if (again.enough > fresh->processes) {
-            line.reason += fmt::format("{}{} fresh {} cannot confirm it: it takes {}", line.reason.empty() ? "" : "; ",
-                                       fresh->processes, again.interleaved ? "pairs" : "processes", again.enough);
+            line.reason +=
+                fmt::format("{}{} fresh {} are too few to confirm it: {} are needed", line.reason.empty() ? "" : "; ",
+                            fresh->processes, again.interleaved ? "pairs" : "processes", again.enough);
             continue;
         }
         const std::string what = fmt::format("{} fresh {}: x{:.3f} [{:.3f}, {:.3f}], x{:.3f} at first",

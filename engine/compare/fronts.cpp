@@ -19,7 +19,7 @@ double exact_of(const Cell* cell, const char* name) {
     return absent;
 }
 
-// Plain time of lookups in random order, as the fronts of a result have it.
+// The plain time of lookups in random order, as in the fronts of a result.
 double time_of(const Cell* cell) {
     if (!cell || cell->failed) return absent;
     for (const Timed& timed : cell->timed) {
@@ -38,7 +38,7 @@ const Line* find(const Lines& lines, const std::string& cell, const char* measur
     return found == lines.end() ? nullptr : found->second;
 }
 
-// A current value, or the baseline's where nothing is known to have changed.
+// The current value, or the baseline's if the measure did not change.
 double settled(double baseline, double current, const Line* line) {
     return line && baseline != absent && current != absent && line->verdict == Verdict::same ? baseline : current;
 }
@@ -58,10 +58,10 @@ const std::string& name_of(const FrontCell& cell) {
     return (cell.current ? cell.current : cell.baseline)->name;
 }
 
-std::vector<std::string> who_beats(const Side& side, const std::vector<FrontCell>& cells, std::size_t i) {
+std::vector<std::string> names_of_better(const Side& side, const std::vector<FrontCell>& cells, std::size_t i) {
     std::vector<std::string> names;
     const CostAndError& own = side.choices[i];
-    if (own.cost == absent || own.error == absent) return names;  // it was not there, or broke its promise
+    if (own.cost == absent || own.error == absent) return names;  // it did not exist, or broke a promise
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const CostAndError& other = side.choices[k];
         if (side.front[k] && other.cost <= own.cost && other.error <= own.error &&
@@ -79,7 +79,7 @@ std::vector<FrontChange> front_changes(const std::string& suite, const std::stri
     Lines by_name;
     for (const Line& line : lines)
         if (line.suite == suite && line.group == group) by_name[line.cell + '\n' + line.measure] = &line;
-    // Both sides may be of different speed as a whole: new cells are put onto the baseline's scale.
+    // One side may be faster as a whole, so times of new cells are scaled to the baseline.
     std::vector<double> scales;
     for (const FrontCell& cell : cells) {
         const double before = time_of(cell.baseline), now = time_of(cell.current);
@@ -114,7 +114,7 @@ std::vector<FrontChange> front_changes(const std::string& suite, const std::stri
         for (std::size_t i = 0; i < cells.size(); ++i)
             if (before.front[i] != now.front[i])
                 changes.push_back({suite, group, name_of(cells[i]), of_time ? "time and error" : "bytes and error",
-                                   now.front[i], who_beats(now.front[i] ? before : now, cells, i)});
+                                   now.front[i], names_of_better(now.front[i] ? before : now, cells, i)});
     }
     return changes;
 }

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "compare/measured.h"
+#include "compare/compare.h"
 #include "metrics/drift.h"
 #include "metrics/statistics.h"
 
@@ -28,7 +28,7 @@ struct Point {
     const Run* run;
     double value;
     std::optional<metrics::Interval> interval;
-    std::string alike;  // points of which this differs do not compare
+    std::string key;  // only points of equal keys are compared
 };
 
 struct Series {
@@ -48,26 +48,26 @@ std::vector<Run> read_runs(const std::filesystem::path& path) {
     }
     if (runs.empty())
         throw base::Error(base::ErrorCode::bad_input, path.string(),
-                          "holds no result of shadowbench run and none of a kernel program");
+                          "holds no result of shadowbench run or of a kernel program");
     std::stable_sort(runs.begin(), runs.end(),
                      [](const Run& a, const Run& b) { return a.suite.started < b.suite.started; });
     return runs;
 }
 
 void add_cell(AllSeries& all, const Run& run, const Cell& cell) {
-    const std::string title = run.suite.name + " / " + (cell.group.empty() ? "" : cell.group + " / ") + cell.name;
-    const std::string alike = run.suite.hash + '\n' + cell.version;
+    const std::string title = title_of(run.suite.name, cell.group, cell.name);
+    const std::string key = run.suite.hash + '\n' + cell.version;
     for (const Exact& exact : cell.exact)
-        all[title][exact.name].points.push_back({&run, exact.value, std::nullopt, alike});
+        all[title][exact.name].points.push_back({&run, exact.value, std::nullopt, key});
     for (const Timed& timed : cell.timed) {
         const Process& process = timed.processes.at(0);
         const bool floor = !process.ratio.empty();
         const std::vector<double>& samples = floor ? process.ratio : process.raw;
         Series& series = all[title][timed.name];
         series.time = true;
-        series.unit = floor ? "x floor" : timed.unit;
+        series.unit = floor ? over_floor : timed.unit;
         series.points.push_back({&run, metrics::median(samples), metrics::median_interval(samples),
-                                 alike + '\n' + run.suite.machine + '\n' + series.unit});
+                                 key + '\n' + run.suite.machine + '\n' + series.unit});
     }
 }
 
@@ -78,7 +78,7 @@ ordered_json number_or_null(double value) {
 ordered_json drift_of(const Series& series, const HistoryOptions& options) {
     std::vector<const Point*> last;
     for (auto point = series.points.rbegin(); point != series.points.rend() && last.size() < options.last; ++point)
-        if (std::isfinite(point->value) && point->alike == series.points.back().alike) last.push_back(&*point);
+        if (std::isfinite(point->value) && point->key == series.points.back().key) last.push_back(&*point);
     std::reverse(last.begin(), last.end());
     std::vector<double> values;
     for (const Point* point : last) values.push_back(point->value);
@@ -113,7 +113,7 @@ nlohmann::ordered_json history_json(const std::filesystem::path& path, const His
     }
     for (const auto& [title, series] : all) {
         ordered_json measures = ordered_json::array();
-        for (const auto& [name, one] : series) measures.push_back(to_json(name, one, options));
+        for (const auto& [name, points] : series) measures.push_back(to_json(name, points, options));
         cells.push_back({{"title", title}, {"measures", std::move(measures)}});
     }
     return {{"cells", std::move(cells)}, {"runs", std::move(list)}};

@@ -26,7 +26,7 @@ std::string change_text(const Exact& baseline, const Exact& current) {
 }  // namespace
 
 double tolerance_of(const Exact& exact, const Options& options) {
-    if (const auto told = options.tolerance.find(exact.name); told != options.tolerance.end()) return told->second;
+    if (const auto given = options.tolerance.find(exact.name); given != options.tolerance.end()) return given->second;
     return exact.kind == Kind::size ? 0.0 : exact.kind == Kind::error ? 1e-6 : 1e-3;
 }
 

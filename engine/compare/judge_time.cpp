@@ -10,13 +10,13 @@
 namespace shadowbench::compare {
 namespace {
 
-constexpr double shortest_ms = 0.05;  // of one sample: shorter ones measure the clock and the cache of the moment
+constexpr double shortest_ms = 0.05;  // of one sample: shorter ones measure the clock and the state of the cache
 
 struct Sides {
     std::vector<double> baseline, current;
 };
 
-// What one process is worth: its median.
+// The observation of each process: the median of its samples.
 std::vector<double> medians(const Timed& timed, bool of_ratios) {
     std::vector<double> values;
     for (const Process& process : timed.processes)
@@ -93,34 +93,36 @@ void take_back(Line& line, std::string reason) {
     line.p_slower = line.p_faster = 1.0;
 }
 
-// Time over floor decides nothing where the floor itself moved, because other lines are touched: where the plain times
-// say the contrary, or are slower by more than blocks of processes and the machine account for.
-void heed_the_floor(const Sides& plain, double machine, const Options& options, Line& line) {
+// Time over floor decides nothing if the floor itself changed because other lines are read: if the plain times say the
+// contrary, or are slower by more than blocks of processes and the machine account for.
+void check_floor(const Sides& plain, double machine, const Options& options, Line& line) {
     const double ratio = metrics::median(plain.current) / metrics::median(plain.baseline);
-    const bool told = line.verdict == Verdict::slower || line.verdict == Verdict::faster;
-    if (told && (ratio > 1.0) != (line.verdict == Verdict::slower))
-        return take_back(line,
-                         fmt::format("{} over its floor, but the plain time is x{:.3f}: the floor moved; `ab` decides",
-                                     to_string(line.verdict), ratio));
+    const bool decided = line.verdict == Verdict::slower || line.verdict == Verdict::faster;
+    if (decided && (ratio > 1.0) != (line.verdict == Verdict::slower))
+        return take_back(
+            line, fmt::format("{} over its floor, but the plain time is x{:.3f}: the floor changed; run `ab` to decide",
+                              to_string(line.verdict), ratio));
     if (line.verdict == Verdict::slower) return;
     const double margin = (1.0 + options.effect + plain_block_noise) * std::max(1.0, machine);
     if (metrics::median_ratio_interval(plain.baseline, plain.current).low <= margin) return;
     line.suspicious = true;
     take_back(line,
-              fmt::format("looks slower: the plain time is x{:.3f}, and its floor moved with it; `ab` decides", ratio));
+              fmt::format("looks slower: the plain time is x{:.3f}, and its floor changed with it; run `ab` to decide",
+                          ratio));
 }
 
-// Blocks of processes may meet the machine in different states (another tenant on the same core makes some code 1.8
-// times slower and leaves its floor as it was).
-void heed_the_machine(double machine, double margin, Line& line) {
+// Blocks of processes may run in different states of the machine (another tenant on the same core makes some code 1.8
+// times slower and leaves its floor unchanged).
+void check_machine(double machine, double margin, Line& line) {
     if (line.verdict != Verdict::slower && line.verdict != Verdict::faster) return;
     const double state = std::max(machine, 1.0 / machine);
     if (state <= machine_state) return;
     const double needed = margin * state * worst_state;
     if (line.interval.low > needed || line.interval.high < 1.0 / needed) return;
-    take_back(line,
-              fmt::format("looks {}, but the machine was in another state: Embree's own queries took x{:.2f} as long",
-                          to_string(line.verdict), machine));
+    take_back(
+        line,
+        fmt::format("looks {}, but the machine was in another state: Embree's own queries took {:.2f} times as long",
+                    to_string(line.verdict), machine));
 }
 
 }  // namespace
@@ -144,7 +146,7 @@ void judge_time(const Timed& baseline, const Timed& current, bool interleaved, d
     }
     if (!all_positive(sides.baseline) || !all_positive(sides.current)) {
         line.verdict = Verdict::not_comparable;
-        line.reason = "a time of 0 is no time";
+        line.reason = "a time is 0 and cannot be compared";
         return;
     }
     if (too_short(baseline, plain)) {
@@ -154,11 +156,11 @@ void judge_time(const Timed& baseline, const Timed& current, bool interleaved, d
     const bool few = line.processes < fewest_processes;
     const bool paired = interleaved && sides.baseline.size() == sides.current.size();
     const double margin = 1.0 + options.effect + (paired ? 0.0 : floor ? block_noise : plain_block_noise);
-    // Of few processes the repetitions tell at least what looks slower.
+    // With few processes, the repetitions still show what looks slower.
     if (few) sides = {all_samples(baseline, floor), all_samples(current, floor)};
     if (!all_positive(sides.baseline) || !all_positive(sides.current)) {
         line.verdict = Verdict::not_comparable;
-        line.reason = "a time of 0 is no time";
+        line.reason = "a time is 0 and cannot be compared";
         return;
     }
     if (paired && !few)
@@ -177,12 +179,13 @@ void judge_time(const Timed& baseline, const Timed& current, bool interleaved, d
     } else if (line.verdict == Verdict::inconclusive) {
         line.reason = fmt::format("the interval reaches across {:.3f} or {:.3f}", 1.0 / margin, margin);
     }
-    if (floor && !few) heed_the_floor(plain, machine, options, line);
-    if (!paired) heed_the_machine(machine, margin, line);
+    if (floor && !few) check_floor(plain, machine, options, line);
+    if (!paired) check_machine(machine, margin, line);
 }
 
 std::size_t enough_processes(std::size_t times, bool interleaved, double alpha) {
-    // All of one side above all of the other: 1 in 2^n signs of pairs, 1 in (2n over n) orders.
+    // The clearest outcome, all of one side above all of the other, is 1 of 2^n signs of pairs, or 1 of (2n over n)
+    // orders.
     double p = static_cast<double>(times);
     std::size_t n = 0;
     while (p > alpha) {

@@ -1,4 +1,4 @@
-// What result files hold, as one plain list of cells: the same for scenarios and for kernels of Google Benchmark.
+// The contents of result files as one list of cells, for scenarios and for kernels of Google Benchmark.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace shadowbench::compare {
 
-// What a measure counts, and so what more of it is.
+// What a measure counts, and so what more of it means.
 enum class Kind {
     size,          // bytes, nodes: more is larger
     error,         // more is less accurate
@@ -34,29 +34,29 @@ struct Timed {
     std::vector<Process> processes;
 };
 
-// How to run a cell again, alone.
+// How to run one cell again on its own.
 struct Rerun {
     std::string program = "shadowbench";
-    bool kernel = false;   // else a cell of a scenario
-    bool counted = false;  // a kernel whose instructions were counted, not timed
-    std::string source;    // a scenario, its name, or a result.json; of a kernel its name; empty: cannot be run
+    bool kernel = false;             // otherwise a cell of a scenario
+    bool counted = false;            // a kernel whose instructions were counted, not timed
+    std::string source;              // a scenario, its name, or a result.json; for a kernel its name; empty: unknown
     std::vector<std::string> given;  // further arguments, as "--set", "rays.seed=2"
     std::string technique;           // JSON, as in a scenario; empty: not known
     std::string only;                // the technique's type
-    std::string sweeps;              // JSON, of this variant alone; empty: the scenario has none
+    std::string sweeps;              // JSON, of this variant only; empty: the scenario has none
 };
 
-// The line for a shell.
+// The command as a line for a shell.
 std::string command_of(const Rerun& rerun);
 
-// The arguments, without the program, that run these cells together. Not empty; all have the first one's source, given
-// and sweeps.
+// The arguments, without the program, that run these cells together. There must be at least one; all must have the
+// source, `given` and sweeps of the first.
 std::vector<std::string> arguments_of(const std::vector<Rerun>& reruns);
 
 struct Cell {
-    std::string group;    // variant and light, as "rays.seed=2 / key": its cells share fronts; of kernels empty
+    std::string group;    // variant and light, as "rays.seed=2 / key": cells of a group share fronts; empty for kernels
     std::string name;     // technique and parameters, as "deep tolerance=0.02", or kernel
-    std::string version;  // of the technique; of kernels empty
+    std::string version;  // of the technique; empty for kernels
     bool failed = false;
     bool degraded = false;
     std::string failure;  // why it failed
@@ -65,50 +65,50 @@ struct Cell {
     Rerun rerun;
 };
 
-// The results of one scenario, or of all kernels; several results of one scenario are processes of one suite.
+// The results of one scenario, or of all kernels. Several results of one scenario are processes of one suite.
 struct Suite {
     std::string name;     // the scenario's, or "kernels"
-    std::string hash;     // the scenario's; of kernels empty
-    std::string seed;     // of the rays; of kernels empty
+    std::string hash;     // the scenario's; empty for kernels
+    std::string seed;     // of the rays; empty for kernels
     std::string machine;  // "AMD EPYC, 2 cores"
     std::string commit;
     std::string program;  // version, commit and compiler
     std::string only;     // technique types that the run was limited to; empty: all
-    std::string started;  // of the first
+    std::string started;  // time of the first result
     std::size_t results = 0;
-    std::vector<double> speed;  // of the machine, one a result: Embree's rays a second, which no change here touches
+    std::vector<double> speed;  // Embree's rays a second, one per result: no change of the program affects them
     std::vector<Cell> cells;
 };
 
 struct Measured {
     std::vector<Suite> suites;
-    std::vector<std::string> notes;  // what is odd about them
-    // Both sides of one interleaved comparison have the same; else empty. Process i of one side then ran beside process
-    // i of the other.
+    std::vector<std::string> notes;  // remarks for the report
+    // Equal on both sides of one interleaved comparison; otherwise empty. If equal, process i of one side ran beside
+    // process i of the other.
     std::string interleaved;
-    std::vector<std::string> files;  // of a folder, as they are called inside it
+    std::vector<std::string> files;  // names of the files, relative to their folder
 };
 
-// Adds what one JSON document holds: a result of `shadowbench run`, or what a kernel program wrote. `origin` is its
-// file, or empty: then commands name the scenario. False: it is neither. Throws Error{bad_input}, place: `origin` with
+// Adds one JSON document: a result of `shadowbench run`, or the output of a kernel program. Returns false if it is
+// neither. `origin` is its file; if empty, commands name the scenario. Throws Error{bad_input}, place: `origin` with
 // the JSON pointer.
 bool add(Measured& measured, const nlohmann::json& document, const std::string& origin);
 
-// JSON of at most 64 levels. Throws Error{bad_input}, place: `origin` with line and column.
+// Parses JSON of at most 64 levels. Throws Error{bad_input}, place: `origin` with line and column.
 nlohmann::json parse(const std::string& text, const std::string& origin);
 
-// A file's JSON. Throws what parse() throws, and Error{no_such_file, io}, place: the file.
+// Parses a file. Throws what parse() throws, and Error{no_such_file, io}, place: the file.
 nlohmann::json read_json(const std::filesystem::path& file);
 
-// The files that stand for a path: itself, or every *.json below a folder, sorted by their places; names that begin
-// with a dot are left out. Throws Error{no_such_file}; bad_input where a folder has none.
+// The files of a path: the path itself, or every *.json below a folder, sorted by path; names that begin with a dot are
+// left out. Throws Error{no_such_file}, and bad_input if a folder has none.
 std::vector<std::filesystem::path> result_files(const std::filesystem::path& path);
 
-// A file, or every result and kernel file below a folder (other JSON files are passed over). Throws Error; bad_input
-// also where nothing was measured.
+// Reads a file, or every result and kernel file below a folder (other JSON files are ignored). Throws Error; bad_input
+// also if nothing was measured.
 Measured read(const std::filesystem::path& path);
 
-// Beside the folders of both sides of an interleaved comparison.
+// The name of a file beside the folders of both sides of an interleaved comparison.
 inline constexpr const char* interleaved_mark = "interleaved.json";
 
 }  // namespace shadowbench::compare

@@ -17,8 +17,7 @@ using base::ErrorCode;
 
 constexpr int most_deep = 64;
 
-// Another process of cells that are already there: its times beside theirs. Where their exact measures differ, the
-// worst counts.
+// Merges another process of the same cell: its times are added. If exact measures differ, the worst counts.
 void merge_cell(Cell& into, Cell&& from, std::vector<std::string>& unsteady) {
     if (from.failed && !into.failed) {
         into.failed = true;
@@ -49,11 +48,11 @@ void merge_cell(Cell& into, Cell&& from, std::vector<std::string>& unsteady) {
 void merge(Suite& into, Suite&& from, const std::string& origin, std::vector<std::string>& notes) {
     const bool same_machine = into.machine == from.machine;
     if (!same_machine)
-        notes.push_back(fmt::format("{}: its times are left out: it ran on {}, results of {} before it on {}", origin,
+        notes.push_back(fmt::format("{}: times left out: it ran on {}, earlier results of {} on {}", origin,
                                     from.machine, into.name, into.machine));
     if (into.program != from.program)
-        notes.push_back(
-            fmt::format("{}: program {}, results of {} before it: {}", origin, from.program, into.name, into.program));
+        notes.push_back(fmt::format("{}: written by program {}, earlier results of {} by {}", origin, from.program,
+                                    into.name, into.program));
     std::vector<std::string> unsteady;
     ++into.results;
     if (same_machine) into.speed.insert(into.speed.end(), from.speed.begin(), from.speed.end());
@@ -68,12 +67,12 @@ void merge(Suite& into, Suite&& from, const std::string& origin, std::vector<std
             merge_cell(*found, std::move(cell), unsteady);
     }
     if (!unsteady.empty())
-        notes.push_back(fmt::format("{}: differs from results of {} before it in {}{}; the worst counts", origin,
+        notes.push_back(fmt::format("{}: differs from earlier results of {} in {}{}; the worst value counts", origin,
                                     into.name, unsteady[0],
                                     unsteady.size() > 1 ? fmt::format(" and {} more", unsteady.size() - 1) : ""));
 }
 
-// Results that ran interleaved stand in sibling folders, beside a file that says so.
+// Results of an interleaved comparison are in sibling folders, beside a file that marks them.
 std::string interleaved_with(const fs::path& path) {
     std::error_code failed;
     const fs::path place = fs::canonical(path, failed);
@@ -105,7 +104,7 @@ bool add(Measured& measured, const nlohmann::json& document, const std::string& 
 }
 
 nlohmann::json parse(const std::string& text, const std::string& origin) {
-    // Deeper documents would overflow the stack where they are copied.
+    // Copying a deeper document would overflow the stack.
     const auto limited = [&](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
         if (depth > most_deep)
             throw Error(ErrorCode::bad_input, origin, fmt::format("nested deeper than {} levels", most_deep));
@@ -120,8 +119,8 @@ nlohmann::json parse(const std::string& text, const std::string& origin) {
         const std::size_t start = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
         const std::size_t column = offset - (start == std::string::npos ? 0 : start + 1) + 1;
         throw Error(ErrorCode::bad_input, fmt::format("{}:{}:{}", origin, line, column),
-                    offset >= text.size() ? "the file ends in the middle of its JSON; was it written to its end?"
-                                          : "this is no JSON (NaN and infinity are none either)");
+                    offset >= text.size() ? "the file ends in the middle of its JSON: it was not written completely"
+                                          : "is not JSON (which has no NaN or infinity)");
     } catch (const nlohmann::json::exception&) {
         throw Error(ErrorCode::bad_input, origin, "holds a number that is too large");
     }
@@ -149,7 +148,7 @@ std::vector<fs::path> result_files(const fs::path& path) {
     }
     if (failed) throw Error(ErrorCode::io, path.string(), "cannot read the folder: " + failed.message());
     if (files.empty())
-        throw Error(ErrorCode::bad_input, path.string(), "no result.json or kernel file is in the folder");
+        throw Error(ErrorCode::bad_input, path.string(), "the folder holds no result.json or kernel file");
     std::sort(files.begin(), files.end());
     return files;
 }
@@ -164,7 +163,7 @@ Measured read(const fs::path& path) {
     for (const Suite& suite : measured.suites) any = any || !suite.cells.empty();
     if (!any)
         throw Error(ErrorCode::bad_input, path.string(),
-                    "holds no result of shadowbench run and none of a kernel program (aggregates alone are none)");
+                    "holds no result of shadowbench run or of a kernel program (aggregates do not count)");
     measured.interleaved = interleaved_with(path);
     return measured;
 }

@@ -15,7 +15,7 @@ bool has(const std::string& text, const char* part) {
     return text.find(part) != std::string::npos;
 }
 
-// What Google Benchmark itself says of a run; all other numbers are counters.
+// Whether a number of a run is a counter. All are, except Google Benchmark's own.
 bool is_counter(const std::string& name) {
     for (const char* own : {"family_index", "per_family_instance_index", "repetitions", "repetition_index", "threads",
                             "iterations", "real_time", "cpu_time"})
@@ -43,8 +43,8 @@ void add_exact(Cell& cell, const std::string& name, Kind kind, double value) {
         found->value = std::max(found->value, value);
 }
 
-// Processor time, of which other programs take nothing; but real time where the name says that it is what counts (as
-// Google Benchmark appends), and of several threads, which processor time adds up.
+// Processor time, which other programs do not change. Real time if the name asks for it (by the suffixes of Google
+// Benchmark), or if there are several threads, whose processor times are added up.
 const char* judged_time(const results::Field& run) {
     const std::string& name = run.at(run.has("run_name") ? "run_name" : "name").text();
     const bool real = has(name, "/real_time") || has(name, "/manual_time") || !run.has("cpu_time") ||
@@ -52,7 +52,7 @@ const char* judged_time(const results::Field& run) {
     return real ? "real_time" : "cpu_time";
 }
 
-// Counts alone, as a baseline holds, have no times.
+// A file of counts, such as a baseline, has no times.
 void add_time(Cell& cell, const results::Field& run) {
     const char* const time = judged_time(run);
     if (!run.has(time)) return;
@@ -66,7 +66,7 @@ void add_time(Cell& cell, const results::Field& run) {
 void add_run(Cell& cell, const results::Field& run) {
     if (run.has("error_occurred") && run.value.at("error_occurred") == json(true)) {
         cell.failed = true;
-        cell.failure = run.has("error_message") ? run.at("error_message").text() : "it failed";
+        cell.failure = run.has("error_message") ? run.at("error_message").text() : "the kernel failed";
         return;
     }
     add_time(cell, run);
@@ -118,7 +118,7 @@ Suite read_kernels(const results::Field& kernels) {
         }
         add_run(suite.cells[place->second], run);
     }
-    // A ratio that only some repetitions have stands beside nothing.
+    // Ratios are dropped unless every repetition has one.
     for (Cell& cell : suite.cells)
         for (Timed& timed : cell.timed)
             if (timed.processes[0].ratio.size() != timed.processes[0].raw.size()) timed.processes[0].ratio.clear();

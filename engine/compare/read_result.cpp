@@ -48,7 +48,7 @@ std::string settings_text(const std::vector<document::Setting>& settings) {
     return text;
 }
 
-// The technique as the scenario has it, with what sweeps set; null where the file does not say.
+// The technique as in the scenario, with the swept values; null if the file does not hold it.
 json technique_of(const json& scenario, const results::Cell& cell) {
     const json parameters = json::parse(cell.parameters_json);
     json technique;
@@ -80,9 +80,9 @@ std::vector<std::string> swept_of(const json& scenario, const std::string& where
     return names;
 }
 
-// A label names what sweeps set first, then what differs from the defaults. Labels of older results left out a swept
-// value that is the default, and had the others in their places: brought into the form of today, so that a cell has the
-// same name whichever program wrote it.
+// A label names the swept parameters first, then those that differ from the defaults. Labels of older results left out
+// swept values equal to the default, and had the others in their own places. They are brought into today's form, so
+// that a cell has the same name whichever program wrote it.
 std::string name_of(const results::Cell& cell, const json& scenario) {
     const json parameters = json::parse(cell.parameters_json);
     const std::vector<std::string> swept = swept_of(scenario, cell.where, parameters);
@@ -90,9 +90,9 @@ std::string name_of(const results::Cell& cell, const json& scenario) {
     const auto is_swept = [&](const std::string& word) {
         return std::any_of(swept.begin(), swept.end(), [&](const std::string& s) { return word.starts_with(s + "="); });
     };
-    for (const std::string& one : swept) {
-        const json& value = parameters.at(one);
-        name += fmt::format(" {}={}", one,
+    for (const std::string& parameter : swept) {
+        const json& value = parameters.at(parameter);
+        name += fmt::format(" {}={}", parameter,
                             value.is_number() ? fmt::format("{:g}", value.get<double>()) : value_text(value.dump()));
     }
     const std::string& label = cell.parameters;
@@ -122,9 +122,9 @@ Cell make_cell(const results::Cell& from, const json& scenario, const std::vecto
 
     cell.rerun.source = source;
     cell.rerun.only = from.technique;
-    const json alone = technique_of(scenario, from);
-    if (alone.is_null()) return cell;
-    cell.rerun.technique = alone.dump();
+    const json technique = technique_of(scenario, from);
+    if (technique.is_null()) return cell;
+    cell.rerun.technique = technique.dump();
     json sweeps = json::object();
     for (const document::Setting& setting : settings)
         sweeps[setting.pointer] = json::array({json::parse(setting.value)});
@@ -134,7 +134,7 @@ Cell make_cell(const results::Cell& from, const json& scenario, const std::vecto
 
 void add_light(Suite& suite, const results::LightResult& light, const results::VariantResult& variant,
                const json& scenario, const std::string& source) {
-    // The first light's.
+    // Speed and seed are those of the first light.
     if (light.agreement && suite.speed.empty() && light.agreement->times.tracer_rays_per_second > 0.0)
         suite.speed.push_back(light.agreement->times.tracer_rays_per_second);
     if (suite.seed.empty()) suite.seed = fmt::format("{}", light.layout.seed);
@@ -144,7 +144,7 @@ void add_light(Suite& suite, const results::LightResult& light, const results::V
     for (const results::Cell& from : light.cells) {
         Cell cell = make_cell(from, scenario, variant.settings, source);
         cell.group = group;
-        // Equal techniques of one scenario are told apart by their order.
+        // Equal techniques of one scenario are numbered.
         const int earlier = seen[cell.name]++;
         if (earlier > 0) cell.name += fmt::format(" #{}", earlier + 1);
         suite.cells.push_back(std::move(cell));

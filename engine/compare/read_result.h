@@ -1,4 +1,4 @@
-// The two kinds of files. Internal to read.cpp.
+// Readers of the two kinds of result files. Internal to read.cpp.
 #pragma once
 
 #include "compare/measured.h"
@@ -6,13 +6,13 @@
 
 namespace shadowbench::compare {
 
-// What result.json holds (results/report.h), as cells. Throws Error{bad_input}.
+// Reads the cells of a result.json (results/report.h). Throws Error{bad_input}.
 Suite read_result(const results::Field& result, const std::string& origin);
 
-// What a program of Google Benchmark wrote with --benchmark_format=json: one process, its repetitions as samples,
-// aggregates left out. Counters are taken by their names: one with "byte" or "node" in it is a size, with "error" an
-// error, "instructions" is what it says, and one with "floor" and "ratio" is the ratio to the floor of that repetition;
-// rates (per_second) and all others are not judged. Throws Error{bad_input}.
+// Reads the output of a Google Benchmark program with --benchmark_format=json: one process, its repetitions as samples,
+// without aggregates. The name of a counter gives its kind: with "byte" or "node" in it, a size; with "error", an
+// error; "instructions", instructions; with "floor" and "ratio", the ratio to the floor of that repetition. Rates
+// (per_second) and all other counters are not judged. Throws Error{bad_input}.
 Suite read_kernels(const results::Field& kernels);
 
 }  // namespace shadowbench::compare

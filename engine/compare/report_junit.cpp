@@ -6,7 +6,7 @@
 namespace shadowbench::compare {
 namespace {
 
-// XML 1.0 takes no control characters, even escaped.
+// XML 1.0 allows no control characters, even escaped.
 std::string xml_escaped(const std::string& text) {
     std::string result;
     for (const char c : text) switch (c) {
@@ -59,7 +59,7 @@ std::string to_junit(const Comparison& comparison) {
     std::string out;
     for (const FrontChange& change : comparison.fronts) out += front_text(change) + "\n";
     for (const std::string& note : comparison.notes) out += "note: " + note + "\n";
-    std::string lines;  // xml_escaped() would take their ends
+    std::string lines;  // xml_escaped() would replace line breaks
     for (std::size_t at = 0, end; (end = out.find('\n', at)) != std::string::npos; at = end + 1)
         lines += xml_escaped(out.substr(at, end - at)) + "\n";
     return fmt::format(

@@ -6,7 +6,7 @@
 namespace shadowbench::compare {
 namespace {
 
-// A bar would end the cell, and names are no markup.
+// Escapes bars, which would end the cell, and markup characters in names.
 std::string markdown_escaped(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -16,7 +16,7 @@ std::string markdown_escaped(const std::string& text) {
     return result;
 }
 
-// In a table a bar ends the cell even inside of code, so it stands as an entity there.
+// A bar ends a cell even inside code, so it is written as an entity.
 std::string code(const std::string& text) {
     std::string result;
     for (const char c : text) switch (c) {
@@ -55,13 +55,14 @@ std::string to_markdown(const Comparison& comparison) {
                                 markdown_escaped(values_text(*line)), markdown_escaped(change_text(*line)),
                                 line->rerun.source.empty() ? "" : code(command_of(line->rerun)));
     if (!rows.empty())
-        text += "| verdict | cell | measure | baseline → current | change | alone |\n|---|---|---|---|---|---|\n" +
+        text += "| verdict | cell | measure | baseline → current | change | rerun |\n|---|---|---|---|---|---|\n" +
                 rows + "\n";
     for (const FrontChange& change : comparison.fronts) text += "- " + markdown_escaped(front_text(change)) + "\n";
     for (const std::string& note : comparison.notes) text += "- " + markdown_escaped(note) + "\n";
     if (!comparison.fronts.empty() || !comparison.notes.empty()) text += "\n";
     text += method(comparison) + ".\n";
-    if (const std::string fine = sensitivity(comparison); !fine.empty()) text += "\n" + markdown_escaped(fine) + ".\n";
+    if (const std::string limits = sensitivity(comparison); !limits.empty())
+        text += "\n" + markdown_escaped(limits) + ".\n";
     return text;
 }
 

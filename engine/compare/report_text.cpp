@@ -42,11 +42,11 @@ std::string text_of(const Block& block) {
                                             measures, values_text(*line), values, change_text(*line));
         text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
     }
-    if (!block.command.empty()) text += "  alone: " + block.command + "\n";
+    if (!block.command.empty()) text += "  rerun: " + block.command + "\n";
     return text;
 }
 
-// A long sentence in lines of a terminal.
+// Wraps a long sentence for a terminal.
 std::string wrapped(const std::string& sentence) {
     constexpr std::size_t width = 118;
     std::string text;
@@ -62,7 +62,7 @@ std::string wrapped(const std::string& sentence) {
     return text;
 }
 
-// Inconclusive times that are not listed, counted by their reason.
+// The inconclusive times that are not listed, counted by reason.
 std::string folded(const Comparison& comparison) {
     std::map<std::string, int> counts;
     for (const Line& line : comparison.lines)
@@ -81,7 +81,7 @@ std::string to_text(const Comparison& comparison, bool all) {
     for (const Block& block : blocks_of(comparison, all)) text += text_of(block);
     if (!all) text += folded(comparison);
     for (const FrontChange& change : comparison.fronts) text += front_text(change) + "\n";
-    if (const std::string fine = sensitivity(comparison); !fine.empty()) text += wrapped(fine);
+    if (const std::string limits = sensitivity(comparison); !limits.empty()) text += wrapped(limits);
     return text + fmt::format("{}; {}\n", counts_text(comparison), outcome_text(comparison));
 }
 

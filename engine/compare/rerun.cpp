@@ -5,7 +5,7 @@
 namespace shadowbench::compare {
 namespace {
 
-// As the shell takes it: in quotes where it has to be.
+// A word for the shell, in quotes if it needs them.
 std::string quoted(const std::string& text) {
     const char* const plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./=:,+@%";
     if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
@@ -41,7 +41,7 @@ std::vector<std::string> arguments_of(const std::vector<Rerun>& reruns) {
     std::string techniques;
     for (const Rerun& rerun : reruns) {
         if (rerun.technique.empty()) {
-            // The technique's own line is not known: its whole type.
+            // The technique's parameters are not known: run all of its type.
             arguments.insert(arguments.end(), {"--only", rerun.only});
             return arguments;
         }

@@ -32,11 +32,15 @@ const char* to_string(Verdict verdict) {
     return "";
 }
 
-std::string title_of(const Line& line) {
-    std::string title = line.suite;
-    for (const std::string* part : {&line.group, &line.cell})
+std::string title_of(const std::string& suite, const std::string& group, const std::string& cell) {
+    std::string title = suite;
+    for (const std::string* part : {&group, &cell})
         if (!part->empty()) title += " / " + *part;
     return title;
+}
+
+std::string title_of(const Line& line) {
+    return title_of(line.suite, line.group, line.cell);
 }
 
 int code_of(const Line& line, const Options& options) {

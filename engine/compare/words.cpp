@@ -49,23 +49,26 @@ std::string percent(double factor) {
 
 std::string method(const Comparison& comparison) {
     if (comparison.judged_times == 0)
-        return fmt::format("no time was judged: that takes {} or more processes a side on one machine",
+        return fmt::format("no time was judged: that needs {} or more processes a side on one machine",
                            fewest_processes);
     const std::string effect = fmt::format("{:g} %", 100.0 * comparison.options.effect);
     const std::string of = comparison.interleaved
                                ? fmt::format("plain times of interleaved pairs; minimum effect {}", effect)
                                : fmt::format(
-                                     "medians of processes, over the floor where there is one; minimum effect {}, "
-                                     "and {:g} % more ({:g} % without a floor) that blocks of processes differ by",
+                                     "medians of processes, over the floor if there is one; minimum effect {}, and "
+                                     "{:g} % more ({:g} % without a floor), by which blocks of processes differ",
                                      effect, 100.0 * block_noise, 100.0 * plain_block_noise);
     std::string text = fmt::format(
-        "{} times judged: {}; the whole 95 % bootstrap interval has to lie beyond, and the test against that effect to "
-        "hold after Holm's correction over all times: any false alarm in at most 5 % of comparisons{}",
+        "{} times judged: {}. A time is slower or faster if its whole 95 % bootstrap interval is beyond that effect "
+        "and "
+        "the test against it holds after Holm's correction over all times. At most 5 % of comparisons then raise any "
+        "false alarm{}",
         comparison.judged_times, of,
-        comparison.interleaved ? "" : ", as far as the machine's state was the same for both blocks");
+        comparison.interleaved ? "" : ", if the machine was in the same state for both blocks");
     if (comparison.enough > 0)
-        text += fmt::format(". Too few to call a time slower, however slow: of so many times that takes {} {}",
-                            comparison.enough, comparison.interleaved ? "pairs" : "processes a side");
+        text += fmt::format(". There are too few processes to call a time slower, however slow: {} times need {} {}",
+                            comparison.judged_times, comparison.enough,
+                            comparison.interleaved ? "pairs" : "processes a side");
     return text;
 }
 
@@ -105,7 +108,7 @@ std::string counts_text(const Comparison& comparison) {
 std::string outcome_text(const Comparison& comparison) {
     const int code = exit_code(comparison);
     if (code == 0 && comparison.enough > 0)
-        return "exit code 0: nothing is larger or less accurate; too few processes for slower";
+        return "exit code 0: nothing is larger or less accurate; too few processes to call a time slower";
     if (code == 0) return "exit code 0: nothing is slower, larger or less accurate";
     if (code == 1) return "exit code 1: slower";
     bool worse = false;
@@ -142,12 +145,12 @@ std::string sensitivity(const Comparison& comparison) {
     if (widths.empty()) return "";
     std::sort(widths.begin(), widths.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::sort(called.begin(), called.end());
-    const auto& [noisiest, noisy_line] = widths.back();
+    const auto& [noisiest, noisiest_line] = widths.back();
     return fmt::format(
-        "smallest slowdown told from none: {} at the quietest time, {} at the median, {} at the noisiest ({}, {}); "
-        "called slower, beyond the minimum effect: {}, {} and {}",
+        "smallest slowdown detected: {} at the quietest time, {} at the median, {} at the noisiest ({}, {}); "
+        "smallest called slower, beyond the minimum effect: {}, {} and {}",
         percent(widths.front().first), percent(widths[widths.size() / 2].first), percent(noisiest),
-        title_of(*noisy_line), noisy_line->measure, percent(called.front()), percent(called[called.size() / 2]),
+        title_of(*noisiest_line), noisiest_line->measure, percent(called.front()), percent(called[called.size() / 2]),
         percent(called.back()));
 }
 

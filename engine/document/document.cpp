@@ -29,11 +29,12 @@ json::json_pointer read_path(const std::string& path, const std::string& assignm
     try {
         return json::json_pointer(pointer);
     } catch (const json::exception&) {
-        throw Error(ErrorCode::usage, "--set " + assignment, "the path is not a JSON pointer");
+        throw Error(ErrorCode::usage, "--set " + assignment,
+                    "the path is not a JSON pointer; write ~ as ~0 and / within a name as ~1");
     }
 }
 
-// What is set from outside holds, so no sweep over the same value may set it again.
+// A value that is set replaces a sweep over it.
 void drop_sweep(json& document, const json::json_pointer& pointer) {
     const auto sweeps = document.find("sweeps");
     if (sweeps == document.end() || !sweeps->is_object() || sweeps->erase(pointer.to_string()) == 0) return;
@@ -51,7 +52,7 @@ json technique_choices() {
     return choices;
 }
 
-// Throws what is wrong with the parameters of a technique, an object whose "type" is a text.
+// Checks the parameters of a technique, an object whose "type" is a string. Throws Error{bad_input}.
 void check_technique(const json& technique, const std::string& where) {
     const std::string type = technique.at("type").get<std::string>();
     if (type != every_technique) {
@@ -65,9 +66,9 @@ void check_technique(const json& technique, const std::string& where) {
                         "that this parameter is for beside it");
 }
 
-constexpr std::size_t most_faults = 32;  // that are told at a time
+constexpr std::size_t most_faults = 32;  // reported at a time
 
-// What its own declaration says against a technique; nothing where there is no such technique to ask.
+// The faults that a technique's declaration finds in it; none if its type is not known.
 std::vector<Error> technique_faults(const json& technique, const std::string& where) {
     std::vector<Error> faults;
     if (!technique.is_object() || !technique.contains("type") || !technique["type"].is_string()) return faults;
@@ -122,7 +123,7 @@ json full_schema() {
 
 void check_document(const json& document, std::span<const std::string> technique_where) {
     scene::check_schema(document, scene::scenario_schema());
-    // The techniques' own checks come first: their messages say more than a schema can.
+    // The techniques' own checks come first: their messages say more than the schema's.
     const json& items = document.at("techniques");
     for (std::size_t i = 0; i < items.size(); ++i) {
         const std::string where = technique_where.empty() ? fmt::format("/techniques/{}", i) : technique_where[i];
@@ -134,8 +135,8 @@ void check_document(const json& document, std::span<const std::string> technique
 std::vector<base::Error> all_faults(const json& document, const Error& first) {
     std::vector<Error> all{first};
     const auto add = [&all](const Error& fault) {
-        const bool told = std::string_view(fault.what()) == all[0].what();
-        if (!told && all.size() < most_faults) all.push_back(fault);
+        const bool is_first = std::string_view(fault.what()) == all[0].what();
+        if (!is_first && all.size() < most_faults) all.push_back(fault);
     };
     for (const Error& fault : scene::schema_faults(document, scene::scenario_schema(), most_faults)) add(fault);
     const auto techniques = document.find("techniques");

@@ -40,7 +40,7 @@ std::vector<Sweep> read_sweeps(const json& document) {
     for (const auto& [text, values] : document.at("sweeps").items()) {
         const std::string where = sweep_place(text);
         if (!values.is_array() || values.empty())
-            throw Error(ErrorCode::bad_input, where, "expected a list of one value or more");
+            throw Error(ErrorCode::bad_input, where, "expected a list of at least one value");
         try {
             sweeps.push_back({text, json::json_pointer(text), &values, where});
         } catch (const json::exception&) {
@@ -63,7 +63,7 @@ int technique_of(const json::json_pointer& pointer, std::size_t techniques) {
 
 void put(json& document, const Sweep& sweep, const json& value) {
     json* place = find_place(document, sweep.pointer);
-    if (!place) throw Error(ErrorCode::bad_input, sweep.where, "the scenario has nothing there to set");
+    if (!place) throw Error(ErrorCode::bad_input, sweep.where, "the pointer leads to no value of the scenario");
     *place = value;
 }
 
@@ -73,7 +73,8 @@ struct Choice {
 };
 
 [[noreturn]] void refuse_many(const Sweep& sweep, std::size_t limit) {
-    throw Error(ErrorCode::bad_input, sweep.where, fmt::format("the sweeps combine to more than {}", limit));
+    throw Error(ErrorCode::bad_input, sweep.where,
+                fmt::format("the sweeps combine to more than {}; sweep over fewer values", limit));
 }
 
 // All combinations of the sweeps' values, the last sweep changing fastest.
@@ -97,7 +98,7 @@ bool is_every(const json& technique) {
     return technique.at("type") == every_technique;
 }
 
-// What "*" stands for in this document.
+// The techniques that "*" stands for in this document.
 json every_other_technique(const json& document) {
     const json& listed = document.at("techniques");
     json others = json::array();
@@ -110,7 +111,7 @@ json every_other_technique(const json& document) {
     return others;
 }
 
-// Throws where "*" stands twice.
+// Throws Error{bad_input} if "*" is listed twice.
 void check_every(const json& techniques) {
     bool found = false;
     for (std::size_t i = 0; i < techniques.size(); ++i) {
@@ -122,7 +123,7 @@ void check_every(const json& techniques) {
     }
 }
 
-// Replaces each swept technique by one for each combination of its values, and "*" by what it stands for.
+// Replaces each swept technique by one for each combination of its values, and "*" by the techniques it stands for.
 void expand_techniques(Variant& variant, const json& document, const std::vector<std::vector<Sweep>>& sweeps) {
     json expanded = json::array();
     check_every(document.at("techniques"));
@@ -133,9 +134,9 @@ void expand_techniques(Variant& variant, const json& document, const std::vector
         const std::string where = fmt::format("/techniques/{}", i);
         for (Choice& choice : combine(document, sweeps[i], max_techniques)) {
             json& technique = choice.document.at("techniques").at(i);
-            const bool every = is_every(technique) && technique.size() == 1;  // else it is refused with its place
-            for (json& one : every ? every_other_technique(document) : json::array({technique})) {
-                expanded.push_back(std::move(one));
+            const bool every = is_every(technique) && technique.size() == 1;  // otherwise check_document() refuses it
+            for (json& entry : every ? every_other_technique(document) : json::array({technique})) {
+                expanded.push_back(std::move(entry));
                 variant.technique_where.push_back(where);
                 variant.swept.push_back(names);
             }
@@ -146,7 +147,8 @@ void expand_techniques(Variant& variant, const json& document, const std::vector
     variant.document = std::make_shared<const json>(std::move(result));
 }
 
-// A document without its sweeps, and these: by technique, and all others.
+// A document without its sweeps, and the sweeps: over the parameters of each technique (inner), and over all else
+// (outer).
 struct Swept {
     json plain;
     std::vector<Sweep> outer;
@@ -165,10 +167,11 @@ Swept sort_sweeps(const json& document) {
         else
             swept.inner[static_cast<std::size_t>(technique)].push_back(sweep);
     }
-    // A sweep over the techniques themselves would move what the other sweeps point at.
+    // A sweep over the list of techniques would move the places that the other sweeps point to.
     for (const Sweep& sweep : swept.outer)
         if (sweep.text.rfind("/techniques", 0) == 0)
-            throw Error(ErrorCode::bad_input, sweep.where, "sweeps reach a technique's parameters only");
+            throw Error(ErrorCode::bad_input, sweep.where,
+                        "within the techniques, a sweep can only set a parameter, as in /techniques/0/tolerance");
     return swept;
 }
 

@@ -22,7 +22,7 @@ nlohmann::json* find_place(nlohmann::json& document, const nlohmann::json_pointe
         if (part_left_out(document, parent)) document[parent] = nlohmann::json::object();
         if (!document.contains(parent) || !document.at(parent).is_object()) return nullptr;
         return &document.at(parent)[pointer.back()];
-    } catch (const nlohmann::json::out_of_range&) {  // an index that fits no integer
+    } catch (const nlohmann::json::out_of_range&) {  // an index too large for an integer
         return nullptr;
     }
 }

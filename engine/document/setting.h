@@ -1,4 +1,4 @@
-// A value that is set in a scenario document.
+// One value of a scenario document and its place.
 #pragma once
 
 #include <string>

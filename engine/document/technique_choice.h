@@ -14,7 +14,7 @@ struct TechniqueChoice {
 
 // Throws Error{usage}, place "--technique TEXT".
 TechniqueChoice read_any_technique(const std::string& text);
-// Only those that can take given functions.
+// Accepts only techniques that can be built from given functions.
 TechniqueChoice read_technique(const std::string& text);
 
 }  // namespace shadowbench::document

@@ -12,9 +12,9 @@ namespace shadowbench::metrics {
 namespace {
 
 constexpr double alpha = 0.01;
-constexpr std::size_t fewest = 6, most_exact = 60;  // of 5, no order is as rare as alpha
+constexpr std::size_t fewest = 6, most_exact = 60;  // no order of 5 values is as rare as alpha
 
-// Of all orders of n different values, the share with at most this many pairs in falling order.
+// The share of all orders of n different values that have at most this many pairs in falling order.
 double share_of_orders(std::size_t n, std::size_t falling) {
     std::vector<double> share{1.0};
     for (std::size_t k = 2; k <= n; ++k) {

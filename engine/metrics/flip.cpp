@@ -86,7 +86,7 @@ struct Term {
 };
 constexpr Term achromatic{1.0, 0.0047}, red_green{1.0, 0.0053}, blue_yellow[2] = {{34.1, 0.04}, {13.5, 0.025}};
 
-// The widest filter's, three standard deviations, for all.
+// Radius of all filters: three standard deviations of the widest one.
 int csf_radius(double pixels_per_degree) {
     return static_cast<int>(std::ceil(3.0 * std::sqrt(blue_yellow[0].b / (2.0 * pi * pi)) * pixels_per_degree));
 }
@@ -116,7 +116,7 @@ Plane blur_blue_yellow(const Plane& in, const Size& size, double pixels_per_degr
 }
 
 double unit(double value) {
-    return value > 0.0 ? std::min(value, 1.0) : 0.0;  // not a number: 0
+    return value > 0.0 ? std::min(value, 1.0) : 0.0;  // NaN: 0
 }
 
 struct Opponent {
@@ -145,8 +145,8 @@ Triple seen_colour(const Opponent& picture, std::size_t p) {
     return hunt_lab(rgb);
 }
 
-// Error redistribution: the power 0.7 of the distance; up to 0.4 of the largest one is spread over [0, 0.95], the rest
-// above.
+// Error redistribution: takes the power 0.7 of the distance, maps the first 0.4 of its range to [0, 0.95] and the rest
+// to [0.95, 1].
 double spread_error(double distance) {
     constexpr double power = 0.7, knee = 0.4, at_knee = 0.95;
     static const double largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), power);

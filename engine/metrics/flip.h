@@ -5,9 +5,9 @@
 //    cube, Hunt-adjusted CIELAB, HyAB distance, error redistribution over [0, 1];
 //  - feature pipeline: edges and points of both pictures, by first and second derivatives of a Gaussian;
 //  - final difference: colour difference to the power 1 - feature difference.
-// With the authors' erratum: Y + 16 is divided by 116, not by 100, before features are looked for.
-// The paper's two-dimensional kernels are applied as the separable sums that they are. Beyond the border the outermost
-// pixels go on.
+// With the authors' erratum: Y + 16 is divided by 116, not by 100, before features are detected.
+// The paper's two-dimensional kernels are applied as sums of separable kernels. Beyond the border the outermost pixels
+// are repeated.
 #pragma once
 
 #include <span>
@@ -19,17 +19,17 @@ namespace shadowbench::metrics {
 inline constexpr double flip_pixels_per_degree = 67.0;
 
 struct Flip {
-    std::vector<float> map;  // a pixel, in [0, 1]; 0: no difference is seen
+    std::vector<float> map;  // one value per pixel, in [0, 1]; 0: no visible difference
     double mean = 0.0;
-    // The paper's pooled value: half of the sum of all differences stands in pixels that differ by no more than this.
-    // Its authors now advise the mean.
+    // The paper's pooled value: pixels that differ by no more than this hold half of the sum of all differences. The
+    // authors now advise the mean.
     double weighted_median = 0.0;
     double max = 0.0;
 };
 
-// Of pictures of width * height pixels, three values a pixel: linear RGB (primaries and white of sRGB), row after row;
-// values are clamped to [0, 1], not a number counts as 0. Symmetric in its pictures. The answer does not depend on the
-// number of threads.
+// Compares two pictures of width * height pixels with three values a pixel: linear RGB (primaries and white of sRGB),
+// row after row. Values are clamped to [0, 1]; NaN counts as 0. The result does not depend on which picture comes
+// first, nor on the number of threads.
 Flip flip(std::span<const float> reference, std::span<const float> test, int width, int height,
           double pixels_per_degree = flip_pixels_per_degree);
 

@@ -39,7 +39,7 @@ inline Triple rgb_of(const Triple& relative) {
     return rgb;
 }
 
-// The linearised CIELAB that is filtered in: without the cube root, so that filtering is of light.
+// YCxCz: linearised CIELAB, in which pictures are filtered. It has no cube root, so that the filter averages light.
 inline Triple ycxcz(const Triple& rgb) {
     const Triple xyz = relative_xyz(rgb);
     return {116.0 * xyz[1] - 16.0, 500.0 * (xyz[0] - xyz[1]), 200.0 * (xyz[1] - xyz[2])};
@@ -50,7 +50,7 @@ inline Triple rgb_of_ycxcz(const Triple& opponent) {
     return rgb_of({y + opponent[1] / 500.0, y, y - opponent[2] / 200.0});
 }
 
-// CIELAB (CIE 15), its a* and b* weakened for dark colours by 0.01 L* (Hunt effect).
+// CIELAB (CIE 15) with a* and b* multiplied by 0.01 L*, which weakens dark colours (Hunt effect).
 inline Triple hunt_lab(const Triple& rgb) {
     const Triple xyz = relative_xyz(rgb);
     const auto f = [](double t) {

@@ -17,7 +17,7 @@ std::vector<bool> pareto_front(std::span<const CostAndError> choices) {
     std::vector<bool> front(choices.size(), false);
     double least_error = std::numeric_limits<double>::infinity();  // of all cheaper choices
     for (std::size_t i = 0; i < order.size();) {
-        // Of one cost only the least error counts; equal choices do not beat each other.
+        // Among choices of equal cost only the least error counts; equal choices do not beat each other.
         const CostAndError& best = choices[order[i]];
         const bool on_front = best.error < least_error;
         for (; i < order.size() && choices[order[i]].cost == best.cost; ++i)

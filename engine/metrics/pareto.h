@@ -1,4 +1,4 @@
-// Which of several choices no other choice beats.
+// Pareto fronts: the choices that no other choice beats.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@ struct CostAndError {
     double cost, error;  // smaller is better; a choice with a non-finite value is never on the front
 };
 
-// For each choice, whether no other has both values at most as large and one of them smaller. O(n log n).
+// Whether each choice is on the front: no other has both values at most as large and one of them smaller. O(n log n).
 std::vector<bool> pareto_front(std::span<const CostAndError> choices);
 
 }  // namespace shadowbench::metrics

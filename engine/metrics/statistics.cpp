@@ -36,7 +36,7 @@ ErrorNorms error_norms(std::span<const double> errors) {
     const auto nearest = sizes.begin() + static_cast<std::ptrdiff_t>(rank - 1);
     std::nth_element(sizes.begin(), nearest, sizes.end());
     norms.p99 = *nearest;
-    if (std::isinf(norms.max)) {  // a compensated sum would make a NaN of it
+    if (std::isinf(norms.max)) {  // a compensated sum would turn infinity into NaN
         norms.mean = norms.rms = norms.max;
         return norms;
     }

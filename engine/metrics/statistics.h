@@ -1,4 +1,4 @@
-// Arrays in, numbers out.
+// Norms of errors, and the median of a sample with its bootstrap interval.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace shadowbench::metrics {
 
-// Of the absolute values of errors. All 0 for no errors. A NaN counts as an infinite error: it cannot hide, and stays
-// comparable.
+// Norms of the absolute values of errors. All are 0 if there are no errors. A NaN counts as an infinite error, so that
+// it cannot hide and the norms stay comparable.
 struct ErrorNorms {
     double max = 0.0;  // L-infinity
     double rms = 0.0;
@@ -18,7 +18,7 @@ struct ErrorNorms {
 };
 ErrorNorms error_norms(std::span<const double> errors);
 
-// Of an unsorted sample, which is not empty. The mean of the two middle values when their number is even.
+// The median of an unsorted sample, which must not be empty: the mean of the two middle values if their number is even.
 double median(std::span<const double> sample);
 
 struct Interval {

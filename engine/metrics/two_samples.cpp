@@ -16,7 +16,8 @@ double upper_tail(double z) {
     return 0.5 * std::erfc(z / std::sqrt(2.0));
 }
 
-// Twice the mean rank of each value, from 2 on: whole numbers; and the sum of t^3 - t over groups of t equal values.
+// `doubled`: twice the mean rank of each value, a whole number from 2 on. `ties`: the sum of t^3 - t over groups of t
+// equal values.
 struct Ranks {
     std::vector<std::size_t> doubled;
     double ties = 0.0;
@@ -38,8 +39,8 @@ Ranks ranks_of(std::span<const double> values) {
     return ranks;
 }
 
-// The share of all subsets of `size` of these scores whose sum is at least `least`. Doubles count exactly up to 2^53,
-// and beyond with a relative error that no verdict sees.
+// The share of all subsets of `size` of these scores whose sum is at least `least`. Doubles count exactly up to 2^53;
+// beyond, the relative error is too small to change a verdict.
 double share_of_subsets(std::span<const std::size_t> scores, std::size_t size, std::size_t least) {
     const std::size_t most = std::accumulate(scores.begin(), scores.end(), std::size_t{0});
     std::vector<std::vector<double>> ways(size + 1, std::vector<double>(most + 1, 0.0));
@@ -55,7 +56,7 @@ double share_of_subsets(std::span<const std::size_t> scores, std::size_t size, s
     return beyond / all;
 }
 
-// The share of all signs of these scores whose positive ones sum to at least `least`.
+// The share of all choices of signs for these scores whose positive scores sum to at least `least`.
 double share_of_signs(std::span<const std::size_t> scores, std::size_t least) {
     const std::size_t most = std::accumulate(scores.begin(), scores.end(), std::size_t{0});
     std::vector<double> share(most + 1, 0.0);

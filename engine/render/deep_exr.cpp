@@ -20,10 +20,10 @@ OIIO::ImageSpec make_spec(int width, int height, int channels, const std::string
     spec.channelnames = std::move(names);
     spec.alpha_channel = 0;
     spec.z_channel = spec.channelindex("Z");
-    spec.attribute("compression", "zips");  // deep scanlines take no other zip
+    spec.attribute("compression", "zips");  // the only zip for deep scanlines
     spec.attribute("ImageDescription", text);
     spec.attribute("Software", "shadowbench");
-    spec.attribute("DateTime", "1970:01:01 00:00:00");  // else it is now, and the same samples give other bytes
+    spec.attribute("DateTime", "1970:01:01 00:00:00");  // fixed, so that the same samples give the same bytes
     return spec;
 }
 
@@ -58,7 +58,7 @@ void write_deep_exr(const std::filesystem::path& file, int width, int height, st
     const OIIO::ImageSpec spec = make_spec(width, height, blocks.empty() ? 1 : blocks[0].channels, text);
     OIIO::DeepData data;
     data.init(spec);
-    for (const DeepBlock& block : blocks)  // all numbers of samples first: afterwards each change moves what follows
+    for (const DeepBlock& block : blocks)  // all sample counts first: a later change would move the samples behind it
         for_each_pixel(width, block, [&](std::int64_t pixel, std::uint64_t begin, std::uint64_t end) {
             data.set_samples(pixel, static_cast<int>(end - begin));
         });

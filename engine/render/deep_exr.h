@@ -1,4 +1,4 @@
-// Deep samples -> a deep OpenEXR file.
+// Writes deep samples as a deep OpenEXR file.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace shadowbench::render {
 
-// Writes an image of width x height pixels that the blocks cover, each once: all of the file, or nothing. Row y of the
-// map is row y of the image. Channels, all float: Z and ZBack (planar depth from the light), A; of coloured samples
-// also AR, AG and AB, each to be composited alone, and A is their mean for programs that see one alpha. `text` stands
-// as the image's description. The same samples give the same bytes. Throws Error{io}.
+// Writes an image of width x height pixels, each covered by one block: the whole file or nothing. Row y of the map is
+// row y of the image. The channels are floats: Z and ZBack (planar depth from the light) and A. Coloured samples also
+// have AR, AG and AB, each to be composited separately; A is their mean, for programs that read one alpha. `text`
+// becomes the image's description. The same samples give the same bytes. Throws Error{io}.
 void write_deep_exr(const std::filesystem::path& file, int width, int height, std::span<const DeepBlock> blocks,
                     const std::string& text);
 

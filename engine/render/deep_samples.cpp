@@ -33,8 +33,8 @@ void append_ray(const rays::LightRays& tile, std::size_t ray, DeepBlock& block) 
     }
 }
 
-// Samples of one pixel, front to back. Each is aimed at what the function is behind it, from what the samples before it
-// composite to: what rounding of one alpha lost does not add up. Where a function is flat it is left alone.
+// The samples of one pixel, front to back. Each takes the composite of the earlier samples to the function's value
+// behind it, so that rounding errors of alphas do not add up. Where a function is flat, no sample is made.
 class Compositor {
 public:
     Compositor(std::size_t channels, DeepBlock& block) : channels_(channels), block_(block) {
@@ -42,7 +42,7 @@ public:
         least_.fill(1.0f);
     }
 
-    // One sample after which the composite has these values. False where one rises.
+    // Appends a sample after which the composite has these values. Returns false if one rises.
     bool reach(float z_front, float z_back, const std::array<float, 3>& values) {
         std::array<float, 3> alpha{};
         bool falls = false;
@@ -50,7 +50,7 @@ public:
             if (!(values[c] <= least_[c] + rounding)) return false;
             if (values[c] >= least_[c]) continue;
             least_[c] = values[c];
-            if (composite_[c] <= 0.0) continue;  // by rounding of an alpha next to 1
+            if (composite_[c] <= 0.0) continue;  // because an alpha near 1 was rounded
             alpha[c] = static_cast<float>(std::clamp(1.0 - values[c] / composite_[c], 0.0, 1.0));
             composite_[c] *= 1.0 - static_cast<double>(alpha[c]);
             falls = falls || alpha[c] > 0.0f;
@@ -97,7 +97,7 @@ bool append_samples(std::span<const Curve> functions, float front, DeepBlock& bl
     return falls;
 }
 
-// From the front to the back of all that casts shadows.
+// From the front to the back of all casters.
 std::vector<float> even_depths(const rays::MapLayout& layout) {
     std::vector<float> depths;
     for (int i = 0; i < sampled_depths; ++i)

@@ -22,7 +22,7 @@ const Vec3f paper(1.0f), ink(0.0f);
 
 std::vector<Vec3f> colours(const std::vector<float>& unit_values, int width, int height) {
     const OIIO::ImageSpec spec(width, height, 1, OIIO::TypeDesc::FLOAT);
-    // A copy, since the library takes what it wraps as its own to write.
+    // A copy, since the library may write to the memory that it wraps.
     std::vector<float> values = unit_values;
     const OIIO::ImageBuf source(spec, values.data());
     const OIIO::ImageBuf mapped = OIIO::ImageBufAlgo::color_map(source, 0, "viridis");
@@ -37,7 +37,7 @@ void fill(Image& image, int x0, int x1, int y0, int y1, const Vec3f& colour) {
         for (int x = std::max(x0, 0); x < std::min(x1, image.width); ++x) image.at(x, y) = colour;
 }
 
-// Middle of the text at x, but inside the picture.
+// Centres the text at x, but keeps it inside the picture.
 void label(Image& image, int x, int y, double value) {
     const std::string text = fmt::format("{:g}", value);
     const int width = text_width(text, text_scale);

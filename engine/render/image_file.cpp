@@ -14,13 +14,13 @@
 namespace shadowbench::render {
 namespace {
 
-// `values` holds three of `type` a pixel.
+// `values` holds three values of `type` a pixel.
 std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* values) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     if (!output)
         throw base::Error(base::ErrorCode::io, "", std::string("OpenImageIO cannot write ") + format + " files here");
     OIIO::Filesystem::IOVecOutput bytes;
-    // Names the format alone: everything goes to `bytes`.
+    // The file name only selects the format: everything is written to `bytes`.
     const std::string name = std::string("picture.") + format;
     if (!output->set_ioproxy(&bytes) || !output->open(name, spec) || !output->write_image(type, values) ||
         !output->close())
@@ -38,7 +38,7 @@ std::string encode_exr(const Image& image) {
     OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::HALF);
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "lin_srgb");
-    spec.attribute("DateTime", "1970:01:01 00:00:00");  // without one the library notes the time of writing
+    spec.attribute("DateTime", "1970:01:01 00:00:00");  // fixed: the library would write the current time
     return encode("exr", spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
 }
 

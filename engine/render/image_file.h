@@ -1,4 +1,4 @@
-// A picture -> the bytes of an image file.
+// Encodes a picture as an image file in memory.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace shadowbench::render {
 // sRGB's transfer function, IEC 61966-2-1: linear [0, 1] to display [0, 1].
 double to_display(double linear);
 
-// OpenEXR, half, linear values as they are.
+// OpenEXR with half floats; values stay linear.
 std::string encode_exr(const Image& image);
 
 // PNG, 8 bits a channel with sRGB's transfer function; values are clamped to [0, 1].

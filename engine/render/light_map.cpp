@@ -23,7 +23,7 @@ Vec2i picture_size(const rays::MapLayout& layout) {
     return {scaled(layout.width), scaled(layout.height)};
 }
 
-// Sum over the rays of one pixel of the tile.
+// The sum over the rays of one pixel of the tile.
 Vec3f through(const LightRays& tile, std::size_t pixel) {
     const auto samples = static_cast<std::size_t>(tile.samples), channels = static_cast<std::size_t>(tile.channels);
     Vec3f sum(0.0f);

@@ -1,4 +1,4 @@
-// What a light's map holds, to look at: where its visibility functions end.
+// Shows what a light's map holds: the ends of its visibility functions.
 #pragma once
 
 #include <string>
@@ -20,11 +20,11 @@ inline constexpr int longest_light_map = 1024;  // pixels of a picture
 struct LightMap {
     std::string light;
     base::Vec2i map{0, 0};  // pixels
-    Image through;          // the map's last row is at the top: as the light sees it
+    Image through;          // as the light sees it: the map's last row is at the top
 };
 
-// The share of the light that gets through all that the rays of a map pixel cross. Of a map whose longer side has more
-// pixels than longest_light_map, each pixel of the picture is the mean of the map pixels that lie in it.
+// The share of the light that passes everything that the rays of a map pixel cross. If the longer side of the map has
+// more than longest_light_map pixels, each pixel of the picture is the mean of the map pixels in it.
 Image light_map(const bench::RaySource& source, const rays::MapLayout& layout);
 
 }  // namespace shadowbench::render

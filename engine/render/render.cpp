@@ -31,8 +31,8 @@ using base::Vec3d;
 using bench::Contender;
 using techniques::Query;
 
-constexpr std::size_t reference_chunk = std::size_t{1} << 20;  // points: bounds what finding their truth takes
-constexpr float rounding = 1e-6f;                              // of an answer beyond [0, 1]
+constexpr std::size_t reference_chunk = std::size_t{1} << 20;  // points: limits the memory for their truth
+constexpr float rounding = 1e-6f;                              // by which an answer may leave [0, 1]
 
 struct Work {
     const scene::Scenario& scenario;
@@ -52,7 +52,7 @@ auto watch(const Work& work, const scene::Light& light, const char* stage, std::
 struct LightQueries {
     std::vector<Query> queries;
     std::vector<techniques::Footprint> footprints;
-    std::vector<std::uint32_t> point;  // of each query
+    std::vector<std::uint32_t> point;  // index of each query's point
 };
 
 LightQueries make_queries(const Work& work, const rays::LightView& view) {
@@ -108,7 +108,7 @@ bench::Truth find_truth(const Work& work, const scene::Light& light, const rays:
     return all;
 }
 
-// Fails a technique whose answers are no visibility.
+// Fails a technique that answers outside [0, 1].
 void check_answers(Contender& contender, const std::vector<float>& answers) {
     for (const float v : answers)
         if (!(v >= -rounding && v <= 1.0f + rounding))
@@ -148,15 +148,15 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
         std::max(result.reference_standard_error, metrics::error_norms(truth.standard_error).rms);
 }
 
-// The legend of the heat maps reaches to the 99th percentile of the middle technique's errors: one that is far off does
-// not hide how the others differ.
+// The legend of the heat maps reaches to the 99th percentile of the median technique's errors, so that one technique
+// with large errors does not hide how the others differ.
 void compare_all(Rendering& result) {
     std::vector<double> tops;
-    for (TechniquePictures& one : result.techniques) {
-        if (one.cell.status == results::CellStatus::failed) continue;
-        one.shaded = compare(one.picture.shaded, result.reference.shaded);
-        one.shadow = compare(one.picture.shadow, result.reference.shadow);
-        const std::vector<float> errors = pixel_errors(one.picture.shadow, result.reference.shadow);
+    for (TechniquePictures& pictures : result.techniques) {
+        if (pictures.cell.status == results::CellStatus::failed) continue;
+        pictures.shaded = compare(pictures.picture.shaded, result.reference.shaded);
+        pictures.shadow = compare(pictures.picture.shadow, result.reference.shadow);
+        const std::vector<float> errors = pixel_errors(pictures.picture.shadow, result.reference.shadow);
         tops.push_back(metrics::error_norms(std::vector<double>(errors.begin(), errors.end())).p99);
     }
     if (!tops.empty()) result.heat_top = legend_top(metrics::median(tops));
@@ -213,7 +213,8 @@ Rendering render(const nlohmann::json& document, const RenderOptions& options,
     bench::ScenarioLoader loader(options.run.data);
     const scene::Scenario& scenario = loader.load(variant);
     if (scenario.scene.deep_image)
-        throw Error(ErrorCode::bad_input, "/scene/deep_image", "a deep image has no world that a camera could see");
+        throw Error(ErrorCode::bad_input, "/scene/deep_image",
+                    "a deep image has no world for a camera; render a scene of objects");
     const std::vector<Contender> contenders = bench::make_contenders(scenario, variant);
 
     Rendering result = describe(scenario, variant, options);

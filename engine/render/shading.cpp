@@ -20,7 +20,7 @@ double shade_surface(const Vec3d& normal, const Vec3d& to_light) {
 double shade_hair(const Vec3d& tangent, const Vec3d& to_light, const Vec3d& to_eye) {
     const auto sine = [](double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); };
     const double light = tangent.dot(to_light), eye = tangent.dot(to_eye);
-    // Light at angle a to the strand leaves it on the cone at angle pi - a.
+    // Light that meets the strand at angle a leaves it on the cone at angle pi - a.
     const double mirrored = std::max(0.0, sine(light) * sine(eye) - light * eye);
     return hair_diffuse * sine(light) + hair_specular * std::pow(mirrored, hair_exponent);
 }

@@ -1,6 +1,6 @@
-// What a point sends to the eye when its light is not shadowed. A light's colour is the radiance that a white surface
-// square to it would show; there is no falloff with distance, also for spots, no light between surfaces, and no ambient
-// light: what is unlit is black, so that errors of visibility show as they are.
+// Shading: the light that a point sends to the eye if nothing shadows it. A light's colour is the radiance that a white
+// surface facing it would show. There is no falloff with distance, not even for spots, no interreflection and no
+// ambient light: unlit points are black, so that errors of visibility show undiminished.
 #pragma once
 
 #include "base/vec.h"
@@ -18,11 +18,11 @@ inline constexpr double medium_albedo = 0.9;
 // Unit vector from a point to the light.
 base::Vec3d towards(const scene::Light& light, const base::Vec3d& point);
 
-// Lambert, for a surface whose normal faces the eye: nothing when the light is on its other side.
+// Lambert shading of a surface whose normal faces the eye: 0 if the light is on its other side.
 double shade_surface(const base::Vec3d& normal, const base::Vec3d& to_light);
 
 // Kajiya and Kay, Rendering Fur with Three Dimensional Textures, SIGGRAPH 1989: a thin cylinder along `tangent`.
-// Diffuse sin(t, l); specular cos^p of the angle between the eye and the cone of mirrored light.
+// Diffuse: sin(t, l). Specular: cos^p of the angle between the eye and the cone of mirrored light.
 double shade_hair(const base::Vec3d& tangent, const base::Vec3d& to_light, const base::Vec3d& to_eye);
 
 }  // namespace shadowbench::render

@@ -22,8 +22,7 @@ using base::Vec3f;
 
 constexpr std::size_t rows_at_a_time = 32;
 
-// Length of the step for a ray through everything: the diagonal of the media's bounds in `lookups` parts. Infinite
-// without media.
+// The step length: the diagonal of the media's bounds divided by `lookups`. Infinite without media.
 double step_length(const scene::Scene& scene, int lookups) {
     base::Box3d box;
     for (const scene::Object& object : scene.objects) {
@@ -40,16 +39,16 @@ double step_length(const scene::Scene& scene, int lookups) {
 }
 
 struct Row {
-    std::vector<std::uint32_t> count;  // a pixel
+    std::vector<std::uint32_t> count;  // points of each pixel
     std::vector<Vec3d> place;
     std::vector<Vec3f> across, down;
-    std::vector<Vec3f> coverage, radiance;  // radiance: point after point, its lights together
+    std::vector<Vec3f> coverage, radiance;  // radiance: point after point, all lights of a point together
 };
 
 struct Eye {
     std::span<const scene::Light> lights;
     const rays::Tracer& tracer;
-    rays::ImagePlane plane;  // one step of it is a view ray
+    rays::ImagePlane plane;  // each of its pixels is a view ray
     double step;
     bool media;
 };
@@ -76,14 +75,14 @@ void add_surface_point(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d&
     }
 }
 
-// What the view rays of a thread reuse.
+// Scratch memory that the view rays of a thread reuse.
 struct Scratch {
     std::vector<rays::SurfaceHit> surfaces;
     std::vector<rays::TracedSegment> segments;
     ViewMarch march;
 };
 
-// The view ray through position (x, y) of the plane, which stands for `part` of its pixel.
+// Adds the view ray through position (x, y) of the plane, which covers the share `part` of its pixel.
 void trace(const Eye& eye, double x, double y, double part, Scratch& scratch, Row& row) {
     const Vec3d through = eye.plane.through(x, y), direction = through.normalized();
     auto& [surfaces, segments, march] = scratch;
@@ -119,7 +118,7 @@ Row trace_row(const Eye& eye, int y, int width, int rays_per_side) {
     return row;
 }
 
-// The points, the queries and truth of one light, and one technique's answers.
+// Bytes per point: the points, the queries and truth of one light, and one technique's answers.
 std::size_t bytes_a_point(std::size_t lights) {
     return sizeof(Vec3d) + sizeof(Vec3f) * (3 + 2 * lights) + 64;
 }
@@ -159,8 +158,8 @@ ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const sce
         for (const Row& row : rows) append(row, lights.size(), points, radiance);
         if (watch) watch(first + rows.size(), height);
     }
-    for (const std::vector<Vec3f>& one : radiance)
-        points.radiance.insert(points.radiance.end(), one.begin(), one.end());
+    for (const std::vector<Vec3f>& light : radiance)
+        points.radiance.insert(points.radiance.end(), light.begin(), light.end());
     return points;
 }
 

@@ -1,5 +1,5 @@
-// What a camera sees, as points to look light up at. Found once a picture; for each technique the picture is then a sum
-// over them.
+// The points that a camera sees, at which light is looked up. They are found once per picture; the picture of each
+// technique is then a sum over them.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace shadowbench::render {
 struct ShadingPoints {
     base::Vec2i size{0, 0};
     std::vector<std::uint32_t> begin;  // pixels + 1 offsets into the points; pixels in image order
-    std::vector<base::Vec3d> place;    // world; of one view ray media, then surfaces, each from front to back
-    std::vector<base::Vec3f> across;   // edges of what a view ray stands for at its point, as bench::CameraPoint's
+    std::vector<base::Vec3d> place;    // world; for each view ray first media, then surfaces, each from front to back
+    std::vector<base::Vec3f> across;   // edges of a view ray's footprint at its point, as in bench::CameraPoint
     std::vector<base::Vec3f> down;
-    std::vector<base::Vec3f> coverage;  // share of the pixel that the point stands for; a pixel's sum is at most 1
+    std::vector<base::Vec3f> coverage;  // share of the pixel that shows the point; a pixel's sum is at most 1
     std::vector<base::Vec3f> radiance;  // light after light: what light l adds to the pixel when nothing shadows it,
                                         // at [l * points + i]
 
@@ -32,29 +32,30 @@ struct ShadingPoints {
 struct ViewSettings {
     scene::Camera camera;
     base::Vec2i size{256, 256};
-    // A view ray through the whole of the scene's media has this many steps; rays that miss parts of them have fewer,
-    // and gaps between media add at most as many again (at most 512 in all).
+    // Number of steps of a view ray through all of the scene's media. Rays that miss parts of the media have fewer;
+    // gaps between media add at most as many again (at most 512 in all).
     int media_lookups = 128;
-    int rays_per_side = 1;  // view rays a pixel: this many squared, on a regular grid; more smooth edges and hair
+    int rays_per_side =
+        1;  // its square is the number of view rays a pixel, on a regular grid; more rays smooth edges and hair
     std::size_t memory_limit = std::size_t{8} << 30;  // bytes
 };
 
 using ViewWatch = std::function<void(std::size_t rows, std::size_t total)>;
 
-// For each view ray: the steps through media, and all surfaces, composited in order of depth until less than 1e-4 of
-// the light is left in every channel. `tracer` sees all objects. Throws Error{bad_input} at /receivers/resolution when
-// the points would take more than the limit. The same on any number of threads.
+// Finds, for each view ray, the steps through media and all surfaces, composited in order of depth until less than 1e-4
+// of the light is left in every channel. `tracer` sees all objects. Throws Error{bad_input} at /receivers/resolution if
+// the points would exceed the memory limit. The result does not depend on the number of threads.
 ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const scene::Light> lights,
                                   const ViewSettings& settings, const rays::Tracer& tracer, const ViewWatch& watch);
 
-// The pictures of one technique, light after light.
+// The pictures of one technique, summed light after light.
 struct Picture {
     Image shaded;  // background black
-    Image shadow;  // 1 minus the light that shadows take: average visibility; the background counts as lit
+    Image shadow;  // average visibility: 1 minus the light that shadows take; the background is lit
 };
 Picture start_picture(const ShadingPoints& points);
 
-// visibility[c * points + i] is that of point i in channel c; one channel stands for all three.
+// visibility[c * points + i] is that of point i in channel c; a single channel is used for all three.
 void add_light(const ShadingPoints& points, std::size_t light, std::span<const float> visibility, Picture& picture);
 
 }  // namespace shadowbench::render

@@ -9,10 +9,10 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double opaque = 1e-4;         // transmittance behind which nothing is looked up
+constexpr double opaque = 1e-4;         // transmittance below which nothing more is looked up
 constexpr double least_light = 1e-300;  // of a segment: keeps its extinction finite
 
-// Where extinction changes: what starts or ends there.
+// A depth at which extinction changes: a segment starts or ends.
 struct Change {
     double t;
     Vec3d extinction;
@@ -23,7 +23,7 @@ struct Change {
 struct Knot {
     double t;
     Vec3d depth;
-    bool in_media;  // from here to the next knot
+    bool in_media;  // up to the next knot
 };
 
 std::vector<Change> changes(std::span<const rays::TracedSegment> segments) {
@@ -48,7 +48,7 @@ std::vector<Knot> optical_depth(std::span<const rays::TracedSegment> segments) {
         if (!knots.empty()) depth += extinction * (change.t - knots.back().t);
         media += change.media;
         extinction += change.extinction;
-        if (media == 0) extinction = Vec3d(0.0);  // what rounding left over ends with the media
+        if (media == 0) extinction = Vec3d(0.0);  // removes what rounding left over
         if (!knots.empty() && knots.back().t == change.t)
             knots.back().in_media = media > 0;
         else
@@ -73,7 +73,7 @@ std::vector<Stretch> stretches(const std::vector<Knot>& knots, double longest_ga
     return result;
 }
 
-// Transmittance at ever larger t.
+// Transmittance at growing t.
 class Walk {
 public:
     explicit Walk(const std::vector<Knot>& knots) : knots_(knots) {}
@@ -93,14 +93,14 @@ private:
     std::size_t at_ = 0;
 };
 
-// The eye's light, from front to back through media and surfaces.
+// The light towards the eye, followed from front to back through media and surfaces.
 class Compositor {
 public:
     Compositor(Walk& media, std::span<const rays::SurfaceHit> surfaces, ViewMarch& out)
         : media_(media), surfaces_(surfaces), out_(out) {}
 
-    // What media scatter to the eye from the last t to this one; surfaces in between are added. Stops short where no
-    // light is left.
+    // The light that media scatter to the eye from the last t to this one; surfaces in between are added. Stops where
+    // no light is left.
     Vec3d on_to(double t) {
         Vec3d share(0.0);
         for (; next_ < surfaces_.size() && surfaces_[next_].t < t && light_is_left(); ++next_) {

@@ -1,5 +1,5 @@
-// What a view ray meets, as shares of what the eye sees: steps through media, at which light is looked up, and
-// surfaces.
+// Composites a view ray: steps through media, at which light is looked up, and surfaces, with their shares of what the
+// eye sees.
 #pragma once
 
 #include <span>
@@ -11,9 +11,9 @@
 namespace shadowbench::render {
 
 // One step: where light is looked up, and the share of it that the step scatters to the eye per unit of albedo. With
-// extinction sigma and transmittance T towards the eye that is the integral of sigma T over the step. Of media it is T
-// at the step's front minus T at its back, whatever the extinction does in between (single scattering); a surface
-// within the step takes its part of T from where it stands.
+// extinction sigma and transmittance T towards the eye, that is the integral of sigma T over the step. For media this
+// equals T at the step's front minus T at its back, however the extinction varies in between (single scattering). A
+// surface within the step removes its part of T from its own depth on.
 struct ViewStep {
     double t;
     base::Vec3d share;
@@ -21,15 +21,14 @@ struct ViewStep {
 
 struct ViewMarch {
     std::vector<ViewStep> steps;
-    std::vector<base::Vec3d> surfaces;   // what is seen of each: T in front of it times its own opacity
+    std::vector<base::Vec3d> surfaces;   // visible share of each: T in front of it times its own opacity
     base::Vec3d transmittance{1, 1, 1};  // of all media and surfaces
 };
 
 // Composites along a ray. Media have constant extinction on each of `segments` (sorted by front; they may overlap;
-// surfaces among them are passed over). Each stretch of media is cut into equal steps of at most `step`; a gap shorter
-// than a step does not end a stretch, nor does a surface. `surfaces` are in order of depth. Steps and surfaces end
-// where less than 1e-4 of the light is left in every channel: out.surfaces may be shorter than `surfaces`. `out` is
-// replaced.
+// surfaces among them are skipped). Each stretch of media is cut into equal steps of at most `step`; neither a gap
+// shorter than a step nor a surface ends a stretch. `surfaces` are in order of depth. Steps and surfaces end where less
+// than 1e-4 of the light is left in every channel, so out.surfaces may be shorter than `surfaces`. `out` is replaced.
 void march_view_ray(std::span<const rays::TracedSegment> segments, std::span<const rays::SurfaceHit> surfaces,
                     double step, ViewMarch& out);
 

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
-constexpr int difference_factor = 4;  // of difference_times_four
+constexpr int difference_factor = 4;  // as in difference_times_four()
 constexpr const char* extensions[] = {".exr", ".png"};
 
 std::string file_label(const results::Cell& cell) {
@@ -31,12 +31,12 @@ std::string file_label(const results::Cell& cell) {
     return label;
 }
 
-// One a technique; techniques of the same label are numbered.
+// One label per technique; equal labels are numbered.
 std::vector<std::string> file_labels(const Rendering& rendering) {
     std::vector<std::string> labels;
     std::set<std::string> used{"reference"};
-    for (const TechniquePictures& one : rendering.techniques) {
-        const std::string label = file_label(one.cell);
+    for (const TechniquePictures& pictures : rendering.techniques) {
+        const std::string label = file_label(pictures.cell);
         std::string unique = label;
         for (int n = 2; !used.insert(unique).second; ++n) unique = label + "_" + std::to_string(n);
         labels.push_back(unique);
@@ -67,18 +67,18 @@ json to_json(const base::Vec3d& v) {
     return {v.x, v.y, v.z};
 }
 
-json to_json(const TechniquePictures& one, const std::string& label) {
-    const bool ok = one.cell.status == results::CellStatus::ok;
-    return {{"technique", one.cell.technique},
-            {"version", one.cell.version},
-            {"parameters", json::parse(one.cell.parameters_json)},
-            {"label", one.cell.parameters},
-            {"where", one.cell.where},
+json to_json(const TechniquePictures& pictures, const std::string& label) {
+    const bool ok = pictures.cell.status == results::CellStatus::ok;
+    return {{"technique", pictures.cell.technique},
+            {"version", pictures.cell.version},
+            {"parameters", json::parse(pictures.cell.parameters_json)},
+            {"label", pictures.cell.parameters},
+            {"where", pictures.cell.where},
             {"status", ok ? "ok" : "failed"},
-            {"reason", one.cell.reason},
-            {"outside_promise", one.cell.outside_promise},
-            {"shaded", ok ? to_json(one.shaded) : json(nullptr)},
-            {"shadow", ok ? to_json(one.shadow) : json(nullptr)},
+            {"reason", pictures.cell.reason},
+            {"outside_promise", pictures.cell.outside_promise},
+            {"shaded", ok ? to_json(pictures.shaded) : json(nullptr)},
+            {"shadow", ok ? to_json(pictures.shadow) : json(nullptr)},
             {"files", ok ? json(names(label, technique_kinds)) : json::array()}};
 }
 
@@ -98,9 +98,10 @@ json to_json(const Rendering& rendering) {
     json settings = json::object(), lights = json::array(), techniques = json::array();
     for (const document::Setting& s : rendering.settings) settings[s.pointer] = json::parse(s.value);
     for (std::size_t l = 0; l < rendering.lights.size(); ++l) {
-        const LightMap& one = rendering.lights[l];
-        lights.push_back(
-            {{"light", one.light}, {"map", {one.map.x, one.map.y}}, {"files", names(light_label(l), light_kinds)}});
+        const LightMap& light = rendering.lights[l];
+        lights.push_back({{"light", light.light},
+                          {"map", {light.map.x, light.map.y}},
+                          {"files", names(light_label(l), light_kinds)}});
     }
     const std::vector<std::string> labels = file_labels(rendering);
     for (std::size_t t = 0; t < labels.size(); ++t) techniques.push_back(to_json(rendering.techniques[t], labels[t]));
@@ -143,12 +144,12 @@ void write_pictures(const fs::path& folder, const Rendering& rendering) {
     add("reference.shaded", rendering.reference.shaded);
     add("reference.shadow", rendering.reference.shadow);
     for (std::size_t t = 0; t < labels.size(); ++t) {
-        const TechniquePictures& one = rendering.techniques[t];
-        if (one.cell.status == results::CellStatus::failed) continue;
-        add(labels[t] + ".shaded", one.picture.shaded);
-        add(labels[t] + ".shadow", one.picture.shadow);
-        add(labels[t] + ".difference", difference_times_four(one.picture.shaded, rendering.reference.shaded));
-        add(labels[t] + ".heat", heat_map(pixel_errors(one.picture.shadow, rendering.reference.shadow),
+        const TechniquePictures& pictures = rendering.techniques[t];
+        if (pictures.cell.status == results::CellStatus::failed) continue;
+        add(labels[t] + ".shaded", pictures.picture.shaded);
+        add(labels[t] + ".shadow", pictures.picture.shadow);
+        add(labels[t] + ".difference", difference_times_four(pictures.picture.shaded, rendering.reference.shaded));
+        add(labels[t] + ".heat", heat_map(pixel_errors(pictures.picture.shadow, rendering.reference.shadow),
                                           rendering.size.x, rendering.size.y, rendering.heat_top));
     }
     files.push_back({folder / "images.json", to_json(rendering).dump(1) + "\n"});

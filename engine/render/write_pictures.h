@@ -1,4 +1,4 @@
-// A rendering on disk, and for people.
+// Writes a rendering to disk, and shows it as a table.
 #pragma once
 
 #include <filesystem>
@@ -10,19 +10,20 @@
 
 namespace shadowbench::render {
 
-// Grows when a name or meaning in images.json changes.
+// Increased when a key of images.json changes its name or meaning.
 inline constexpr int images_schema_version = 1;
 
-// What images.json holds: the camera, the reference, and of each technique its errors and the names of its files. The
-// same rendering gives the same bytes.
+// The content of images.json: the camera, the reference, and for each technique its errors and the names of its files.
+// The same rendering gives the same bytes.
 nlohmann::ordered_json to_json(const Rendering& rendering);
 
-// A line a technique: errors of the shaded picture and of the shadow component.
+// One line per technique: errors of the shaded picture and of the shadow component.
 std::string to_table(const Rendering& rendering);
 
-// Writes images.json and, as EXR (linear, half) and as PNG (sRGB), reference.shaded, reference.shadow and of every
-// technique <label>.shaded, .shadow (average visibility), .difference (|shaded - reference| times four) and .heat
-// (|shadow - reference| with its legend); light_<index>.through of every light. All or nothing. Throws Error{io}.
+// Writes images.json and pictures, each as EXR (linear, half) and PNG (sRGB): reference.shaded and reference.shadow;
+// for every technique <label>.shaded, .shadow (average visibility), .difference (|shaded - reference| times four) and
+// .heat (|shadow - reference| with its legend); light_<index>.through for every light. All files or none. Throws
+// Error{io}.
 void write_pictures(const std::filesystem::path& folder, const Rendering& rendering);
 
 }  // namespace shadowbench::render

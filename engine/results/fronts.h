@@ -1,3 +1,4 @@
+// Marks the cells on the fronts of time against error and of bytes against error.
 #pragma once
 
 #include <span>
@@ -6,8 +7,8 @@
 
 namespace shadowbench::results {
 
-// Marks the cells that no other cell of the same light beats: lookup time (random order) against lookup error (RMS),
-// and bytes against lookup error. Failed cells are on no front.
+// Marks the cells of one light that no other cell beats: in lookup time (random order) and lookup error (RMS), and in
+// bytes and lookup error. Failed cells are on no front.
 void mark_fronts(std::span<Cell> cells);
 
 }  // namespace shadowbench::results

@@ -1,10 +1,11 @@
+// The processor and core count that a result records.
 #pragma once
 
 #include "results/result.h"
 
 namespace shadowbench::results {
 
-// The machine that this program runs on. The processor's name is empty where the system does not tell it.
+// The machine that runs this program. `cpu` is empty if /proc/cpuinfo does not name the processor.
 Machine this_machine();
 
 }  // namespace shadowbench::results

@@ -22,7 +22,7 @@ void make_portable_light(json& light) {
     json& cells = light.at("cells");
     cells.erase(std::remove_if(cells.begin(), cells.end(), asks_embree), cells.end());
     for (json& cell : cells) {
-        cell.erase("on_bytes_error_front");  // a cell that was removed may have stood on it
+        cell.erase("on_bytes_error_front");  // a removed cell may have been on it
         cell.at("nodes").erase("histogram");
         cell["times"] = nullptr;
     }

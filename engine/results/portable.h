@@ -1,19 +1,19 @@
-// What of a result holds on any machine: for baselines that are committed.
+// Reduces a result to the values that every machine reproduces, for baselines that are committed.
 //
-// Two runs of one build differ in times alone. Between machines, Embree differs too: it picks its code by the
-// processor, and rounds differently. What a camera sees comes from it, so do the answers of shadow rays; all else is
-// the same, but for the last bits of what the C library's functions of double precision give (errors agree to 1e-12).
+// Two runs of one build differ only in times. Between machines, the answers of Embree differ too: it chooses its code
+// by the processor, and rounds differently. Camera receivers and the answers of shadow rays come from Embree. All other
+// values agree, except for the last bits of the C library's functions of double precision: errors agree to 1e-12.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace shadowbench::results {
 
-// Asks at probes where the document has a camera, and takes no more time than a run has to.
+// Replaces a camera by probe receivers, and asks for the shortest timing that a run accepts.
 void make_portable_document(nlohmann::json& document);
 
-// Removes times, machine and build, the comparison with Embree, the cells that store no function (their answers are
-// Embree's), and what is large and says little. What is left has the form of a result.
+// Removes times, machine and build, the comparison with Embree, the cells that store no function (Embree gives their
+// answers), the marks of the bytes front and the node histograms. The rest has the form of a result.
 void make_portable_result(nlohmann::ordered_json& result);
 
 }  // namespace shadowbench::results

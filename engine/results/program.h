@@ -1,4 +1,4 @@
-// The program that measures.
+// Version and build of the program that measured a result.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@ namespace shadowbench::results {
 
 struct Program {
     std::string version;
-    std::string commit;  // short hash; "+changes" behind it when the sources differed from it
+    std::string commit;  // short hash, with "+changes" appended if the sources differed from it
     std::string compiler;
     std::string build_type;
 };
 
-// This one.
+// The version and build of the running program.
 Program this_program();
 
 }  // namespace shadowbench::results

@@ -1,4 +1,4 @@
-// Mirrors report_json.cpp.
+// Reads result.json: the counterpart of report_json.cpp.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -8,18 +8,18 @@
 namespace shadowbench::results {
 namespace {
 
-int small(const Field& field) {
+int read_int(const Field& field) {
     const std::uint64_t count = field.count();
     if (count > 0x7fffffff) refuse(field.where, "must be below 2^31");
     return static_cast<int>(count);
 }
 
-// Null stands for what is not finite.
+// Null stands for a value that is not finite.
 double error_value(const Field& field) {
     return field.is_null() ? field.number_or_infinity() : field.at_least_zero();
 }
 
-// What results without it hold: those of earlier programs, and a baseline that holds on any machine.
+// False if the key is missing, as in results of earlier programs and in portable baselines.
 bool flag_or_false(const Field& from, const char* key) {
     return from.has(key) && from.at(key).truth();
 }
@@ -31,7 +31,7 @@ Sample read_sample(const Field& field) {
     if (interval.array().size() != 2) refuse(interval.where, "must hold two numbers");
     sample.interval = {interval.item(0).at_least_zero(), interval.item(1).at_least_zero()};
     for (std::size_t i = 0; i < raw.array().size(); ++i) sample.raw.push_back(raw.item(i).at_least_zero());
-    if (sample.raw.empty()) refuse(raw.where, "holds no time");
+    if (sample.raw.empty()) refuse(raw.where, "must hold at least one time");
     return sample;
 }
 
@@ -70,8 +70,8 @@ std::optional<CurveErrors> read_curve_errors(const Field& field) {
     errors.cells = field.at("cells").count();
     const Field worst = field.at("worst_cell");
     if (worst.array().size() != 2) refuse(worst.where, "must hold two numbers");
-    errors.worst_x = small(worst.item(0));
-    errors.worst_y = small(worst.item(1));
+    errors.worst_x = read_int(worst.item(0));
+    errors.worst_y = read_int(worst.item(1));
     errors.reference_error = field.at("reference_error").at_least_zero();
     if (field.has("rise")) errors.rise = field.at("rise").number_or_infinity();
     if (field.has("lowest")) errors.lowest = field.at("lowest").number_or_infinity();
@@ -87,7 +87,7 @@ NodeCounts read_nodes(const Field& field) {
     NodeCounts nodes;
     nodes.cells = field.at("cells").count();
     nodes.total = field.at("total").count();
-    nodes.max = static_cast<std::uint32_t>(small(field.at("max")));
+    nodes.max = static_cast<std::uint32_t>(read_int(field.at("max")));
     if (!field.has("histogram")) return nodes;
     const Field histogram = field.at("histogram");
     for (std::size_t i = 0; i < histogram.array().size(); ++i) nodes.histogram.push_back(histogram.item(i).count());
@@ -103,7 +103,7 @@ Verdict read_verdict(const Field& field) {
 Cell read_cell(const Field& field) {
     Cell cell;
     cell.technique = field.at("technique").text();
-    cell.version = small(field.at("version"));
+    cell.version = read_int(field.at("version"));
     cell.parameters_json = field.at("parameters").object().dump();
     cell.parameters = field.at("label").text();
     cell.defaults = flag_or_false(field, "defaults");
@@ -126,13 +126,13 @@ Cell read_cell(const Field& field) {
 
 MapDescription read_map(const Field& field) {
     MapDescription map;
-    map.width = small(field.at("width"));
-    map.height = small(field.at("height"));
-    map.samples_x = small(field.at("samples_x"));
-    map.samples_y = small(field.at("samples_y"));
+    map.width = read_int(field.at("width"));
+    map.height = read_int(field.at("height"));
+    map.samples_x = read_int(field.at("samples_x"));
+    map.samples_y = read_int(field.at("samples_y"));
     map.jittered = field.at("pattern").text() == "jittered";
     map.seed = field.at("seed").count();
-    map.channels = small(field.at("channels"));
+    map.channels = read_int(field.at("channels"));
     map.media = field.at("media").truth();
     map.z_min = static_cast<float>(field.at("z_min").number());
     map.z_max = static_cast<float>(field.at("z_max").number());
@@ -162,7 +162,7 @@ void read_capture(const Field& field, LightResult& light) {
 ReferenceReport read_reference(const Field& field) {
     ReferenceReport report;
     report.judged = field.at("judged").count();
-    report.samples_per_pixel = small(field.at("samples_per_pixel"));
+    report.samples_per_pixel = read_int(field.at("samples_per_pixel"));
     report.error_rms = error_value(field.at("standard_error").at("rms"));
     report.error_max = error_value(field.at("standard_error").at("max"));
     report.noise_tolerance = field.at("noise_tolerance").at_least_zero();
@@ -185,7 +185,7 @@ LightResult read_light(const Field& field, bool deep_image) {
     light.translucent = field.at("translucent").truth();
     light.receivers = field.at("receivers").count();
     light.dropped = field.at("receivers_outside_map").count();
-    if (field.has("capture")) read_capture(field.at("capture"), light);  // not in a baseline for any machine
+    if (field.has("capture")) read_capture(field.at("capture"), light);  // missing from portable baselines
     light.reference = read_reference(field.at("reference"));
     const Field cells = field.at("cells");
     for (std::size_t i = 0; i < cells.array().size(); ++i) light.cells.push_back(read_cell(cells.item(i)));
@@ -225,10 +225,10 @@ Result from_json(const nlohmann::json& document, const std::string& origin) {
     for (std::size_t i = 0; i < only.array().size(); ++i) result.only.push_back(only.item(i).text());
     result.program = {program.at("version").text(), program.at("commit").text(), program.at("compiler").text(),
                       program.at("build_type").text()};
-    result.machine = {machine.at("cpu").text(), small(machine.at("logical_cores"))};
+    result.machine = {machine.at("cpu").text(), read_int(machine.at("logical_cores"))};
     result.times.started = times.at("started").text();
     if (times.has("seconds")) result.times.seconds = times.at("seconds").at_least_zero();
-    if (times.has("threads")) result.times.threads = small(times.at("threads"));
+    if (times.has("threads")) result.times.threads = read_int(times.at("threads"));
     const bool deep_image = scenario.contains("/scene/deep_image"_json_pointer);
     for (std::size_t i = 0; i < variants.array().size(); ++i)
         result.variants.push_back(read_variant(variants.item(i), deep_image));

@@ -110,7 +110,7 @@ const Column columns[] = {
                                                                            : "0"); }},
 };
 
-// RFC 4180: a field with a comma, a quote or a line break stands in quotes, and its quotes are doubled.
+// RFC 4180: a field with a comma, a quote or a line break is put in quotes, and its own quotes are doubled.
 std::string quoted(const std::string& field) {
     if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
     std::string text = "\"";

@@ -152,7 +152,7 @@ json to_json(const LightResult& light) {
             {"cells", std::move(cells)}};
 }
 
-// What the floors say of the machine: whether it was quiet, and where it was not.
+// Whether the floors show a quiet machine, and for which lights they do not.
 json to_json(const RunTimes& times, const Result& result) {
     json unsettled = json::array();
     for (std::size_t v = 0; v < result.variants.size(); ++v)

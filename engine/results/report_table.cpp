@@ -15,10 +15,12 @@ using base::bytes_text;
 using base::error_text;
 
 constexpr const char* legend =
-    "ns/seg: build time a segment of the light rays. image ns, random ns: one lookup, in image and in random order;\n"
-    "x floor: against reading the same cache lines. curve max: largest |stored - uncompressed|. lookup: error against\n"
-    "the truth. front: T no other is both faster (random order) and more accurate; B none is smaller and more "
-    "accurate.\n";
+    "ns/seg: build time per segment of the light rays. image ns, random ns: time of one lookup, in image and in "
+    "random\n"
+    "order. x floor: that time over the time to read the same cache lines. curve max: largest |stored - "
+    "uncompressed|.\n"
+    "lookup: error against the truth. front: T no other technique is both faster (random order) and more accurate,\n"
+    "B no other is both smaller and more accurate.\n";
 
 std::string count(std::uint64_t n) {
     std::string digits = fmt::format("{}", n);
@@ -78,7 +80,7 @@ std::string capture_lines(const LightResult& light, int threads) {
         : light.layout.jittered ? "jittered"
                                 : "regular",
         light.layout.channels == 3 ? ", 3 channels" : "", count(light.rays), count(light.segments),
-        bytes_text(light.ray_bytes), light.kept ? "" : ", captured anew for each pass");
+        bytes_text(light.ray_bytes), light.kept ? "" : ", captured again for each pass");
     text += fmt::format("    capture: {:.2f} s on {} thread{} after {:.2f} s of setup", light.times.seconds, threads,
                         threads == 1 ? "" : "s", light.times.setup_seconds);
     if (light.agreement) {
@@ -92,40 +94,39 @@ std::string capture_lines(const LightResult& light, int threads) {
     return text + "\n";
 }
 
-// Empty where the light sees something.
+// Empty if the light sees something.
 std::string nothing_line(const LightResult& light) {
     if (!sees_nothing(light)) return "";
-    return "    note: the light sees nothing that casts a shadow: its map is empty, and every answer has to be 1\n";
+    return "    note: the light sees nothing that casts a shadow: its map is empty, and every answer must be 1\n";
 }
 
-// Empty where the capture and Embree agree.
+// Empty if the capture and Embree agree.
 std::string warning_line(const LightResult& light) {
     if (!light.agreement || agrees(*light.agreement)) return "";
     const Agreement& a = *light.agreement;
     return fmt::format(
         "    WARNING: the captured rays are not those that Embree traces: of {} compared, {} differ in crossings and "
-        "{} "
-        "in transmittance. Do not rely on this light's numbers.\n",
+        "{} in transmittance. Do not rely on this light's numbers.\n",
         count(a.rays), count(a.other_crossings), count(a.other_transmittance));
 }
 
-// Empty where every stored function was compared.
+// Empty if every stored function was compared.
 std::string share_line(const LightResult& light) {
     std::string names;
     for (const Cell& cell : light.cells)
         if (cell.curve && cell.curve->cells < cell.nodes.cells)
             names += fmt::format("{}{} ({} of {})", names.empty() ? "" : ", ", title(cell), count(cell.curve->cells),
                                  count(cell.nodes.cells));
-    return names.empty() ? "" : "    curve max of a share of the cells: " + names + "\n";
+    return names.empty() ? "" : "    curve max covers a share of the cells: " + names + "\n";
 }
 
-// Empty where the machine was quiet, or nothing is known of it.
+// Empty if the machine was quiet, or nothing is known of it.
 std::string unsettled_line(const LightResult& light) {
     const std::string why = unsettled_text(settling(light));
     if (why.empty()) return "";
     return "    UNSETTLED: " + why +
-           ". The machine was busy or changed its pace: times may be off by as much, and front T\n"
-           "    and rankings by time with them. Run it again on a quiet machine.\n";
+           ". The machine was busy or changed its speed: times, rankings by time and front T\n"
+           "    may be off by as much. Run it again on a quiet machine.\n";
 }
 
 std::string reference_line(const LightResult& light) {

@@ -13,20 +13,18 @@ namespace shadowbench::results {
 namespace {
 
 constexpr const char* rule =
-    "**Failed**: a promise that the technique makes is broken. **Kept**: every promise holds, and the technique "
-    "promises "
-    "a bound on its curve error in this case, or its error is within the noise tolerance of the light rays, "
-    "0.5/sqrt(N) "
-    "for N rays a pixel, without. **Degraded**: every promise holds, but none bounds the error in this case, and the "
-    "error is above the noise tolerance.\n\n"
-    "The error that decides is the largest curve error (*curve max*: stored function against the uncompressed one of "
-    "the same rays); of a technique that stores no function, the lookup error against the truth, as RMS. A technique "
-    "for opaque scenes promises no bound where light passes; one that is exact only before and behind all that casts "
-    "shadows is held to that, and promises nothing between.\n\n"
-    "A verdict speaks of stored functions against their own rays, and *kept* of no picture: in the summary, \\* marks "
-    "where the lookups of some case are farther from the truth (RMS) than the noise tolerance, whether sampling, bias "
-    "or the filter is to blame. Beyond its promise a curve may err by 1e-6, for rounding, and by a sixteenth of the "
-    "promise where media are drawn as lines.\n\n";
+    "**Failed**: the technique broke a promise. **Kept**: every promise holds, and the technique either promises a "
+    "bound on its curve error in this case or its error is within the noise tolerance of the light rays, 0.5/sqrt(N) "
+    "for N rays a pixel. **Degraded**: every promise holds, but none bounds the error in this case, and the error is "
+    "above the noise tolerance.\n\n"
+    "The error that decides is the largest curve error (*curve max*: the stored function against the uncompressed "
+    "function of the same rays). A technique that stores no function is judged by its lookup error against the truth, "
+    "as RMS. A technique for opaque scenes promises no bound where light passes through surfaces or media. A technique "
+    "that is exact only before and behind all casters is held to that, and promises nothing in between.\n\n"
+    "A verdict compares stored functions with their own rays; *kept* does not say that pictures are right. In the "
+    "summary, \\* marks a scenario where some lookup error against the truth (RMS) is above the noise tolerance, "
+    "whether from sampling, bias or the filter. Beyond its promise a curve may err by 1e-6 for rounding and, where "
+    "media are approximated by lines, by a sixteenth of the promise.\n\n";
 
 char letter(Verdict verdict) {
     return verdict == Verdict::kept ? 'K' : verdict == Verdict::degraded ? 'D' : 'F';
@@ -41,17 +39,18 @@ void for_each_cell(const Result& result, const Visit& visit) {
 
 struct Worst {
     Verdict verdict = Verdict::kept;
-    bool far = false;  // lookups from the truth
+    bool noisy_lookups = false;  // their error is above the noise tolerance
 };
 
-// The worst of each technique with default parameters, over the variants and lights of a scenario.
+// The worst verdict of each technique with default parameters, over the variants and lights of a scenario.
 std::map<std::string, Worst> worst_of_defaults(const Result& result) {
     std::map<std::string, Worst> worst;
     for_each_cell(result, [&](const VariantResult&, const LightResult& light, const Cell& cell) {
         if (!cell.defaults) return;
-        Worst& here = worst[cell.technique];
-        here.verdict = std::max(here.verdict, cell.verdict);
-        here.far = here.far || (cell.lookup && !(cell.lookup->norms.rms <= light.reference.noise_tolerance));
+        Worst& entry = worst[cell.technique];
+        entry.verdict = std::max(entry.verdict, cell.verdict);
+        entry.noisy_lookups =
+            entry.noisy_lookups || (cell.lookup && !(cell.lookup->norms.rms <= light.reference.noise_tolerance));
     });
     return worst;
 }
@@ -66,7 +65,7 @@ Matrix matrix_of(std::span<const ScenarioOutcome> outcomes, std::span<const std:
     for (const ScenarioOutcome& outcome : outcomes) worst.push_back(worst_of_defaults(outcome.result));
     Matrix matrix;
     for (const std::string& id : techniques)
-        if (std::any_of(worst.begin(), worst.end(), [&](const auto& each) { return each.contains(id); }))
+        if (std::any_of(worst.begin(), worst.end(), [&](const auto& entry) { return entry.contains(id); }))
             matrix.header.push_back(id);
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
         std::vector<std::string> line{outcomes[i].result.name};
@@ -75,7 +74,7 @@ Matrix matrix_of(std::span<const ScenarioOutcome> outcomes, std::span<const std:
             line.push_back(!outcomes[i].error.empty() ? "not run"
                            : found == worst[i].end()
                                ? "-"
-                               : letter(found->second.verdict) + std::string(found->second.far ? "*" : ""));
+                               : letter(found->second.verdict) + std::string(found->second.noisy_lookups ? "*" : ""));
         }
         matrix.rows.push_back(std::move(line));
     }
@@ -96,13 +95,13 @@ std::string counts(std::span<const ScenarioOutcome> outcomes) {
     return text + ".\n";
 }
 
-// "rays.seed = 1, light key"; empty where there is one variant of one light.
+// "rays.seed = 1, light key"; empty if there is one variant of one light.
 std::string place_of(const Result& result, const VariantResult& variant, const LightResult& light) {
     std::string text;
     for (const document::Setting& setting : variant.settings)
         text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", setting.pointer, setting.value);
     const bool lights = std::any_of(result.variants.begin(), result.variants.end(),
-                                    [](const VariantResult& each) { return each.lights.size() > 1; });
+                                    [](const VariantResult& entry) { return entry.lights.size() > 1; });
     if (lights) text += fmt::format("{}light {}", text.empty() ? "" : ", ", light.name);
     return text;
 }
@@ -130,7 +129,7 @@ std::string light_section(const Result& result, const VariantResult& variant, co
     text += fmt::format("Map {} x {}, {} ray{} a pixel, {} segments; noise tolerance {:.3g}.{}{}\n\n",
                         light.layout.width, light.layout.height, light.layout.samples(),
                         light.layout.samples() == 1 ? "" : "s", light.segments, light.reference.noise_tolerance,
-                        sees_nothing(light) ? " The light sees nothing that casts a shadow: all is lit." : "",
+                        sees_nothing(light) ? " The light sees nothing that casts a shadow: everything is lit." : "",
                         light.dropped == 0 ? ""
                                            : fmt::format(" {} of {} receivers are outside the map.", light.dropped,
                                                          light.dropped + light.receivers));
@@ -147,8 +146,8 @@ std::string verdicts_markdown(std::span<const ScenarioOutcome> outcomes, std::sp
     std::string text = "# Verdicts\n\n" + std::string(rule) + counts(outcomes) + "\n";
     const Matrix matrix = matrix_of(outcomes, techniques);
     text +=
-        "## Techniques with default parameters\n\nK kept, D degraded, F failed, - not in the scenario, \\* lookups "
-        "farther from the truth than the noise tolerance; the worst of a scenario's variants and lights.\n\n";
+        "## Techniques with default parameters\n\nK kept, D degraded, F failed, - not in the scenario, \\* lookup "
+        "error above the noise tolerance. Each entry is the worst over the scenario's variants and lights.\n\n";
     text += base::markdown_table(matrix.header, matrix.rows);
     for (const ScenarioOutcome& outcome : outcomes) {
         const Result& result = outcome.result;
@@ -158,7 +157,7 @@ std::string verdicts_markdown(std::span<const ScenarioOutcome> outcomes, std::sp
         for (const VariantResult& variant : result.variants)
             for (const LightResult& light : variant.lights) text += light_section(result, variant, light);
     }
-    text.pop_back();  // one line break ends the last table, as every file
+    text.pop_back();  // the file ends with one line break
     return text;
 }
 
@@ -167,7 +166,7 @@ std::string verdicts_text(std::span<const ScenarioOutcome> outcomes, std::span<c
     base::Table table(matrix.header);
     for (const auto& row : matrix.rows) table.add(row);
     std::string text =
-        "verdicts (K kept, D degraded, F failed, * lookups farther from the truth than the noise; default "
+        "verdicts (K kept, D degraded, F failed, * lookup error above the noise tolerance; default "
         "parameters)\n" +
         table.text("  ");
     for (const ScenarioOutcome& outcome : outcomes) {

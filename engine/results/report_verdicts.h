@@ -1,5 +1,5 @@
-// Many scenarios at once: a verdict for every technique and case. Nothing of the clock or the machine stands in them:
-// the same scenarios give the same text.
+// Verdicts on every technique over many scenarios, as text. Neither clock nor machine enters it: the same scenarios
+// give the same text.
 #pragma once
 
 #include <span>
@@ -10,17 +10,17 @@
 namespace shadowbench::results {
 
 struct ScenarioOutcome {
-    Result result;      // of a scenario that could not be run: its name and purpose alone
-    std::string error;  // why it could not; empty: it was
+    Result result;      // only name and purpose if the scenario could not be run
+    std::string error;  // why it could not be run; empty if it was
 };
 
-// `techniques`: the ids of the matrix's columns, in their order; those that no scenario has are left out.
+// `techniques` are the ids of the matrix's columns, in order. Techniques that no scenario has are left out.
 //
 // Markdown: the rule, a matrix of scenarios and techniques with default parameters (the worst of their cells), then a
-// section a scenario with a table a light.
+// section for each scenario with a table for each light.
 std::string verdicts_markdown(std::span<const ScenarioOutcome> outcomes, std::span<const std::string> techniques);
 
-// For people at a terminal: the matrix, the counts, and what failed.
+// For a terminal: the matrix, the counts, and all failures.
 std::string verdicts_text(std::span<const ScenarioOutcome> outcomes, std::span<const std::string> techniques);
 
 }  // namespace shadowbench::results

@@ -18,8 +18,12 @@ const char* to_string(Verdict verdict) {
     return verdict == Verdict::kept ? "kept" : verdict == Verdict::degraded ? "degraded" : "failed";
 }
 
+std::string title(const std::string& technique, const std::string& parameters) {
+    return parameters.empty() ? technique : technique + " " + parameters;
+}
+
 std::string title(const Cell& cell) {
-    return cell.parameters.empty() ? cell.technique : cell.technique + " " + cell.parameters;
+    return title(cell.technique, cell.parameters);
 }
 
 bool agrees(const Agreement& agreement) {

@@ -1,5 +1,5 @@
-// What a run measured, as plain values. Everything that depends on the clock is a Sample, or stands in a struct named
-// ...Times; all else is the same for the same scenario and seed, whatever the machine's speed and thread count.
+// The measurements of a run, as plain values. Values that depend on the clock are Samples or members of a struct named
+// ...Times. All others are equal for the same scenario and seed, whatever the machine's speed and thread count.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace shadowbench::results {
 
-// Raw timings of one thing and their median with its 95 % bootstrap interval.
+// Raw timings of one operation, and their median with its 95 % bootstrap interval.
 struct Sample {
     std::vector<double> raw;
     double median = 0.0;
@@ -23,10 +23,11 @@ struct Sample {
 };
 Sample summarise(std::vector<double> raw);
 
-// Lookups in one order, each repetition beside its floor: reading the same cache lines and nothing else.
+// Times of lookups in one order. Each repetition also times its floor, which reads the same cache lines and does
+// nothing else.
 struct LookupTimes {
-    Sample ns;                    // a lookup
-    std::optional<Sample> floor;  // ns a lookup; nothing for a technique that reads no map
+    Sample ns;                    // per lookup
+    std::optional<Sample> floor;  // ns per lookup; absent for a technique that reads no map
     std::optional<Sample> ratio;  // lookup / floor of the same repetition
 };
 
@@ -39,13 +40,13 @@ struct CellTimes {
 };
 
 struct CurveErrors {
-    std::uint64_t cells = 0;       // compared: all, or an even share of very many
-    double reference_error = 0.0;  // of the reference curves themselves, where exponentials are joined by lines
+    std::uint64_t cells = 0;       // cells compared: all, or an even share of very many
+    double reference_error = 0.0;  // of the reference curves, which approximate exponentials by lines
     metrics::ErrorNorms norms;     // over the cells, of each cell's largest error
     double mean_l1 = 0.0;          // mean over the cells of the integral of the error over depth
     int worst_x = 0, worst_y = 0;  // cell of the largest error
-    double rise = 0.0;             // largest, of a stored function from a depth to a deeper one
-    double lowest = 0.0;           // value of a stored function, where one is below 0
+    double rise = 0.0;             // largest rise of a stored function with depth
+    double lowest = 0.0;           // lowest value of a stored function, if below 0
 };
 
 struct LookupErrors {
@@ -53,7 +54,7 @@ struct LookupErrors {
     double signed_mean = 0.0;  // below 0: too dark
 };
 
-// Nodes of the stored functions: how many cells (stored functions) there are, and how many nodes they have.
+// The number of cells (stored functions) and of their nodes.
 struct NodeCounts {
     std::uint64_t cells = 0;
     std::uint64_t total = 0;
@@ -71,23 +72,24 @@ struct Cell {
     int version = 0;
     std::string parameters;       // "tolerance=0.02 filter=point": what sweeps set, and what differs from the defaults
     std::string parameters_json;  // all of them
-    bool defaults = false;        // all have their default values
+    bool defaults = false;        // whether all have their default values
     std::string where;            // JSON pointer into the scenario as written
     CellStatus status = CellStatus::ok;
     std::string reason;            // why it failed
-    bool outside_promise = false;  // made for opaque scenes alone, and this one is not
+    bool outside_promise = false;  // the technique is for opaque scenes only, and this one is not
     double error_bound = 0.0;      // the promised largest curve error; infinity: none
     std::size_t bytes = 0, working_bytes = 0;
     NodeCounts nodes;
     std::optional<CurveErrors> curve;
     std::optional<LookupErrors> lookup;
     Verdict verdict = Verdict::kept;
-    std::string verdict_why;         // the figures, and the cause of a degraded one
+    std::string verdict_why;         // the figures, and why a degraded cell has no bound
     bool on_bytes_front = false;     // no other technique is both smaller and more accurate
-    std::optional<CellTimes> times;  // nothing for a failed cell
+    std::optional<CellTimes> times;  // absent for a failed cell
 };
 
-// "deep tolerance=0.02": the technique and its parameters.
+// "deep tolerance=0.02": a technique and its parameters, which may be empty.
+std::string title(const std::string& technique, const std::string& parameters);
 std::string title(const Cell& cell);
 
 struct CaptureTimes {
@@ -96,7 +98,7 @@ struct CaptureTimes {
     double rays_per_second = 0.0;  // all tiles, on all threads
 };
 
-// The captured rays beside the same rays traced with Embree.
+// Captured rays compared with the same rays traced by Embree.
 struct AgreementTimes {
     double capture_rays_per_second = 0.0;  // one thread, without the setup
     double tracer_rays_per_second = 0.0;   // one thread, Embree's all-hits query, without building its tree
@@ -104,11 +106,12 @@ struct AgreementTimes {
 };
 struct Agreement {
     std::uint64_t rays = 0;                 // traced
-    std::uint64_t other_crossings = 0;      // rays with another number of surface crossings
+    std::uint64_t other_crossings = 0;      // rays whose numbers of surface crossings differ
     std::uint64_t other_transmittance = 0;  // rays whose whole transmittance differs by more than 1e-3
     AgreementTimes times;
 };
-// Whether no more rays differ, in either way, than grazed edges explain: 3, or 0.1 % of many.
+// Whether the rays that differ, in either way, are at most as many as grazed edges explain: 3, or 0.1 % if that is
+// more.
 bool agrees(const Agreement& agreement);
 
 struct ReferenceReport {
@@ -116,18 +119,18 @@ struct ReferenceReport {
     int samples_per_pixel = 0;
     double error_rms = 0.0, error_max = 0.0;       // standard error of the truth, over the judged receivers
     double noise_tolerance = 0.0;                  // 0.5 / sqrt(samples a pixel of the light rays)
-    std::optional<double> spread_rms, spread_max;  // standard deviation over seeds; nothing when it was not measured
+    std::optional<double> spread_rms, spread_max;  // standard deviation over seeds; absent if not measured
 };
 
 // The light's map and its rays.
 struct MapDescription {
     int width = 0, height = 0;         // pixels
-    int samples_x = 0, samples_y = 0;  // rays of a pixel
+    int samples_x = 0, samples_y = 0;  // rays of a pixel along each side
     bool jittered = false;
     std::uint64_t seed = 0;
     int channels = 1;
     bool media = false;
-    float z_min = 0.0f, z_max = 0.0f;  // planar depths of what casts shadows
+    float z_min = 0.0f, z_max = 0.0f;  // planar depth range of the casters
 
     int samples() const { return samples_x * samples_y; }
 };
@@ -138,8 +141,8 @@ struct LightResult {
     bool deep_image = false;
     std::uint64_t rays = 0, segments = 0;
     std::uint64_t ray_bytes = 0;
-    bool kept = true;                          // all rays stayed in memory; else they were captured anew for each pass
-    bool translucent = false;                  // some crossing lets light through, or into a medium
+    bool kept = true;          // all rays stayed in memory; otherwise they were captured again for each pass
+    bool translucent = false;  // some crossing lets light through, or into a medium
     std::uint64_t receivers = 0, dropped = 0;  // dropped: outside the light's map
     std::optional<Agreement> agreement;
     ReferenceReport reference;
@@ -147,7 +150,7 @@ struct LightResult {
     std::vector<Cell> cells;
 };
 
-// Whether no ray meets anything that casts a shadow: all is lit, and the map of every technique is empty.
+// Whether no ray meets a caster. Then everything is lit, and the map of every technique is empty.
 bool sees_nothing(const LightResult& light);
 
 struct VariantResult {
@@ -170,7 +173,7 @@ struct Result {
     std::string name, purpose;
     std::string document;           // JSON text of the scenario as run
     std::string hash;               // of that text
-    std::vector<std::string> only;  // ids of the techniques that the run was kept to; empty: all
+    std::vector<std::string> only;  // ids of the techniques that the run was limited to; empty: all
     Program program;
     Machine machine;
     RunTimes times;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_named = 3;
 
-// Between the two values around the place of this share of a sorted sample.
+// The quantile of a sorted sample at this share, interpolated linearly between neighbours.
 double quantile(const std::vector<double>& sorted, double share) {
     const double place = share * static_cast<double>(sorted.size() - 1);
     const auto below = static_cast<std::size_t>(place);
@@ -19,18 +19,18 @@ double quantile(const std::vector<double>& sorted, double share) {
     return sorted[below] + (place - static_cast<double>(below)) * (above - sorted[below]);
 }
 
-// The quartiles' distance over the median.
+// The interquartile range over the median.
 double spread_of(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return (quantile(values, 0.75) - quantile(values, 0.25)) / quantile(values, 0.5);
 }
 
-bool tells(const std::vector<double>& raw) {
+bool is_usable(const std::vector<double>& raw) {
     return raw.size() >= least_repetitions &&
            std::all_of(raw.begin(), raw.end(), [](double ns) { return std::isfinite(ns) && ns > 0.0; });
 }
 
-// Of each repetition, the median over the floors of its time over the floor's own median.
+// The pace of each repetition: the median, over the floors, of its time over that floor's median.
 std::vector<double> paces(const std::vector<const std::vector<double>*>& floors) {
     std::size_t repetitions = floors.front()->size();
     for (const auto* floor : floors) repetitions = std::min(repetitions, floor->size());
@@ -52,7 +52,7 @@ Settling settling(const LightResult& light) {
         if (!cell.times) continue;
         for (const auto& [order, times] :
              {std::pair("image", &cell.times->image_order), std::pair("random", &cell.times->random_order)}) {
-            if (!times->floor || !tells(times->floor->raw)) continue;
+            if (!times->floor || !is_usable(times->floor->raw)) continue;
             floors.push_back(&times->floor->raw);
             const double spread = spread_of(times->floor->raw);
             if (spread > floor_limit) result.unsteady.push_back({title(cell), order, spread});
@@ -69,8 +69,9 @@ std::string unsettled_text(const Settling& settling) {
     std::string text;
     if (!settling.unsteady.empty()) {
         for (std::size_t i = 0; i < std::min(settling.unsteady.size(), most_named); ++i) {
-            const FloorSpread& one = settling.unsteady[i];
-            text += fmt::format("{}{}, {} order: {:.0f} %", i ? "; " : "", one.cell, one.order, 100.0 * one.spread);
+            const FloorSpread& floor = settling.unsteady[i];
+            text +=
+                fmt::format("{}{}, {} order: {:.0f} %", i ? "; " : "", floor.cell, floor.order, 100.0 * floor.spread);
         }
         text = fmt::format("{} of {} floors spread{} by more than {:.0f} % ({}{})", settling.unsteady.size(),
                            settling.floors, settling.unsteady.size() == 1 ? "s" : "", 100.0 * floor_limit, text,
@@ -86,7 +87,8 @@ std::optional<bool> settled(const Result& result) {
     std::optional<bool> all;
     for (const VariantResult& variant : result.variants)
         for (const LightResult& light : variant.lights)
-            if (const Settling one = settling(light); one.floors > 0) all = all.value_or(true) && one.settled();
+            if (const Settling floors = settling(light); floors.floors > 0)
+                all = all.value_or(true) && floors.settled();
     return all;
 }
 

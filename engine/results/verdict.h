@@ -1,5 +1,5 @@
-// One word on a measured cell: whether the technique kept what it promises, did all that it states and yet strayed, or
-// broke a promise. bench/verdict.h has the rule.
+// The verdict on a measured cell: the technique kept its promises; it kept them, but its error is large (degraded); or
+// it broke one (failed). bench/verdict.h has the rule.
 #pragma once
 
 namespace shadowbench::results {

@@ -1,4 +1,4 @@
-// A result on disk.
+// Writes a result to disk.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace shadowbench::results {
 
-// result.json and result.csv, in this folder. Throws Error{io}.
+// Writes result.json and result.csv into this folder. Throws Error{io}.
 void write_result(const std::filesystem::path& folder, const Result& result);
 
 }  // namespace shadowbench::results

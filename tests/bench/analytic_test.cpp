@@ -1,5 +1,4 @@
-// Scenes whose filtered visibility is known in closed form: the truth that lookups are judged against, and the
-// techniques themselves, must find it.
+// Scenes whose filtered visibility has a closed form, which the truth and the techniques must find.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,9 +16,9 @@ using techniques::Query;
 using techniques::testing::build;
 using techniques::testing::slab;
 
-// Area of the disc x^2 + y^2 <= r^2 inside [x0, x1] x [y0, y1]: between the places where the circle meets the box each
-// boundary of the region is a constant or the circle, whose integral is (x s + r^2 asin(x / r)) / 2, s = sqrt(r^2 -
-// x^2).
+// The area of the disc x^2 + y^2 <= r^2 inside [x0, x1] x [y0, y1]. Between the places where the circle meets the box,
+// each boundary of the region is a constant or the circle, whose integral is (x s + r^2 asin(x / r)) / 2 with s =
+// sqrt(r^2 - x^2).
 double disc_in_box(double r, double x0, double x1, double y0, double y1) {
     const auto s = [&](double x) { return std::sqrt(std::max(r * r - x * x, 0.0)); };
     const auto circle = [&](double x) { return 0.5 * (x * s(x) + r * r * std::asin(std::clamp(x / r, -1.0, 1.0))); };
@@ -39,12 +38,12 @@ double disc_in_box(double r, double x0, double x1, double y0, double y1) {
     return area;
 }
 
-TEST(Analytic, TheAreaOfADiscInABoxIsRightWhereItIsKnown) {
+TEST(Analytic, TheAreaOfADiscInABoxIsRightInKnownCases) {
     EXPECT_NEAR(disc_in_box(1, -2, 2, -2, 2), std::acos(-1.0), 1e-12);
     EXPECT_NEAR(disc_in_box(1, 0, 2, 0, 2), std::acos(-1.0) / 4, 1e-12);
     EXPECT_NEAR(disc_in_box(2, -1, 1, -1, 1), 4, 1e-12);
     EXPECT_EQ(disc_in_box(1, 0.8, 2, 0.8, 2), 0.0);
-    double sum = 0.0;  // an odd place, by counting
+    double sum = 0.0;  // an arbitrary place, by counting
     for (int i = 0; i < 1000; ++i)
         for (int j = 0; j < 1000; ++j)
             sum += std::hypot(0.1 + 0.7 * (i + 0.5) / 1000, -0.9 + 1.4 * (j + 0.5) / 1000) <= 0.8;
@@ -85,7 +84,7 @@ TEST(Analytic, TheEdgeOfAnOpaqueDiscIsFilteredToItsCoverage) {
     EXPECT_GT(partly, 100) << "the test must look at edges";
     EXPECT_EQ(outside, 0) << "stratified rays stay well inside three standard errors";
 
-    // Shadow rays, whose number gives their own worst standard error.
+    // Shadow rays: their number gives their worst standard error.
     const auto traced = build(techniques::find("ray_traced", ""), scene, rays::testing::directional(),
                               rays::testing::rays(resolution, 1), R"({"samples": 400})");
     const auto filtered =
@@ -97,7 +96,7 @@ TEST(Analytic, TheEdgeOfAnOpaqueDiscIsFilteredToItsCoverage) {
         const auto ask = [&](const auto& b) { return b.lookup(queries[i].x, queries[i].y, 5.0f, queries[i].width); };
         EXPECT_NEAR(ask(traced), expected[i], sigma);
         EXPECT_NEAR(ask(exact), expected[i], sigma);
-        // The depth map holds 8 x 8 samples a pixel: a region's border is that coarse.
+        // The depth map holds 8 x 8 samples a pixel, the resolution of a region's border.
         EXPECT_NEAR(ask(filtered), expected[i], sigma + 0.06 / std::min(queries[i].width, 1.0f));
     }
 }
@@ -140,9 +139,9 @@ TEST(Analytic, LayeredSlabsMultiply) {
     }
 }
 
-TEST(Analytic, RandomOpaqueLayersLetThroughWhatChanceSays) {
-    // Each of n layers covers each cell of a 24 x 24 grid with probability p, on its own: behind k layers (1 - p)^k of
-    // the light is left, give or take the standard deviation of 576 coins.
+TEST(Analytic, RandomOpaqueLayersTransmitAsProbabilitySays) {
+    // Each of n layers covers each cell of a 24 x 24 grid independently with probability p. Behind k layers (1 - p)^k
+    // of the light is left, within the standard deviation of 576 such draws.
     constexpr int n = 6, cells = 24;
     constexpr double p = 0.3;
     base::Random random(12);

@@ -22,10 +22,10 @@ using base::Vec3f;
 using nlohmann::json;
 
 scene::Object object(scene::Mesh mesh, Vec3f opacity) {
-    scene::Object made;
-    made.shape = std::move(mesh);
-    made.opacity = opacity;
-    return made;
+    scene::Object object;
+    object.shape = std::move(mesh);
+    object.opacity = opacity;
+    return object;
 }
 
 scene::Mesh layer(float y, float side = 5.0f) {
@@ -43,7 +43,7 @@ scene::Scene stack(const std::vector<Vec3f>& opacities) {
     return scene;
 }
 
-// From the origin straight down.
+// A camera at the origin that looks straight down.
 scene::Receivers downwards(int side, double fov = 40.0) {
     scene::Receivers receivers;
     receivers.camera = scene::Camera{{0, 0, 0}, {0, -1, 0}, {0, 0, -1}, fov};
@@ -80,7 +80,7 @@ TEST(CameraPoints, lie_on_the_nearest_of_opaque_surfaces_in_image_order) {
     EXPECT_LT(points[0].position.z, points[4].position.z) << "top row first: up is -z";
 }
 
-// Grey stacks, with and without something opaque at their end: the shares are what is seen, of all that is.
+// Grey stacks, with and without an opaque end: each share is a layer's part of all that is seen.
 TEST(CameraPoints, lie_on_each_layer_of_a_stack_as_often_as_it_is_seen) {
     for (const std::vector<double>& opacities :
          {std::vector<double>{0.1, 0.49, 0.3, 0.5, 1.0, 0.5}, {0.3, 0.2}, {0.001, 0.002, 0.001}, {0.9, 1.0}}) {
@@ -111,8 +111,8 @@ TEST(CameraPoints, weigh_the_mean_of_coloured_shares) {
     expect_share(counts[2], 40000, 0.8 / 3, "floor");
 }
 
-// A medium of optical depth ln 4 between the layers, 2 ln 4 before them: the first is no matter, as nothing is seen
-// through less of it.
+// A medium of optical depth ln 4 between the layers, and 2 ln 4 before them. The first has no influence, since nothing
+// is seen through less of it.
 TEST(CameraPoints, see_surfaces_through_the_media_before_them) {
     scene::Scene scene = stack({Vec3f(0.5f), Vec3f(1.0f)});
     for (const double y : {-0.5, -1.5}) {
@@ -131,7 +131,7 @@ TEST(CameraPoints, see_surfaces_through_the_media_before_them) {
         receivers.media_lookups = lookups;
         std::vector<CameraPoint> points = seen(scene, receivers);
         ASSERT_EQ(points.size(), 40000u * static_cast<unsigned>(1 + lookups));
-        if (lookups > 0) {  // one in each slab: those behind a translucent layer are passed too
+        if (lookups > 0) {  // one in each slab, also behind translucent layers
             EXPECT_NEAR(points[0].position.y, -0.5, 1e-3);
             EXPECT_NEAR(points[1].position.y, -1.5, 1e-3);
         }
@@ -148,7 +148,7 @@ rays::SurfaceHit at(double t, const Vec3d& opacity) {
     return {t, Vec3d(0.0), Vec3d(0.0), Vec3d(0.0), opacity};
 }
 
-TEST(CameraPoints, take_the_nearest_where_nothing_is_left_of_what_is_seen) {
+TEST(CameraPoints, take_the_nearest_if_all_shares_underflow) {
     const std::vector<rays::SurfaceHit> surfaces{at(2, Vec3d(0.5)), at(3, Vec3d(1.0))};
     const std::vector<rays::TracedSegment> dark{{0.5, 1.0, Vec3d(0.0)}};
     for (const double u : {0.0, 0.3, 0.999}) EXPECT_EQ(draw_surface(surfaces, dark, u), 0u) << u;
@@ -157,10 +157,10 @@ TEST(CameraPoints, take_the_nearest_where_nothing_is_left_of_what_is_seen) {
     const Vec3d red(1, 0, 0);
     const std::vector<rays::SurfaceHit> unseen{at(2, red), at(3, red), at(4, Vec3d(0, 1, 1))};
     EXPECT_EQ(draw_surface(unseen, {}, 0.0), 0u);
-    EXPECT_EQ(draw_surface(unseen, {}, 0.999), 2u) << "the second is behind red alone";
+    EXPECT_EQ(draw_surface(unseen, {}, 0.999), 2u) << "only red is opaque in front of the second";
 }
 
-// Kinds of surfaces, of one opacity each; none before a floor.
+// Kinds of surfaces, each of one opacity; none in front of a floor.
 struct Kind {
     const char* name;
     std::function<void(scene::Scene&)> add;
@@ -239,8 +239,9 @@ TEST_P(SeenSurface, has_as_many_receivers_at_any_opacity_above_0) {
     EXPECT_TRUE(seen(scene, downwards(120)).empty()) << "opacity 0 is not seen";
 }
 
-// Of one pixel, what is drawn only comes nearer as the surface grows opaque. From 0.5 to 0.51 the cumulative shares of
-// a stack, 1 - (1 - a)^i, move by 0.01 / a^2 in sum: so many pixels move, and the others keep their very place.
+// For each pixel, the drawn surface only comes nearer as the surface grows opaque. From opacity 0.5 to 0.51 the
+// cumulative shares of a stack, 1 - (1 - a)^i, move by 0.01 / a^2 in sum. So that share of the pixels moves, and the
+// others keep their exact place.
 TEST_P(SeenSurface, gains_receivers_from_the_floor_and_loses_none_as_its_opacity_grows) {
     scene::Scene scene;
     GetParam().add(scene);
@@ -269,7 +270,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Kind{"Leaf", add_leaf}),
     [](const auto& kind) { return std::string(kind.param.name); });
 
-TEST(CameraPoints, have_the_pixel_of_the_surface_that_is_drawn) {
+TEST(CameraPoints, have_the_pixel_edges_of_the_drawn_surface) {
     scene::Scene scene = stack({Vec3f(0.5f)});
     scene::Mesh tilted = layer(0.0f);  // y = -3 + 0.5 x
     for (Vec3f& p : tilted.positions) p.y = -3.0f + 0.5f * p.x;
@@ -285,7 +286,7 @@ TEST(CameraPoints, have_the_pixel_of_the_surface_that_is_drawn) {
     EXPECT_LT(flat, 1000);
 }
 
-TEST(CameraPoints, depend_on_the_seed_of_the_receivers_where_something_is_drawn) {
+TEST(CameraPoints, depend_on_the_seed_of_the_receivers_if_surfaces_are_drawn) {
     const scene::Scene scene = stack({Vec3f(0.5f), Vec3f(1)});
     scene::Receivers receivers = downwards(64);
     const auto heights = [&] {
@@ -302,7 +303,7 @@ TEST(CameraPoints, depend_on_the_seed_of_the_receivers_where_something_is_drawn)
     expect_share(differ, one.size(), 0.5, "independent draws");
 }
 
-TEST(CameraPoints, show_what_moves_where_it_stands_at_mid_shutter) {
+TEST(CameraPoints, lie_on_moving_objects_at_mid_shutter) {
     scene::Scene scene;
     scene.objects.emplace_back();
     scene.objects[0].shape = scene::Spheres{{{0, -4, 0}}, {1.0f}};
@@ -364,7 +365,7 @@ std::uint64_t receivers_of(const json& document) {
     return light.receivers + light.dropped;
 }
 
-TEST(Run, asks_at_faint_hair_that_stands_alone) {
+TEST(Run, has_receivers_on_faint_hair_alone_in_the_scene) {
     json faint = seen_alone(R"([{"type": "hair_ball", "strands": 500, "segments": 12, "centre": [0, 1.7, 0],
         "ball_radius": 0.9, "length": 0.5, "radius": 0.004, "opacity": 0.3}])");
     json opaque = faint;
@@ -373,7 +374,7 @@ TEST(Run, asks_at_faint_hair_that_stands_alone) {
     EXPECT_EQ(receivers_of(faint), receivers_of(opaque));
 }
 
-TEST(Run, asks_at_a_sphere_whose_red_is_faint) {
+TEST(Run, has_receivers_on_a_sphere_whose_red_is_faint) {
     json red = seen_alone(R"([{"type": "sphere", "centre": [0, 1, 0], "radius": 0.8, "opacity": [0.4, 1, 1]}])");
     json opaque = red;
     opaque["scene"]["objects"][0]["opacity"] = 1;

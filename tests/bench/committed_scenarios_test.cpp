@@ -1,5 +1,4 @@
-// What the techniques promise, on committed scenarios as they are: only the receivers and the clock's part are cut
-// down.
+// The promises of techniques on committed scenarios, in which only the receivers and the timing are reduced.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-// One light's cells in this order: deep at two tolerances, avsm of 4, 8 and 16 nodes, uncompressed, ray_traced.
+// The cells of one light in this order: deep with two tolerances, avsm with 4, 8 and 16 nodes, uncompressed,
+// ray_traced.
 results::LightResult measure(const std::string& name, const std::vector<std::string>& assignments) {
     const std::filesystem::path top = SHADOWBENCH_SOURCE_DIR;
     std::ifstream file(top / "scenarios" / (name + ".json"));
@@ -47,12 +47,12 @@ void check_promises(const results::LightResult& light) {
     const auto curve_max = [&](std::size_t i) { return light.cells[i].curve->norms.max; };
     EXPECT_LE(curve_max(0), noise + 1e-6) << "every pixel, by the exact norm";
     EXPECT_LE(curve_max(1), 0.01 + 1e-6);
-    EXPECT_LE(curve_max(5), 1e-6) << "uncompressed is the oracle, but for the rounding of a float";
+    EXPECT_LE(curve_max(5), 1e-6) << "uncompressed is exact, except for the rounding of floats";
 
     EXPECT_GT(light.cells[2].curve->norms.mean, light.cells[3].curve->norms.mean);
     EXPECT_GT(light.cells[3].curve->norms.mean, light.cells[4].curve->norms.mean) << "more nodes, less error";
 
-    // Shadow rays are as many as the truth's, so their own standard error is the same; both are upper bounds.
+    // There are as many shadow rays as rays of the truth, so their standard errors are equal; both are upper bounds.
     const metrics::ErrorNorms& traced = light.cells[6].lookup->norms;
     EXPECT_LE(traced.rms, std::sqrt(2.0) * light.reference.error_rms + 1e-4);
     EXPECT_LE(traced.max, 5 * std::sqrt(2.0) * light.reference.error_max + 1e-3);

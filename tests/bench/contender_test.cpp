@@ -17,7 +17,8 @@
 namespace shadowbench::bench {
 namespace {
 
-// A fake technique on the half covered map with the layer over all of it, so that every pixel has the same function.
+// A fake technique on the half covered map with the layer over the whole map, so that all pixels have the same
+// function.
 class Contenders : public ::testing::Test {
 protected:
     results::Cell judge(const FakeAnswers& answers) {
@@ -40,7 +41,7 @@ protected:
     RaySource source_{capture_, layout_, std::size_t{1} << 30, {}};
 };
 
-TEST_F(Contenders, that_tell_the_truth_are_ok) {
+TEST_F(Contenders, that_answer_exactly_are_ok) {
     const results::Cell cell = judge({.function = true_function_, .lookup = 0.45f});
     EXPECT_EQ(cell.status, results::CellStatus::ok) << cell.reason;
     ASSERT_TRUE(cell.curve && cell.lookup);
@@ -84,7 +85,7 @@ TEST_F(Contenders, whose_function_leaves_the_unit_range_fail) {
     EXPECT_NE(cell.reason.find("outside [0, 1]"), std::string::npos) << cell.reason;
 }
 
-TEST_F(Contenders, that_answer_no_number_fail) {
+TEST_F(Contenders, that_answer_nan_fail) {
     for (const float answer : {std::numeric_limits<float>::quiet_NaN(), 1.5f, -0.1f}) {
         const results::Cell cell = judge({.function = true_function_, .lookup = answer});
         EXPECT_EQ(cell.status, results::CellStatus::failed) << answer;
@@ -106,8 +107,8 @@ TEST_F(Contenders, whose_values_promise_no_range_may_leave_it) {
     EXPECT_EQ(judge(infinite).status, results::CellStatus::failed);
 }
 
-// A series or slices are off between, which they may be, but not before and behind all.
-TEST_F(Contenders, that_promise_the_ends_alone_fail_where_those_are_wrong) {
+// A series or slices may err in between, but not before and behind all casters.
+TEST_F(Contenders, that_promise_only_the_ends_fail_if_those_are_wrong) {
     const techniques::Promises ends{.localised = false, .leak = 0.004};
     const auto with = [&](curves::Curve function) {
         return judge({.function = std::move(function), .lookup = 0.4f, .promises = ends});
@@ -124,7 +125,7 @@ TEST_F(Contenders, that_promise_the_ends_alone_fail_where_those_are_wrong) {
     EXPECT_EQ(with({}).status, results::CellStatus::failed) << "a function that is lit everywhere";
 }
 
-TEST_F(Contenders, that_may_be_dark_early_are_held_to_what_is_behind) {
+TEST_F(Contenders, that_may_be_dark_early_are_held_to_their_far_end) {
     const auto with = [&](techniques::Promises promises, float behind) {
         return judge({.function = {{1.0f, 0.9f}, {1.0f, 0.4f}, {3.0f, 0.4f}, {3.0f, behind}},
                       .lookup = 0.4f,
@@ -135,12 +136,12 @@ TEST_F(Contenders, that_may_be_dark_early_are_held_to_what_is_behind) {
     EXPECT_EQ(with({.localised = false, .approximate = true, .early = true, .leak = 0.1}, 0.11f).status,
               results::CellStatus::failed);
     EXPECT_EQ(with({.approximate = true, .early = true, .leak = 0.1}, 0.11f).status, results::CellStatus::failed)
-        << "what approximates is held to its ends, localised or not";
+        << "an approximate technique is held to its ends, localised or not";
     EXPECT_EQ(with({.localised = false, .approximate = true, .leak = 0.1}, 0.09f).status, results::CellStatus::failed)
         << "dark before the first surface";
 }
 
-TEST_F(Contenders, that_are_not_lit_where_nothing_casts_a_shadow_fail) {
+TEST_F(Contenders, that_are_dark_where_nothing_casts_a_shadow_fail) {
     std::vector<Contender> contenders(2);
     contenders[0].cell.lookup = results::LookupErrors{};
     contenders[1].cell.lookup = results::LookupErrors{{1e-3, 0, 0, 0}, 0};
@@ -150,8 +151,8 @@ TEST_F(Contenders, that_are_not_lit_where_nothing_casts_a_shadow_fail) {
     EXPECT_NE(contenders[1].cell.reason.find("0.001"), std::string::npos) << contenders[1].cell.reason;
 }
 
-// The answers of one channel behind those of the other: the place named is that of the query.
-TEST_F(Contenders, whose_timed_answers_are_no_visibilities_fail) {
+// Answers are stored channel after channel; the failure names the place of the query.
+TEST_F(Contenders, whose_timed_answers_leave_the_unit_range_fail) {
     const techniques::Query asked[] = {{1.5f, 1.5f, 2.0f, 1.0f}, {6.5f, 3.5f, 2.0f, 1.0f}};
     Contender contender;
     check_answers(contender, asked, std::vector<float>{0.0f, 1.0f, 0.5f, 1.0f});
@@ -172,18 +173,18 @@ TEST_F(Contenders, that_refuse_the_layout_are_bad_input) {
                    "/techniques/3");
 }
 
-TEST_F(Contenders, are_judged_alike_when_the_rays_are_captured_anew) {
-    const RaySource anew(capture_, layout_, 0, {});
-    EXPECT_FALSE(anew.kept());
-    EXPECT_EQ(anew.segments(), source_.segments());
+TEST_F(Contenders, are_judged_alike_if_the_rays_are_captured_again) {
+    const RaySource recaptured(capture_, layout_, 0, {});
+    EXPECT_FALSE(recaptured.kept());
+    EXPECT_EQ(recaptured.segments(), source_.segments());
     std::size_t rays = 0;
-    anew.for_each_batch(0, [&](RaySource::Batch batch) {
+    recaptured.for_each_batch(0, [&](RaySource::Batch batch) {
         for (const rays::LightRays& tile : batch) rays += tile.rays();
     });
     EXPECT_EQ(rays, source_.rays());
 }
 
-// A fake technique on a medium of optical depth 2 over all of the map.
+// A fake technique on a medium of optical depth 2 over the whole map.
 class ContendersInAMedium : public ::testing::Test {
 protected:
     ContendersInAMedium() {
@@ -221,7 +222,7 @@ protected:
     std::optional<RaySource> source_;
 };
 
-TEST_F(ContendersInAMedium, are_held_to_a_promise_far_below_what_lines_cost_a_coarse_reference) {
+TEST_F(ContendersInAMedium, are_held_to_promises_far_below_the_error_of_a_coarse_reference) {
     const results::Cell right = judge(0.0f, 1e-6);
     EXPECT_EQ(right.status, results::CellStatus::ok) << right.reason;
     ASSERT_TRUE(right.curve);

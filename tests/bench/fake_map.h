@@ -1,4 +1,4 @@
-// A technique made for tests: every pixel stores the same function, true or not.
+// A technique for tests: every pixel stores the same function, right or wrong.
 #pragma once
 
 #include <array>
@@ -50,10 +50,10 @@ private:
     mutable std::atomic<int> lookups_ = 0;
 };
 
-// What fake_technique() makes, until it is set anew.
+// The map that fake_technique() makes; tests change it.
 inline FakeAnswers fake_answers;
 
-// A row that promises what the answers say: everything by default, and a curve error of at most 0.01.
+// A row with the promises in the answers: by default all of them, and a curve error of at most 0.01.
 const techniques::Technique& fake_technique();
 
 }  // namespace shadowbench::bench

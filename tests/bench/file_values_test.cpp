@@ -1,4 +1,4 @@
-// Files as programs write them, through the whole engine: the stored visibility behind each is a closed form.
+// Files as programs write them, read and processed by the whole engine. The visibility behind each is a closed form.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ RunOptions options() {
     return options;
 }
 
-// What every cell of the map stores at `z`, one channel after the other, is this.
+// Checks the value that every cell of the map stores at `z`, channel after channel.
 void expect_everywhere(const json& document, const std::string& technique, float z,
                        const std::vector<double>& visibility, double within) {
     SCOPED_TRACE(technique);
@@ -54,7 +54,7 @@ json case_document(const char* name) {
     return json::parse(base::read_text(cases / name));
 }
 
-// No technique breaks its promise; `uncompressed` meets the truth that the run makes itself.
+// No technique breaks its promise, and `uncompressed` agrees with the truth of the run.
 void expect_runs(const json& document) {
     const results::Result result = run(document, options(), {});
     EXPECT_FALSE(results::any_failed(result));
@@ -86,7 +86,7 @@ TEST(FileValues, TwoHundredFaintLayers) {
     expect_runs(document);
 }
 
-// Light along -y through a box of density 0.5; the map lies inside of the box.
+// Light along -y through a box of density 0.5; the map lies inside the box.
 json volume_document(const std::string& file, const std::string& more = "") {
     return json::parse(R"({"name": "volume", "scene": {"objects": [
             {"type": "volume", "file": ")" +
@@ -100,13 +100,13 @@ json volume_document(const std::string& file, const std::string& more = "") {
 }
 
 TEST(FileValues, VolumesWithoutANameTurnedAndSwapped) {
-    // Along (0.3, -1, 0.2) the ray leaves by the top and the bottom: it is sqrt(1.13) times the height of 16 long.
+    // A ray along (0.3, -1, 0.2) passes the top and the bottom: its length is sqrt(1.13) times the height of 16.
     const double visibility = std::exp(-0.2 * 0.5 * 16.0 * std::sqrt(1.13));
     for (const char* file : {"noname.vdb", "rot90.vdb", "yzswap.vdb"}) {
         SCOPED_TRACE(file);
         expect_everywhere(volume_document(file), "uncompressed", far_away, {visibility}, 1e-6);
         json exact = volume_document(file);
-        exact["rays"]["media"] = "cells";         // steps err, and the truth does not
+        exact["rays"]["media"] = "cells";         // steps have errors, the truth has none
         exact["rays"]["samples_per_pixel"] = 64;  // the box's top lies across the rays: one ray a pixel is noisy
         expect_runs(exact);
     }
@@ -123,7 +123,7 @@ TEST(FileValues, AVolumeWithADensityJustBelow0) {
     json document = volume_document("tinyneg.vdb");
     document["lights"][0] = {
         {"type", "directional"}, {"direction", {0, -1, 0}}, {"target", {1, 0, 1}}, {"extent", {1e-3, 1e-3}}};
-    // The column of (1, 1, 1) has 0 at one of its 16 voxels, and what is linear towards its neighbours.
+    // The column of (1, 1, 1) has 0 at one of its 16 voxels, and is linear towards its neighbours.
     expect_everywhere(document, "uncompressed", far_away, {std::exp(-0.2 * 0.5 * 15.0)}, 1e-3);
     document["lights"][0]["target"] = {8, 0, 8};
     expect_everywhere(document, "uncompressed", far_away, {std::exp(-0.2 * 0.5 * 16.0)}, 1e-6);

@@ -18,7 +18,7 @@ std::vector<FunctionResult> measure(const std::vector<Curve>& functions, const c
     return measure_functions(functions, choices, 2);
 }
 
-TEST(MeasureFunctions, finds_nothing_lost_where_nothing_can_be) {
+TEST(MeasureFunctions, finds_no_error_in_lossless_techniques) {
     const std::vector<Curve> functions{{{0, 1}, {1, 1}, {1, 0.25f}, {3, 0.2f}}, {{0, 1}, {2, 0}}};
     const FunctionResult result = measure(functions, "deep:tolerance=0.001")[0];
     EXPECT_EQ(result.functions, 2u);
@@ -53,8 +53,8 @@ TEST(MeasureFunctions, counts_no_tolerance_where_none_is_promised) {
     EXPECT_TRUE(to_json(result)["over_tolerance"].is_null());
 }
 
-// What a technique does not promise is told, and fails nothing.
-TEST(MeasureFunctions, tells_how_far_functions_rise_and_leave_their_range) {
+// What a technique does not promise is reported, and fails nothing.
+TEST(MeasureFunctions, reports_how_far_functions_rise_and_leave_their_range) {
     const Curve knee{{0, 1}, {1, 0.95f}, {2, 0.6f}, {3, 0.2f}, {4, 0}, {5, 0}, {9, 0}};
     const FunctionResult published = measure({knee}, "deep:tolerance=0.1,compression=published")[0];
     EXPECT_GT(published.outside_max, 0.01);
@@ -81,7 +81,7 @@ TEST(ReadTechnique, reads_names_numbers_and_words) {
     EXPECT_EQ(document::read_technique("avsm:nodes=4,filter=point").values.integer("nodes"), 4);
 }
 
-TEST(ReadTechnique, refuses_what_cannot_be) {
+TEST(ReadTechnique, refuses_unknown_names_and_wrong_values) {
     const auto refuses = [](const std::string& text, const std::string& below) {
         return test::error_of([&] { document::read_technique(text); }, ErrorCode::usage, "--technique " + text + below);
     };
@@ -93,7 +93,7 @@ TEST(ReadTechnique, refuses_what_cannot_be) {
     refuses("ray_traced", "");
 }
 
-TEST(ReadTechnique, refuses_values_that_are_no_finite_numbers_and_names_given_twice) {
+TEST(ReadTechnique, refuses_values_that_are_not_finite_and_names_given_twice) {
     const auto refuses = [](const std::string& text, const std::string& below) {
         test::error_of([&] { document::read_any_technique(text); }, ErrorCode::usage, "--technique " + text + below);
     };
@@ -101,7 +101,7 @@ TEST(ReadTechnique, refuses_values_that_are_no_finite_numbers_and_names_given_tw
         refuses(std::string("deep:tolerance=") + value, "/tolerance");
     refuses("deep:tolerance=0,02", "");
     refuses("avsm:nodes=99999999999999999999", "/nodes");
-    refuses("deep:tolerance=0.1,tolerance=0.2", "");  // one of the two would be lost without a word
+    refuses("deep:tolerance=0.1,tolerance=0.2", "");  // one of the two would be lost silently
 }
 
 }  // namespace

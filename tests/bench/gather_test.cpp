@@ -29,7 +29,7 @@ MapLayout layout_of(int channels) {
     return layout;
 }
 
-// The tile at pixel (4, 0) is two pixels wide. Rays of random surfaces and media that overlap, some of them opaque.
+// The tile at pixel (4, 0), two pixels wide. Rays through random surfaces and media that overlap; some are opaque.
 LightRays random_tile(const MapLayout& layout, std::uint64_t seed) {
     LightRays tile;
     tile.tile = 1;
@@ -58,7 +58,7 @@ LightRays random_tile(const MapLayout& layout, std::uint64_t seed) {
     return tile;
 }
 
-// Each ray of the tile against each query, with rays::transmittance alone.
+// Each ray of the tile for each query, with rays::transmittance() only.
 Moments one_by_one(const LightRays& tile, const MapLayout& layout, const Query& query) {
     Moments moments;
     for (std::size_t ray = 0; ray < tile.rays(); ++ray) {
@@ -73,7 +73,7 @@ Moments one_by_one(const LightRays& tile, const MapLayout& layout, const Query& 
     return moments;
 }
 
-TEST(Gather, walks_each_ray_to_what_the_oracle_says_at_every_depth) {
+TEST(Gather, agrees_with_the_oracle_at_every_depth_of_each_ray) {
     for (const int channels : {1, 3}) {
         const MapLayout layout = layout_of(channels);
         const rays::GridMedia no_grids(scene::Scene(), true);
@@ -83,7 +83,7 @@ TEST(Gather, walks_each_ray_to_what_the_oracle_says_at_every_depth) {
         std::vector<Query> queries;
         std::vector<Part> parts;
         for (std::size_t q = 0; q < 300; ++q) {
-            // Depths on the ends of segments too, where surfaces do not shade yet.
+            // Depths at the ends of segments too, at which surfaces do not shade yet.
             const float z =
                 q % 2 ? static_cast<float>(random.uniform(-1, 11)) : static_cast<float>(random.below(20)) * 0.5f;
             queries.push_back({static_cast<float>(random.uniform(3, 6)), static_cast<float>(random.uniform(0, 4)), z,

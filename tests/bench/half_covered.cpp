@@ -19,22 +19,22 @@ scene::Object layer(float y, float x0, float x1, float opacity) {
 }  // namespace
 
 HalfCovered half_covered(double layer_right_edge) {
-    HalfCovered made;
-    made.scene.objects = {layer(-1.0f, -1.5f, static_cast<float>(layer_right_edge), 0.6f),
+    HalfCovered half;
+    half.scene.objects = {layer(-1.0f, -1.5f, static_cast<float>(layer_right_edge), 0.6f),
                           layer(-3.0f, -1.5f, 1.5f, 1.0f)};
-    made.settings.resolution = {8, 8};
-    made.settings.samples_per_pixel = 16;
-    made.view.origin = {0, 0, 0};
-    made.view.right = {1, 0, 0};
-    made.view.up = {0, 0, -1};
-    made.view.forward = {0, -1, 0};
-    made.view.lower = {-1, -1};
-    made.view.pixel = {0.25, 0.25};
-    made.view.resolution = {8, 8};
-    made.view.z_near = -1e300;
-    made.view.z_min = 1.0;
-    made.view.z_max = 3.0;
-    return made;
+    half.settings.resolution = {8, 8};
+    half.settings.samples_per_pixel = 16;
+    half.view.origin = {0, 0, 0};
+    half.view.right = {1, 0, 0};
+    half.view.up = {0, 0, -1};
+    half.view.forward = {0, -1, 0};
+    half.view.lower = {-1, -1};
+    half.view.pixel = {0.25, 0.25};
+    half.view.resolution = {8, 8};
+    half.view.z_near = -1e300;
+    half.view.z_min = 1.0;
+    half.view.z_max = 3.0;
+    return half;
 }
 
 }  // namespace shadowbench::bench

@@ -1,5 +1,5 @@
-// A scene with a known answer: a layer that transmits 40 % at depth 1 covers the left half of a map of 8 x 8 pixels;
-// behind it, at depth 3 and over the whole map, an opaque floor that casts shadows too.
+// A scene with a known answer: at depth 1, a layer that transmits 40 % covers the left half of a map of 8 x 8 pixels;
+// at depth 3, an opaque floor, which casts shadows too, covers the whole map.
 #pragma once
 
 #include "rays/light_view.h"

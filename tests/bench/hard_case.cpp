@@ -63,7 +63,7 @@ Query HardCase::at(const base::Vec3d& world, float width) const {
 
 void HardCase::expect_of_techniques(const Queries& queries, const Answers& expected, double slack) const {
     for (const Contender& contender : contenders_) {
-        const std::string name = contender.cell.technique + " " + contender.cell.parameters;
+        const std::string name = results::title(contender.cell);
         ASSERT_TRUE(contender.ok()) << name << ": " << contender.cell.reason;
         const std::vector<float> answers = lookup_all(contender.maps, {queries});
         const bool bounded = std::isfinite(contender.cell.error_bound) && !contender.cell.outside_promise;

@@ -1,4 +1,4 @@
-// A committed scenario of scenarios/hard with its maps built, to be asked where a closed form knows the answer.
+// A committed scenario of scenarios/hard with its maps built, to be compared with closed forms.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace shadowbench::bench {
 
 class HardCase {
 public:
-    // `assignments` as in --set: what cuts a scenario down. Sweeps are taken at their first values.
+    // `assignments` reduce the scenario, as --set does. Sweeps take their first values.
     explicit HardCase(const std::string& name, const std::vector<std::string>& assignments = {}, std::size_t light = 0);
     HardCase(const HardCase&) = delete;
     HardCase& operator=(const HardCase&) = delete;
@@ -31,11 +31,11 @@ public:
     using Queries = std::vector<techniques::Query>;
     using Answers = std::vector<long double>;  // to all queries in channel 0, then to all in channel 1, ...
 
-    // Holds every technique that bounds its error for these rays, and shadow rays, to a closed form. `slack` is allowed
-    // beyond each bound: what floats at these depths cannot tell. Techniques that bound nothing have to answer with
-    // numbers, and where they promise it in [0, 1].
+    // Compares every technique that bounds its error for these rays, and shadow rays, with a closed form. `slack`, the
+    // resolution of floats at these depths, is allowed beyond each bound. Techniques without a bound must answer with
+    // numbers, in [0, 1] if they promise it.
     void expect_of_techniques(const Queries& queries, const Answers& expected, double slack = 2e-6) const;
-    // The same of the truth that lookups are judged against.
+    // The same for the truth that lookups are judged against.
     void expect_of_truth(const Queries& queries, const Answers& expected, double slack = 2e-6) const;
     void expect(const Queries& queries, const Answers& expected, double slack = 2e-6) const;  // both
 

@@ -1,5 +1,5 @@
-// Figure 9 of Reeves, Salesin, Cook 1987 at 89.9 degrees: what a bias does to a ground that shades itself, and to the
-// shadow of a wall on it.
+// Figure 9 of Reeves, Salesin, Cook 1987 at 89.9 degrees: the effect of a bias on a ground that shades itself, and on
+// the shadow of a wall on it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using techniques::Query;
 constexpr double slope = 573.0;  // of the ground in the light's view: its depth per length across the light
 constexpr double wall_shadow = 0.002 * slope;  // how far the wall of 0.002 shades the ground
 
-// Answers of one technique to points of the ground at distances behind the wall, moved towards the light by a bias.
+// One technique's answers for points of the ground at distances behind the wall, moved towards the light by a bias.
 std::vector<float> ask(const HardCase& hard, const Contender& contender, const std::vector<double>& distances,
                        double bias) {
     std::vector<Query> queries;
@@ -38,12 +38,12 @@ double mean(const std::vector<float>& values) {
     return sum / static_cast<double>(values.size());
 }
 
-// The share of a ground that shades itself that stays lit where receivers are moved towards the light by `bias`, in
-// depths that the ground passes in a pixel, when the samples are anywhere ...
+// The share of a ground that stays lit although it shades itself, if receivers are moved towards the light by `bias`
+// (in depths that the ground passes within a pixel) and the samples lie anywhere ...
 double around_receiver(double bias) {  // ... in a pixel around it
     return std::min(0.5 + bias, 1.0);
 }
-double in_same_pixel(double bias) {  // ... in the pixel that it is in
+double in_same_pixel(double bias) {  // ... in the pixel of the receiver
     const double rest = std::max(1.0 - bias, 0.0);
     return 1.0 - 0.5 * rest * rest;
 }
@@ -79,7 +79,7 @@ protected:
     const double pixel = hard.view().pixel.y * slope;  // depth that the ground passes in a pixel
 };
 
-TEST_F(HardGrazing, AcneIsTheGroundsOwnDepthBetweenSamplesAndGoesWithTheBias) {
+TEST_F(HardGrazing, AcneIsTheDepthBetweenSamplesAndVanishesWithTheBias) {
     for_each([&](const Contender& contender, const Tested& tested) {
         for (const double bias : {0.0, 0.05, 0.1, 0.25, 0.5, 2.0})
             EXPECT_NEAR(mean(ask(hard, contender, between(-0.7, -0.1, 400), bias * pixel)), tested.lit(bias), 0.05)
@@ -88,7 +88,7 @@ TEST_F(HardGrazing, AcneIsTheGroundsOwnDepthBetweenSamplesAndGoesWithTheBias) {
 }
 
 TEST_F(HardGrazing, PeterPanningIsAsLongAsTheBias) {
-    // A receiver nearer to the wall than the bias is moved before it.
+    // A receiver closer behind the wall than the bias is moved to its front.
     for_each([&](const Contender& contender, const Tested&) {
         for (const double bias : {0.3, 0.6, 0.9}) {
             EXPECT_GT(mean(ask(hard, contender, between(0.01, bias - 0.01, 100), bias)), 0.99)

@@ -1,4 +1,4 @@
-// Media that floats can hardly hold, on the committed scenarios, against closed forms in long double.
+// Media at the limits of floats, on the committed scenarios, compared with closed forms in long double.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 using base::Vec3d;
 using techniques::Query;
 
-// Map positions have one ray each: what a technique stores there is the function of a ray that is known.
+// Map positions with one ray each: a technique stores the function of a known ray there.
 const std::vector<std::string> one_ray = {"rays.samples_per_pixel=1", "rays.pattern=regular"};
 
 TEST(HardMedia, AThickStepDarkensAsFastAsItsExponential) {
@@ -28,7 +28,7 @@ TEST(HardMedia, AThickStepDarkensAsFastAsItsExponential) {
     hard.expect(queries, expected, 2e-6 + 1e4 * 0.5 * (std::nextafter(front, 1.0f) - front) / std::exp(1.0));
 }
 
-TEST(HardMedia, AThickBallDoesTheSameWhereItsRaysEnterIt) {
+TEST(HardMedia, AThickBallDoesSoWhereRaysEnterIt) {
     const HardCase hard("thick_step", one_ray);
     std::vector<Query> queries;
     std::vector<long double> expected;
@@ -46,7 +46,7 @@ TEST(HardMedia, AThickBallDoesTheSameWhereItsRaysEnterIt) {
                               2e-4);  // a depth of 0.5 has floats 6e-8 apart: 3e-4 of this extinction
 }
 
-TEST(HardMedia, AMillionFaintStepsTakeTheirHundredth) {
+TEST(HardMedia, AMillionFaintStepsTakeAHundredth) {
     const HardCase hard("million_steps");
     std::vector<Query> queries;
     std::vector<long double> expected;
@@ -92,7 +92,7 @@ TEST(HardMedia, AWideConePassesMediaAtTheLengthOfItsRays) {
     const HardCase hard("wide_cone", one_ray);
     std::vector<Query> queries;
     std::vector<long double> expected;
-    for (const float at : {16.5f, 18.5f, 24.5f, 29.5f, 31.5f})  // the diagonal; no sphere stands there
+    for (const float at : {16.5f, 18.5f, 24.5f, 29.5f, 31.5f})  // on the diagonal, without spheres
         for (const float z : {0.5f, 1.0f, 1.001f, 1.1f, 1.5f, 2.0f, 2.9f, 3.1f, 50.0f}) {
             const long double length = rays::length_per_depth(hard.view(), at, at);
             queries.push_back({at, at, z, 1e-6f});
@@ -103,7 +103,7 @@ TEST(HardMedia, AWideConePassesMediaAtTheLengthOfItsRays) {
     hard.expect_of_techniques(queries, expected);
 }
 
-TEST(HardMedia, ChannelsOfOneMediumKeepApart) {
+TEST(HardMedia, ChannelsOfOneMediumStaySeparate) {
     const HardCase hard("colour_split");
     const double top = rays::to_light(hard.view(), {0, 0, 0}).z;
     std::vector<Query> queries;

@@ -1,4 +1,4 @@
-// Receivers where a light's map has no place for them, on the committed scenario.
+// Receivers outside a light's map, on the committed scenario.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace {
 using base::Vec3d;
 using techniques::Query;
 
-// The spot stands at the origin and looks along -z, its near plane is at 0.5, a quad of opacity 3/4 at 1.
-TEST(HardReceivers, BehindTheLightAndOutsideOfItsMapEverythingIsLit) {
+// The spot is at the origin and looks along -z; its near plane is at 0.5, a quad of opacity 3/4 at 1.
+TEST(HardReceivers, BehindTheLightAndOutsideItsMapEverythingIsLit) {
     const HardCase hard("receivers");
     std::vector<Query> queries;
     for (const Vec3d& place :

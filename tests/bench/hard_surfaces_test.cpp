@@ -1,4 +1,4 @@
-// Surfaces that floats can hardly tell apart, or that come in thousands, on the committed scenarios, against closed
+// Surfaces that floats can hardly separate, or thousands of surfaces, on the committed scenarios, compared with closed
 // forms in long double.
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@ namespace {
 
 using techniques::Query;
 
-// What n crossings of `opacity` leave; the opacity as a float holds it.
+// The transmittance of n crossings of `opacity`, rounded to a float.
 long double left(float opacity, int n) {
     return std::exp(n * std::log1p(-static_cast<long double>(opacity)));
 }
 
-TEST(HardSurfaces, WallsOverNineDecadesEachTakeTheirHalf) {
+TEST(HardSurfaces, WallsOverNineDecadesEachTakeHalf) {
     const HardCase hard("depth_range");
     std::vector<Query> queries;
     std::vector<long double> expected;
@@ -37,14 +37,14 @@ TEST(HardSurfaces, LayersOneFloatApartAreCountedOneByOne) {
     std::vector<Query> queries;
     std::vector<long double> expected;
     for (const int layer : {0, 1, 2, 3, 100, 1000, 2047, 2048, 4000, 4095, 4096, 5000}) {
-        // Layer i stands at 1 + i 2^-23: before it there are i.
+        // Layer i is at depth 1 + i 2^-23, behind i layers.
         queries.push_back({1.5f, 2.5f, 1.0f + 0x1p-23f * static_cast<float>(layer), 1.0f});
         expected.push_back(left(0x1p-10f, std::min(layer, 4096)));
     }
     hard.expect(queries, expected);
 }
 
-// Between layers of a scenario whose layer i stands at height 0.5 - i 1e-5.
+// A query between layers of a scenario whose layer i is at height 0.5 - i 1e-5.
 void expect_layers(const HardCase& hard, float opacity, double slack) {
     std::vector<Query> queries;
     std::vector<long double> expected;
@@ -55,20 +55,20 @@ void expect_layers(const HardCase& hard, float opacity, double slack) {
     hard.expect(queries, expected, slack);
 }
 
-TEST(HardSurfaces, AHundredThousandFaintLayersTakeAll) {
-    // A light ray holds a transmittance, whose last digit is 2^-24: half of it off, n times, n (1 - a)^n at most 1 / (a
-    // e).
+TEST(HardSurfaces, AHundredThousandFaintLayersTakeAllLight) {
+    // A light ray holds a transmittance with a last digit of 2^-24. An error of half of it occurs n times, and
+    // n (1 - a)^n is at most 1 / (a e).
     expect_layers(HardCase("faint_layers"), 1e-4f, 2e-6 + 0x1p-25 / (1e-4 * std::exp(1.0)));
 }
 
 TEST(HardSurfaces, AHundredThousandFaintLayersAreMultipliedWithoutDrift) {
-    // As above, but of the opacity that the light rays hold: no technique with a bound loses anything more.
+    // As above, but for the opacity that the light rays hold: no technique with a bound loses more than that.
     const HardCase hard("faint_layers", {"techniques=[{\"type\": \"deep\", \"tolerance\": 0}, {\"type\": \"deep\"}, "
                                          "{\"type\": \"uncompressed\"}]"});
     expect_layers(hard, 1.0f - (1.0f - 1e-4f), 2e-6);
 }
 
-TEST(HardSurfaces, AHundredThousandDenseLayersLeaveNothing) {
+TEST(HardSurfaces, AHundredThousandDenseLayersLeaveNoLight) {
     expect_layers(HardCase("dense_layers"), 0.999f, 2e-6);
 }
 
@@ -89,7 +89,7 @@ TEST(HardSurfaces, CoincidentSurfacesShadeOnlyWhatIsStrictlyBehindThem) {
     hard.expect(queries, expected);
 }
 
-TEST(HardSurfaces, AFilterWiderThanTheMapIsItsMean) {
+TEST(HardSurfaces, AFilterWiderThanTheMapGivesItsMean) {
     const HardCase hard("wide_filter", {"timing.lookups=1"});
     std::vector<Query> queries;
     std::vector<long double> expected;
@@ -109,7 +109,7 @@ TEST(HardSurfaces, JitteredSamplesFindHalfOfACheckerboardAndRegularOnesAllOrNoth
             if (contender.cell.technique != "uncompressed" && contender.cell.technique != "deep") continue;
             const float mean = lookup_all(contender.maps, {std::vector<Query>{behind}})[0];
             if (std::string(pattern) == "regular")
-                EXPECT_NEAR(mean, 0.0f, 1e-3) << "every sample at the same place of its square, an opaque one";
+                EXPECT_NEAR(mean, 0.0f, 1e-3) << "every sample is at the same place of its square, which is opaque";
             else
                 EXPECT_NEAR(mean, 0.5f, 0.03) << "4,096 samples of mean 1/2 and at most as much deviation, four times";
         }

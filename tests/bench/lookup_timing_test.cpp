@@ -34,7 +34,7 @@ TEST(ChooseRuns, spreads_runs_of_neighbours_over_the_whole) {
     const std::vector<std::size_t> chosen = choose_runs(64 * 100, 256);
     ASSERT_EQ(chosen.size(), 256u);
     EXPECT_TRUE(std::is_sorted(chosen.begin(), chosen.end()));
-    EXPECT_EQ(std::set<std::size_t>(chosen.begin(), chosen.end()).size(), 256u) << "none twice";
+    EXPECT_EQ(std::set<std::size_t>(chosen.begin(), chosen.end()).size(), 256u) << "no query twice";
     EXPECT_EQ(chosen[63], 63u);
     EXPECT_EQ(chosen[64], 64u * 25);
     EXPECT_GT(chosen.back(), 64u * 74);
@@ -55,7 +55,7 @@ TEST(LookupPlan, looks_up_the_same_queries_in_both_orders) {
     std::set<std::vector<float>> orders{image};
     for (auto first = random.begin(); first != random.end(); first += 640) {
         std::vector<float> order(first, first + 640);
-        EXPECT_TRUE(orders.insert(order).second) << "a processor would know it by heart";
+        EXPECT_TRUE(orders.insert(order).second) << "a processor would learn it";
         std::sort(order.begin(), order.end());
         EXPECT_EQ(order, image);
     }
@@ -63,13 +63,13 @@ TEST(LookupPlan, looks_up_the_same_queries_in_both_orders) {
     EXPECT_EQ(plan.image.covered, 640u);
 }
 
-TEST(LookupPlan, looks_up_more_in_a_row_than_a_processor_learns_by_heart) {
+TEST(LookupPlan, looks_up_more_in_a_row_than_a_processor_learns) {
     EXPECT_EQ(random_orders(65536, 5e-9), 1u);
     EXPECT_EQ(random_orders(1'000'000, 5e-9), 1u);
     EXPECT_EQ(random_orders(1000, 5e-9), 66u);
     EXPECT_EQ(random_orders(1, 5e-9), 65536u);
     EXPECT_EQ(random_orders(1000, 1e-6), 10u) << "10 ms";
-    EXPECT_EQ(random_orders(1000, 1e-3), 1u) << "once at least";
+    EXPECT_EQ(random_orders(1000, 1e-3), 1u) << "at least one";
     EXPECT_EQ(random_orders(1000, 0.0), 66u) << "faster than the clock";
 }
 

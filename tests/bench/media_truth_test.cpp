@@ -1,5 +1,5 @@
-// The truth of grid volumes, and the ray-traced technique, against an integration of their own at receivers inside the
-// media and behind them.
+// The truth of grid volumes, and the ray-traced technique, compared with an independent integration at receivers inside
+// the media and behind them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,14 +33,14 @@ scene::SearchPath data() {
     return path;
 }
 
-// Empty where no folder holds the file.
+// Empty if no folder holds the file.
 std::filesystem::path find(const std::string& file) {
     for (const std::filesystem::path& folder : data().folders)
         if (std::filesystem::exists(folder / file)) return folder / file;
     return {};
 }
 
-// Trilinear between voxel centres, the outermost values half a voxel further, nothing outside the box.
+// Trilinear between voxel centres; the outermost values continue for half a voxel; 0 outside the box.
 double density(const GridVolume& g, const Vec3d& p) {
     int low[3], high[3];
     double share[3];
@@ -66,7 +66,7 @@ double density(const GridVolume& g, const Vec3d& p) {
     return sum;
 }
 
-// Along a straight line from `from` to `to`, at the middles of 100,000 steps of the part inside the box.
+// The integral along a straight line from `from` to `to`: 100,000 midpoint steps of the part inside the box.
 double integral(const GridVolume& g, const Vec3d& from, const Vec3d& to) {
     double first = 0.0, last = 1.0;
     const Vec3d d = to - from;
@@ -87,7 +87,7 @@ GridVolume random_grid() {
     GridVolume g;
     g.size = {5, 4, 3};
     base::Random random(3);
-    for (int i = 0; i < 60; ++i)  // holes among them
+    for (int i = 0; i < 60; ++i)  // with holes
         g.density.push_back(static_cast<float>(std::max(0.0, random.uniform(-0.5, 1.5))));
     g.lower = {-0.7, -1, -0.4};
     g.upper = {1.1, 0.8, 0.9};
@@ -95,13 +95,13 @@ GridVolume random_grid() {
     return g;
 }
 
-// Of this many unit lengths across, around the origin.
+// A grid of this many unit lengths across, around the origin.
 void resize(GridVolume& g, double across) {
     const Vec3d extent = g.upper - g.lower;
     const double scale = across / std::max({extent.x, extent.y, extent.z});
     g.lower = extent * (-0.5 * scale);
     g.upper = extent * (0.5 * scale);
-    g.step = across / 20.0;  // as coarse as you like
+    g.step = across / 20.0;  // coarse: the truth must not depend on it
 }
 
 scene::Object object_of(GridVolume volume, const base::Vec3f& extinction, const base::Vec3f& motion = base::Vec3f(0)) {
@@ -158,7 +158,7 @@ void expect_exact(const scene::Scene& scene, int receivers) {
             }
         }
     }
-    EXPECT_GT(within, receivers / 2) << "receivers that tell something";
+    EXPECT_GT(within, receivers / 2) << "enough receivers inside the media";
 }
 
 TEST(MediaTruth, IsExactInASmallGridWithHoles) {
@@ -191,7 +191,7 @@ TEST(MediaTruth, IsExactInARow) {
 
 TEST(MediaTruth, IsExactInTheBuckyBall) {
     const std::string file = "volumes/bucky_32x32x32_uint8.raw";
-    if (find(file).empty()) GTEST_SKIP() << file << " is not there: set SHADOWBENCH_DATA to the folder of data";
+    if (find(file).empty()) GTEST_SKIP() << file << " does not exist: set SHADOWBENCH_DATA to the folder of data";
     GridVolume ball = scene::read_raw_volume(find(file), {32, 32, 32}, "uint8");
     ball.lower = {-1, -1, -1};
     ball.upper = {1, 1, 1};
@@ -203,7 +203,7 @@ TEST(MediaTruth, IsExactInTheBuckyBall) {
 
 TEST(MediaTruth, IsExactInSmokeOfAFile) {
     const std::string file = "volumes/smoke.vdb";
-    if (find(file).empty()) GTEST_SKIP() << file << " is not there: set SHADOWBENCH_DATA to the folder of data";
+    if (find(file).empty()) GTEST_SKIP() << file << " does not exist: set SHADOWBENCH_DATA to the folder of data";
     GridVolume smoke = scene::read_vdb(find(file), "density");
     resize(smoke, 2.2);
     scene::Scene scene;
@@ -230,7 +230,7 @@ nlohmann::json receiver_in_a_ball() {
 TEST(MediaTruth, DoesNotDependOnTheMarchingStep) {
     nlohmann::json document = receiver_in_a_ball();
     if (find("volumes/bucky_32x32x32_uint8.raw").empty())
-        GTEST_SKIP() << "the Bucky ball is not there: set SHADOWBENCH_DATA to the folder of data";
+        GTEST_SKIP() << "the Bucky ball does not exist: set SHADOWBENCH_DATA to the folder of data";
     for (const char* step : {"", "scene.objects.0.step=0.5", "scene.objects.0.step=0.01", "rays.media=\"cells\""}) {
         if (*step) document::set_value(document, step);
         const scene::Scenario scenario = scene::load_scenario(document, data());

@@ -1,4 +1,4 @@
-// The truth of what moves while the shutter is open lies about its closed form as its stated errors say.
+// The truth of objects that move while the shutter is open scatters about its closed form as its stated errors say.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using base::Vec2d;
 using base::Vec3d;
 using techniques::Query;
 
-// Share of the unit cube where a . u < b: the corners by inclusion and exclusion.
+// The share of the unit cube where a . u < b: inclusion and exclusion over the corners.
 double half_space_in_cube(std::array<double, 3> a, double b) {
     double divisor = 6.0;
     for (double& v : a) {
@@ -69,7 +69,7 @@ scene::Object quad_of(const Strip& s, const Vec2d& drift) {
     return object;
 }
 
-// Share of the strip in the box [x0, x1] x [y0, y1] of the world and the shutter.
+// The share of the strip in the box [x0, x1] x [y0, y1] of the world and the shutter time.
 double coverage(const Strip& s, const Vec2d& low, const Vec2d& high) {
     const auto below = [&](double edge) {  // n . (low + u (high - low)) - speed t < edge
         return half_space_in_cube({s.n.x * (high.x - low.x), s.n.y * (high.y - low.y), -s.speed}, edge - s.n.dot(low));
@@ -77,7 +77,7 @@ double coverage(const Strip& s, const Vec2d& low, const Vec2d& high) {
     return below(s.high) - below(s.low);
 }
 
-TEST(MovingTruth, TenThousandTruthsOfAMovingQuadLieAboutTheClosedFormAsTheirStatedErrorsSay) {
+TEST(MovingTruth, TenThousandTruthsOfAMovingQuadScatterAsTheirStatedErrorsSay) {
     constexpr int resolution = 8, wanted = 10000;
     double sum = 0.0, squares = 0.0, worst = 0.0;
     int truths = 0;
@@ -92,7 +92,7 @@ TEST(MovingTruth, TenThousandTruthsOfAMovingQuadLieAboutTheClosedFormAsTheirStat
         s.high = s.low + random.uniform(0.1, 1.0);
         s.speed = std::exp(random.uniform(std::log(0.02), std::log(3.0)));
         if (random.uniform() < 0.5) s.low -= s.speed, s.high -= s.speed;
-        const double slide = random.uniform(-1, 1);  // along its own edges: changes nothing
+        const double slide = random.uniform(-1, 1);  // along its own edges, which changes nothing
 
         scene::Scene scene;
         scene.objects.push_back(quad_of(s, s.n * s.speed + Vec2d(-s.n.y, s.n.x) * slide));
@@ -107,7 +107,7 @@ TEST(MovingTruth, TenThousandTruthsOfAMovingQuadLieAboutTheClosedFormAsTheirStat
         std::vector<Query> queries;
         std::vector<double> expected;
         for (int pixel = 0; pixel < resolution * resolution; ++pixel) {
-            // Each footprint has rays of its own: one pixel's, or a part of them.
+            // The footprints share no rays: each is one pixel or a part of one.
             const double width = pixel % 2 ? 1.0 : random.uniform(0.3, 1.0), free = 0.5 * (1.0 - width);
             const Vec2d middle(pixel % resolution + 0.5 + random.uniform(-free, free),
                                pixel / resolution + 0.5 + random.uniform(-free, free));
@@ -115,7 +115,7 @@ TEST(MovingTruth, TenThousandTruthsOfAMovingQuadLieAboutTheClosedFormAsTheirStat
                         b = (middle + Vec2d(0.5 * width) - Vec2d(zero.x, zero.y)) / scale;
             const double covered =
                 coverage(s, {std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)});
-            if (covered < 0.1 || covered > 0.9) continue;  // few rays that differ do not know their own spread
+            if (covered < 0.1 || covered > 0.9) continue;  // with few differing rays the stated error is unreliable
             queries.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y),
                                static_cast<float>(zero.z + 1.0), static_cast<float>(width)});
             expected.push_back(1.0 - covered);
@@ -135,9 +135,10 @@ TEST(MovingTruth, TenThousandTruthsOfAMovingQuadLieAboutTheClosedFormAsTheirStat
     }
     RecordProperty("worst", std::to_string(worst));
     RecordProperty("rms", std::to_string(std::sqrt(squares / truths)));
-    // Of 10,000 normal draws one in 200 sets has a value beyond 5. The stated error is an upper bound: rays are spread.
+    // One in 200 sets of 10,000 normal draws has a value beyond 5. The stated error is an upper bound, since rays are
+    // spread evenly.
     EXPECT_LT(std::sqrt(squares / truths), 1.0 + 4.0 / std::sqrt(2.0 * truths));
-    EXPECT_LT(std::abs(sum / truths), 4.0 / std::sqrt(truths)) << "no side is favoured";
+    EXPECT_LT(std::abs(sum / truths), 4.0 / std::sqrt(truths)) << "no bias to either side";
 }
 
 // Moving quads, spheres, particles and layers, and one receiver.
@@ -158,7 +159,7 @@ TEST(MovingTruth, IsTheSameAtEverySeedAndForTracedRays) {
         ASSERT_EQ(traced.status, results::CellStatus::ok) << traced.reason;
         EXPECT_GT(light.reference.error_max, 0.0);
         EXPECT_LT(light.reference.error_max, 0.015);
-        // Three channels; shadow rays are 64 times as many as the truth's.
+        // Three channels; there are 64 times as many shadow rays as rays of the truth.
         EXPECT_LT(traced.lookup->norms.max, 4.0 * light.reference.error_max) << "seed " << seed;
     }
 }

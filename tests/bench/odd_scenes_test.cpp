@@ -1,5 +1,5 @@
-// Scenes at the ends of every range that the schema allows, under lights at theirs: each is refused at its place, or
-// gives light rays and queries whose numbers are finite and in their ranges.
+// Scenes and lights at the ends of every range that the schema allows: each scene is refused at the place of its fault,
+// or gives light rays and queries whose numbers are finite and in range.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -121,7 +121,7 @@ void expect_finite(const QuerySet& asked) {
     }
 }
 
-TEST(OddScenes, are_refused_at_their_place_or_give_numbers_in_their_ranges) {
+TEST(OddScenes, are_refused_at_their_place_or_give_numbers_in_range) {
     int refused = 0, captured = 0;
     for (const char* object : odd_objects)
         for (const char* light : odd_lights) {

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-// Half of the map under a quad of three opacities, hair and a medium over the rest; several tiles.
+// Half of the map is under a quad of three opacities, with hair and a medium over the rest; several tiles.
 json scene_of(const json& techniques, const char* more = "[]") {
     json document = json::parse(R"({
         "name": "probe",
@@ -43,7 +43,7 @@ json every_technique() {
     return list;
 }
 
-// The transmittance that the oracle gives for the pixel at these depths: the mean over its rays.
+// The oracle's transmittance of the pixel at these depths: the mean over its rays.
 std::vector<double> oracle(const OneLight& light, int x, int y, const std::vector<float>& depths) {
     std::vector<double> sums(depths.size());
     int count = 0;
@@ -79,7 +79,7 @@ void expect_exact(const OneLight& light, const PixelCurves& curves, double withi
             << curves.x << " " << curves.y << " " << depths[i];
 }
 
-TEST(PixelCurves, the_exact_one_is_what_the_oracle_says) {
+TEST(PixelCurves, the_exact_one_agrees_with_the_oracle) {
     const json document = scene_of(json::array({{{"type", "uncompressed"}}}));
     PixelProbe probe(document, {}, "", 0);
     const OneLight light(document, {}, "");
@@ -91,7 +91,7 @@ TEST(PixelCurves, the_exact_one_is_what_the_oracle_says) {
     }
 }
 
-// Whether a technique minds that it is given one tile alone.
+// A technique must store the same functions if it is given only one tile.
 TEST(PixelCurves, are_those_of_the_whole_map) {
     const json document = scene_of(every_technique());
     PixelProbe probe(document, {}, "sun", 0);
@@ -99,11 +99,11 @@ TEST(PixelCurves, are_those_of_the_whole_map) {
     ASSERT_GT(light.layout().tiles(), 1);
     const PixelCurves curves = probe.at(33, 24);
     ASSERT_EQ(curves.curves.size(), techniques::all().size());
-    for (const TechniqueCurve& one : curves.curves) {
-        if (!one.absent.empty()) continue;
-        const Contender whole = light.build(document::read_any_technique(one.technique), {});
+    for (const TechniqueCurve& curve : curves.curves) {
+        if (!curve.absent.empty()) continue;
+        const Contender whole = light.build(document::read_any_technique(curve.technique), {});
         const std::vector<float> depths = even_depths(curves);
-        const int nx = one.cells == techniques::Cells::sample ? 4 : 1;
+        const int nx = curve.cells == techniques::Cells::sample ? 4 : 1;
         std::vector<double> mean(depths.size());
         for (int sy = 0; sy < nx; ++sy)
             for (int sx = 0; sx < nx; ++sx) {
@@ -113,12 +113,12 @@ TEST(PixelCurves, are_those_of_the_whole_map) {
                     mean[i] += curves::evaluate(stored_curve, depths[i]) / static_cast<double>(nx * nx);
             }
         for (std::size_t i = 0; i < depths.size(); ++i)
-            EXPECT_NEAR(curves::evaluate(one.channels[0], depths[i]), mean[i], 0.02)
-                << one.technique << " " << depths[i];
+            EXPECT_NEAR(curves::evaluate(curve.channels[0], depths[i]), mean[i], 0.02)
+                << curve.technique << " " << depths[i];
     }
 }
 
-TEST(PixelCurves, a_technique_keeps_the_bound_that_it_promises) {
+TEST(PixelCurves, of_a_technique_keep_its_promised_bound) {
     PixelProbe probe(scene_of(json::array({{{"type", "deep"}, {"tolerance", 0.02}}, {{"type", "uncompressed"}}})), {},
                      "", 0);
     std::uint64_t nodes = 0;
@@ -169,7 +169,7 @@ TEST(PixelCurves, of_media_join_the_exponential_closely) {
     expect_exact(light, curves, 2e-4);
 }
 
-TEST(PixelCurves, refuse_places_lights_and_variants_that_are_not_there) {
+TEST(PixelCurves, refuse_places_lights_and_variants_that_do_not_exist) {
     json document = scene_of(json::array({{{"type", "deep"}}}));
     PixelProbe probe(document, {}, "0", 0);
     const auto refused = [](const auto& action, const std::string& where) {

@@ -54,7 +54,7 @@ TEST(PointQueries, keep_their_order_and_count_what_is_outside_the_map) {
     receivers.filter_width = 3.0;
     const QuerySet set = point_queries(receivers, half.view);
     EXPECT_EQ(set.dropped, 2u);
-    EXPECT_TRUE(set.footprints.empty()) << "a point is no pixel";
+    EXPECT_TRUE(set.footprints.empty()) << "a point has no pixel";
     ASSERT_EQ(set.queries.size(), 2u);
     EXPECT_FLOAT_EQ(set.queries[0].x, 4.0f);
     EXPECT_FLOAT_EQ(set.queries[0].z, 1.75f);
@@ -72,7 +72,7 @@ TEST(PointQueries, keep_their_order_and_count_what_is_outside_the_map) {
     EXPECT_FLOAT_EQ(near.queries[0].z, 0.5f);
 }
 
-TEST(QueriesOfPoints, move_towards_the_light_and_drop_what_it_does_not_see) {
+TEST(QueriesOfPoints, move_towards_the_light_and_drop_points_that_it_does_not_see) {
     const HalfCovered half = half_covered();
     scene::Receivers receivers;
     receivers.bias = 0.25;
@@ -98,7 +98,7 @@ TEST(QueriesOfPoints, move_along_the_ray_in_perspective) {
     EXPECT_NEAR(set.queries[0].z, 2.0 - 0.5 / std::sqrt(1.0 + 0.95 * 0.95), 1e-6);
 }
 
-// A plane, tilted to both axes, seen by the camera through 3 x 3 pixels.
+// A plane tilted about both axes, seen by the camera through 3 x 3 pixels.
 QuerySet seen_on_a_tilted_plane(const rays::LightView& view) {
     scene::Mesh mesh;  // y = -2 + 0.4 x - 0.3 z
     for (const auto& [x, z] : {std::pair{-3.0f, -3.0f}, {3.0f, -3.0f}, {3.0f, 3.0f}, {-3.0f, 3.0f}})
@@ -122,15 +122,15 @@ TEST(QueriesOfPoints, lay_the_pixel_of_a_tilted_plane_into_the_map_as_its_parall
         const QuerySet set = seen_on_a_tilted_plane(half.view);
         ASSERT_EQ(set.queries.size(), 9u);
         ASSERT_EQ(set.footprints.size(), 9u);
-        // The neighbours of the pixel in the middle stand one edge from it.
+        // The neighbours of the middle pixel are one edge away.
         const auto& q = set.queries;
         const techniques::Footprint& f = set.footprints[4];
         EXPECT_GT(std::abs(f.uy) + std::abs(f.vx), 0.001f) << "not along the axes";
-        const float far = 2e-3f * (std::abs(f.ux) + std::abs(f.vy));  // second order, and float positions
-        EXPECT_NEAR(f.ux, (q[5].x - q[3].x) / 2, far);
-        EXPECT_NEAR(f.uy, (q[5].y - q[3].y) / 2, far);
-        EXPECT_NEAR(f.vx, (q[7].x - q[1].x) / 2, far);
-        EXPECT_NEAR(f.vy, (q[7].y - q[1].y) / 2, far);
+        const float tolerance = 2e-3f * (std::abs(f.ux) + std::abs(f.vy));  // second order, and float positions
+        EXPECT_NEAR(f.ux, (q[5].x - q[3].x) / 2, tolerance);
+        EXPECT_NEAR(f.uy, (q[5].y - q[3].y) / 2, tolerance);
+        EXPECT_NEAR(f.vx, (q[7].x - q[1].x) / 2, tolerance);
+        EXPECT_NEAR(f.vy, (q[7].y - q[1].y) / 2, tolerance);
     }
 }
 
@@ -156,9 +156,9 @@ TEST(QueriesOfPoints, keep_footprints_beside_their_queries_when_some_are_dropped
     EXPECT_FLOAT_EQ(set.footprints[0].ux, 4.0f);
     EXPECT_FLOAT_EQ(set.footprints[1].ux, 8.0f);
     const std::size_t second[] = {1};
-    const QuerySet one = pick(set.asked(), second);
-    EXPECT_EQ(one.queries[0].x, set.queries[1].x);
-    EXPECT_EQ(one.footprints[0].ux, 8.0f);
+    const QuerySet picked = pick(set.asked(), second);
+    EXPECT_EQ(picked.queries[0].x, set.queries[1].x);
+    EXPECT_EQ(picked.footprints[0].ux, 8.0f);
 }
 
 }  // namespace

@@ -39,13 +39,13 @@ TEST(Reference, clips_the_footprint_to_the_map) {
     EXPECT_NEAR(truth.value[0], 0.4, 1e-6);
 }
 
-TEST(Reference, asks_the_nearest_ray_when_the_footprint_holds_none) {
+TEST(Reference, takes_the_nearest_ray_if_the_footprint_holds_none) {
     const HalfCovered half = half_covered();
     const Query queries[] = {{1.3f, 1.3f, 2.0f, 1e-6f}, {6.3f, 1.3f, 2.0f, 1e-6f}};
     const Truth truth = reference_visibility(half.scene, half.view, half.settings, queries, {});
     EXPECT_NEAR(truth.value[0], 0.4, 1e-6);
     EXPECT_NEAR(truth.value[1], 1.0, 1e-6);
-    EXPECT_GT(truth.standard_error[0], 0.0);  // one ray is no certainty
+    EXPECT_GT(truth.standard_error[0], 0.0);  // one ray is not certain
 }
 
 TEST(Reference, does_not_depend_on_the_number_of_threads) {
@@ -71,7 +71,7 @@ TEST(Spread, is_that_of_a_binomial_when_each_estimate_has_one_ray) {
     EXPECT_NEAR(spread.rms, 0.6 * 0.5, 0.02);
 }
 
-TEST(Spread, is_nothing_for_a_regular_pattern) {
+TEST(Spread, is_0_for_a_regular_pattern) {
     HalfCovered half = half_covered(0.1);
     half.settings.pattern = scene::Pattern::regular;
     const Query queries[] = {{4.5f, 4.5f, 2.0f, 1.0f}};

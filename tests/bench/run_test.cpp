@@ -52,7 +52,7 @@ nlohmann::ordered_json without_times(const json& document, const RunOptions& opt
     return result;
 }
 
-TEST(Run, names_every_value_of_a_sweep_be_it_the_default) {
+TEST(Run, names_every_value_of_a_sweep_even_the_default) {
     json document = two_layers();
     document["techniques"] = {{{"type", "avsm"}, {"cells", "centre"}}, {{"type", "deep"}, {"kernel", "tent"}}};
     document["sweeps"] = {{"/techniques/0/nodes", {4, 8, 16}},
@@ -85,10 +85,10 @@ TEST(Run, gives_the_same_numbers_on_one_thread_and_on_two) {
     EXPECT_EQ(without_times(quickstart(), one), without_times(quickstart(), two));
 }
 
-TEST(Run, gives_the_same_numbers_when_rays_are_captured_anew) {
-    RunOptions kept, anew;
-    anew.limits.kept_rays = 0;
-    nlohmann::ordered_json a = without_times(quickstart(), kept), b = without_times(quickstart(), anew);
+TEST(Run, gives_the_same_numbers_if_rays_are_captured_again) {
+    RunOptions kept, recaptured;
+    recaptured.limits.kept_rays = 0;
+    nlohmann::ordered_json a = without_times(quickstart(), kept), b = without_times(quickstart(), recaptured);
     EXPECT_EQ(a["variants"][0]["lights"][0]["rays_kept"], true);
     EXPECT_EQ(b["variants"][0]["lights"][0]["rays_kept"], false);
     for (auto* result : {&a, &b}) (*result)["variants"][0]["lights"][0].erase("rays_kept");
@@ -111,7 +111,7 @@ TEST(Run, checks_all_channels_of_a_coloured_scene_in_one_map_or_three) {
     EXPECT_EQ(light.agreement->other_transmittance, 0u);
 }
 
-TEST(Run, expands_sweeps_and_says_what_they_set) {
+TEST(Run, expands_sweeps_and_records_their_settings) {
     json document = two_layers();
     document["sweeps"] = {{"/rays/samples_per_pixel", {1, 4}}, {"/techniques/0/tolerance", {0.01, 0.1}}};
     const results::Result result = run(document, {}, {});
@@ -123,7 +123,7 @@ TEST(Run, expands_sweeps_and_says_what_they_set) {
     EXPECT_EQ(result.variants[1].lights[0].rays, 1024u);
 }
 
-TEST(Run, tells_how_far_it_is) {
+TEST(Run, reports_its_progress) {
     std::vector<std::string> stages;
     run(two_layers(), {}, [&](const Progress& progress) {
         EXPECT_LE(progress.done, progress.total);
@@ -155,14 +155,14 @@ TEST(Run, counts_the_maps_and_the_reference_against_the_memory_limit) {
     test::error_of([&] { validate(document, {}); }, ErrorCode::bad_input, "/rays");
 }
 
-TEST(Run, refuses_a_camera_that_looks_past_the_lights_map) {
+TEST(Run, refuses_a_camera_that_sees_nothing_in_the_lights_map) {
     json document = two_layers();
     document["receivers"] = {{"type", "camera"}, {"position", {0, 5, 5}}, {"target", {0, 50, 5}}, {"up", {0, 0, 1}}};
     test::error_of([&] { run(document, {}, {}); }, ErrorCode::bad_input, "/receivers");
 }
 
 // Every technique, opaque and translucent, with an aperture of its own or none, meets a map without a single segment.
-TEST(Run, finds_all_lit_where_the_light_sees_nothing) {
+TEST(Run, finds_everything_lit_if_the_light_sees_nothing) {
     json document = json::parse(R"({
         "name": "nothing",
         "scene": {"objects": [
@@ -194,8 +194,8 @@ TEST(Run, finds_all_lit_where_the_light_sees_nothing) {
     EXPECT_NE(to_table(result).find("note: the light sees nothing"), std::string::npos);
 }
 
-// Nothing is left behind the ball, and yet what takes its front for a wall is off inside of it.
-TEST(Run, does_not_take_a_medium_for_opaque_where_no_light_leaves_it) {
+// No light is left behind the ball, but a technique that takes its front for a wall errs inside it.
+TEST(Run, does_not_count_a_medium_as_opaque_if_no_light_leaves_it) {
     json document = two_layers();
     document["scene"]["objects"] = {
         {{"type", "particles"}, {"centres", {{0, 0, 0}}}, {"radii", {4}}, {"density", {1e4}}}};
@@ -208,7 +208,7 @@ TEST(Run, does_not_take_a_medium_for_opaque_where_no_light_leaves_it) {
     EXPECT_GT(light.cells[0].curve->norms.max, 0.9);
 }
 
-TEST(Run, asks_at_given_points_and_refuses_points_that_are_all_outside_the_map) {
+TEST(Run, takes_given_points_and_refuses_them_if_all_are_outside_the_map) {
     json document = two_layers();
     document["receivers"] = {{"type", "points"},
                              {"positions", {{-0.5, 0.5, 0}, {0.5, 0.5, 0}, {-0.5, 1.5, 0}, {0, 0, 9}}}};
@@ -225,7 +225,7 @@ TEST(Run, asks_at_given_points_and_refuses_points_that_are_all_outside_the_map) 
 
 TEST(Run, refuses_a_technique_that_a_deep_image_cannot_serve) {
     const std::filesystem::path data = std::string(SHADOWBENCH_SOURCE_DIR) + "/../shared/data";
-    if (!std::filesystem::exists(data / "deep/leaves.exr")) GTEST_SKIP() << "deep/leaves.exr is not there";
+    if (!std::filesystem::exists(data / "deep/leaves.exr")) GTEST_SKIP() << "deep/leaves.exr does not exist";
     const json document = json::parse(R"({"name": "deep", "scene": {"deep_image": {"file": "deep/leaves.exr"}},
         "receivers": {"type": "probes", "count": 100}, "techniques": [{"type": "deep"}, {"type": "ray_traced"}]})");
     RunOptions options;
@@ -251,7 +251,7 @@ TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
     EXPECT_EQ(second.lights[0].target, target) << "which depends on the scene's bounds";
 }
 
-TEST(Run, writes_results_that_read_back_as_they_were) {
+TEST(Run, writes_results_that_read_back_unchanged) {
     json document = quickstart();
     document["sweeps"] = {{"/rays/samples_per_pixel", {4, 9}}};
     const results::Result result = run(document, {}, {});
@@ -260,7 +260,7 @@ TEST(Run, writes_results_that_read_back_as_they_were) {
     EXPECT_EQ(to_table(read), to_table(result));
 }
 
-TEST(Validate, tells_what_a_run_will_cost) {
+TEST(Validate, estimates_the_cost_of_a_run) {
     json document = two_layers();
     const Validated small = validate(document, {});
     EXPECT_EQ(small.largest_side, 16);

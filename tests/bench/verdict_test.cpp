@@ -12,13 +12,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double noise_tolerance = 0.125;  // of 16 rays a pixel
 
 results::Cell cell(double curve_max, double bound) {
-    results::Cell made;
-    made.error_bound = bound;
-    made.curve = results::CurveErrors{};
-    made.curve->norms = {curve_max, 0.01, 0.005, 0.02};
-    made.lookup = results::LookupErrors{{0.5, 0.2, 0.1, 0.4}, 0.0};
-    made.nodes = {1, 8, 8, {}};
-    return made;
+    results::Cell cell;
+    cell.error_bound = bound;
+    cell.curve = results::CurveErrors{};
+    cell.curve->norms = {curve_max, 0.01, 0.005, 0.02};
+    cell.lookup = results::LookupErrors{{0.5, 0.2, 0.1, 0.4}, 0.0};
+    cell.nodes = {1, 8, 8, {}};
+    return cell;
 }
 
 void expect(results::Cell judged, results::Verdict verdict, const std::string& says,
@@ -35,7 +35,7 @@ TEST(Verdict, of_a_broken_promise_is_failed_whatever_the_figures) {
     expect(broken, results::Verdict::failed, "cell (3, 4): the value rises");
 }
 
-// The check has held it to the bound: a loose promise, well above the noise, is kept all the same.
+// The curve check has tested the bound; a loose bound, well above the noise, is kept too.
 TEST(Verdict, of_a_bound_that_held_is_kept) {
     expect(cell(0.3, 0.4), results::Verdict::kept, "curve error 0.3, promised 0.4");
     expect(cell(0.0, 0.0), results::Verdict::kept, "promised 0");
@@ -47,7 +47,7 @@ TEST(Verdict, without_a_bound_goes_by_the_noise_tolerance) {
     expect(cell(0.1251, infinity), results::Verdict::degraded, "curve error 0.125, noise tolerance 0.125");
 }
 
-TEST(Verdict, of_an_opaque_technique_in_a_translucent_scene_does_not_rest_on_its_bound) {
+TEST(Verdict, of_an_opaque_technique_in_a_translucent_scene_ignores_its_bound) {
     results::Cell opaque = cell(0.4, 0.0);
     opaque.outside_promise = true;
     expect(opaque, results::Verdict::degraded, "made for opaque scenes");
@@ -55,7 +55,7 @@ TEST(Verdict, of_an_opaque_technique_in_a_translucent_scene_does_not_rest_on_its
     expect(opaque, results::Verdict::kept, "within the noise tolerance");
 }
 
-TEST(Verdict, tells_the_rise_and_the_fall_of_what_promises_neither) {
+TEST(Verdict, reports_rise_and_fall_if_neither_is_excluded) {
     results::Cell published = cell(0.3, 0.4);
     published.curve->rise = 0.25;
     published.curve->lowest = -0.125;
@@ -63,7 +63,7 @@ TEST(Verdict, tells_the_rise_and_the_fall_of_what_promises_neither) {
            {.monotone = false, .unit_range = false});
 }
 
-TEST(Verdict, names_what_is_promised_before_and_behind_alone) {
+TEST(Verdict, names_a_promise_for_the_ends_only) {
     results::Cell series = cell(0.4, infinity);
     expect(series, results::Verdict::degraded, "exact only before and behind", {.localised = false});
 }
@@ -79,7 +79,7 @@ TEST(Verdict, of_a_technique_that_stores_nothing_goes_by_the_rms_of_its_lookups)
     expect(traced, results::Verdict::degraded, "lookup error rms 0.2");
     traced.lookup->norms.rms = 0.12;
     expect(traced, results::Verdict::kept, "lookup error rms 0.12");
-    // A bound on the error of functions says nothing of one that has none.
+    // A bound on the error of functions does not apply to a technique without functions.
     traced.error_bound = 1.0;
     traced.lookup->norms.rms = 0.2;
     expect(traced, results::Verdict::degraded, "stores no function");

@@ -1,5 +1,5 @@
-// What a wide lookup loses when the rays of each pixel are kept as one function: little against the truth, as long as
-// pixels at the footprint's border weigh what it covers of them.
+// The error of wide lookups if the rays of each pixel are kept as one function. It is small against the truth if pixels
+// at the footprint's border are weighted by their covered area.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,17 +15,18 @@ namespace {
 
 using nlohmann::json;
 
-// Of what the same rays kept one by one err, where much lies inside a pixel, as hair does. Both err by the noise of the
-// rays inside the footprint; whole pixels err by up to half a pixel at each side besides. (A lone edge of something
-// opaque is another matter: a pixel that both the edge and the footprint's border cut knows only its share of light, by
-// which the answer is off by f (1 - f) / width at most, f the share that the edge leaves.)
+// The allowed error, as a factor of the error of the same rays kept one by one, for pixels with many crossings, as in
+// hair. Both err by the noise of the rays inside the footprint; whole pixels also err by up to half a pixel at each
+// side. (A single edge of an opaque surface is a different case: a pixel cut by both the edge and the footprint's
+// border knows only its share of light, so the answer errs by at most f (1 - f) / width, f the share that the edge
+// leaves.)
 constexpr double close = 1.5;
 
 struct Errors {
     double deep, pixels, uncompressed;  // RMS of lookups
 };
 
-// The RMS errors of lossless deep maps, by area and by the paper's whole pixels, and of the rays themselves.
+// The RMS errors of lossless deep maps, weighted by area or by whole pixels as in the paper, and of the rays.
 Errors errors_of(json document, double width) {
     document["techniques"] = json::parse(R"([{"type": "deep", "tolerance": 0},
         {"type": "deep", "tolerance": 0, "kernel": "pixels"}, {"type": "uncompressed"}])");
@@ -49,7 +50,7 @@ void expect_close(const json& document) {
     }
 }
 
-TEST(WideLookups, OfADeepMapOfHairErrAsThoseOfItsRays) {
+TEST(WideLookups, InADeepMapOfHairErrAsTheRaysDo) {
     std::ifstream file(std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios" / "quickstart.json");
     json document = json::parse(file);
     document::set_value(document, "receivers.resolution=[128,96]");

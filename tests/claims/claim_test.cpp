@@ -24,7 +24,8 @@ TEST(Claim, ARatioOnTheOtherSideOfOneDoesNotHold) {
         EXPECT_EQ(judge(15.0, exactly(0.9), 1.5), Verdict::fails);
         EXPECT_EQ(judge(0.25, exactly(0.8), 1.5), Verdict::in_shape);
         EXPECT_EQ(judge(0.25, exactly(1.5), 1.5), Verdict::fails);
-        EXPECT_EQ(judge(1.1, exactly(0.95), 1.5), Verdict::holds) << "near it, though on the other side";
+        EXPECT_EQ(judge(1.1, exactly(0.95), 1.5), Verdict::holds)
+            << "near the paper's ratio, though on the other side of 1";
         EXPECT_EQ(judge(2.0, exactly(std::numeric_limits<double>::quiet_NaN()), 1.5), Verdict::fails);
     }
 }
@@ -50,7 +51,7 @@ TEST(Claim, AValueIsJudgedByItsDistance) {
     EXPECT_EQ(judge_value(0.25, exactly(0.5), 0.05, 0.2), Verdict::fails);
 }
 
-TEST(Claim, WhatDoesNotVaryHasNoInterval) {
+TEST(Claim, ValuesThatDoNotVaryHaveNoInterval) {
     EXPECT_EQ(to_text(exactly(1.5)), "1.5");
     EXPECT_EQ(to_text({14.2, 13.9, 14.6}), "14.2 [13.9, 14.6]");
 }

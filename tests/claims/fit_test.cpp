@@ -17,7 +17,7 @@ TEST(Fit, FindsTheExponentOfAPowerLaw) {
     EXPECT_NEAR(law.standard_error, 0.0, 1e-7);
 }
 
-TEST(Fit, ScatterShowsInTheStandardError) {
+TEST(Fit, ScatterIncreasesTheStandardError) {
     // y = x^1 times e^0.1, e^-0.1, ... : residuals of 0.1; the error of a slope is sigma / sqrt(sum of squares of x).
     std::vector<std::pair<double, double>> points;
     double squares = 0.0;

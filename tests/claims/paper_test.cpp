@@ -50,7 +50,7 @@ TEST(Paper, ACellThatFailedIsNotMeasured) {
     }
 }
 
-TEST(Paper, EveryPaperHasANameOfItsOwn) {
+TEST(Paper, PapersHaveDifferentNames) {
     std::set<std::string> names;
     for (const Paper& paper : all_papers()) names.insert(paper.id);
     EXPECT_EQ(names.size(), all_papers().size());

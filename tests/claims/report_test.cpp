@@ -36,7 +36,7 @@ TEST(Report, EveryClaimIsARowAndVerdictsAreCounted) {
     EXPECT_NE(text.find("| section 3 | d is 4 | 5 | undecided | Undecided until the experiment is done again: the rule "
                         "moved. It may be. |"),
               std::string::npos)
-        << "whatever was judged before";
+        << "whatever the earlier verdict";
     EXPECT_NE(text.find("| 1 | 2 |"), std::string::npos);
     EXPECT_NE(text.find("plots/x2000_figure1.svg"), std::string::npos);
     EXPECT_EQ(text.find("Quick run"), std::string::npos);

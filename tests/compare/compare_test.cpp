@@ -19,7 +19,7 @@ TEST(Compare, AnotherScenarioIsNotComparable) {
     ASSERT_EQ(comparison.lines.size(), 1u);
     EXPECT_EQ(comparison.lines[0].verdict, Verdict::not_comparable);
     EXPECT_NE(comparison.lines[0].reason.find("seed 1 against 2"), std::string::npos) << comparison.lines[0].reason;
-    EXPECT_EQ(exit_code(comparison), 2);  // else a changed scenario would open the gate
+    EXPECT_EQ(exit_code(comparison), 2);  // otherwise a changed scenario would open the gate
     Options options;
     options.allow_missing = true;
     EXPECT_EQ(exit_code(compare(side({made_result()}), side({current}), options)), 0);
@@ -34,7 +34,7 @@ TEST(Compare, AnotherVersionOfATechniqueIsNotComparable) {
     EXPECT_EQ(exit_code(comparison), 2);
 }
 
-TEST(Compare, AnotherMachineComparesExactMeasuresAlone) {
+TEST(Compare, AnotherMachineComparesOnlyExactMeasures) {
     json current = made_result();
     current["machine"]["cpu"] = "another";
     Comparison comparison = compare(side({made_result()}), side({current}), {});
@@ -45,7 +45,7 @@ TEST(Compare, AnotherMachineComparesExactMeasuresAlone) {
     EXPECT_EQ(exit_code(compare(side({made_result()}), side({current}), {})), 2);
 }
 
-TEST(Compare, MissingCellsFailAndExtraOnesAreTold) {
+TEST(Compare, MissingCellsFailAndExtraOnesAreListed) {
     json fewer = made_result();
     fewer["variants"][0]["lights"][0]["cells"].erase(1);
     fewer["only"] = {"deep"};
@@ -80,7 +80,7 @@ TEST(Compare, MissingScenariosFail) {
     EXPECT_EQ(title_of(comparison.lines.back()), "other");
 }
 
-// Two settings of one scenario are told apart by their hash.
+// Two settings of one scenario are distinguished by their hashes.
 TEST(Compare, ScenariosOfOneNameMatchByHash) {
     json other = made_result();
     other["scenario_hash"] = "ffffffffffffffff";
@@ -109,7 +109,7 @@ TEST(Compare, MoreInstructionsAreSlower) {
     EXPECT_EQ(exit_code(compare(side({baseline}), side({current}), {})), 1);
 }
 
-// What a process has it keeps: the repetitions of one are no independent evidence.
+// The state of a process lasts: its repetitions are not independent observations.
 TEST(Compare, FewProcessesDecideNothing) {
     json slower = made_result();
     for (const char* order : {"lookup_image_order", "lookup_random_order"})
@@ -124,7 +124,7 @@ TEST(Compare, FewProcessesDecideNothing) {
               std::string::npos);
 }
 
-TEST(Compare, ATimeOfZeroIsNone) {
+TEST(Compare, ATimeOfZeroIsNotComparable) {
     json zero = made_result();
     cell_of(zero, 0)["times"]["lookup_image_order"]["ratio_to_floor"]["raw"] = {0, 0, 0};
     const Comparison comparison = compare(side({zero}), side({zero}), {});
@@ -139,8 +139,8 @@ TEST(Compare, BuildsTooShortForTheClockAreNotJudged) {
     EXPECT_EQ(line(compare(side({a}), side({b}), {}), "deep", "build").verdict, Verdict::same);
 }
 
-// A change that touches fewer lines lowers the floor too: over it the same lookup looks slower.
-TEST(Compare, AFloorThatMovedIsNotSlower) {
+// A change that reads fewer lines lowers the floor too: relative to it the same lookup looks slower.
+TEST(Compare, AChangedFloorIsNotSlower) {
     std::vector<json> a(10, made_result()), b(10, made_result());
     Noise noise(1);
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -152,11 +152,11 @@ TEST(Compare, AFloorThatMovedIsNotSlower) {
     }
     const Comparison comparison = compare(side(a), side(b), {});
     EXPECT_EQ(line(comparison, "deep", "lookup_random").verdict, Verdict::inconclusive);
-    EXPECT_NE(line(comparison, "deep", "lookup_random").reason.find("floor moved"), std::string::npos);
+    EXPECT_NE(line(comparison, "deep", "lookup_random").reason.find("the floor changed"), std::string::npos);
 }
 
-// Among many cells one that looks slower by chance is likely: few processes then cannot show it.
-TEST(Compare, WhatIsNotBeyondChanceAmongManyIsInconclusive) {
+// Among many cells one is likely to look slower by chance, so that few processes cannot show it.
+TEST(Compare, ASlowdownThatMayBeChanceAmongManyIsInconclusive) {
     json many = made_result();
     json& cells = many["variants"][0]["lights"][0]["cells"];
     for (int i = 0; i < 20; ++i) {
@@ -165,8 +165,8 @@ TEST(Compare, WhatIsNotBeyondChanceAmongManyIsInconclusive) {
     }
     std::vector<json> a(5, many), b(5, many);
     Noise noise(1);
-    for (json& one : a) make_times(one, noise);
-    for (json& one : b) make_times(one, noise, 0, 1.5);
+    for (json& result : a) make_times(result, noise);
+    for (json& result : b) make_times(result, noise, 0, 1.5);
     const Comparison comparison = compare(side(a), side(b), {});
     EXPECT_EQ(comparison.judged_times, 66u);
     EXPECT_EQ(line(comparison, "deep", "lookup_random").verdict, Verdict::inconclusive);
@@ -194,13 +194,13 @@ TEST(Compare, ASecondLookDecides) {
     EXPECT_EQ(line(first, "deep", "build").verdict, Verdict::inconclusive);
     EXPECT_EQ(line(first, "deep", "build").reason.rfind("looked slower, not confirmed by", 0), 0u);
     EXPECT_TRUE(suspicious(first).empty());
-    // What was not run again stays as it was.
+    // A time that was not run again keeps its verdict.
     first = looked(1, 1.2);
     confirm(first, Comparison());
     EXPECT_EQ(exit_code(first), 1);
 }
 
-// A cell that runs alone is not swept, and not named after what the sweep had set.
+// A cell that runs alone is not swept, so its name lacks the swept values.
 TEST(Compare, ASecondLookFindsACellOfASweepByItsTechnique) {
     const auto looked = [](std::uint64_t seed, bool swept) {
         std::vector<json> a(20, made_result()), b(20, made_result());
@@ -225,7 +225,7 @@ TEST(Compare, ASecondLookFindsACellOfASweepByItsTechnique) {
 
 // --- fronts ----------------------------------------------------------------------------------------------------------
 
-TEST(Fronts, WhoLeavesIsNamedWithWhoBeatsIt) {
+TEST(Fronts, ACellThatLeavesIsNamedWithTheCellThatBeatsIt) {
     json current = made_result();
     cell_of(current, 1)["bytes"] = 900;  // uncompressed: smaller than deep now, and more accurate
     const Comparison comparison = compare(side({made_result()}), side({current}), {});
@@ -253,8 +253,8 @@ TEST(Fronts, ANewTechniqueBeatsAnOldOne) {
         EXPECT_EQ(change.joined, change.cell == "deep tolerance=0.01") << change.cell;
 }
 
-// Times that are not known to have changed do not move the front.
-TEST(Fronts, NoiseMovesNone) {
+// Times that did not provably change do not move the front.
+TEST(Fronts, NoiseDoesNotMoveThem) {
     json current = made_result();
     for (json& value : cell_of(current, 0)["times"]["lookup_random_order"]["ns"]["raw"]) value = 1000.0;
     EXPECT_TRUE(compare(side({made_result()}), side({current}), {}).fronts.empty());

@@ -21,7 +21,7 @@ using Ordered = nlohmann::ordered_json;
 
 class History : public ::testing::Test {
 protected:
-    // A result of the day; days are written in an order that is not theirs.
+    // Writes a result of this day; the days are not written in order.
     void write(int day, json result) const {
         const std::string text = std::to_string(day);
         result["times"]["started"] = "2026-11-" + std::string(day < 10 ? "0" : "") + text + "T02:00:00Z";
@@ -31,8 +31,8 @@ protected:
     static Ordered measure(const Ordered& history, const std::string& title, const std::string& name) {
         for (const Ordered& cell : history.at("cells"))
             if (cell.at("title") == title)
-                for (const Ordered& one : cell.at("measures"))
-                    if (one.at("name") == name) return one;
+                for (const Ordered& measure : cell.at("measures"))
+                    if (measure.at("name") == name) return measure;
         ADD_FAILURE() << title << " " << name;
         return {};
     }
@@ -43,7 +43,7 @@ protected:
 
 const char* const deep = "made / key / deep tolerance=0.02";
 
-// 1 % more a day: no two neighbours differ by what compare would see.
+// 1 % more a day: too little for a comparison of neighbours.
 json on_day(int day, double growth) {
     json result = made_result();
     for (json& value : cell_of(result, 0)["times"]["lookup_random_order"]["ratio_to_floor"]["raw"])
@@ -76,7 +76,7 @@ TEST_F(History, SeesASlowDrift) {
     EXPECT_TRUE(measure(history, deep, "bytes").at("drift").is_null());
     EXPECT_THAT(history_text(history), ::testing::HasSubstr("deep tolerance=0.02: lookup_random drifts: 7.5"));
     EXPECT_THAT(history_text(history), ::testing::HasSubstr("10 results, 2 cells, 30 measures; 1 drift\n"));
-    // Of the last five it is less than the minimum effect.
+    // Over the last five results it is below the minimum effect.
     EXPECT_TRUE(measure(history_json(folder_, {5, 0.05}), deep, "lookup_random").at("drift").is_null());
 }
 
@@ -90,7 +90,7 @@ TEST_F(History, ExactMeasuresDriftByAnyAmount) {
 }
 
 // Another machine or scenario is another series.
-TEST_F(History, ComparesWithTheLatestKindAlone) {
+TEST_F(History, ComparesOnlyWithTheLatestKind) {
     for (int day = 1; day <= 10; ++day) {
         json result = on_day(day, 1.01);
         if (day == 10) result["machine"]["cpu"] = "another";
@@ -101,7 +101,7 @@ TEST_F(History, ComparesWithTheLatestKindAlone) {
     EXPECT_TRUE(lookup.at("drift").is_null());
 }
 
-TEST_F(History, OfNothingIsRefused) {
+TEST_F(History, WithoutResultsIsRefused) {
     EXPECT_THROW(history_json(folder_, {}), base::Error);
     EXPECT_THROW(history_json(folder_ / "nowhere", {}), base::Error);
     std::ofstream(folder_ / "images.json") << "{}";

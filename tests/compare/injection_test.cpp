@@ -13,12 +13,12 @@ Comparison compared(const json& baseline, const json& current, const Options& op
     return compare(side({baseline}), side({current}), options);
 }
 
-TEST(Injection, NothingChangedIsNothing) {
+TEST(Injection, EqualResultsAreTheSame) {
     const Comparison comparison = compared(made_result(), made_result());
     EXPECT_EQ(exit_code(comparison), 0);
     EXPECT_TRUE(comparison.fronts.empty());
-    for (const Line& one : comparison.lines)
-        EXPECT_TRUE(one.verdict == Verdict::same || one.verdict == Verdict::inconclusive) << title_of(one);
+    for (const Line& result : comparison.lines)
+        EXPECT_TRUE(result.verdict == Verdict::same || result.verdict == Verdict::inconclusive) << title_of(result);
 }
 
 TEST(Injection, OneByteIsLarger) {
@@ -56,7 +56,7 @@ TEST(Injection, AThousandthOfErrorIsLessAccurate) {
         }
 }
 
-TEST(Injection, LessIsNamedAndNoFailure) {
+TEST(Injection, ImprovementsAreNamedAndDoNotFail) {
     json current = made_result();
     cell_of(current, 0)["bytes"] = 999;
     cell_of(current, 0)["lookup_error"]["rms"] = 0.04;
@@ -83,7 +83,7 @@ TEST(Injection, ABrokenPromiseIsLessAccurate) {
     EXPECT_EQ(exit_code(compared(made_result(), degraded)), 2);
 }
 
-// Null is how a result says that an error is not finite.
+// In a result, null stands for an error that is not finite.
 TEST(Injection, AnErrorThatIsNotFiniteIsLessAccurate) {
     json current = made_result();
     cell_of(current, 0)["lookup_error"]["max"] = nullptr;
@@ -93,7 +93,7 @@ TEST(Injection, AnErrorThatIsNotFiniteIsLessAccurate) {
     EXPECT_EQ(exit_code(compared(current, current)), 0);
 }
 
-TEST(Injection, ATolerancePassesOverWhatItNames) {
+TEST(Injection, AToleranceAppliesToTheMeasureItNames) {
     json current = made_result();
     cell_of(current, 0)["lookup_error"]["rms"] = 0.0504;
     Options options;
@@ -101,13 +101,13 @@ TEST(Injection, ATolerancePassesOverWhatItNames) {
     EXPECT_EQ(exit_code(compared(made_result(), current, options)), 0);
     cell_of(current, 0)["bytes"] = 1001;
     EXPECT_EQ(exit_code(compared(made_result(), current, options)), 2);
-    // The standard one takes the last digits of sums in another order.
+    // The default tolerance allows for the last digits of sums in another order.
     current = made_result();
     cell_of(current, 0)["lookup_error"]["rms"] = 0.05 * (1.0 + 1e-9);
     EXPECT_EQ(exit_code(compared(made_result(), current)), 0);
 }
 
-TEST(Injection, AnErrorOfNoneBecomesSome) {
+TEST(Injection, AnErrorThatWasZeroIsLessAccurate) {
     json baseline = made_result();
     for (const char* norm : {"max", "rms", "mean", "p99"}) cell_of(baseline, 1)["curve_error"][norm] = 0;
     json current = baseline;
@@ -119,20 +119,21 @@ TEST(Injection, AnErrorOfNoneBecomesSome) {
 
 // --- times -----------------------------------------------------------------------------------------------------------
 
-// Processes of two sides on one noisy machine; `turns`: in turns and judged in pairs, else one block after the other.
+// Processes of two sides on one noisy machine. `turns`: interleaved and judged in pairs; otherwise one block after the
+// other.
 Comparison measured(std::uint64_t seed, std::size_t processes, bool turns, double factor, double slow = 0.05) {
     Noise noise(seed, slow);
     std::vector<json> a(processes, made_result()), b(processes, made_result());
     if (turns)
         for (std::size_t i = 0; i < processes; ++i) {
-            // A B, B A: neither always goes first.
+            // A B, B A: neither side always goes first.
             if (i % 2 == 0) make_times(a[i], noise);
             make_times(b[i], noise, 0, factor);
             if (i % 2 == 1) make_times(a[i], noise);
         }
     else {
-        for (json& one : a) make_times(one, noise);
-        for (json& one : b) make_times(one, noise, 0, factor);
+        for (json& result : a) make_times(result, noise);
+        for (json& result : b) make_times(result, noise, 0, factor);
     }
     const char* const mark = turns ? "ab" : "";
     return compare(side(a, mark), side(b, mark), {});
@@ -144,7 +145,7 @@ int alarms(bool turns, std::size_t processes, int rounds, double slow = 0.05) {
     return count;
 }
 
-// How often a time of the cell that is `factor` slower is called slower; the other never is.
+// Counts how often a time of the cell slowed by `factor` is called slower. The other cell never may be.
 int finds(bool turns, std::size_t processes, int rounds, double factor) {
     int count = 0;
     for (int seed = 1; seed <= rounds; ++seed) {
@@ -186,7 +187,7 @@ TEST(Injection, EqualBuildsRaiseNoAlarmApart) {
     EXPECT_EQ(alarms(false, 10, 40), 0);
 }
 
-// What lies at or under the minimum effect is none, what lies clearly beyond is found.
+// Slowdowns up to the minimum effect do not count; clearly larger ones are found.
 TEST(Injection, SlowdownsAreFoundBeyondTheMinimumEffect) {
     EXPECT_EQ(finds(true, 20, 20, 1.03), 0);
     EXPECT_LE(finds(true, 20, 20, 1.05), 1);
@@ -195,14 +196,14 @@ TEST(Injection, SlowdownsAreFoundBeyondTheMinimumEffect) {
     EXPECT_GE(finds(false, 10, 20, 1.20), 19);
 }
 
-// Another tenant on the same core: all of one block is slower, over the floor too.
+// Another tenant on the same core: one whole block is slower, also over the floor.
 TEST(Injection, AnotherStateOfTheMachineIsNotSlower) {
     std::vector<json> a(10, made_result()), b(10, made_result());
     Noise noise(1);
-    for (json& one : a) make_times(one, noise);
-    for (json& one : b) {
-        make_times(one, noise, 0, 1.5);
-        one["variants"][0]["lights"][0]["capture"]["embree_check"]["times"]["embree_rays_per_second"] = 1.4e6;
+    for (json& result : a) make_times(result, noise);
+    for (json& result : b) {
+        make_times(result, noise, 0, 1.5);
+        result["variants"][0]["lights"][0]["capture"]["embree_check"]["times"]["embree_rays_per_second"] = 1.4e6;
     }
     Comparison comparison = compare(side(a), side(b), {});
     EXPECT_EQ(exit_code(comparison), 0);

@@ -146,8 +146,8 @@ Measured side(const std::vector<json>& documents, const std::string& interleaved
 
 const Line& line(const Comparison& comparison, const std::string& cell, const std::string& measure) {
     static const Line none;
-    for (const Line& one : comparison.lines)
-        if (one.cell.rfind(cell, 0) == 0 && one.measure == measure) return one;
+    for (const Line& line : comparison.lines)
+        if (line.cell.rfind(cell, 0) == 0 && line.measure == measure) return line;
     ADD_FAILURE() << "no line " << cell << " " << measure;
     return none;
 }

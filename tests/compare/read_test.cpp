@@ -24,7 +24,7 @@ protected:
         std::ofstream(folder_ / name, std::ios::binary) << text;
         return folder_ / name;
     }
-    // Reading it fails so, and says this.
+    // Expects reading to fail with this message.
     void fails(const fs::path& path, base::ErrorCode code, const std::string& says) const {
         try {
             read(path);
@@ -80,7 +80,7 @@ TEST_F(Read, ACellOfASweepRunsAlone) {
     EXPECT_EQ(command_of(other.suites[0].cells[0].rerun), "shadowbench run made --only deep");
 }
 
-// "*" stands for techniques with their defaults: one of them runs alone by its name.
+// "*" stands for techniques with their defaults, each of which can run alone.
 TEST_F(Read, ACellOfTheStarRunsAlone) {
     json result = made_result();
     result["scenario"]["techniques"][0] = {{"type", "*"}};
@@ -90,7 +90,7 @@ TEST_F(Read, ACellOfTheStarRunsAlone) {
               "shadowbench run made --set 'techniques=[{\"type\":\"deep\"}]'");
 }
 
-// Older programs left a swept value that is the default out of the label, and put the others in their places.
+// Older programs left swept values equal to the default out of the label, and put the others in their own places.
 TEST_F(Read, ACellHasOneNameWhicheverProgramLabelledIt) {
     json result = made_result();
     result["scenario"]["sweeps"] = {{"/techniques/0/tolerance", {"noise", 0.02}}, {"/techniques/0/search", {"binary"}}};
@@ -124,9 +124,9 @@ TEST_F(Read, KernelsAreCells) {
     EXPECT_EQ(command_of(kernel.rerun), "build/kernels '--benchmark_filter=^(sweep\\(x\\)/8)$'");
 }
 
-// Real time would hold what other programs took of the processor; but where a name asks for it, or threads share the
-// work, it is what was measured.
-TEST_F(Read, KernelsAreTimedByTheProcessorUnlessTheySayOtherwise) {
+// Real time includes the time that other programs took of the processor. It is used only if a name asks for it, or if
+// threads share the work.
+TEST_F(Read, KernelsUseProcessorTimeUnlessTheyAskForRealTime) {
     const auto time_of = [](json run) {
         json kernels = made_kernels();
         for (const auto& [key, value] : kernels["benchmarks"][0].items())
@@ -164,7 +164,7 @@ TEST_F(Read, ResultsOfOneScenarioAreItsProcesses) {
     ASSERT_EQ(measured.suites.size(), 2u);
     EXPECT_EQ(measured.suites[0].results, 2u);
     EXPECT_EQ(measured.suites[0].cells[0].timed[0].processes.size(), 2u);
-    // The same program gives the same numbers; where not, that is said, and the worst counts.
+    // The same program gives the same numbers; if not, a note says so, and the worst counts.
     EXPECT_EQ(measured.suites[0].cells[0].exact[0].value, 1001.0);
     ASSERT_EQ(measured.notes.size(), 1u);
     EXPECT_NE(measured.notes[0].find("deep tolerance=0.02: bytes"), std::string::npos) << measured.notes[0];
@@ -178,7 +178,7 @@ TEST_F(Read, TimesOfAnotherMachineAreNotMixed) {
     EXPECT_EQ(measured.notes.size(), 1u);
 }
 
-TEST_F(Read, EqualTechniquesAreToldApart) {
+TEST_F(Read, EqualTechniquesAreNumbered) {
     json result = made_result();
     cell_of(result, 1) = cell_of(result, 0);
     const Measured measured = side({result});
@@ -199,7 +199,7 @@ TEST_F(Read, SaysWhatIsMissing) {
 TEST_F(Read, SaysWhereJsonIsBroken) {
     const std::string text = made_result().dump(1);
     fails(write("cut/result.json", text.substr(0, text.size() / 2)), base::ErrorCode::bad_input,
-          "was it written to its end?");
+          "it was not written completely");
     fails(write("nan/result.json", "{\n \"schema_version\": NaN}"), base::ErrorCode::bad_input, "result.json:2:");
     fails(write("huge/result.json", "{\"a\": 1e999}"), base::ErrorCode::bad_input, "result.json");
     fails(write("none/result.json", ""), base::ErrorCode::bad_input, "result.json:1:1");
@@ -217,13 +217,13 @@ TEST_F(Read, SaysWhichValueIsWrong) {
     fails_with(Pointer(at + "/times/build_ms/raw/1"), nullptr,
                at + "/times/build_ms/raw/1: must be a number, not null");
     fails_with(Pointer(at + "/times/build_ms/raw/1"), -2, at + "/times/build_ms/raw/1: must not be negative");
-    fails_with(Pointer(at + "/times/build_ms/raw"), json::array(), "holds no time");
+    fails_with(Pointer(at + "/times/build_ms/raw"), json::array(), "must hold at least one time");
     fails_with(Pointer(at + "/nodes"), json::array(), at + "/nodes: must be an object");
 }
 
-// --- anything at all -------------------------------------------------------------------------------------------------
+// --- damaged input -------------------------------------------------------------------------------------------------
 
-// One cell, one sample each: every place once.
+// One cell with one sample of each kind, so that every place occurs once.
 json small_result() {
     json result = made_result();
     result["variants"][0]["lights"][0]["cells"].erase(1);
@@ -234,7 +234,7 @@ json small_result() {
     return result;
 }
 
-// A result that no longer is one is refused or judged; nothing else happens.
+// A damaged result is refused or judged; nothing else may happen.
 void judge_or_refuse(const std::string& text) {
     try {
         Measured measured;
@@ -267,7 +267,7 @@ TEST_F(Read, AnyValueOfAnotherTypeIsRefusedOrJudged) {
         for (const json& other : {json(nullptr), json(true), json(0), json(-1), json(1e300), json("text"),
                                   json::array(), json::object(), json::array({nullptr})}) {
             json result = small_result();
-            // Every level above it too: the value, its parent, and so on.
+            // Replaces the value, its parent, and so on up.
             for (Pointer place(pointer); !place.empty(); place.pop_back()) {
                 result[place] = other;
                 judge_or_refuse(result.dump());

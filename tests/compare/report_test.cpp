@@ -14,7 +14,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// One byte more, one technique slower in 20 pairs, one gone.
+// One byte more, one technique slower in 20 pairs, one missing.
 Comparison changed() {
     json gone = made_result();
     json third = cell_of(gone, 1);
@@ -38,13 +38,13 @@ TEST(Report, TextListsWhatIsNotTheSameWithItsCommand) {
     const std::string text = to_text(changed(), false);
     EXPECT_THAT(text, HasSubstr("old -> new\n"));
     EXPECT_THAT(text, HasSubstr("made / key / deep tolerance=0.02\n  larger          bytes  1000 -> 1001  +1 (+0.1 %)\n"
-                                "  alone: shadowbench run file.json --set 'techniques="));
+                                "  rerun: shadowbench run file.json --set 'techniques="));
     EXPECT_THAT(text, HasSubstr("slower          build"));
     EXPECT_THAT(text, HasSubstr("missing"));
     EXPECT_THAT(text, HasSubstr("note: a note\n"));
     EXPECT_THAT(text, HasSubstr("exit code 2: larger or less accurate"));
     EXPECT_THAT(text, HasSubstr("Holm"));
-    EXPECT_THAT(text, HasSubstr("smallest slowdown told from none"));
+    EXPECT_THAT(text, HasSubstr("smallest slowdown detected"));
     EXPECT_THAT(text, Not(HasSubstr("nodes.total")));
     EXPECT_THAT(to_text(changed(), true), HasSubstr("nodes.total"));
 }
@@ -56,7 +56,7 @@ TEST(Report, TextCountsInconclusiveTimesInsteadOfListingThem) {
     EXPECT_THAT(to_text(comparison, true), HasSubstr("lookup_image"));
 }
 
-TEST(Report, MarkdownIsATableWhoseCellsHoldNoBars) {
+TEST(Report, MarkdownIsATableWithBarsEscaped) {
     const std::string text = to_markdown(changed());
     EXPECT_THAT(text, HasSubstr("## shadowbench: exit code 2: larger or less accurate\n"));
     EXPECT_THAT(text, HasSubstr("| larger | made / key / deep tolerance=0.02 | bytes | 1000 -\\> 1001 |"));
@@ -64,11 +64,11 @@ TEST(Report, MarkdownIsATableWhoseCellsHoldNoBars) {
     EXPECT_THAT(text, HasSubstr("<code>shadowbench run file.json"));
 }
 
-TEST(Report, JUnitHasAFailureForWhatFailsAlone) {
+TEST(Report, JUnitHasFailuresOnlyForFailures) {
     const Comparison comparison = changed();
     const std::string text = to_junit(comparison);
     int fails = 0;
-    for (const Line& one : comparison.lines) fails += code_of(one, comparison.options) > 0;
+    for (const Line& line : comparison.lines) fails += code_of(line, comparison.options) > 0;
     EXPECT_THAT(text, HasSubstr("failures=\"" + std::to_string(fails) + "\""));
     EXPECT_THAT(text, HasSubstr("<testcase classname=\"made / key / deep tolerance=0.02\" name=\"bytes\"><failure "
                                 "type=\"larger\" message=\"larger: 1000 -&gt; 1001; +1 (+0.1 %)\">shadowbench run"));
@@ -76,7 +76,7 @@ TEST(Report, JUnitHasAFailureForWhatFailsAlone) {
     EXPECT_THAT(text, HasSubstr("name=\"nodes.total\"/>"));
 }
 
-TEST(Report, JsonHasAllOfIt) {
+TEST(Report, JsonHasEverything) {
     const Comparison comparison = changed();
     const json report = json::parse(to_json(comparison).dump());
     EXPECT_EQ(report["schema_version"], 1);
@@ -87,15 +87,15 @@ TEST(Report, JsonHasAllOfIt) {
     EXPECT_EQ(report["lines"][0]["code"], 2);
     EXPECT_EQ(report["lines"][0]["current"], 1001);
     EXPECT_EQ(report["counts"]["larger"], 1);
-    for (const json& one : report["lines"])
-        if (one["cell"] == "uncompressed" && one["measure"] == "build") {
-            EXPECT_EQ(one["verdict"], "slower");
-            EXPECT_EQ(one["time"]["processes"], 20);
-            EXPECT_GT(one["time"]["interval95"][0], 1.05);
+    for (const json& line : report["lines"])
+        if (line["cell"] == "uncompressed" && line["measure"] == "build") {
+            EXPECT_EQ(line["verdict"], "slower");
+            EXPECT_EQ(line["time"]["processes"], 20);
+            EXPECT_GT(line["time"]["interval95"][0], 1.05);
         }
 }
 
-// The answer to "what could this have seen?": equal builds, and still a number.
+// Even a comparison of equal builds states the smallest slowdown that it would have found.
 TEST(Report, EqualBuildsStateTheSmallestDifference) {
     std::vector<json> a(20, made_result()), b(20, made_result());
     Noise noise(3);
@@ -104,7 +104,7 @@ TEST(Report, EqualBuildsStateTheSmallestDifference) {
         make_times(b[i], noise);
     }
     const Comparison comparison = compare(side(a, "ab"), side(b, "ab"), {});
-    EXPECT_THAT(sensitivity(comparison), HasSubstr("smallest slowdown told from none: "));
+    EXPECT_THAT(sensitivity(comparison), HasSubstr("smallest slowdown detected: "));
     EXPECT_EQ(sensitivity(compare(side({made_result()}), side({made_result()}), {})), "");
 }
 

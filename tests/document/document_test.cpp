@@ -34,7 +34,7 @@ TEST(SetValue, takes_dotted_paths_and_pointers) {
     EXPECT_EQ(document["techniques"][0]["tolerance"], 0.5);
 }
 
-TEST(SetValue, takes_what_is_no_json_as_a_string) {
+TEST(SetValue, takes_text_that_is_not_json_as_a_string) {
     json document = small_document();
     set_value(document, "rays.pattern=regular");
     set_value(document, "techniques.0.tolerance=noise");
@@ -42,7 +42,7 @@ TEST(SetValue, takes_what_is_no_json_as_a_string) {
     EXPECT_EQ(document["techniques"][0]["tolerance"], "noise");
 }
 
-TEST(SetValue, takes_what_is_no_finite_number_as_a_string_that_the_schema_refuses) {
+TEST(SetValue, takes_numbers_that_are_not_finite_as_strings_that_the_schema_refuses) {
     for (const char* value : {"NaN", "nan", "inf", "-Infinity", "1e999", "0x10", "1,5", "\"64\"", ""})
         for (const char* path : {"rays.samples_per_pixel", "rays.seed", "lights.0.direction.1"}) {
             json document = small_document();
@@ -63,7 +63,7 @@ TEST(SetValue, holds_nested_values_to_the_rules_of_documents) {
                    "--set rays:1:13");
 }
 
-TEST(SetValue, refuses_an_index_that_fits_no_integer) {
+TEST(SetValue, refuses_an_index_too_large_for_an_integer) {
     json document = small_document();
     const std::string assignment = "lights.99999999999999999999999.direction=1";
     test::error_of([&] { set_value(document, assignment); }, ErrorCode::usage, "--set " + assignment);
@@ -100,10 +100,10 @@ TEST(CheckDocument, names_the_place_of_a_misspelt_parameter) {
     document["techniques"][1]["tolerence"] = 0.1;
     const std::string message =
         test::error_of([&] { check_document(document); }, ErrorCode::bad_input, "/techniques/1/tolerence");
-    EXPECT_NE(message.find("nodes"), std::string::npos) << "lists the parameters there are: " << message;
+    EXPECT_NE(message.find("nodes"), std::string::npos) << "lists the parameters: " << message;
 }
 
-TEST(CheckDocument, names_the_techniques_there_are) {
+TEST(CheckDocument, lists_the_techniques) {
     json document = small_document();
     document["techniques"][0] = {{"type", "shallow"}};
     const std::string message =
@@ -129,12 +129,12 @@ TEST(AllFaults, begin_with_the_one_that_was_thrown) {
 TEST(FullSchema, knows_every_parameter) {
     json document = small_document();
     EXPECT_NO_THROW(scene::check_schema(document, full_schema()));
-    document["techniques"][1]["nodes"] = 1000;  // the committed schema alone cannot tell
+    document["techniques"][1]["nodes"] = 1000;  // the committed schema cannot detect this
     EXPECT_NO_THROW(scene::check_schema(document, scene::scenario_schema()));
     EXPECT_THROW(scene::check_schema(document, full_schema()), base::Error);
 }
 
-TEST(Expand, combines_sweeps_outside_of_techniques_into_variants) {
+TEST(Expand, combines_sweeps_outside_techniques_into_variants) {
     json document = small_document();
     document["sweeps"] = {{"/rays/samples_per_pixel", {1, 4}}, {"/rays/seed", {7, 8, 9}}};
     const std::vector<Variant> variants = expand(document);
@@ -147,7 +147,7 @@ TEST(Expand, combines_sweeps_outside_of_techniques_into_variants) {
     EXPECT_FALSE(variants[4].document->contains("sweeps"));
 }
 
-TEST(Expand, puts_a_swept_technique_in_place_once_a_combination) {
+TEST(Expand, replaces_a_swept_technique_by_one_for_each_combination) {
     json document = small_document();
     document["sweeps"] = {{"/techniques/0/tolerance", {0.1, 0.2}}, {"/techniques/1/nodes", {4, 8, 16}}};
     const std::vector<Variant> variants = expand(document);
@@ -160,7 +160,7 @@ TEST(Expand, puts_a_swept_technique_in_place_once_a_combination) {
     EXPECT_TRUE(variants[0].settings.empty());
 }
 
-TEST(Expand, tells_which_parameters_of_a_technique_sweeps_set) {
+TEST(Expand, names_the_parameters_that_sweeps_set) {
     json document = small_document();
     document["sweeps"] = {{"/techniques/1/nodes", {4, 8}}, {"/techniques/1/cells", {"sample"}}, {"/rays/seed", {1}}};
     Variant variant = expand(document)[0];
@@ -191,7 +191,7 @@ TEST(Expand, refuses_pointers_to_nothing) {
     }
 }
 
-TEST(Expand, refuses_more_variants_than_anyone_waits_for) {
+TEST(Expand, refuses_too_many_variants) {
     json document = small_document(), many = json::array();
     for (int i = 0; i < 100; ++i) many.push_back(i);
     document["sweeps"] = {{"/rays/seed", many}, {"/receivers/seed", many}};
@@ -232,7 +232,7 @@ TEST(Expand, keeps_the_settings_that_are_listed_beside_the_star) {
     std::erase(expected, "avsm");
     expected.insert(expected.begin(), "deep");
     for (int i = 0; i < 3; ++i) expected.push_back("avsm");
-    EXPECT_EQ(types_of(variant), expected) << "what is named elsewhere is not doubled";
+    EXPECT_EQ(types_of(variant), expected) << "techniques named elsewhere are not repeated";
     const json& techniques = (*variant.document)["techniques"];
     EXPECT_EQ(techniques[0], deep);
     EXPECT_EQ(techniques[expected.size() - 3], plain);
@@ -242,14 +242,14 @@ TEST(Expand, keeps_the_settings_that_are_listed_beside_the_star) {
     EXPECT_EQ(variant.technique_where.back(), "/techniques/3");
 }
 
-TEST(Expand, makes_nothing_of_a_star_beside_every_technique) {
+TEST(Expand, removes_a_star_beside_every_technique) {
     json document = small_document();
     document["techniques"] = {{{"type", "*"}}};
     for (const std::string& type : types_of_all_rows()) document["techniques"].push_back({{"type", type}});
     EXPECT_EQ(types_of(expand(document).at(0)), types_of_all_rows());
 }
 
-TEST(Expand, leaves_out_of_the_star_what_traces_where_there_is_no_scene) {
+TEST(Expand, leaves_tracing_techniques_out_of_the_star_without_a_scene) {
     json document = small_document();
     document["techniques"] = {{{"type", "*"}}};
     document["scene"] = {{"deep_image", {{"file", "a.exr"}}}};
@@ -293,7 +293,7 @@ TEST(KeepOnly, knows_what_the_star_stands_for) {
     EXPECT_EQ((*variant.document)["techniques"], json::array({{{"type", "pcf"}}}));
 }
 
-TEST(SelectVariant, is_the_one_that_expand_counts) {
+TEST(SelectVariant, counts_as_expand_does) {
     json document = small_document();
     document["sweeps"] = {
         {"/rays/samples_per_pixel", {4, 9, 16}}, {"/rays/seed", {1, 2}}, {"/techniques/1/nodes", {4, 8}}};
@@ -316,7 +316,7 @@ TEST(KeepOnly, keeps_techniques_with_their_places) {
     EXPECT_EQ(variant.technique_where, std::vector<std::string>{"/techniques/1"});
 }
 
-TEST(KeepOnly, refuses_a_technique_that_is_not_there) {
+TEST(KeepOnly, refuses_a_technique_that_the_scenario_lacks) {
     Variant variant = expand(small_document())[0];
     const std::vector<std::string> types{"pcf"};
     const std::string message = test::error_of([&] { keep_only(variant, types); }, ErrorCode::usage, "--only pcf");

@@ -1,4 +1,4 @@
-// Every committed input of every fuzz target, without a fuzzer.
+// Runs every committed input of every fuzz target, without a fuzzer.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What libFuzzer calls. SHADOWBENCH_FUZZ_TARGET names the target.
+// The entry point of libFuzzer. SHADOWBENCH_FUZZ_TARGET names the target.
 #include <cstddef>
 #include <cstdint>
 

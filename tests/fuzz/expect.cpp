@@ -131,9 +131,9 @@ void expect_sound(const DeepImage& image) {
     expect(image.channels == 1 || image.channels == 3, "one channel or three");
     expect(image.z_back.size() == samples &&
                image.transmittance.size() == samples * static_cast<std::size_t>(image.channels),
-           "as many of each");
+           "one z_back and one transmittance a channel for each sample");
     constexpr float infinity = std::numeric_limits<float>::infinity();
-    expect_in(image.z_front, -static_cast<float>(max_coordinate), infinity, "a front may be far behind, not before");
+    expect_in(image.z_front, -static_cast<float>(max_coordinate), infinity, "a front is above the least coordinate");
     expect_in(image.transmittance, 0.0f, 1.0f, "transmittance is in [0, 1]");
     for (std::size_t i = 0; i < samples; ++i) expect(image.z_front[i] <= image.z_back[i], "a sample ends behind");
     for (std::size_t p = 0; p < pixels; ++p)

@@ -1,4 +1,4 @@
-// What the values that readers give are held to: the headers of the engine say it in words.
+// Checks on the values that readers return, as the headers of the engine document them.
 #pragma once
 
 #include <span>
@@ -9,13 +9,13 @@
 
 namespace shadowbench::fuzz {
 
-// A reader gave what it must not give.
+// A reader returned a value that its header excludes.
 class Broken : public std::logic_error {
 public:
     using std::logic_error::logic_error;
 };
 
-// Throws Broken unless it holds; `what` says what ought to hold.
+// Throws Broken unless `holds`; `what` states what must hold.
 void expect(bool holds, std::string_view what);
 
 void expect_finite(std::span<const float> values, std::string_view what);
@@ -28,7 +28,7 @@ void expect_sound(const scene::Particles& particles);
 void expect_sound(const scene::AlphaTexture& texture);
 void expect_sound(const scene::DeepImage& image);
 void expect_sound(const scene::Scenario& scenario);
-// The box and step are checked where they are known.
+// The box and step are checked separately, once they are known.
 void expect_sound(const scene::GridVolume& volume);
 void expect_box(const scene::GridVolume& volume);
 

@@ -1,4 +1,4 @@
-// Inputs whose answer would be right but long are not for fuzzing.
+// Excludes inputs that are valid but take too long to fuzz.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace shadowbench::fuzz {
 
-// Whether the sweeps of a document make few scenarios and techniques, all in all.
+// Whether the sweeps of a document make few scenarios and techniques in all.
 inline bool few_variants(const nlohmann::json& document) {
     constexpr std::size_t most = 32;
     if (!document.is_object()) return true;
@@ -22,8 +22,10 @@ inline bool few_variants(const nlohmann::json& document) {
             if (!count(values)) return false;
     const auto techniques = document.find("techniques");
     if (techniques == document.end()) return true;
-    if (techniques->is_array() && std::any_of(techniques->begin(), techniques->end(), [](const nlohmann::json& one) {
-            return one.is_object() && one.value("type", nlohmann::json()) == "*";  // stands for a dozen
+    if (techniques->is_array() &&
+        std::any_of(techniques->begin(), techniques->end(), [](const nlohmann::json& technique) {
+            return technique.is_object() &&
+                   technique.value("type", nlohmann::json()) == "*";  // stands for about a dozen
         }))
         variants *= 12;
     return count(*techniques);

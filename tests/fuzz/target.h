@@ -1,5 +1,5 @@
-// Fuzz targets: one a reader. A target takes any bytes as the reader's input and returns when the reader refuses them
-// with Error, or gives what its header documents. Everything else leaves it as an exception, or ends the process.
+// Fuzz targets, one for each reader. A target takes any bytes as the reader's input. It returns if the reader refuses
+// them with Error, or gives what its header documents. Any other outcome leaves it as an exception or ends the process.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace shadowbench::fuzz {
 
-// One a file in targets/, and a folder of the same name in corpus/.
+// Each has a file in targets/ and a folder of the same name in corpus/.
 void alpha(std::string_view bytes);
 void command_line(std::string_view bytes);
 void deep_file(std::string_view bytes);
@@ -30,7 +30,7 @@ void technique(std::string_view bytes);
 void tressfx(std::string_view bytes);
 void vdb(std::string_view bytes);
 
-// The bytes as a file, for as long as this lives.
+// The bytes as a file, which exists as long as this object.
 class InputFile {
 public:
     InputFile(std::string_view bytes, const std::string& extension);
@@ -42,10 +42,10 @@ private:
     const std::filesystem::path path_;
 };
 
-// Takes what a reader documents: an Error of one of these codes, whose text is one printable line that names a place.
+// Calls `read`, and accepts an Error with one of these codes, whose text must be one printable line that names a place.
 void attempt(std::initializer_list<base::ErrorCode> codes, const std::function<void()>& read);
 
-// The front of an input, taken off it: 0 in the bits that it is too short for.
+// Takes a value off the front of an input. Bits that the input is too short for are 0.
 template <typename T>
 T take(std::string_view& bytes) {
     T value{};

@@ -1,4 +1,4 @@
-// Whether callgrind watches this program, and what it counts. Without its header nothing ever runs under it.
+// Controls callgrind. If its header is missing at build time, running() is always false.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@ namespace shadowbench::kernels::callgrind {
 
 bool running();
 
-// Counts what this program does from start() to stop(), which dumps the count under this name and sets it to 0.
+// Counts the instructions of this program from start() to stop(), which dumps the count under this name and resets it
+// to 0.
 void start();
 void stop(const std::string& name);
 

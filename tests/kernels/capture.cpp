@@ -1,4 +1,4 @@
-// Capture: all light rays of a map, tile after tile, the scene made ready before.
+// Capture: all light rays of a map, tile after tile; the scene is prepared before.
 #include <memory>
 
 #include <benchmark/benchmark.h>
@@ -22,9 +22,8 @@ Subject prepare(Kind kind, int map, int samples) {
     const results::Agreement agreement =
         bench::compare_with_tracer(*capture, input->layout, input->view, tracer, traced_rays);
     check(results::agrees(agreement),
-          fmt::format("of {} rays {} cross other surfaces than Embree finds, {} let other "
-                      "light through",
-                      agreement.rays, agreement.other_crossings, agreement.other_transmittance));
+          fmt::format("of {} rays {} differ from Embree's in crossings, {} in transmittance", agreement.rays,
+                      agreement.other_crossings, agreement.other_transmittance));
 
     const auto tiles = std::make_shared<std::vector<rays::LightRays>>(capture_all(*input));
     Subject subject;
@@ -36,7 +35,7 @@ Subject prepare(Kind kind, int map, int samples) {
     subject.pass = [input, capture] {
         for (int t = 0; t < input->layout.tiles(); ++t) benchmark::DoNotOptimize(capture->tile(t).begin.data());
     };
-    // The rays that come out: of the scene, each primitive is read once for all rays that it covers.
+    // The floor reads the rays of the output; each primitive of the scene is read only once for all rays it covers.
     std::vector<const void*> lines;
     append_lines(*tiles, lines);
     subject.floor = [tiles, read = floor_of(std::move(lines))] { return read(); };

@@ -1,4 +1,4 @@
-// Compression: given functions within a tolerance, function after function.
+// Compression of given functions within a tolerance, one function after the other.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -41,7 +41,7 @@ Subject prepare(Kind kind, Compress compress, float tolerance) {
         after += count;
         error = std::max(error, curves::distance({input->out.data(), count}, function, 0.0, 0.0).max);
     }
-    check(error <= tolerance + rounding, fmt::format("a function is {} from its input", error));
+    check(error <= tolerance + rounding, fmt::format("a function differs from its input by {}", error));
 
     Subject subject;
     subject.exact = {static_cast<double>(after * sizeof(curves::Vertex)), static_cast<double>(after), error, {}};

@@ -1,4 +1,4 @@
-// What kernels count, without a clock.
+// The counts of kernels, without a clock.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,9 @@
 
 namespace shadowbench::kernels {
 
-// Prepares and checks the kernels in whose names `filter` is found, and writes what they count in the shape of Google
-// Benchmark's JSON: the same text in every run, whatever the machine. Returns how many gave wrong answers; they stand
-// there with error_occurred and error_message. Throws std::runtime_error when the file cannot be written.
+// Prepares and checks the kernels in whose names `filter` is found, and writes their counts in the form of Google
+// Benchmark's JSON: the same text in every run, on every machine. Returns the number of kernels with wrong answers;
+// their entries have error_occurred and error_message. Throws std::runtime_error if the file cannot be written.
 std::size_t write_exact(std::span<const Kernel> kernels, const std::string& filter,
                         std::span<const Injection> injections, const std::filesystem::path& file);
 

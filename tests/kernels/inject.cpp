@@ -29,7 +29,7 @@ double read_amount(const std::string& text, const std::string& number) {
         if (used == number.size() && std::isfinite(amount) && amount >= 0.0) return amount;
     } catch (const std::logic_error&) {
     }
-    refuse(text, "\"" + number + "\" is no amount");
+    refuse(text, "\"" + number + "\" is not an amount");
 }
 
 void add(std::optional<double>& to, double amount) {
@@ -39,7 +39,7 @@ void add(std::optional<double>& to, double amount) {
 }  // namespace
 
 Injection read_injection(const std::string& text) {
-    // The expression may hold colons, as the names do.
+    // The expression may contain colons, as names do.
     const std::size_t first = text.find(':'), last = text.rfind(':');
     if (first == last) refuse(text, "it is not FAULT:REGEX:AMOUNT");
     const Fault fault = read_fault(text, text.substr(0, first));

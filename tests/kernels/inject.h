@@ -1,4 +1,4 @@
-// Faults put into kernels on purpose, so that a gate can show that it catches them. The engine knows nothing of them.
+// Puts faults into kernels, so that tests can show that a gate finds them. The engine does not know about them.
 #pragma once
 
 #include <regex>
@@ -12,8 +12,8 @@ namespace shadowbench::kernels {
 
 enum class Fault { slow, node, byte, error };
 
-// slow:REGEX:0.10 makes a tenth of a kernel's passes once more; node, byte and error:REGEX:AMOUNT add to what is
-// counted. A kernel is meant when the expression is found anywhere in its name.
+// slow:REGEX:0.10 repeats a tenth of a kernel's passes; node, byte and error:REGEX:AMOUNT add to its counts. A fault
+// applies to every kernel in whose name the expression is found.
 struct Injection {
     Fault fault;
     std::regex names;
@@ -24,13 +24,13 @@ struct Injection {
 // Throws std::invalid_argument.
 Injection read_injection(const std::string& text);
 
-// Those of a kernel, all together.
+// The sum of all faults of one kernel.
 struct Faults {
     double slow = 0.0, nodes = 0.0, bytes = 0.0, error = 0.0;
 };
 Faults faults_of(const std::string& kernel, std::span<const Injection> injections);
 
-// Both errors grow. What a kernel does not count stays uncounted.
+// Adds to the counts of a kernel; both errors grow. A count that the kernel does not have stays absent.
 Exact with(Exact exact, const Faults& faults);
 
 }  // namespace shadowbench::kernels

@@ -14,7 +14,7 @@
 namespace shadowbench::kernels {
 namespace {
 
-constexpr double linearisation = 1e-3;  // of functions that are made from media
+constexpr double linearisation = 1e-3;  // of functions made from media
 
 scene::Object object_of(decltype(scene::Object::shape) shape, float opacity, float extinction) {
     scene::Object object;

@@ -1,4 +1,4 @@
-// Scenes made by procedure, and their light rays: what the kernels work on. The same in every run.
+// Procedural scenes and their light rays, the inputs of the kernels. They are the same in every run.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ enum class Kind { hair, mesh, smoke, cloud, mixed };
 const char* name_of(Kind kind);
 
 scene::Hair make_hair();
-scene::Mesh make_mesh(int cells);  // a side; two triangles a cell
+scene::Mesh make_mesh(int cells);  // cells per side; two triangles per cell
 
 struct Input {
     scene::Scene scene;
@@ -29,7 +29,7 @@ struct Input {
 };
 using SharedInput = std::shared_ptr<const Input>;
 
-// A scene as one light sees it, in a map of `map` x `map` pixels with so many rays a pixel.
+// A scene as one light sees it, in a map of `map` x `map` pixels with this number of rays a pixel.
 SharedInput make_input(Kind kind, int map, int samples);
 
 std::vector<rays::LightRays> capture_all(const Input& input);
@@ -39,7 +39,7 @@ void append_lines(const std::vector<rays::LightRays>& tiles, std::vector<const v
 // The uncompressed function of every pixel that is not lit everywhere.
 std::vector<curves::Curve> functions_of(Kind kind, int map, int samples);
 
-// "map:64", "/samples:16": as arguments are named.
+// An argument in a kernel's name, as "map:64" or "/samples:16".
 std::string argument(const char* name, double value);
 
 }  // namespace shadowbench::kernels

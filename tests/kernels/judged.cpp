@@ -19,7 +19,7 @@
 namespace shadowbench::kernels {
 namespace {
 
-constexpr std::size_t judged_side = 24;  // of the grid of queries that are compared with the truth
+constexpr std::size_t judged_side = 24;  // side of the grid of queries that are compared with the truth
 constexpr int truth_samples = 64;
 
 scene::TechniqueRequest request_of(const Setting& setting) {
@@ -102,7 +102,7 @@ bench::Maps Judged::build() const {
 
 std::vector<techniques::Query> Judged::queries(std::size_t side, std::uint64_t seed) const {
     const rays::MapLayout& layout = state_->layout;
-    const double depth = 1.1 * (layout.z_max - layout.z_min);  // a little behind everything too
+    const double depth = 1.1 * (layout.z_max - layout.z_min);  // also a little behind everything
     base::Random random(seed);
     const auto place = [&](std::size_t cell, int size) {
         return static_cast<float>((static_cast<double>(cell) + random.uniform()) * size / static_cast<double>(side));
@@ -121,7 +121,7 @@ void Judged::check_answers(const std::vector<techniques::Query>& queries, const 
     pass();
     const std::vector<float> first = answers;
     pass();
-    check(first == answers, "the same lookups are answered differently");
+    check(first == answers, "two passes over the same lookups give different answers");
     bench::Contender answering;
     answering.promises = state_->contender[0].promises;
     bench::check_answers(answering, queries, answers);

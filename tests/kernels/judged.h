@@ -1,4 +1,4 @@
-// The map of a technique, built and held to what the technique promises, the way a run does it.
+// The map of a technique, built and checked against the technique's promises as in a run.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace shadowbench::kernels {
 
-// A row with its defaults but for one parameter, on a map of the mixed scene.
+// A row with default parameters except one, on a map of the mixed scene.
 struct Setting {
     const techniques::Technique* row;
     std::string parameter;  // empty: none
@@ -28,20 +28,20 @@ std::string name_of(const Setting& setting);  // "deep/tolerance:0.02/map:64/sam
 
 class Judged {
 public:
-    // Throws std::runtime_error with the promise that is broken.
+    // Throws std::runtime_error that names the broken promise.
     explicit Judged(const Setting& setting);
     ~Judged();
 
     const Exact& exact() const;
     const bench::Maps& maps() const;
-    const std::vector<rays::LightRays>& tiles() const;  // that the map is built from
+    const std::vector<rays::LightRays>& tiles() const;  // from which the map is built
 
     bench::Maps build() const;
 
-    // side * side places all over the map, row after row, each at a depth of its own; others with every seed.
+    // side * side places over the whole map, row after row, at different depths; each seed gives other places.
     std::vector<techniques::Query> queries(std::size_t side, std::uint64_t seed) const;
 
-    // Makes the pass twice: throws unless both answer the same, and what is promised.
+    // Makes the pass twice. Throws unless both give the same answers, and these keep the promises.
     void check_answers(const std::vector<techniques::Query>& queries, const std::function<void()>& pass,
                        const std::vector<float>& answers) const;
 
@@ -51,7 +51,7 @@ private:
 };
 using SharedJudged = std::shared_ptr<const Judged>;
 
-// Kernels of one setting follow one another: the last one is kept.
+// Kernels of one setting follow one another, so the last one is kept.
 SharedJudged judge(const Setting& setting);
 
 }  // namespace shadowbench::kernels

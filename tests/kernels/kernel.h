@@ -1,10 +1,10 @@
-// Kernels: one step of the engine each, on inputs that are the same in every run, for Google Benchmark.
+// Kernels: each runs one step of the engine, on inputs that are the same in every run, for Google Benchmark.
 //
-// Rules that hold for all of them:
-//  - a kernel is checked once, before it is timed; a wrong answer is never timed;
+// Rules for all kernels:
+//  - a kernel is checked once before it is timed; wrong answers are never timed;
 //  - `bytes`, `nodes` and the errors are exact: the same in every run, on any number of threads, on any machine;
-//  - beside its time stands the floor of the same iteration: the same bytes are read, and nothing else is done;
-//  - one thread, no file but those that it made itself.
+//  - each iteration also times the floor: it reads the same bytes and does nothing else;
+//  - a kernel uses one thread, and no files except those that it wrote.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace shadowbench::kernels {
 
-// What is counted and not timed.
+// Exact counts, which are not timed.
 struct Exact {
     std::optional<double> bytes;         // held by the output
     std::optional<double> nodes;         // of the output: nodes, vertices, segments, elements
@@ -25,25 +25,25 @@ struct Exact {
     std::optional<double> lookup_error;  // RMS of the lookups against the truth
 };
 
-// A kernel made ready: its input is there, its answers have been checked.
+// A prepared kernel: its input exists, and its answers have been checked.
 struct Subject {
     Exact exact;
-    double vertices = 0.0;  // that one pass goes over; 0: does not count
-    double lookups = 0.0;   // of one pass; 0: none
+    double vertices = 0.0;  // processed in one pass; 0: not counted
+    double lookups = 0.0;   // in one pass; 0: none
     std::function<void()> pass;
-    // Reads what a pass reads and does nothing else; the sum is returned so that the reads cannot be left out. Empty:
-    // the kernel reads nothing that could be named.
+    // Reads the memory that a pass reads, and does nothing else. Returns a sum, so that the compiler cannot remove the
+    // reads. Empty if the kernel reads no memory that can be named.
     std::function<unsigned()> floor;
-    double floor_share = 1.0;  // passes that the floor covers
+    double floor_share = 1.0;  // number of passes that the floor covers
 };
 
 struct Kernel {
-    std::string name;                  // family/subject/argument:value/..., unlike any other
-    std::function<Subject()> prepare;  // throws what is wrong with the answers
+    std::string name;                  // family/subject/argument:value/..., unique
+    std::function<Subject()> prepare;  // throws if the answers are wrong
 };
 using Kernels = std::vector<Kernel>;
 
-// The list.
+// All kernels.
 Kernels all_kernels();
 
 // The families, each in its own file.
@@ -54,7 +54,7 @@ void add_compression_kernels(Kernels& kernels);
 void add_technique_kernels(Kernels& kernels);
 void add_load_kernels(Kernels& kernels);
 
-// Appends an address in each 64-byte line of `count` bytes from `data` on.
+// Appends an address in each 64-byte line of the `count` bytes from `data` on.
 void append_lines(const void* data, std::size_t bytes, std::vector<const void*>& lines);
 template <class T>
 void append_lines(const std::vector<T>& values, std::vector<const void*>& lines) {

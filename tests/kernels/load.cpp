@@ -1,4 +1,4 @@
-// Loading: files that were written before, from the page cache into what the engine works on.
+// Loading: reads files that were written before, from the page cache into the engine's structures.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The file's bytes in one read, one byte of each line used.
+// Reads the file's bytes at once, and uses one byte of each cache line.
 std::function<unsigned()> file_floor(const fs::path& file) {
     const auto buffer = std::make_shared<std::vector<char>>(fs::file_size(file));
     std::vector<const void*> lines;
@@ -105,7 +105,8 @@ Subject load_mesh(const char* name, std::string (*write_mesh)(const scene::Mesh&
     const scene::Mesh mesh = make_mesh(48);
     const fs::path file = write(name, write_mesh(mesh));
     const scene::Mesh read = scene::read_mesh(file).mesh;
-    check(read.positions == mesh.positions && read.triangles == mesh.triangles, "the mesh is not the one written");
+    check(read.positions == mesh.positions && read.triangles == mesh.triangles,
+          "the mesh read differs from the one written");
     return subject_of(file, mesh.triangles.size(),
                       [file] { benchmark::DoNotOptimize(scene::read_mesh(file).mesh.triangles.data()); });
 }
@@ -115,12 +116,12 @@ Subject load_hair() {
     const fs::path file = write("hair.hair", hair_of(hair));
     const scene::Hair read = scene::read_hair(file, 0.0f);
     check(read.points == hair.points && read.radii == hair.radii && read.strand_begin == hair.strand_begin,
-          "the hair is not the one written");
+          "the hair read differs from the one written");
     return subject_of(file, hair.points.size(),
                       [file] { benchmark::DoNotOptimize(scene::read_hair(file, 0.0f).points.data()); });
 }
 
-// A scenario with a mesh of its own, a file beside it, and some procedure.
+// A scenario with an inline mesh, a mesh file and a procedural object.
 Subject load_scenario() {
     const scene::Mesh mesh = make_mesh(16);
     const fs::path obj = write("scenario_mesh.obj", obj_of(mesh));
@@ -141,10 +142,11 @@ Subject load_scenario() {
         return scene::load_scenario(scene::parse_json(text, file.string()), {file.parent_path()});
     };
     const scene::Scenario scenario = load();
-    check(scenario.scene.objects.size() == 3, "the scenario has not three objects");
+    check(scenario.scene.objects.size() == 3, "the scenario does not have three objects");
     for (const int object : {0, 1}) {
         const auto& read = std::get<scene::Mesh>(scenario.scene.objects[static_cast<std::size_t>(object)].shape);
-        check(read.positions == mesh.positions && read.triangles == mesh.triangles, "a mesh is not the one written");
+        check(read.positions == mesh.positions && read.triangles == mesh.triangles,
+              "a mesh read differs from the one written");
     }
     return subject_of(file, 2 * mesh.triangles.size(), [load] { benchmark::DoNotOptimize(load().lights.data()); });
 }
@@ -161,7 +163,8 @@ Subject load_deep(int map) {
     techniques::write_deep_file(file, levels, 16, {});
     const auto read = [file] { return techniques::read_levels(techniques::DeepFile(file)); };
     const std::vector<techniques::DeepLevel> back = read();
-    check(std::equal(back.begin(), back.end(), levels.begin(), levels.end(), equal), "the map is not the one written");
+    check(std::equal(back.begin(), back.end(), levels.begin(), levels.end(), equal),
+          "the map read differs from the one written");
     Subject subject = subject_of(file, static_cast<std::size_t>(judged.exact().nodes.value()),
                                  [read] { benchmark::DoNotOptimize(read().data()); });
     subject.exact.error = judged.exact().error;

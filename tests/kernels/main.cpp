@@ -1,7 +1,7 @@
-// The kernels as a program: Google Benchmark's own options, and
+// The kernels as a program. It takes Google Benchmark's options, and
 //   --exact=FILE               counts only: no clock, the same file on every machine
-//   --inject=FAULT:REGEX:AMOUNT  a fault on purpose (inject.h); as often as wanted
-// Exit codes: 0 ok; 2 a kernel answers wrongly; 64 wrong usage; 70 internal fault.
+//   --inject=FAULT:REGEX:AMOUNT  puts in a fault (inject.h); may be repeated
+// Exit codes: 0 ok; 2 a kernel gave wrong answers; 64 wrong usage; 70 internal fault.
 #include <algorithm>
 #include <iostream>
 #include <stdexcept>
@@ -27,7 +27,7 @@ struct Arguments {
     std::vector<Injection> injections;
 };
 
-// Takes out what Google Benchmark does not know.
+// Takes out the options that Google Benchmark does not know.
 Arguments read_arguments(std::vector<char*>& argv) {
     Arguments arguments;
     std::erase_if(argv, [&](const char* text) {
@@ -44,7 +44,7 @@ Arguments read_arguments(std::vector<char*>& argv) {
     return arguments;
 }
 
-// A fault that is put nowhere would show nothing.
+// Refuses a fault that matches no kernel: it would change nothing.
 void check_hits(const Kernels& kernels, const std::vector<Injection>& injections) {
     for (const Injection& injection : injections)
         if (std::none_of(kernels.begin(), kernels.end(),

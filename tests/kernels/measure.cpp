@@ -12,10 +12,11 @@
 namespace shadowbench::kernels {
 namespace {
 
-constexpr double least_floor = 100e-6;  // seconds of one reading of the floor: the clock stays below 0.1 %
+constexpr double least_floor = 100e-6;  // seconds of one reading of the floor: keeps clock errors below 0.1 %
 constexpr int most_rounds = 10000;
 
-// Of this thread, which does all the work: what other programs take of a shared processor does not count.
+// Processor time of this thread, which does all the work: time that other programs take of a shared processor does not
+// count.
 double processor_seconds() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -38,7 +39,8 @@ int rounds_of_floor(const Subject& subject) {
     return static_cast<int>(std::clamp(std::ceil(least_floor / std::max(once, 1e-9)), 1.0, double{most_rounds}));
 }
 
-// How many passes make an iteration: a slow kernel makes more, so that over many iterations the share is as told.
+// The number of passes in an iteration: a slow kernel makes more, so that the given share is reached over many
+// iterations.
 class Passes {
 public:
     explicit Passes(double slow) : wanted_(passes * (1.0 + slow)) {}
@@ -54,7 +56,7 @@ private:
 };
 
 void count(const std::string& name, const Subject& subject, int times) {
-    subject.pass();  // what the first pass alone does, such as growing scratch memory, does not count
+    subject.pass();  // not counted: only the first pass grows scratch memory
     callgrind::start();
     for (int p = 0; p < times; ++p) subject.pass();
     callgrind::stop(name);
@@ -91,7 +93,7 @@ void measure(benchmark::State& state, const std::string& name, const Subject& su
     set(state, "error", exact.error);
     set(state, "lookup_error", exact.lookup_error);
     if (counting) return;
-    // An extra pass of a slow kernel is part of the work, not of what the work does.
+    // An extra pass of a slow kernel adds time, but no vertices or lookups.
     const double pass = seconds / (static_cast<double>(state.iterations()) * passes);
     if (subject.vertices > 0.0) state.counters["ns_per_vertex"] = 1e9 * pass / subject.vertices;
     if (subject.lookups > 0.0) state.counters["ns_per_lookup"] = 1e9 * pass / subject.lookups;

@@ -1,5 +1,5 @@
-// What every machine can do and no change of the engine touches: times of other kernels may be taken as ratios to
-// these.
+// Reference work that exists on every machine and that no change of the engine affects: times of other kernels may be
+// divided by these.
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t steps = 1 << 16;
 constexpr std::size_t table_bytes = std::size_t{8} << 20;
 
-// A chain of multiplications, each waiting for the one before it.
+// A chain of multiplications in which each waits for the one before it.
 Subject arithmetic() {
     Subject subject;
     subject.vertices = static_cast<double>(steps);

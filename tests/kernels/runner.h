@@ -1,4 +1,4 @@
-// Kernels on Google Benchmark.
+// Runs kernels with Google Benchmark.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ class State;
 
 namespace shadowbench::kernels {
 
-// Google Benchmark calls a kernel again and again until it has enough of it; its subject is made once, when it is first
-// called, and dropped when another kernel's turn comes. One whose answers are wrong is skipped with the reason.
+// Google Benchmark calls a kernel repeatedly until it has enough iterations. The kernel's subject is made at the first
+// call and dropped when another kernel runs. A kernel with wrong answers is skipped, with the reason.
 class Runner {
 public:
-    // Registers every kernel. Both lists outlive the runner, and it the run.
+    // Registers every kernel. Both lists must outlive the runner, and the runner the run.
     Runner(const Kernels& kernels, const std::vector<Injection>& injections);
 
-    bool wrong() const { return wrong_; }  // whether any kernel answered wrongly
+    bool wrong() const { return wrong_; }  // whether any kernel gave wrong answers
 
 private:
     void run(benchmark::State& state, const Kernel& kernel);

@@ -1,4 +1,4 @@
-// Sweep: the rays of a pixel into its visibility function, pixel after pixel.
+// Sweep: computes the visibility function of each pixel from its rays.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,7 +20,7 @@ constexpr int map = 16;
 constexpr double linearisation = 1e-3;
 constexpr double rounding = 2e-6;  // of the sum, and of the oracle's depths as floats
 
-// The mean of the rays' exact transmittance at z; just behind z if asked.
+// The mean of the rays' exact transmittance at z, or just behind z.
 double truth(const rays::LightRays& tile, std::size_t first, double z, bool behind) {
     if (behind) z = std::nextafter(z, std::numeric_limits<double>::infinity());
     double sum = 0.0;
@@ -28,7 +28,7 @@ double truth(const rays::LightRays& tile, std::size_t first, double z, bool behi
     return sum / tile.samples;
 }
 
-// At every vertex from both sides, and in the middle between any two.
+// Checks every vertex from both sides, and the middle between any two.
 double error_of(const rays::LightRays& tile, std::size_t first, const curves::Curve& function) {
     double error = 0.0;
     const auto compare = [&](float value, double z, bool behind) {
@@ -71,7 +71,7 @@ Subject prepare(Kind kind, int samples) {
         vertices += sweep->function.size();
         error = std::max(error, error_of(tile, ray, sweep->function));
     });
-    check(error <= linearisation + rounding, fmt::format("a function is {} from its rays", error));
+    check(error <= linearisation + rounding, fmt::format("a function differs from its rays by {}", error));
 
     Subject subject;
     subject.exact = {static_cast<double>(vertices * sizeof(curves::Vertex)), static_cast<double>(vertices), error, {}};

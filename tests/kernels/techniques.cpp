@@ -15,10 +15,10 @@
 namespace shadowbench::kernels {
 namespace {
 
-constexpr std::size_t side = 48;        // of the grid of lookups
+constexpr std::size_t side = 48;        // side of the grid of lookups
 constexpr std::size_t traced_side = 8;  // of a technique that reads no map: shadow rays take microseconds
-// A processor learns the branches of a few thousand lookups by heart when they come again and again: in random order a
-// deep shadow map then answers in half the time. With so many batches there are more than it can remember.
+// A processor learns the branches of a few thousand lookups if they repeat; a deep shadow map then answers in random
+// order in half the time. With this many batches there are more lookups than it can remember.
 constexpr std::size_t batch_count = 32;
 constexpr std::size_t most_lines = std::size_t{1} << 20;
 
@@ -43,7 +43,7 @@ void shuffle(std::vector<techniques::Query>& queries) {
     for (std::size_t i = queries.size(); i > 1; --i) std::swap(queries[i - 1], queries[random.below(i)]);
 }
 
-// The lookups of one pass after another.
+// The lookups of successive passes.
 struct Batches {
     std::vector<std::vector<techniques::Query>> queries;
     std::size_t now = 0;
@@ -90,7 +90,7 @@ Subject prepare_lookup(const Setting& setting, Order order) {
     return subject;
 }
 
-// Values beside the defaults, of whichever row has such a parameter.
+// Values besides the defaults, for every row that has the parameter.
 const std::multimap<std::string, double> other_values = {
     {"tolerance", 0.005}, {"tolerance", 0.02}, {"nodes", 4.0}, {"nodes", 16.0}};
 

@@ -42,7 +42,7 @@ TEST(Trend, AgreesWithThePublishedTable) {
     EXPECT_NEAR(trend_p(values), 2.0 * 0.036, 0.001);
 }
 
-TEST(Trend, OfConstantValuesIsNone) {
+TEST(Trend, IsAbsentInConstantValues) {
     EXPECT_EQ(trend_p(std::vector<double>(10, 4.0)), 1.0);
     EXPECT_EQ(trend_p(std::vector<double>{}), 1.0);
     EXPECT_EQ(trend_p(std::vector<double>{1.0}), 1.0);
@@ -54,36 +54,36 @@ TEST(RobustLine, GoesThroughALine) {
     EXPECT_DOUBLE_EQ(line.last, 9.0);
 }
 
-TEST(RobustLine, IsNotMovedByOneValueFarOff) {
+TEST(RobustLine, IsNotMovedByOneOutlier) {
     const Line line = robust_line(std::vector<double>{1, 2, 3, 1000, 5, 6, 7});
     EXPECT_DOUBLE_EQ(line.first, 1.0);
     EXPECT_DOUBLE_EQ(line.last, 7.0);
 }
 
-// 1 % more in every result: no two neighbours differ by what a comparison would see.
-TEST(Drift, SeesWhatNoNeighboursShow) {
+// 1 % more in every result: too little for a comparison of neighbours.
+TEST(Drift, FindsChangesTooSlowForNeighbours) {
     base::Random random(5);
     std::vector<double> values;
     for (int i = 0; i < 10; ++i) values.push_back(std::pow(1.01, i) * random.uniform(0.998, 1.002));
     const auto line = drift(values, 0.05);
     ASSERT_TRUE(line);
     EXPECT_NEAR(line->last / line->first, std::pow(1.01, 9), 0.01);
-    EXPECT_FALSE(drift(values, 0.15));  // under the least change
+    EXPECT_FALSE(drift(values, 0.15));  // below the least change
 }
 
-TEST(Drift, SeesAFallToo) {
+TEST(Drift, FindsAFall) {
     EXPECT_TRUE(drift(std::vector<double>{10, 9, 8, 7, 6, 5}, 0.05));
     EXPECT_TRUE(drift(std::vector<double>{5, 4, 3, 2, 1, 0}, 0.05));
 }
 
-TEST(Drift, OneOutlierOrFewValuesAreNone) {
+TEST(Drift, IsAbsentInFewValuesAndWithOneOutlier) {
     EXPECT_FALSE(drift(std::vector<double>{1, 1, 1, 1, 1, 1, 1, 1, 1, 2}, 0.0));
     EXPECT_FALSE(drift(std::vector<double>{1, 2, 3, 4}, 0.0));
     EXPECT_FALSE(drift(std::vector<double>(10, 7.0), 0.0));
     EXPECT_FALSE(drift(std::vector<double>{}, 0.0));
 }
 
-TEST(Drift, NoiseRarelyLooksLikeOne) {
+TEST(Drift, IsRareInNoise) {
     base::Random random(9);
     int found = 0;
     for (int round = 0; round < 2000; ++round) {

@@ -40,7 +40,8 @@ Flip flip(const Picture& a, const Picture& b, double ppd = flip_pixels_per_degre
     return metrics::flip(a.rgb, b.rgb, a.width, a.height, ppd);
 }
 
-// --- the paper once more, in double, with whole two-dimensional kernels and no shared code ---------------------------
+// --- an independent implementation of the paper, in double, with two-dimensional kernels
+// ------------------------------
 
 namespace oracle {
 
@@ -156,12 +157,13 @@ Seen look(const Picture& p, double ppd) {
 }
 
 Grid flip(const Picture& a, const Picture& b, double ppd) {
-    const Seen one = look(a, ppd), two = look(b, ppd);
+    const Seen seen_a = look(a, ppd), seen_b = look(b, ppd);
     Grid map;
-    for (std::size_t i = 0; i < one.lab.size(); ++i) {
-        const double edge = std::abs(one.edge[i] - two.edge[i]), point = std::abs(one.point[i] - two.point[i]);
+    for (std::size_t i = 0; i < seen_a.lab.size(); ++i) {
+        const double edge = std::abs(seen_a.edge[i] - seen_b.edge[i]),
+                     point = std::abs(seen_a.point[i] - seen_b.point[i]);
         const double features = std::sqrt(std::max(edge, point) / std::sqrt(2.0));
-        map.push_back(std::pow(redistributed(distance(one.lab[i], two.lab[i])), 1 - features));
+        map.push_back(std::pow(redistributed(distance(seen_a.lab[i], seen_b.lab[i])), 1 - features));
     }
     return map;
 }
@@ -192,10 +194,10 @@ TEST(Flip, sees_an_edge_and_a_point_as_the_whole_kernels_do) {
     const oracle::Grid expected = oracle::flip(grey, marked, 67.0);
     for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_NEAR(result.map[i], expected[i], 2e-3) << i;
     EXPECT_GT(result.map[16 * 41 + 30], 0.1f);
-    EXPECT_LT(result.map[16 * 41 + 20], 0.02f) << "between them nothing changes";
+    EXPECT_LT(result.map[16 * 41 + 20], 0.02f) << "no change between them";
 }
 
-// Without structure the colour pipeline alone is left, which is done here by hand for grey: L* alone differs.
+// Without structure only the colour pipeline remains, computed here by hand for grey, where only L* differs.
 TEST(Flip, of_black_and_white_is_the_spread_lightness_distance) {
     const Flip result = flip(constant(9, 7, {0, 0, 0}), constant(9, 7, {1, 1, 1}));
     // Hunt-adjusted green and blue of sRGB are (87.73, -75.7, 73.0) and (32.30, 25.6, -34.9), 203.1 apart: 203.1^0.7 =
@@ -205,11 +207,11 @@ TEST(Flip, of_black_and_white_is_the_spread_lightness_distance) {
     EXPECT_NEAR(result.weighted_median, result.mean, 1e-6);
 }
 
-TEST(Flip, of_green_and_blue_is_the_largest_there_is) {
+TEST(Flip, of_green_and_blue_is_the_largest_possible) {
     EXPECT_NEAR(flip(constant(5, 5, {0, 1, 0}), constant(5, 5, {0, 0, 1})).mean, 1.0, 1e-5);
 }
 
-TEST(Flip, of_a_picture_and_itself_is_nothing) {
+TEST(Flip, of_a_picture_and_itself_is_0) {
     const Picture a = noise(40, 31, 1);
     const Flip result = flip(a, a);
     EXPECT_EQ(result.mean, 0.0);
@@ -222,7 +224,7 @@ TEST(Flip, does_not_depend_on_which_picture_comes_first) {
     EXPECT_EQ(flip(a, b).map, flip(b, a).map);
 }
 
-TEST(Flip, stays_between_0_and_1_and_ignores_what_no_monitor_shows) {
+TEST(Flip, stays_between_0_and_1_and_clamps_values_that_no_monitor_shows) {
     Picture a = noise(30, 30, 7), b = noise(30, 30, 8);
     for (std::size_t i = 0; i < b.rgb.size(); i += 3) b.rgb[i] = i % 2 ? 1.0f : 0.0f;
     const Flip bounded = flip(a, b);
@@ -243,7 +245,7 @@ TEST(Flip, grows_with_contrast) {
 }
 
 // A checkerboard of pixels that is finer than the eye resolves looks like its average.
-TEST(Flip, passes_over_detail_that_is_too_fine_to_see) {
+TEST(Flip, ignores_detail_that_is_too_fine_to_see) {
     Picture fine = constant(64, 64, {0, 0, 0}), coarse = fine;
     const Picture average = constant(64, 64, {0.5, 0.5, 0.5});
     for (int y = 0; y < 64; ++y)

@@ -14,7 +14,7 @@ std::vector<bool> front_of(const std::vector<CostAndError>& choices) {
     return pareto_front(choices);
 }
 
-TEST(ParetoFront, KeepsWhatNothingBeats) {
+TEST(ParetoFront, KeepsChoicesThatNoneBeats) {
     EXPECT_TRUE(front_of({}).empty());
     EXPECT_EQ(front_of({{1, 3}, {2, 2}, {3, 1}, {3, 3}}), (std::vector<bool>{true, true, true, false}));
 }
@@ -28,7 +28,7 @@ TEST(ParetoFront, EqualChoicesDoNotBeatEachOther) {
 }
 
 // A failed technique has no error, and comparisons with NaN would break the sort.
-TEST(ParetoFront, AChoiceThatIsNotFiniteIsNeverOnItNorBeatsAnother) {
+TEST(ParetoFront, AChoiceThatIsNotFiniteIsNeitherOnItNorBeatsAnother) {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(front_of({{nan, 0}, {0, nan}, {-infinity, 0}, {1, infinity}, {5, 5}}),
               (std::vector<bool>{false, false, false, false, true}));

@@ -38,7 +38,7 @@ TEST(ErrorNorms, The99thPercentileIsANearestRank) {
 }
 
 // std::max(0, NaN) is 0: a technique that answers NaN would pass as perfect.
-TEST(ErrorNorms, ANaNIsAnInfiniteErrorNotNone) {
+TEST(ErrorNorms, ANaNIsAnInfiniteError) {
     const std::vector<double> errors{0.0, std::numeric_limits<double>::quiet_NaN(), 0.0};
     const ErrorNorms norms = error_norms(errors);
     EXPECT_TRUE(std::isinf(norms.max));
@@ -66,7 +66,7 @@ TEST(MedianInterval, OfOneValueIsThatValue) {
     EXPECT_EQ(median_interval(sample).high, 7.0);
 }
 
-// A result file must say the same when it is scored again.
+// Scoring a result file again must give the same interval.
 TEST(MedianInterval, IsTheSameForTheSameSeed) {
     const std::vector<double> sample{1, 2, 3, 5, 8, 13, 21, 34};
     const Interval a = median_interval(sample), b = median_interval(sample);
@@ -84,7 +84,7 @@ TEST(MedianInterval, WidensWithConfidence) {
 }
 
 // An interval of the mean, or of the sample itself, would cover too rarely or nearly always.
-TEST(MedianInterval, CoversTheTrueMedianAboutAsOftenAsItSays) {
+TEST(MedianInterval, CoversTheTrueMedianAboutAsOftenAsItShould) {
     base::Random random(1);
     int covered = 0;
     constexpr int kRounds = 200;

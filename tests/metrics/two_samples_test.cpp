@@ -30,7 +30,7 @@ std::vector<double> ranks_of(const std::vector<double>& values) {
     return ranks;
 }
 
-// Every choice of which values are the upper sample, or which differences are positive, counted one by one.
+// Counts one by one all choices of the values of the upper sample, or of the positive differences.
 double counted_rank_sum_p(const std::vector<double>& above, const std::vector<double>& below) {
     std::vector<double> all = above;
     all.insert(all.end(), below.begin(), below.end());
@@ -132,7 +132,7 @@ TEST(SignedRank, TheApproximationMeetsTheExactProbability) {
     EXPECT_EQ(signed_rank_p(std::vector<double>(4, 0.0)), 1.0);
 }
 
-// 20 pairs in a row that all lie above: 2^-20, far below what thousands of cells ask for.
+// 20 pairs that all lie above: 2^-20, far below the level needed for thousands of cells.
 TEST(SignedRank, ManyClearPairsLeaveRoomForManyCells) {
     EXPECT_NEAR(signed_rank_p(std::vector<double>(20, 0.1)), std::pow(2.0, -20), 1e-12);
 }
@@ -142,7 +142,7 @@ TEST(Holm, EnlargesTheSmallestMost) {
     EXPECT_DOUBLE_EQ(adjusted[3], 0.02);
     EXPECT_DOUBLE_EQ(adjusted[0], 0.03);
     EXPECT_DOUBLE_EQ(adjusted[2], 0.06);
-    EXPECT_DOUBLE_EQ(adjusted[1], 0.06);  // never below one that was smaller
+    EXPECT_DOUBLE_EQ(adjusted[1], 0.06);  // never below that of a smaller p
     EXPECT_EQ(holm(std::vector<double>{0.9, 0.8})[0], 1.0);
     EXPECT_TRUE(holm({}).empty());
 }
@@ -167,7 +167,7 @@ TEST(MedianRatioInterval, OfConstantSamplesIsTheirRatio) {
     EXPECT_EQ(interval.high, 1.5);
 }
 
-// The intervals hold the true ratio about as often as they say; of the fewest processes in 92.9 % of rounds.
+// The intervals hold the true ratio about as often as they should; with the fewest processes in 92.9 % of rounds.
 TEST(MedianRatioInterval, CoversTheTrueRatio) {
     for (const std::size_t size : {4, 7, 20}) {
         base::Random random(23 + size);

@@ -131,7 +131,7 @@ scene::Scene coloured() {
 }
 
 rays::testing::Captured captured_from(const std::filesystem::path& file) {
-    static scene::Scene scene;  // which the capture goes on to see
+    static scene::Scene scene;  // must outlive the capture
     scene.deep_image = scene::read_deep_image(file);
     scene::Light light;
     light.type = scene::LightType::deep_image;
@@ -228,7 +228,7 @@ TEST_F(DeepExr, TheSameSamplesGiveTheSameBytes) {
     EXPECT_EQ(base::read_text(file), first);
 }
 
-TEST_F(DeepExr, WhatCannotBeWrittenIsAnError) {
+TEST_F(DeepExr, AFileThatCannotBeWrittenIsAnError) {
     const DeepBlock block{0, 0, 1, 1, 1, {0, 0}, {}, {}, {}};
     try {
         write_deep_exr("/nowhere/a.exr", 1, 1, std::span(&block, 1), "");

@@ -59,7 +59,7 @@ TEST(DeepSamples, LitPixelsHaveNone) {
     EXPECT_TRUE((block_of({{{0, 1}, {5, 1}}}).z_front.empty()));
 }
 
-TEST(DeepSamples, FlatStretchesHaveNoneWhateverWasRoundedBefore) {
+TEST(DeepSamples, FlatStretchesHaveNoneWhateverTheRoundingBefore) {
     Curve stairs;
     for (int i = 0; i < 50; ++i) {
         const float z = static_cast<float>(i);
@@ -67,10 +67,10 @@ TEST(DeepSamples, FlatStretchesHaveNoneWhateverWasRoundedBefore) {
         stairs.push_back({z, 1.0f - 0.013f * (z + 1)});
     }
     EXPECT_EQ(block_of({stairs}).z_front.size(), 50u);
-    EXPECT_TRUE(block_of({{{0, 1}, {1, 1}, {1, 1e-12f}, {2, 0}}}).alpha[0] == 1.0f) << "and nothing after it";
+    EXPECT_TRUE(block_of({{{0, 1}, {1, 1}, {1, 1e-12f}, {2, 0}}}).alpha[0] == 1.0f) << "and no sample behind it";
 }
 
-TEST(DeepSamples, WhatIsDarkFromTheFrontStandsThere) {
+TEST(DeepSamples, DarknessFromTheFrontIsASurfaceThere) {
     EXPECT_THAT(block_of({{{1, 0.5f}}}).z_front, ElementsAre(front));
     const DeepBlock nearer = block_of({{{front - 1, 0.5f}, {1, 0.5f}}});
     ASSERT_EQ(nearer.z_front.size(), 1u);

@@ -13,7 +13,7 @@ using base::Vec2i;
 using base::Vec3f;
 using nlohmann::json;
 
-// A light from straight above: its map's x axis is -x, its y axis z. One quad lies at x > 0, z > 0, the other opposite.
+// A light vertically above: its map's x axis is -x, its y axis z. One quad lies at x > 0, z > 0, the other opposite.
 LightMap map_of(const json& resolution, const json& opacity) {
     json document = json::parse(R"({
         "name": "two_quads",
@@ -31,7 +31,7 @@ LightMap map_of(const json& resolution, const json& opacity) {
     return render(document, {}, {}).lights.at(0);
 }
 
-TEST(LightMap, ShowsWhatGetsThroughAsTheLightSeesIt) {
+TEST(LightMap, ShowsTransmittanceAsTheLightSeesIt) {
     const LightMap seen = map_of(8, 0.5);
     EXPECT_EQ(seen.light, "lamp");
     EXPECT_EQ(seen.map, Vec2i(8, 8));

@@ -1,4 +1,4 @@
-// Deep samples back to transmittance, in the plainest way.
+// Converts deep samples back to transmittance, as simply as possible.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@ struct Sample {
     float z_front, z_back, alpha;
 };
 
-// Product of all samples up to z; a surface counts strictly behind it, or `behind` at it too.
+// The product of all samples up to z. A surface counts strictly behind its depth, or also at it if `behind`.
 template <class Samples>
 double composite(const Samples& samples, float z, bool behind) {
     double product = 1.0;

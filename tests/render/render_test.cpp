@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using base::Vec3f;
 using nlohmann::json;
 
-// Seen from straight above: an opaque quad over the left half (x < 0) of a plane, one unit above it; the light comes
+// Seen vertically from above: an opaque quad over the left half (x < 0) of a plane, one unit above it; the light comes
 // at 45 degrees, so that the shadow falls on x in [-2, 0] moved by one: [-1, 1].
 json quad_over_plane() {
     return json::parse(R"({
@@ -101,13 +101,13 @@ TEST(Render, of_a_uniform_slab_meets_the_closed_form_of_single_scattering) {
             EXPECT_NEAR(pixel.x, red, 1e-3);
             EXPECT_NEAR(pixel.y, green, 1e-3);
         }
-    // What shadows take: coverage minus in-scattering.
+    // The light that shadows take: coverage minus in-scattering.
     EXPECT_NEAR(result.reference.shadow.at(1, 1).x, 1.0 - (1.0 - std::exp(-3.0)) + 0.5 * (1.0 - std::exp(-6.0)), 1e-3);
 }
 
 // Three translucent layers and a floor, each lit through those above it, seen and lit from straight above: layer i is
 // seen through what is above it and lit through the same.
-TEST(Render, composites_a_stack_of_layers_as_the_closed_form_has_it) {
+TEST(Render, composites_a_stack_of_layers_as_in_the_closed_form) {
     const std::vector<Vec3f> opacities{{0.1f, 0.3f, 0.02f}, {0.49f, 0.2f, 1.0f}, {0.3f, 0.6f, 0.0f}, {1, 1, 1}};
     json document = quad_over_plane();
     json& objects = document["scene"]["objects"] = json::array();
@@ -142,7 +142,7 @@ TEST(Render, composites_a_stack_of_layers_as_the_closed_form_has_it) {
     }
 }
 
-// What a technique answers wrong behind a faint layer shows in its picture as much as that layer lets it be seen.
+// An error of a technique behind a faint layer shows in its picture in proportion to the layer's transmittance.
 TEST(Render, shows_errors_through_the_layers_before_them) {
     json document = quad_over_plane();
     document["scene"]["objects"][0]["opacity"] = 0.4;  // a shadow map takes it as opaque
@@ -152,7 +152,7 @@ TEST(Render, shows_errors_through_the_layers_before_them) {
     };
     const double lit = surface_albedo * std::sqrt(0.5);
     const Picture& wrong = result.techniques[0].picture;
-    // At -0.5 the plane lies in the quad's shadow and behind the quad; at 0.5 in its shadow alone.
+    // At -0.5 the plane lies in the quad's shadow and behind the quad; at 0.5 only in its shadow.
     EXPECT_NEAR(result.reference.shaded.at(column(-0.5), 20).x, lit * (0.4 + 0.6 * 0.6), 1e-3);
     EXPECT_NEAR(wrong.shaded.at(column(-0.5), 20).x, lit * 0.4, 1e-3);
     EXPECT_NEAR(difference_times_four(wrong.shaded, result.reference.shaded).at(column(-0.5), 20).x, 4 * lit * 0.36,
@@ -172,7 +172,7 @@ TEST(Render, adds_the_lights_in_their_colours) {
     const auto column = [](double x) {
         return static_cast<int>(40.0 + 20.0 * x / (std::tan(1.5 * 3.14159265 / 180) * 100));
     };
-    // The second light's shadow falls on [-3, -1]; x = 0.5 is in the first one's alone.
+    // The second light's shadow falls on [-3, -1]; x = 0.5 is only in the first one's.
     const Vec3f pixel = result.techniques[0].picture.shaded.at(column(0.5), 20);
     EXPECT_NEAR(pixel.x, 0.0, 1e-3);
     EXPECT_NEAR(pixel.y, 0.5 * lit, 1e-3);
@@ -201,8 +201,8 @@ TEST(Render, with_more_view_rays_a_pixel_averages_them) {
     EXPECT_EQ(few.points, many.points);
 }
 
-// On a plane seen at a slant, the edges lead from one view ray's point to its neighbours'.
-TEST(ShadingPoints, know_the_edges_of_what_a_view_ray_stands_for) {
+// On a plane seen obliquely, the edges lead from one view ray's point to those of its neighbours.
+TEST(ShadingPoints, have_the_edges_of_a_view_rays_footprint) {
     scene::Mesh plane;
     plane.positions = {{-50, 0, -50}, {-50, 0, 50}, {50, 0, 50}, {50, 0, -50}};
     plane.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -219,7 +219,7 @@ TEST(ShadingPoints, know_the_edges_of_what_a_view_ray_stands_for) {
     const ShadingPoints points = find_shading_points(scene, lights, settings, rays::Tracer(scene, false), {});
     ASSERT_EQ(points.points(), 8u * 8 * 4);
     for (std::size_t pixel = 0; pixel < 64; ++pixel) {
-        const std::size_t first = 4 * pixel;  // right of it stands the second, below it the third
+        const std::size_t first = 4 * pixel;  // the second is to its right, the third below it
         const base::Vec3d right = points.place[first + 1] - points.place[first];
         const base::Vec3d down = points.place[first + 2] - points.place[first];
         EXPECT_NEAR((base::Vec3d(points.across[first]) - right).length(), 0.0, 0.01 * right.length());
@@ -296,7 +296,7 @@ TEST(Render, takes_the_first_values_of_sweeps_and_says_so) {
     EXPECT_NE(to_table(result).find("samples_per_pixel = 1"), std::string::npos);
 }
 
-TEST(WritePictures, leaves_every_file_that_images_json_names_and_no_other) {
+TEST(WritePictures, writes_exactly_the_files_that_images_json_names) {
     json document = quad_over_plane();
     document["techniques"].push_back({{"type", "uncompressed"}});
     const Rendering result = render(document, {}, {});
@@ -308,8 +308,8 @@ TEST(WritePictures, leaves_every_file_that_images_json_names_and_no_other) {
     std::set<std::string> named{"images.json"}, found;
     for (const std::string name : written["reference"]["files"]) named.insert(name);
     for (const char* several : {"techniques", "lights"})
-        for (const json& one : written[several])
-            for (const std::string name : one["files"]) named.insert(name);
+        for (const json& entry : written[several])
+            for (const std::string name : entry["files"]) named.insert(name);
     for (const auto& entry : fs::directory_iterator(folder)) {
         found.insert(entry.path().filename().string());
         EXPECT_GT(entry.file_size(), 0u) << entry.path();

@@ -11,7 +11,7 @@ namespace {
 
 using base::Vec3d;
 
-TEST(Shading, of_a_surface_falls_with_the_cosine_and_is_none_behind_it) {
+TEST(Shading, of_a_surface_falls_with_the_cosine_and_is_0_behind_it) {
     const Vec3d up(0, 1, 0);
     EXPECT_NEAR(shade_surface(up, up), surface_albedo, 1e-12);
     EXPECT_NEAR(shade_surface(up, Vec3d(1, 1, 0).normalized()), surface_albedo * std::sqrt(0.5), 1e-12);
@@ -28,7 +28,7 @@ TEST(Shading, of_hair_shines_on_the_cone_of_mirrored_light) {
     EXPECT_NEAR(shade_hair(strand, strand, Vec3d(0, 1, 0)), 0.0, 1e-12) << "light along the strand";
 }
 
-TEST(Shading, asks_a_spot_from_where_it_stands_and_a_sun_from_its_direction) {
+TEST(Shading, of_a_spot_depends_on_its_position_and_of_a_sun_on_its_direction) {
     scene::Light light;
     light.direction = Vec3d(0, -1, 0);
     light.position = Vec3d(0, 4, 0);

@@ -22,14 +22,14 @@ ViewMarch march(const std::vector<TracedSegment>& segments, double step) {
     return result;
 }
 
-// Light that falls off inside the medium as exp(-k (t - front)): in-scattering has a closed form.
+// Light that fades inside the medium as exp(-k (t - front)), for which in-scattering has a closed form.
 double in_scattering(const ViewMarch& march, double front, double k) {
     double sum = 0.0;
     for (const ViewStep& s : march.steps) sum += s.share.x * std::exp(-k * (s.t - front));
     return sum;
 }
 
-TEST(ViewMarch, scatters_what_a_uniform_slab_takes_whatever_the_step) {
+TEST(ViewMarch, scatters_the_light_that_a_uniform_slab_takes_whatever_the_step) {
     for (const double step : {0.01, 0.3, 5.0}) {
         const ViewMarch m = march({medium(2, 4, 0.7)}, step);
         EXPECT_NEAR(in_scattering(m, 2, 0.0), 1.0 - std::exp(-1.4), 1e-7) << step;
@@ -129,7 +129,7 @@ TEST(ViewMarch, ends_at_surfaces_behind_which_no_light_is_left) {
     EXPECT_EQ(m.transmittance.x, std::ldexp(1.0, -14));
 }
 
-TEST(ViewMarch, of_nothing_is_nothing) {
+TEST(ViewMarch, of_an_empty_ray_is_empty) {
     const ViewMarch m = march({}, 1.0);
     EXPECT_TRUE(m.steps.empty());
     EXPECT_EQ(m.transmittance, Vec3d(1, 1, 1));

@@ -6,15 +6,15 @@ namespace shadowbench::results {
 namespace {
 
 Cell cell(double ns, std::size_t bytes, double error) {
-    Cell made;
-    made.bytes = bytes;
-    made.lookup = LookupErrors{{error, error, error, error}, 0.0};
-    made.times = CellTimes{};
-    made.times->random_order.ns.median = ns;
-    return made;
+    Cell timed;
+    timed.bytes = bytes;
+    timed.lookup = LookupErrors{{error, error, error, error}, 0.0};
+    timed.times = CellTimes{};
+    timed.times->random_order.ns.median = ns;
+    return timed;
 }
 
-TEST(MarkFronts, marks_what_no_other_cell_beats) {
+TEST(MarkFronts, marks_cells_that_no_other_cell_beats) {
     std::vector<Cell> cells{cell(5, 100, 0.3), cell(10, 400, 0.1), cell(20, 300, 0.2), cell(30, 50, 0.05)};
     mark_fronts(cells);
     EXPECT_TRUE(cells[0].times->on_front);

@@ -18,10 +18,10 @@ TEST(Portable, AsksAtProbesInsteadOfACamera) {
     EXPECT_EQ(given.at("receivers"), points);
     nlohmann::json none = nlohmann::json::object();
     make_portable_document(none);
-    EXPECT_FALSE(none.contains("receivers")) << "probes are what there is without";
+    EXPECT_FALSE(none.contains("receivers")) << "probes are the default";
 }
 
-TEST(Portable, KeepsNothingOfTheMachineTheClockOrEmbree) {
+TEST(Portable, DropsAllThatDependsOnTheMachineTheClockOrEmbree) {
     auto result = nlohmann::ordered_json::parse(R"({
         "program": {"version": "1", "commit": "c", "compiler": "g", "build_type": "Release"},
         "machine": {"cpu": "EPYC", "logical_cores": 2},
@@ -42,7 +42,7 @@ TEST(Portable, KeepsNothingOfTheMachineTheClockOrEmbree) {
              "times": null},
             {"technique": "avsm", "status": "failed", "curve_error": null, "nodes": {}, "times": null}
         ]}]}]})"))
-        << "a technique that failed stays, whatever it stores";
+        << "a failed technique stays, whatever it stores";
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(ResultJson, keeps_raw_times_and_shows_none_of_a_failed_cell) {
     const auto& cells = json["variants"][0]["lights"][0]["cells"];
     EXPECT_EQ(cells[0]["times"]["build_ms"]["median"], 2.0);
     EXPECT_EQ(cells[0]["times"]["build_ms"]["raw"], (std::vector<double>{3.0, 1.0, 2.0}));
-    EXPECT_TRUE(cells[0]["promised_curve_error"].is_null()) << "infinity is no JSON number";
+    EXPECT_TRUE(cells[0]["promised_curve_error"].is_null()) << "JSON has no infinity";
     EXPECT_TRUE(cells[0]["times"]["lookup_random_order"]["floor_ns"].is_null());
     EXPECT_TRUE(cells[1]["times"].is_null());
     EXPECT_EQ(cells[1]["status"], "failed");
@@ -72,7 +72,7 @@ TEST(ResultJson, gives_every_cell_a_verdict) {
     EXPECT_EQ(cells[0]["verdict_why"], "rises by up to 0.0625");
     EXPECT_EQ(cells[1]["verdict"], "failed");
     EXPECT_EQ(cells[1]["verdict_why"], cells[1]["reason"]);
-    EXPECT_EQ(json["schema_version"], 1) << "keys were added; those that were there mean what they meant";
+    EXPECT_EQ(json["schema_version"], 1) << "new keys do not change the meaning of old ones";
     EXPECT_NE(to_csv(small_result()).find(",verdict,verdict_why,settled\n"), std::string::npos);
 }
 
@@ -100,7 +100,7 @@ TEST(ResultJson, comes_back_as_the_same_result) {
     EXPECT_EQ(to_csv(read), to_csv(small_result()));
 }
 
-TEST(ResultJson, that_is_none_is_refused_at_its_place) {
+TEST(ResultJson, of_the_wrong_form_is_refused_at_its_place) {
     const auto refused = [](const char* pointer, const nlohmann::json& value, const std::string& where) {
         nlohmann::json json = to_json(small_result());
         json[nlohmann::json::json_pointer(pointer)] = value;
@@ -120,7 +120,7 @@ TEST(ResultCsv, has_a_row_a_cell_and_quotes_what_needs_it) {
     EXPECT_EQ(lines[0].rfind("scenario,", 0), 0u);
     EXPECT_NE(lines[1].find(",\"/rays/seed=[1,2]\",key,"), std::string::npos) << lines[1];
     EXPECT_NE(lines[2].find(",\"cell (3, 4): it \"\"rises\"\", a lot\","), std::string::npos) << lines[2];
-    // Outside of quotes, every line has as many commas as the header.
+    // Outside quotes, every line has as many commas as the header.
     const auto commas = [](const std::string& line) {
         bool quoted = false;
         return std::count_if(line.begin(), line.end(), [&](char c) {
@@ -158,14 +158,14 @@ TEST(ResultTable, warns_where_the_capture_and_embree_disagree) {
     EXPECT_TRUE(agreed()) << "three rays are few, whatever their share";
 }
 
-TEST(ResultTable, says_which_errors_are_of_a_share_of_the_cells) {
+TEST(ResultTable, says_which_errors_cover_a_share_of_the_cells) {
     Result result = small_result();
     Cell& cell = result.variants[0].lights[0].cells[0];
     cell.curve = CurveErrors{};
     cell.curve->cells = cell.nodes.cells = 1000;
-    EXPECT_EQ(to_table(result).find("of a share"), std::string::npos);
+    EXPECT_EQ(to_table(result).find("a share"), std::string::npos);
     cell.nodes.cells = 4000;
-    EXPECT_NE(to_table(result).find("of a share of the cells: deep tolerance=0.02 (1,000 of 4,000)"),
+    EXPECT_NE(to_table(result).find("covers a share of the cells: deep tolerance=0.02 (1,000 of 4,000)"),
               std::string::npos);
 }
 

@@ -13,33 +13,33 @@ namespace {
 
 const std::vector<std::string> columns{"shadow_map", "deep", "avsm"};
 
-// As bench judges them: by the bound, or by a noise tolerance of 0.125.
+// A cell judged as in bench: by its bound, or by a noise tolerance of 0.125.
 Cell cell(const std::string& technique, const std::string& parameters, double curve_max, double bound) {
-    Cell made;
-    made.verdict = std::isfinite(bound) || curve_max <= 0.125 ? Verdict::kept : Verdict::degraded;
-    made.verdict_why = "curve error";
-    made.technique = technique;
-    made.parameters = parameters;
-    made.defaults = parameters.empty();
-    made.error_bound = bound;
-    made.curve = CurveErrors{};
-    made.curve->norms.max = curve_max;
-    made.lookup = LookupErrors{{0.5, 0.0625, 0.125, 0.4}, 0.0};
-    made.bytes = 1234;
-    return made;
+    Cell judged;
+    judged.verdict = std::isfinite(bound) || curve_max <= 0.125 ? Verdict::kept : Verdict::degraded;
+    judged.verdict_why = "curve error";
+    judged.technique = technique;
+    judged.parameters = parameters;
+    judged.defaults = parameters.empty();
+    judged.error_bound = bound;
+    judged.curve = CurveErrors{};
+    judged.curve->norms.max = curve_max;
+    judged.lookup = LookupErrors{{0.5, 0.0625, 0.125, 0.4}, 0.0};
+    judged.bytes = 1234;
+    return judged;
 }
 
 LightResult light(const std::string& name, std::vector<Cell> cells) {
-    LightResult made;
-    made.name = name;
-    made.segments = 100;
-    made.reference.noise_tolerance = 0.125;
-    made.cells = std::move(cells);
-    return made;
+    LightResult judged;
+    judged.name = name;
+    judged.segments = 100;
+    judged.reference.noise_tolerance = 0.125;
+    judged.cells = std::move(cells);
+    return judged;
 }
 
-// "first": avsm with default nodes strays under one of two lights; deep holds its bound; deep with other parameters
-// fails. "second" knows no avsm. "third" could not be run.
+// "first": avsm with default nodes exceeds the noise under one of two lights; deep holds its bound; deep with other
+// parameters fails. "second" has no avsm. "third" could not be run.
 std::vector<ScenarioOutcome> three() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::vector<ScenarioOutcome> outcomes(3);
@@ -73,9 +73,9 @@ std::string line_with(const std::string& text, const std::string& part) {
 TEST(VerdictsMarkdown, shows_the_worst_of_the_default_techniques_in_its_matrix) {
     const std::string text = verdicts_markdown(three(), columns);
     EXPECT_EQ(line_with(text, "| scenario"), "| scenario | deep | avsm |")
-        << "in the order asked for; what no scenario has is left out";
+        << "in the given order; techniques that no scenario has are left out";
     EXPECT_EQ(line_with(text, "| first"), "| first | K | D |");
-    EXPECT_EQ(line_with(text, "| second"), "| second | K* | - |") << "lookups farther from the truth than the noise";
+    EXPECT_EQ(line_with(text, "| second"), "| second | K* | - |") << "lookup error above the noise tolerance";
     EXPECT_EQ(line_with(text, "| third"), "| third | not run | not run |");
     EXPECT_NE(text.find("3 scenarios: 4 verdicts kept, 1 degraded, 1 failed; 1 could not be run."), std::string::npos)
         << text;
@@ -99,16 +99,16 @@ TEST(VerdictsMarkdown, does_not_depend_on_the_clock_and_the_machine) {
         outcome.result.times = {"2026-01-01T00:00:00Z", 5.0, 8};
         outcome.result.machine = {"another", 99};
         for (VariantResult& variant : outcome.result.variants)
-            for (LightResult& each : variant.lights) {
-                each.times = {1.0, 2.0, 3.0};
-                for (Cell& one : each.cells) one.times = CellTimes{};
+            for (LightResult& light : variant.lights) {
+                light.times = {1.0, 2.0, 3.0};
+                for (Cell& cell : light.cells) cell.times = CellTimes{};
             }
     }
     EXPECT_EQ(verdicts_markdown(three(), columns), verdicts_markdown(other, columns));
     EXPECT_EQ(verdicts_text(three(), columns), verdicts_text(other, columns));
 }
 
-TEST(VerdictsText, names_what_failed_and_what_could_not_be_run) {
+TEST(VerdictsText, names_failed_cells_and_scenarios_that_could_not_be_run) {
     const std::string text = verdicts_text(three(), columns);
     EXPECT_NE(text.find("failed: first (light fill), deep tolerance=0.5: the |value| rises\n"), std::string::npos)
         << text;

@@ -1,4 +1,4 @@
-// When a run is called unsettled: the rule, on given floors.
+// The rule by which a run is called unsettled, on synthetic floors.
 #include "results/settled.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace shadowbench::results {
 namespace {
 
-// The floor of a cell in an order, in a repetition.
+// The floor of a cell in one order and repetition.
 using Floor = std::function<double(int cell, int order, int repetition)>;
 
 LightResult light_of(int cells, int repetitions, const Floor& floor) {
@@ -45,8 +45,8 @@ double normal(base::Random& random) {
     return std::sqrt(-2.0 * std::log(1.0 - random.uniform())) * std::cos(6.283185307179586 * random.uniform());
 }
 
-// A machine that its neighbours disturb a little: its pace follows a slow autoregression, each pass has noise of its
-// own, one in fifty is hit by an interrupt. Standard deviations of the logarithms.
+// A machine that its neighbours disturb a little: its speed follows a slow autoregression, each pass has noise of its
+// own, and an interrupt hits one pass in fifty. Standard deviations of the logarithms.
 class QuietMachine {
 public:
     explicit QuietMachine(std::uint64_t seed) : random_(seed), pace_(slow * normal(random_)) {}
@@ -69,7 +69,7 @@ int count_settled(int runs, const std::function<LightResult(std::uint64_t seed)>
     return settled;
 }
 
-TEST(Settled, FloorsThatStayAreQuiet) {
+TEST(Settled, ConstantFloorsAreQuiet) {
     const Settling found = settling(light_of(7, 9, [](int c, int o, int) { return 4.0 + c + o; }));
     EXPECT_EQ(found.floors, 14u);
     EXPECT_TRUE(found.settled());
@@ -89,9 +89,9 @@ TEST(Settled, OrdinaryNoiseIsQuiet) {
         }
 }
 
-// Memory traffic of another core comes and goes: the floors of maps that do not fit the caches take up to two and a
-// half times as long while it lasts, those of small ones do not notice.
-TEST(Settled, MemoryTrafficOnTheOtherCoreIsNot) {
+// Memory traffic of another core comes and goes. While it lasts, floors of maps that do not fit the caches take up to
+// two and a half times as long; those of small maps do not change.
+TEST(Settled, MemoryTrafficOnTheOtherCoreIsNotQuiet) {
     const int settled = count_settled(400, [](std::uint64_t seed) {
         QuietMachine machine(seed);
         return light_of(7, 9, [&](int cell, int, int) {
@@ -103,8 +103,8 @@ TEST(Settled, MemoryTrafficOnTheOtherCoreIsNot) {
     EXPECT_LE(settled, 20) << "at least 95 % of such runs are named";
 }
 
-// One floor of 20 ns took 86 ns in most repetitions, and a front was drawn through it.
-TEST(Settled, OneFloorThatWasHitInHalfOfItsRepetitionsIsNamed) {
+// Seen in practice: one floor of 20 ns took 86 ns in most repetitions, and a front was drawn through it.
+TEST(Settled, OneFloorDisturbedInHalfOfItsRepetitionsIsNamed) {
     const LightResult light =
         light_of(7, 9, [](int c, int o, int r) { return c == 3 && o == 1 && r % 2 == 0 ? 86.0 : 20.0; });
     const Settling found = settling(light);
@@ -115,7 +115,7 @@ TEST(Settled, OneFloorThatWasHitInHalfOfItsRepetitionsIsNamed) {
     EXPECT_EQ(unsettled_text(found), "1 of 14 floors spreads by more than 25 % (technique3, random order: 77 %)");
 }
 
-TEST(Settled, AMachineThatChangesItsPaceIsNot) {
+TEST(Settled, AMachineThatChangesItsSpeedIsNotQuiet) {
     const auto pace = [](double slower) {
         return light_of(7, 9, [=](int c, int o, int r) { return (4.0 + c + o) * (r >= 5 ? slower : 1.0); });
     };
@@ -127,12 +127,12 @@ TEST(Settled, AMachineThatChangesItsPaceIsNot) {
     EXPECT_EQ(unsettled_text(found), "the pace of all floors together spreads by 20 %, more than 15 %");
 }
 
-TEST(Settled, ALateInterruptIsNothing) {
+TEST(Settled, ALateInterruptDoesNotCount) {
     EXPECT_TRUE(is_settled(light_of(7, 9, [](int c, int, int r) { return c == 2 && r == 4 ? 500.0 : 5.0; })));
     EXPECT_TRUE(is_settled(light_of(7, 9, [](int, int, int r) { return r == 4 ? 500.0 : 5.0; })));
 }
 
-TEST(Settled, FewRepetitionsOrNoFloorsTellNothing) {
+TEST(Settled, FewRepetitionsOrNoFloorsAreNotJudged) {
     const Settling few = settling(light_of(7, 4, [](int, int, int r) { return 5.0 + 5.0 * r; }));
     EXPECT_EQ(few.floors, 0u);
     EXPECT_EQ(unsettled_text(few), "");
@@ -143,11 +143,11 @@ TEST(Settled, FewRepetitionsOrNoFloorsTellNothing) {
     result.variants[0].lights[0].cells.resize(2);  // one failed, one that reads no map
     result.variants[0].lights[0].cells[1].times = CellTimes{};
     EXPECT_FALSE(settled(result).has_value());
-    EXPECT_FALSE(settling(light_of(2, 9, [](int, int, int) { return 5.0; })).pace) << "of four floors no pace is told";
-    EXPECT_EQ(settling(light_of(1, 9, [](int, int, int) { return 0.0; })).floors, 0u) << "no clock gave that";
+    EXPECT_FALSE(settling(light_of(2, 9, [](int, int, int) { return 5.0; })).pace) << "four floors give no pace";
+    EXPECT_EQ(settling(light_of(1, 9, [](int, int, int) { return 0.0; })).floors, 0u) << "a time of 0 is not usable";
 }
 
-TEST(Settled, TheRunSaysSoWhereverItIsShown) {
+TEST(Settled, EveryReportSaysThatARunIsUnsettled) {
     Result result;
     result.document = "{}";
     result.variants.resize(1);
@@ -170,7 +170,7 @@ TEST(Settled, TheRunSaysSoWhereverItIsShown) {
     ASSERT_EQ(json["times"]["unsettled"].size(), 1u);
     EXPECT_EQ(json["times"]["unsettled"][0]["light"], "fill");
     EXPECT_EQ(json["times"]["unsettled"][0]["variant"], 0);
-    EXPECT_EQ(from_json(json, "").times.seconds, 0.0) << "what is derived is read past";
+    EXPECT_EQ(from_json(json, "").times.seconds, 0.0) << "derived values are not read";
     result.variants[0].lights.pop_back();
     json = to_json(result);
     EXPECT_EQ(json["times"]["settled"], true);
@@ -178,7 +178,7 @@ TEST(Settled, TheRunSaysSoWhereverItIsShown) {
     result.variants[0].lights = {light_of(7, 1, [](int, int, int) { return 5.0; })};
     EXPECT_TRUE(to_json(result)["times"]["settled"].is_null());
     strip_times(json);
-    EXPECT_EQ(json.dump().find("settled"), std::string::npos) << "what the clock tells is no part of a baseline";
+    EXPECT_EQ(json.dump().find("settled"), std::string::npos) << "baselines hold nothing that depends on the clock";
 }
 
 }  // namespace

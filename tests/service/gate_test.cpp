@@ -157,7 +157,7 @@ TEST_F(Gate, AbRunsInTurnsAndJudgesThePairs) {
                                  "--set", "rays.seed=1", "--out", path("kept"), "--json", path("verdict.json")});
     EXPECT_EQ(outcome.code, 1) << outcome.err << outcome.out;
     EXPECT_THAT(outcome.out, HasSubstr("slower"));
-    EXPECT_THAT(outcome.out, HasSubstr("smallest slowdown told from none"));
+    EXPECT_THAT(outcome.out, HasSubstr("smallest slowdown detected"));
     const json verdict = read_json(folder_ / "verdict.json");
     EXPECT_EQ(verdict["interleaved"], true);
     EXPECT_EQ(verdict["lines"][0]["verdict"], "slower");

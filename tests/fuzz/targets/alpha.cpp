@@ -2,7 +2,7 @@
 #include "fuzz/target.h"
 #include "scene/readers/files.h"
 
-// The first byte says what the file is called: the name and the content need not agree.
+// The first byte selects the file name, whose extension need not fit the content.
 void shadowbench::fuzz::alpha(std::string_view bytes) {
     constexpr const char* extensions[] = {".png", ".tga", ".dds", ".tif", ".exr", ".jpg", ".bmp", ".xyz"};
     const char* extension = extensions[take<unsigned char>(bytes) % std::size(extensions)];

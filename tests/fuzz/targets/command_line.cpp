@@ -20,7 +20,7 @@ nlohmann::json some_document() {
 
 }  // namespace
 
-// Lines that begin with ':' are --technique, the others --set, one after the other.
+// Lines that begin with ':' are values of --technique, the others of --set, in order.
 void command_line(std::string_view bytes) {
     const auto codes = {base::ErrorCode::usage, base::ErrorCode::bad_input};
     nlohmann::json document = some_document();

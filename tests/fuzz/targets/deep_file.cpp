@@ -32,8 +32,8 @@ void put(std::string& file, std::uint64_t at, const T& value) {
     std::memcpy(file.data() + at, &value, sizeof value);
 }
 
-// Makes the length and the checksums right, as far as the sizes in the header are possible: what is behind them would
-// never be reached.
+// Corrects the length and the checksums as far as the sizes in the header allow. Otherwise no input would reach the
+// code behind them.
 void repair(std::string& file) {
     if (file.size() < sizeof(deep_format::Header)) return;
     auto header = get<deep_format::Header>(file, 0);

@@ -4,7 +4,7 @@
 #include "fuzz/target.h"
 #include "scene/readers/files.h"
 
-// The first bytes are what a scenario says of the file: type and size.
+// The first bytes give what a scenario states about the file: type and size.
 void shadowbench::fuzz::raw_volume(std::string_view bytes) {
     constexpr const char* types[] = {"uint8", "float32", "float64"};
     const char* type = types[take<unsigned char>(bytes) % std::size(types)];

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// Whether what a valid document has made, not read, is small.
+// Whether the procedural objects of a valid document are small.
 bool small_scene(const json& document) {
     constexpr double most = 1 << 18;
     double values = 0.0;
@@ -35,7 +35,7 @@ bool small_scene(const json& document) {
 
 }  // namespace
 
-// What `validate` does. There are no files but those that a scenario names by their whole path.
+// Does what `validate` does. Only files that a scenario names by an absolute path exist.
 void scenario(std::string_view bytes) {
     attempt({base::ErrorCode::bad_input, base::ErrorCode::no_such_file}, [&] {
         const nlohmann::json document = scene::parse_json(std::string(bytes), "scenario.json");

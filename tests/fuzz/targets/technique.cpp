@@ -28,7 +28,7 @@ constexpr const char* some_functions =
     "0\n"
     "1\n0.25 0.5\n";
 
-// One pixel a function: its steps are surfaces, its slopes media.
+// Rays of one pixel per function: its steps become surfaces, its slopes media.
 rays::LightRays rays_of(const std::vector<Curve>& functions, int channels) {
     rays::LightRays rays;
     rays.width = static_cast<int>(functions.size());
@@ -68,13 +68,13 @@ rays::MapLayout layout_of(const std::vector<Curve>& functions, int channels) {
 }
 
 std::vector<Query> queries_of(const std::vector<Curve>& functions) {
-    constexpr float far = std::numeric_limits<float>::infinity();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
     std::vector<Query> queries;
     for (std::size_t i = 0; i < functions.size(); ++i) {
         const float x = static_cast<float>(i) + 0.5f;
         for (const float z : {-1e18f, 0.0f, 1e18f}) queries.push_back({x, 0.5f, z, 2.5f});
         for (const curves::Vertex& vertex : functions[i])
-            for (const float z : {std::nextafter(vertex.z, -far), vertex.z, std::nextafter(vertex.z, far)})
+            for (const float z : {std::nextafter(vertex.z, -infinity), vertex.z, std::nextafter(vertex.z, infinity)})
                 queries.push_back({x, 0.5f, z, 1.0f});
     }
     queries.push_back({-1.0f, 0.5f, 1.0f, 1.0f});
@@ -130,7 +130,7 @@ std::vector<Curve> read_some(std::string_view bytes) {
 
 }  // namespace
 
-// The first line is a technique as a scenario has it, the rest a file of functions.
+// The first line is a technique as in a scenario; the rest is a file of functions.
 void technique(std::string_view bytes) {
     const std::string line(take_line(bytes));
     attempt({base::ErrorCode::bad_input}, [&] {

@@ -1,4 +1,4 @@
-// Faults that are put in arrive: where they are meant to, as large as told, and nowhere else.
+// Injected faults reach the right kernels with the right size, and no others.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -35,7 +35,7 @@ struct Reports : benchmark::BenchmarkReporter {
     }
 };
 
-// Runs them for a moment.
+// Runs the kernels for a short time.
 Reports run(const Kernels& kernels, const std::vector<Injection>& injections, bool& wrong) {
     std::string program = "kernels", time = "--benchmark_min_time=0.001";
     char* argv[] = {program.data(), time.data(), nullptr};
@@ -50,10 +50,10 @@ Reports run(const Kernels& kernels, const std::vector<Injection>& injections, bo
     return reports;
 }
 
-// A kernel whose passes are counted, in so many iterations.
+// Counts the passes of a kernel in this number of iterations.
 int passes_in(int iterations, double slow) {
-    int made = 0;
-    const Kernel kernel = counting("k", made);
+    int passes_made = 0;
+    const Kernel kernel = counting("k", passes_made);
     const Subject subject = kernel.prepare();
     Faults faults;
     faults.slow = slow;
@@ -64,7 +64,7 @@ int passes_in(int iterations, double slow) {
     Reports reports;
     benchmark::RunSpecifiedBenchmarks(&reports, std::string("."));
     benchmark::ClearRegisteredBenchmarks();
-    return made;
+    return passes_made;
 }
 
 TEST(Inject, ASlowKernelMakesSoManyMorePasses) {
@@ -78,7 +78,7 @@ TEST(Inject, ASlowKernelMakesSoManyMorePasses) {
 TEST(Inject, FaultsAddUpAndMissOtherKernels) {
     const std::vector<Injection> injections{read_injection("node:compress/hair:1"), read_injection("byte:compress:2"),
                                             read_injection("error:tolerance:0.02$:1e-3"), read_injection("slow:x:0.1")};
-    EXPECT_EQ(injections[2].amount, 1e-3) << "the expression may hold colons";
+    EXPECT_EQ(injections[2].amount, 1e-3) << "the expression may contain colons";
     const Faults hit = faults_of("compress/hair/tolerance:0.02", injections);
     EXPECT_EQ(hit.nodes, 1.0);
     EXPECT_EQ(hit.bytes, 2.0);
@@ -88,7 +88,7 @@ TEST(Inject, FaultsAddUpAndMissOtherKernels) {
     EXPECT_EQ(missed.nodes + missed.bytes + missed.error + missed.slow, 0.0);
 }
 
-TEST(Inject, WhatIsNotCountedStaysUncounted) {
+TEST(Inject, AbsentCountsStayAbsent) {
     Faults faults;
     faults.nodes = faults.bytes = faults.error = 1.0;
     const Exact exact = with({{}, 4.0, {}, 0.5}, faults);
@@ -98,9 +98,9 @@ TEST(Inject, WhatIsNotCountedStaysUncounted) {
 }
 
 TEST(Inject, AWrongKernelIsNotTimedAndSaysWhy) {
-    int made = 0;
+    int passes_made = 0;
     const Kernels kernels{{"wrong", []() -> Subject { throw std::runtime_error("it is 3 too dark"); }},
-                          counting("right", made)};
+                          counting("right", passes_made)};
     bool wrong = false;
     const Reports reports = run(kernels, {}, wrong);
     EXPECT_TRUE(wrong);
@@ -108,7 +108,7 @@ TEST(Inject, AWrongKernelIsNotTimedAndSaysWhy) {
     EXPECT_TRUE(reports.runs[0].error_occurred);
     EXPECT_EQ(reports.runs[0].error_message, "it is 3 too dark");
     EXPECT_FALSE(reports.runs[1].error_occurred);
-    EXPECT_GT(made, 0);
+    EXPECT_GT(passes_made, 0);
 
     const TemporaryFolder folder;
     EXPECT_EQ(write_exact(kernels, "", {}, folder.path("exact.json")), 1u);
@@ -118,7 +118,7 @@ TEST(Inject, AWrongKernelIsNotTimedAndSaysWhy) {
     EXPECT_EQ(entries[1].at("bytes"), 100.0);
 }
 
-TEST(Inject, AFilterThatNamesNothingWritesNothing) {
+TEST(Inject, AFilterWithoutMatchesWritesNothing) {
     const TemporaryFolder folder;
     for (const auto& [filter, says] : {std::pair{"nothing", "no kernel has such a name"}, {"(", "is not valid"}}) {
         const testing::Outcome outcome =
@@ -129,7 +129,7 @@ TEST(Inject, AFilterThatNamesNothingWritesNothing) {
     }
 }
 
-TEST(Inject, TheProgramChangesWhatItIsToldAndNothingElse) {
+TEST(Inject, TheProgramChangesOnlyTheNamedCounts) {
     const TemporaryFolder folder;
     const std::string filter = "--benchmark_filter='^compress/hair|^reference' ";
     ASSERT_EQ(testing::run(filter + "--exact=" + folder.path("a.json")).code, 0);

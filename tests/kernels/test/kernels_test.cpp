@@ -1,4 +1,4 @@
-// All kernels, run as their users run them: once each, for their counters and not for their times.
+// All kernels, run as their users run them: once each, for their counters, not their times.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ bool starts_with(const std::string& text, const std::string& start) {
     return text.rfind(start, 0) == 0;
 }
 
-TEST(Kernels, HaveNamesOfTheirOwn) {
+TEST(Kernels, HaveDifferentNames) {
     std::set<std::string> names;
     for (const Kernel& kernel : all_kernels()) EXPECT_TRUE(names.insert(kernel.name).second) << kernel.name;
     for (const char* family : {"reference/", "capture/", "sweep/", "compress/", "build/", "lookup/", "load/"}) {
@@ -49,7 +49,7 @@ TEST(Kernels, BuildAndLookUpEveryTechniqueOfTheRegistry) {
     }
 }
 
-// The counters that a kernel of each family has to have.
+// The counters that a kernel of each family must have.
 std::set<std::string> counters_of(const std::string& name) {
     std::set<std::string> counters{"real_time", "cpu_time"};
     if (!starts_with(name, "reference/")) counters.insert({"bytes", "nodes"});
@@ -66,7 +66,7 @@ std::set<std::string> counters_of(const std::string& name) {
     return counters;
 }
 
-// One run of each kernel, and its counts without a clock, from another process.
+// Runs each kernel once, and compares its counters with the counts of another process without a clock.
 TEST(Kernels, RunAndCountTheSameInEveryProcess) {
     const TemporaryFolder folder;
     const auto timed = testing::run("--benchmark_min_time=0 --benchmark_out=" + folder.path("timed.json"));
@@ -94,17 +94,17 @@ TEST(Kernels, RunAndCountTheSameInEveryProcess) {
             }
         }
     }
-    // Here on all threads; there on one.
+    // In this process on all threads; in the other on one.
     EXPECT_EQ(write_exact(kernels, "", {}, folder.path("again.json")), 0u);
     EXPECT_EQ(testing::read(folder.path("again.json")), testing::read(folder.path("exact.json")));
 }
 
-TEST(Kernels, RefuseWrongUsageInWords) {
+TEST(Kernels, RefuseWrongUsageWithAMessage) {
     for (const auto& [arguments, says] :
          std::map<std::string, std::string>{{"--inject=slow", "not FAULT:REGEX:AMOUNT"},
                                             {"--inject=fast:x:1", "no fault \"fast\""},
-                                            {"--inject=slow:x:much", "\"much\" is no amount"},
-                                            {"--inject=slow:x:-1", "\"-1\" is no amount"},
+                                            {"--inject=slow:x:much", "\"much\" is not an amount"},
+                                            {"--inject=slow:x:-1", "\"-1\" is not an amount"},
                                             {"'--inject=slow:(:1'", "the expression is not valid"},
                                             {"--inject=slow:no_such_kernel:1", "no kernel has such a name"},
                                             {"--frobnicate", "--frobnicate"}}) {

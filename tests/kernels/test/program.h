@@ -1,4 +1,4 @@
-// The program of the kernels, as its users start it.
+// Runs the program of the kernels as its users do.
 #pragma once
 
 #include <fstream>
@@ -10,10 +10,10 @@ namespace shadowbench::kernels::testing {
 
 struct Outcome {
     int code;
-    std::string said;  // both outputs
+    std::string said;  // standard output and standard error
 };
 
-// Runs it with these arguments, as a shell reads them.
+// Runs it with these arguments, which a shell interprets.
 Outcome run(const std::string& arguments);
 
 std::string read(const std::string& file);
