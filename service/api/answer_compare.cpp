@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/json_pointer.h"
 #include "scene/scenario.h"
 #include "service/api/compare.h"
 #include "service/api/file_answer.h"
@@ -17,7 +18,7 @@ using nlohmann::json;
 
 // {"job": ID} or {"result": {...}}.
 std::variant<json, ApiResponse> read_side(const Context& context, json& body, const std::string& name) {
-    const std::string pointer = "/" + name;
+    const std::string pointer = base::append_token("", name);
     const auto wrong = [&](const std::string& detail) { return problem(422, detail, {{pointer, detail}}); };
     const auto side = body.find(name);
     if (side == body.end() || !side->is_object() || side->size() != 1)
@@ -45,7 +46,7 @@ ApiResponse compare(Context& context, const Call& call) {
     for (const auto& [key, value] : body.items())
         if (key != "baseline" && key != "current")
             return problem(422, "There is no \"" + key + "\" here; there are: baseline, current.",
-                           {{(json::json_pointer() / key).to_string(), "unknown key"}});
+                           {{base::append_token("", key), "unknown key"}});
     auto baseline = read_side(context, body, "baseline"), current = read_side(context, body, "current");
     for (auto* side : {&baseline, &current})
         if (auto* no = std::get_if<ApiResponse>(side)) return std::move(*no);

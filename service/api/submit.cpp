@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/json_pointer.h"
 #include "scene/scenario.h"
 #include "service/api/problem.h"
 
@@ -22,7 +23,7 @@ std::variant<PostedScenario, ApiResponse> read_options(const json& options, Post
         else if (key == "pictures" && value.is_boolean())
             posted.pictures = value.get<bool>();
         else
-            return wrong("/options/" + key,
+            return wrong(base::append_token("/options", key),
                          "there are \"cache\": \"reuse\" or \"fresh\", and \"pictures\": true or false");
     }
     return posted;
@@ -65,7 +66,7 @@ std::variant<PostedScenario, ApiResponse> read_posted(const std::string& body) {
     }
     for (const auto& [key, value] : document.items())
         if (key != "scenario" && key != "options")
-            return problem(422, "Beside \"scenario\" there is \"options\" alone.", {{"/" + key, "unknown"}});
+            return problem(422, "Beside \"scenario\" there is \"options\" alone.", {{base::append_token("", key), "unknown key"}});
     posted.text = document["scenario"].dump();
     if (!document.contains("options")) return posted;
     return read_options(document["options"], std::move(posted));

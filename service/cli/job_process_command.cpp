@@ -23,6 +23,7 @@
 #include "scene/scenario.h"
 #include "service/jobs/fraction.h"
 #include "service/jobs/progress_line.h"
+#include "service/privacy/hidden_folders.h"
 
 namespace shadowbench::service {
 namespace {
@@ -70,15 +71,16 @@ JobFraction make_fraction(const std::vector<document::Variant>& variants, bool p
     return {lights, pictures ? lights_of(variants.front()) : 0};
 }
 
+// Draws into `folder`. Clients can read the fault that it leaves there.
 void draw(const nlohmann::json& document, const bench::RunOptions& run, const fs::path& folder,
-          const bench::ProgressCallback& progress) {
+          const std::vector<HiddenFolder>& hidden, const bench::ProgressCallback& progress) {
     try {
         render::RenderOptions options;
         options.run = run;
         render::write_pictures(folder, render::render(document, options, progress));
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_input) throw;
-        base::write_files({{folder / "error.json", error_line(error) + "\n"}});
+        base::write_files({{folder / "error.json", error_line(hide(error, hidden)) + "\n"}});
     }
 }
 
@@ -127,7 +129,7 @@ bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
         kept = !results::any_failed(result);
     }
     if (pictures)
-        draw(document, options, folder / "images",
+        draw(document, options, folder / "images", hidden_folders(arguments.folder, arguments.data),
              [&](const bench::Progress& progress) { reporter.tell(progress, fraction.picturing(progress)); });
     return kept;
 }

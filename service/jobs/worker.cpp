@@ -182,11 +182,11 @@ Verdict judge(const Workplace& place, const StoredJob& job, const JobBoard::Run&
     if (report.end == ChildEnd::exited) {
         const bool finished = report.code == 0 || report.code == promise_broken;
         if (finished && has_result(work)) return Success{report.code == 0};
-        return said.value_or(fault_of_end(report, place.limits));
+        return said.value_or(fault_of_end(report, place.limits, place.hidden));
     }
     // Nobody asked for it, and it may not come again.
     if (report.end == ChildEnd::signalled && job.attempts < place.limits.attempts) return Again{false};
-    return fault_of_end(report, place.limits);
+    return fault_of_end(report, place.limits, place.hidden);
 }
 
 // What a job's process cannot do on a disk that takes nothing is not its fault, whatever it says.

@@ -8,6 +8,7 @@
 #include "service/jobs/folders.h"
 #include "service/jobs/jobs.h"
 #include "service/jobs/state_folder.h"
+#include "service/privacy/hidden_folders.h"
 #include "service/store/job_store.h"
 
 namespace shadowbench::service {

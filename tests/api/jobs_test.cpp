@@ -44,6 +44,30 @@ TEST_F(JobsApi, TakesAScenarioWithOptions) {
     refused(post("/v1/jobs", R"({"scenario": {}, "more": 1})"), 422, "options");
 }
 
+// RFC 6901, section 3: "~" is written as "~0" and "/" as "~1", wherever the key stands.
+TEST_F(JobsApi, EscapesTheKeysInItsPointers) {
+    const auto pointer_of = [&](const char* target, const std::string& body) {
+        return refused(post(target, body), 422, "")["errors"][0]["pointer"].get<std::string>();
+    };
+    const std::string tiny = tiny_scenario().dump();
+    for (const char* target : {"/v1/jobs", "/v1/validate"}) {
+        EXPECT_EQ(pointer_of(target, R"({"scenario":{},"a/b":1})"), "/a~1b");
+        EXPECT_EQ(pointer_of(target, R"({"scenario":)" + tiny + R"(,"options":{"m~n":1}})"), "/options/m~0n");
+        nlohmann::json scenario = tiny_scenario();
+        scenario["rays"]["a/b"] = 1;
+        EXPECT_EQ(pointer_of(target, scenario.dump()), "/rays/a~1b");
+        scenario = tiny_scenario();
+        scenario["techniques"][0]["a/b~c"] = 1;
+        EXPECT_EQ(pointer_of(target, scenario.dump()), "/techniques/0/a~1b~0c");
+        scenario["techniques"][0] = {{"type", "*"}, {"a/b", 1}};
+        EXPECT_EQ(pointer_of(target, scenario.dump()), "/techniques/0/a~1b");
+        scenario = tiny_scenario();
+        scenario["sweeps"] = {{"/rays/nothing", {1, 2}}};
+        EXPECT_EQ(pointer_of(target, scenario.dump()), "/sweeps/~1rays~1nothing");
+    }
+    EXPECT_EQ(pointer_of("/v1/compare", R"({"baseline":{},"current":{},"a/b":1})"), "/a~1b");
+}
+
 TEST_F(JobsApi, PointsAtWhatIsWrongInAScenario) {
     nlohmann::json scenario = tiny_scenario();
     scenario["rays"]["resolution"] = "large";
@@ -105,6 +129,21 @@ TEST_F(JobsApi, DoesNotTellWhereBrokenFilesAre) {
     const nlohmann::json problem = refused(post("/v1/jobs", scenario.dump()), 422, "broken.ply");
     EXPECT_EQ(problem["errors"][0]["pointer"], "/scene/objects/0/file");
     EXPECT_EQ(problem.dump().find(folder_.string()), std::string::npos) << problem;
+}
+
+// By the rule of hidden_folders.h, however the folder is given to the server.
+TEST_F(JobsApi, HidesADataFolderBehindALink) {
+    std::ofstream(folder_ / "data/broken.ply") << "ply\nformat ascii 1.0\nelement vertex 3\n";
+    std::filesystem::create_directory_symlink("data", folder_ / "link");
+    nlohmann::json scenario = tiny_scenario();
+    scenario["scene"]["objects"] = json::array({{{"type", "mesh"}, {"file", "broken.ply"}}});
+    for (const std::filesystem::path& data : {folder_ / "link", folder_ / "data/../link", folder_ / "data/"}) {
+        ServiceOptions options = standard_options();
+        options.data = {data};
+        start(options);
+        const std::string problem = refused(post("/v1/validate", scenario.dump()), 422, "broken.ply").dump();
+        EXPECT_EQ(problem.find(folder_.filename().string()), std::string::npos) << problem;
+    }
 }
 
 TEST_F(JobsApi, RefusesWhatCostsTooMuchAndTellsTheEstimate) {
