@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t shown_lines = 3;
 constexpr std::size_t shown_bytes = 500;
 
-// The last lines of a text that say anything.
+// The last lines of a text that are not blank.
 std::string last_lines(const std::string& text) {
     std::string result;
     std::size_t end = text.size();
@@ -36,16 +36,16 @@ std::string how_it_ended(const ChildReport& report, const JobLimits& limits) {
     switch (report.end) {
         case ChildEnd::out_of_time:
             return fmt::format(
-                "the job ran longer than {:g} s, the limit of this server; fewer samples, techniques or "
-                "values of sweeps take less",
+                "the job ran longer than {:g} s, the limit of this server; use fewer samples, techniques or "
+                "values of sweeps",
                 limits.seconds);
         case ChildEnd::out_of_memory:
             return fmt::format(
-                "the job took more than {:.3g} GiB of memory, the limit of this server; a smaller map or "
-                "fewer samples take less",
+                "the job took more than {:.3g} GiB of memory, the limit of this server; use a smaller map or "
+                "fewer samples",
                 static_cast<double>(limits.memory) / (1024.0 * 1024.0 * 1024.0));
         case ChildEnd::too_much_output:
-            return "the job's process wrote without end";
+            return "the job's process wrote too much output";
         case ChildEnd::signalled: {
             const char* name = ::sigdescr_np(report.code);
             return fmt::format("the job's process was ended by signal {} ({})", report.code, name ? name : "unknown");
@@ -66,8 +66,8 @@ JobFault fault_of_end(const ChildReport& report, const JobLimits& limits, const 
     const base::ErrorCode code = over_limit ? base::ErrorCode::bad_input : base::ErrorCode::internal;
     std::string message = how_it_ended(report, limits);
     const bool died = report.end == ChildEnd::exited || report.end == ChildEnd::signalled;
-    if (const std::string said = died ? last_lines(report.errors) : ""; !said.empty())
-        message += ": " + hide(said, folders, OtherPaths::last_part);
+    if (const std::string quote = died ? last_lines(report.errors) : ""; !quote.empty())
+        message += ": " + hide(quote, folders, OtherPaths::last_part);
     return {static_cast<int>(code), "", base::Error(code, "", message).message()};
 }
 

@@ -1,4 +1,4 @@
-// Why a job failed, in words for its client.
+// Describes to a client why a job failed.
 #pragma once
 
 #include <vector>
