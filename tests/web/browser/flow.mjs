@@ -183,7 +183,7 @@ async function comparison(page, mock) {
   await page.selectOption('.panel:has(#verdicts-title) select', 'differ');
   await looks(page, 'flow-compare');
   await current.locator('input').setInputFiles({name: 'no.json', mimeType: 'application/json', buffer: Buffer.from('{')});
-  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'no.json is no JSON.');
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'no.json is not JSON.');
 }
 
 // In both colour schemes, wide and narrow.

@@ -11,7 +11,7 @@ const states = {};
 states['no jobs'] = async ({page, url}) => {
   await page.goto(`${url}#/jobs`);
   await page.waitForSelector('.empty:not([hidden])');
-  assert.match(await text(page, '.empty'), /Nothing has been run yet/);
+  assert.match(await text(page, '.empty'), /There are no jobs yet/);
   assert.equal(await page.locator('table').isVisible(), false);
 };
 
@@ -52,7 +52,7 @@ states['older jobs and a state'] = async ({page, url, mock}) => {
   for (let i = 0; i < 60; ++i) mock.job(i % 2 ? 'cancelled' : 'failed', {name: `job ${i}`});
   await page.goto(`${url}#/jobs`);
   await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 50);
-  await page.click('button:has-text("Show older ones")');
+  await page.click('button:has-text("Show older jobs")');
   await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 60);
   await page.selectOption('.page-head select', 'failed');
   await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 30);
@@ -74,7 +74,7 @@ states['a job in the queue is cancelled'] = async ({page, url, mock}) => {
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForFunction(() => document.querySelector('.stage-text')?.textContent === 'Queued: 2 before it');
   await page.click('.progress button');
-  await page.waitForFunction(() => document.querySelector('.fault')?.textContent.includes('It was cancelled'));
+  await page.waitForFunction(() => document.querySelector('.fault')?.textContent.includes('The job was cancelled'));
 };
 
 states['pictures that could not be made'] = async ({page, url, mock}) => {
@@ -136,13 +136,13 @@ states['no such job'] = async ({page, url}) => {
   await page.waitForFunction(() => document.querySelector('.problem').textContent === 'There is no such job.');
 };
 
-states['text that is no JSON'] = async ({page, url}) => {
+states['text that is not JSON'] = async ({page, url}) => {
   await page.goto(url);
   await page.waitForSelector('.verdict-box .good');
   await page.locator('#scenario').fill('{\n  "name": "x",\n  "lights": [1, 2,, 3]\n}');
   await page.waitForSelector('.faults');
   assert.equal(await text(page, '.numbers .bad'), '3');
-  assert.match(await text(page, '.faults'), /line 3\s*A value is expected instead of ","/);
+  assert.match(await text(page, '.faults'), /line 3\s*Expected a value instead of ","/);
   await page.click('button.primary');  // says it again, and sends nothing
   assert.ok(await page.evaluate(() => document.activeElement.id === 'scenario'));
 };
