@@ -37,8 +37,8 @@ TEST_F(JobsApi, TakesAScenarioWithOptions) {
     EXPECT_EQ(json::parse(fake::last_request(*jobs_).scenario), tiny_scenario());
     for (const nlohmann::json& wrong : {nlohmann::json{{"cache", "old"}}, nlohmann::json{{"pictures", 1}},
                                         nlohmann::json{{"colour", true}}, nlohmann::json(3)}) {
-        const nlohmann::json told = {{"scenario", tiny_scenario()}, {"options", wrong}};
-        const nlohmann::json problem = refused(post("/v1/jobs", told.dump()), 422, "");
+        const nlohmann::json body_with_options = {{"scenario", tiny_scenario()}, {"options", wrong}};
+        const nlohmann::json problem = refused(post("/v1/jobs", body_with_options.dump()), 422, "");
         EXPECT_TRUE(problem["errors"][0]["pointer"].get<std::string>().starts_with("/options"));
     }
     refused(post("/v1/jobs", R"({"scenario": {}, "more": 1})"), 422, "options");
@@ -82,7 +82,7 @@ TEST_F(JobsApi, PointsAtWhatIsWrongInAScenario) {
     EXPECT_EQ(jobs_->count(JobState::queued), 0u);
 }
 
-TEST_F(JobsApi, TellsAllFaultsAtOnce) {
+TEST_F(JobsApi, ReportsAllFaultsAtOnce) {
     nlohmann::json scenario = tiny_scenario();
     scenario["rays"]["resolution"] = "large";
     scenario["lights"][0]["color"] = 1;
@@ -99,14 +99,14 @@ TEST_F(JobsApi, TellsAllFaultsAtOnce) {
     EXPECT_EQ(refused(post("/v1/validate", scenario.dump()), 422, "")["errors"].size(), 32u);
 }
 
-TEST_F(JobsApi, RefusesWhatIsNoJson) {
+TEST_F(JobsApi, RefusesBodiesThatAreNotJson) {
     refused(post("/v1/jobs", "{"), 400, "body:1:2");
     refused(post("/v1/jobs", R"({"a": 1, "a": 2})"), 400, "twice");
     refused(post("/v1/jobs", std::string(1000, '[')), 400, "nested");
     refused(post("/v1/jobs", "\"\xff\""), 400, "body");
 }
 
-TEST_F(JobsApi, ReadsFilesOfTheDataFoldersAlone) {
+TEST_F(JobsApi, ReadsOnlyFilesOfTheDataFolders) {
     std::ofstream(folder_ / "secret.obj") << "v 0 0 0\n";
     std::filesystem::create_symlink(folder_ / "secret.obj", folder_ / "data/link.obj");
     nlohmann::json scenario = tiny_scenario();
@@ -122,7 +122,7 @@ TEST_F(JobsApi, ReadsFilesOfTheDataFoldersAlone) {
     }
 }
 
-TEST_F(JobsApi, DoesNotTellWhereBrokenFilesAre) {
+TEST_F(JobsApi, HidesTheFoldersOfBrokenFiles) {
     std::ofstream(folder_ / "data/broken.ply") << "ply\nformat ascii 1.0\nelement vertex 3\n";
     nlohmann::json scenario = tiny_scenario();
     scenario["scene"]["objects"] = json::array({{{"type", "mesh"}, {"file", "broken.ply"}}});
@@ -146,7 +146,7 @@ TEST_F(JobsApi, HidesADataFolderBehindALink) {
     }
 }
 
-TEST_F(JobsApi, RefusesWhatCostsTooMuchAndTellsTheEstimate) {
+TEST_F(JobsApi, RefusesWhatCostsTooMuchAndGivesTheEstimate) {
     ServiceOptions options = standard_options();
     options.limits.resolution = 7;
     start(options);

@@ -117,7 +117,7 @@ states['two results that differ'] = async ({page, url, mock}) => {
   assert.match(await text(page, '.fronts'), /avsm nodes=4 left the front/);
 };
 
-states['a file that is no result'] = async ({page, url, mock}) => {
+states['a file that is not a result'] = async ({page, url, mock}) => {
   const job = mock.job('succeeded');
   await page.goto(`${url}#/compare/${job.id}`);
   await page.waitForSelector('.side select');
@@ -127,7 +127,7 @@ states['a file that is no result'] = async ({page, url, mock}) => {
     data.items.add(new File(['{"seed": 12345678901234567891}'], 'mine.json'));
     side.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
   });
-  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'this is no result');
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === '/current: not a result of run');
   assert.equal(mock.comparedText, `{"baseline": {"job":"${job.id}"}, "current": {"result": {"seed": 12345678901234567891}}}`);
 };
 
@@ -189,7 +189,7 @@ states['options reach the server'] = async ({page, url, mock}) => {
   assert.match(mock.bodies[0], /"seed": 12345678901234567891,/, 'with all digits');
 };
 
-states['a server that asks for a token'] = async ({page, url, mock}) => {
+states['a server that requires a token'] = async ({page, url, mock}) => {
   mock.token = 'let me in';
   const job = mock.job('succeeded');
   await page.goto(`${url}#/jobs/${job.id}`);
