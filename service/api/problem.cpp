@@ -111,9 +111,9 @@ ApiResponse problem_of(const std::vector<base::Error>& faults) {
     std::string detail;
     std::vector<ProblemPart> parts;
     for (const base::Error& fault : faults) {
-        const bool whole = fault.where() == "/";  // the document; its pointer is empty
-        if (detail.empty()) detail = whole ? fault.message() : fault.what();
-        if (whole || fault.where().empty())
+        const bool is_document = fault.where() == "/";  // the document; its pointer is empty
+        if (detail.empty()) detail = is_document ? fault.message() : fault.what();
+        if (is_document || fault.where().empty())
             parts.push_back({"", fault.message()});
         else if (fault.where().starts_with('/'))
             parts.push_back({fault.where(), fault.message()});

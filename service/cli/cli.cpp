@@ -19,7 +19,7 @@ namespace {
 
 using base::ErrorCode;
 
-constexpr const char* notes = R"(Examples:
+constexpr const char* program_notes = R"(Examples:
   shadowbench run quickstart
   shadowbench render quickstart --out pictures
   shadowbench compare nightly/monday nightly/tuesday
@@ -45,7 +45,7 @@ struct CommandLine {
         for (const auto add : {add_measuring_commands, add_web_commands, add_gate_commands, add_kernel_commands,
                                add_server_commands, add_job_commands})
             add(app, commands);
-        app.footer(notes);  // last: a subcommand takes on the footer that is there when it is added
+        app.footer(program_notes);  // last: a subcommand takes on the footer that is there when it is added
     }
 };
 

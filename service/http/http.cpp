@@ -271,9 +271,9 @@ private:
         Wire wire(exchange.channel, canonical_head(exchange));
         current = &exchange;
         bool closed = false;
-        const bool whole = process_request(wire, !exchange.keep, closed, nullptr);
+        const bool processed = process_request(wire, !exchange.keep, closed, nullptr);
         current = nullptr;
-        exchange.keep = exchange.keep && whole && !closed;
+        exchange.keep = exchange.keep && processed && !closed;
     }
 
     void respond(httplib::Response& response) {

@@ -33,7 +33,7 @@ constexpr int promise_broken = 2;  // exit code: the result is complete
 struct Success {
     bool kept;
 };
-struct Again {
+struct Requeue {
     bool uncounted;
 };
 // The server's storage failed, which is not a fault of the job: the job waits. `bytes`: space that it needs.
@@ -42,7 +42,7 @@ struct Waits {
     std::uintmax_t bytes;
 };
 struct Cancelled {};
-using Verdict = std::variant<Success, Again, Waits, Cancelled, JobFault>;
+using Verdict = std::variant<Success, Requeue, Waits, Cancelled, JobFault>;
 
 // Marks the server's storage as failing from begin() to its destructor. The operator gets one message, however often
 // and by however many workers the storage is tried.
@@ -179,23 +179,23 @@ bool has_result(const fs::path& work) {
 Verdict judge(const Workplace& place, const StoredJob& job, const JobBoard::Run& run, const fs::path& work,
               const ChildReport& report, const std::optional<JobFault>& reported) {
     if (report.end == ChildEnd::told)
-        return place.board.is_cancelled(run) ? Verdict(Cancelled{}) : Verdict(Again{true});
+        return place.board.is_cancelled(run) ? Verdict(Cancelled{}) : Verdict(Requeue{true});
     if (report.end == ChildEnd::exited) {
         const bool finished = report.code == 0 || report.code == promise_broken;
         if (finished && has_result(work)) return Success{report.code == 0};
         return reported.value_or(fault_of_end(report, place.limits, place.hidden));
     }
     // Another run may not be killed.
-    if (report.end == ChildEnd::signalled && job.attempts < place.limits.attempts) return Again{false};
+    if (report.end == ChildEnd::signalled && job.attempts < place.limits.attempts) return Requeue{false};
     return fault_of_end(report, place.limits, place.hidden);
 }
 
 // A failure of a job's process on a disk that cannot be written is not the job's fault, whatever it reports.
 std::optional<Waits> storage_fault(const Workplace& place, const Verdict& verdict, const ChildReport& report,
                                    const Listener& listener, const fs::path& work) {
-    const auto* again = std::get_if<Again>(&verdict);
+    const auto* requeue = std::get_if<Requeue>(&verdict);
     const bool died = report.end == ChildEnd::exited || report.end == ChildEnd::signalled;
-    if (!died || !(std::holds_alternative<JobFault>(verdict) || (again && !again->uncounted))) return std::nullopt;
+    if (!died || !(std::holds_alternative<JobFault>(verdict) || (requeue && !requeue->uncounted))) return std::nullopt;
     if (const auto& fault = listener.storage_fault()) return Waits{fault->message, bytes_in(work) + fault->bytes};
     if (has_room(place.folders.work, least_room)) return std::nullopt;
     return Waits{"nothing can be written to " + place.folders.work.string(), bytes_in(work)};
@@ -236,7 +236,7 @@ Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run
             const std::optional<StoredJob> now = place.store.find(job.id);
             return now ? now->state : std::string();
         });
-        if (!state) return Again{true};
+        if (!state) return Requeue{true};
         if (*state != job_states::running) return Cancelled{};
         // From here on the published folder says everything about the job.
         publish(place.folders, work, job.id);
@@ -247,7 +247,8 @@ Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run
 std::optional<std::uint64_t> settle(const Workplace& place, const StoredJob& job, const Verdict& verdict) {
     if (const auto* success = std::get_if<Success>(&verdict))
         return place.store.end_running(job.id, {job_states::succeeded, now_utc(), success->kept, {}});
-    if (const auto* again = std::get_if<Again>(&verdict)) return place.store.requeue_running(job.id, again->uncounted);
+    if (const auto* requeue = std::get_if<Requeue>(&verdict))
+        return place.store.requeue_running(job.id, requeue->uncounted);
     if (std::holds_alternative<Waits>(verdict)) return place.store.requeue_running(job.id, true);
     if (const auto* fault = std::get_if<JobFault>(&verdict))
         return place.store.end_running(

@@ -14,7 +14,7 @@
 
 namespace shadowbench::service {
 
-// What a worker uses.
+// The store, folders and limits that the workers share.
 struct Workplace {
     JobStore& store;
     JobBoard& board;

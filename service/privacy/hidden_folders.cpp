@@ -31,7 +31,7 @@ std::size_t behind_slashes(const std::string& text, std::size_t at) {
     return at;
 }
 
-// Where the folder's path ends that begins at this place; any number of slashes counts as one.
+// The end of the folder's path if the text has it at this place. Any number of slashes counts as one.
 std::optional<std::size_t> match(const std::string& text, std::size_t at, const std::string& path) {
     for (std::size_t i = 0; i < path.size(); ++i) {
         if (at == text.size() || text[at] != path[i]) return std::nullopt;
@@ -77,9 +77,9 @@ void add(std::vector<HiddenFolder>& folders, const std::string& path, const char
     std::error_code failed;
     add_form(path);
     add_form(fs::path(path).lexically_normal().string());
-    if (const fs::path whole = fs::absolute(path, failed); !failed) {
-        add_form(whole.string());
-        add_form(whole.lexically_normal().string());
+    if (const fs::path absolute = fs::absolute(path, failed); !failed) {
+        add_form(absolute.string());
+        add_form(absolute.lexically_normal().string());
     }
     if (const fs::path real = fs::weakly_canonical(path, failed); !failed) add_form(real.string());
 }

@@ -18,7 +18,7 @@ struct HiddenFolder {
 // The state folder (empty: none) and the data folders: as they are written, absolute, and without links; longest first.
 std::vector<HiddenFolder> hidden_folders(const std::string& state, const std::vector<std::string>& data);
 
-// What becomes of absolute paths outside of the hidden folders. The engine's texts name no others, and their JSON
+// How hide() treats absolute paths outside of the hidden folders. The engine's texts name no others, and their JSON
 // pointers look like paths: keep. A text of another program, such as a backtrace, may name any: last_part.
 enum class OtherPaths { keep, last_part };
 
