@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_pointer.h"
 #include "base/utf8.h"
 #include "document/pointer.h"
 #include "scene/scenario.h"
@@ -61,7 +62,7 @@ void check_technique(const json& technique, const std::string& where) {
     }
     for (const auto& [key, value] : technique.items())
         if (key != "type")
-            throw Error(ErrorCode::bad_input, where + "/" + key,
+            throw Error(ErrorCode::bad_input, base::append_token(where, key),
                         "\"*\" takes no parameters: it stands for techniques with their defaults. List the technique "
                         "that this parameter is for beside it");
 }

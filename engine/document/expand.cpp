@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_pointer.h"
 #include "document/document.h"
 #include "document/pointer.h"
 #include "scene/scenario.h"
@@ -31,7 +32,7 @@ struct Sweep {
 
 // "/sweeps/~1rays~1seed": the place of a sweep in the document.
 std::string sweep_place(const std::string& pointer) {
-    return (json::json_pointer("/sweeps") / pointer).to_string();
+    return base::append_token("/sweeps", pointer);
 }
 
 std::vector<Sweep> read_sweeps(const json& document) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_pointer.h"
 
 namespace shadowbench::results {
 
@@ -21,7 +22,7 @@ Field top(const nlohmann::json& document, const std::string& origin) {
 Field Field::at(const char* key) const {
     const auto found = object().find(key);
     if (found == value.end()) refuse(where, fmt::format("the key \"{}\" is missing", key));
-    return {*found, fmt::format("{}/{}", where, key)};
+    return {*found, base::append_token(where, key)};
 }
 
 bool Field::has(const char* key) const {

@@ -23,6 +23,7 @@
 #include <valijson/validator.hpp>
 
 #include "base/error.h"
+#include "base/json_pointer.h"
 #include "scene/scenario.h"
 #include "scene/schema_fault.h"
 #include "scene/schema_text.h"
@@ -70,9 +71,9 @@ std::vector<std::string> path_of(const valijson::ValidationResults::Error& error
 }
 
 std::string pointer_of(const std::vector<std::string>& path) {
-    nlohmann::json::json_pointer pointer;
-    for (const std::string& step : path) pointer /= step;
-    return pointer.to_string();
+    std::string pointer;
+    for (const std::string& step : path) pointer = base::append_token(std::move(pointer), step);
+    return pointer;
 }
 
 // Keeps each fault once: the validator repeats it for every enclosing schema.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/json_pointer.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -94,11 +95,11 @@ ParameterValues read_parameters(std::span<const Parameter> declared, const json&
         if (p == declared.end()) {
             std::string names;
             for (const Parameter& d : declared) names += fmt::format("{}{}", names.empty() ? "" : ", ", d.name);
-            throw base::Error(base::ErrorCode::bad_input, where + "/" + key,
+            throw base::Error(base::ErrorCode::bad_input, base::append_token(where, key),
                               names.empty() ? "unknown parameter: this technique takes none"
                                             : "unknown parameter; there are: " + names);
         }
-        result.values[key] = read(*p, value, where + "/" + key);
+        result.values[key] = read(*p, value, base::append_token(where, key));
     }
     return result;
 }

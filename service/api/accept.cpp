@@ -28,7 +28,7 @@ std::vector<std::string> split(const std::string& text, char at) {
     return parts;
 }
 
-// Of "text/html;level=1;q=0.5".
+// 0.5 for "text/html;level=1;q=0.5"; 1 without q.
 double quality(const std::string& range) {
     for (const std::string& part : split(range, ';'))
         if (lower(part).starts_with("q=")) return std::strtod(part.c_str() + 2, nullptr);
@@ -49,18 +49,18 @@ std::string media_type(const std::string& value) {
 bool accepts(const ApiRequest& request, const std::string& type) {
     const std::string* accept = request.header("accept");
     if (!accept || trimmed(*accept).empty()) return true;
-    // The most specific range decides, so that "*/*, text/html;q=0" takes all but HTML.
+    // The most specific range decides: "*/*, text/html;q=0" accepts all types but HTML.
     std::size_t longest = 0;
-    bool taken = false;
+    bool accepted = false;
     for (const std::string& range : split(*accept, ',')) {
         std::string name = media_type(range);
         if (!covers(name, type)) continue;
         const std::size_t weight = name == "*/*" ? 1 : name.ends_with("/*") ? 2 : 3;
         if (weight < longest) continue;
         longest = weight;
-        taken = quality(range) > 0.0;
+        accepted = quality(range) > 0.0;
     }
-    return taken;
+    return accepted;
 }
 
 bool accepts_gzip(const ApiRequest& request) {
@@ -74,9 +74,9 @@ bool accepts_gzip(const ApiRequest& request) {
 bool has_version(const ApiRequest& request, const std::string& etag) {
     const std::string* known = request.header("if-none-match");
     if (!known) return false;
-    for (std::string one : split(*known, ',')) {
-        if (one.starts_with("W/")) one.erase(0, 2);
-        if (one == "*" || one == etag) return true;
+    for (std::string tag : split(*known, ',')) {
+        if (tag.starts_with("W/")) tag.erase(0, 2);
+        if (tag == "*" || tag == etag) return true;
     }
     return false;
 }

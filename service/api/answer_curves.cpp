@@ -1,4 +1,4 @@
-// The visibility functions of one pixel.
+// GET /v1/jobs/{id}/curves: the visibility functions of one pixel of a light's map.
 #include <charconv>
 #include <optional>
 
@@ -13,7 +13,7 @@ namespace shadowbench::service {
 namespace {
 
 template <class Number>
-std::optional<Number> number(const std::string* text) {
+std::optional<Number> parse_number(const std::string* text) {
     Number value{};
     if (!text) return {};
     const auto [rest, fault] = std::from_chars(text->data(), text->data() + text->size(), value);
@@ -27,14 +27,17 @@ ApiResponse job_curves(Context& context, const Call& call) {
     CurveQuestion question;
     question.job = call.parameter("id");
     if (!context.jobs.find(question.job)) return problem(404, "There is no such job.");
-    const auto x = number<int>(call.request.parameter("x")), y = number<int>(call.request.parameter("y"));
-    if (!x || !y) return problem(400, "x and y: a pixel of the light's map, as in ?light=key&x=12&y=34.");
+    const auto x = parse_number<int>(call.request.parameter("x")), y = parse_number<int>(call.request.parameter("y"));
+    if (!x || !y)
+        return problem(400, "The parameters x and y must name a pixel of the light's map, as in ?light=key&x=12&y=34.");
     question.x = *x;
     question.y = *y;
     if (const std::string* light = call.request.parameter("light")) question.light = *light;
     if (const std::string* variant = call.request.parameter("variant")) {
-        const auto index = number<std::size_t>(variant);
-        if (!index) return problem(400, "variant: a combination of the sweeps' values, counted from 0.");
+        const auto index = parse_number<std::size_t>(variant);
+        if (!index)
+            return problem(400,
+                           "The parameter variant must be the number of a combination of the sweeps' values, from 0.");
         question.variant = *index;
     }
     ApiResponse response;
@@ -42,7 +45,7 @@ ApiResponse job_curves(Context& context, const Call& call) {
     response.headers = {{"Cache-Control", "private, max-age=60"}};
     response.body = context.curves.curves(question, [&] {
         std::optional<std::string> scenario = context.jobs.scenario(question.job);
-        if (!scenario) throw base::Error(base::ErrorCode::usage, "", "the job is gone");
+        if (!scenario) throw base::Error(base::ErrorCode::usage, "", "the job was removed");
         bench::check_light(scene::parse_json(*scenario, "scenario"), question.light, question.variant);
         return *scenario;
     });

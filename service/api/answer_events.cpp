@@ -1,4 +1,4 @@
-// A job's changes as server-sent events (HTML standard, 9.2).
+// GET /v1/jobs/{id}/events: the changes of a job as server-sent events (HTML standard, 9.2).
 #include <charconv>
 #include <chrono>
 
@@ -13,9 +13,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds heartbeat{15};
-constexpr double slice = 1.0;  // seconds that one call may block, so that a client that is gone is seen to be
+constexpr double slice =
+    1.0;  // longest wait of one call, in seconds; the server looks for closed connections between them
 
-// One of the clients that may follow events at a time.
+// Counts one client that follows events, from take() on for as long as it lives.
 class Place {
 public:
     static std::shared_ptr<Place> take(Context& context) {
@@ -32,7 +33,7 @@ private:
     std::size_t number_;
 };
 
-// What a client has seen.
+// What one client has received.
 struct Follower {
     std::string id;
     std::uint64_t revision = 0;
@@ -68,7 +69,7 @@ std::optional<std::string> next_events(const Jobs& jobs, Follower& follower) {
     return text;
 }
 
-// A number that is none counts as nothing seen yet.
+// The number in Last-Event-ID; 0, before all events, where it has none.
 std::uint64_t last_event(const ApiRequest& request) {
     const std::string* text = request.header("last-event-id");
     std::uint64_t id = 0;
@@ -85,15 +86,14 @@ ApiResponse job_events(Context& context, const Call& call) {
     follower.id = job->id;
     follower.revision = last_event(call.request);
     ApiResponse response;
-    if (follower.revision > job->revision) follower.revision = 0;  // of another life of the server
+    if (follower.revision > job->revision) follower.revision = 0;  // from an earlier run of the server
     if (has_ended(*job) && follower.revision == job->revision && follower.revision > 0) {
-        response.status = 204;  // nothing will come: the client does not try again
+        response.status = 204;  // no event will follow; the client does not reconnect
         return response;
     }
     std::shared_ptr<Place> place = Place::take(context);
     if (!place || context.jobs.stopping()) {
-        response =
-            problem(503, place ? "The server is stopping." : "As many clients follow events as this server takes.");
+        response = problem(503, place ? "The server is stopping." : "Too many clients follow events; try again later.");
         response.headers.push_back({"Retry-After", "5"});
         return response;
     }

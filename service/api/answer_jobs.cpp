@@ -1,4 +1,4 @@
-// Jobs: taken, listed, shown, cancelled, removed.
+// The answers under /v1/jobs that submit, list, show, cancel and remove jobs and give their files.
 #include <algorithm>
 #include <charconv>
 
@@ -34,9 +34,9 @@ bool is_key(const std::string& key) {
 ApiResponse submitted(const Context& context, const Submitted& outcome) {
     switch (outcome.outcome) {
         case Submitted::Outcome::conflict:
-            return problem(409, "This Idempotency-Key came with another request before.");
+            return problem(409, "This Idempotency-Key was already used for another request.");
         case Submitted::Outcome::queue_full:
-            return try_later(429, "As many jobs wait as this server takes.", "30");
+            return try_later(429, "The queue of jobs is full; try again later.", "30");
         case Submitted::Outcome::created:
         case Submitted::Outcome::existing:
             break;
@@ -46,14 +46,15 @@ ApiResponse submitted(const Context& context, const Submitted& outcome) {
     return response;
 }
 
-// A file of a job that has it; else why there is none.
+// A file of a job, or the answer that says why there is none.
 ApiResponse job_file(const Context& context, const Call& call, const std::string& name) {
     const std::string& id = call.parameter("id");
     const std::optional<JobInfo> job = context.jobs.find(id);
     if (!job) return no_such_job();
     if (const auto file = context.jobs.artifact(id, name)) return file_answer(call.request, *file);
     if (job->state == JobState::succeeded) return problem(404, "There is no such file.");
-    return problem(409, std::string("The job is ") + to_string(job->state) + "; only one that succeeded has results.");
+    return problem(409,
+                   std::string("The job is ") + to_string(job->state) + "; only a job that succeeded has results.");
 }
 
 }  // namespace
@@ -61,12 +62,12 @@ ApiResponse job_file(const Context& context, const Call& call, const std::string
 ApiResponse post_job(Context& context, const Call& call) {
     if (context.jobs.stopping()) return try_later(503, "The server is stopping.", "10");
     const std::string* key = call.request.header("idempotency-key");
-    if (key && !is_key(*key)) return problem(400, "An Idempotency-Key has 1 to 255 printable ASCII characters.");
+    if (key && !is_key(*key)) return problem(400, "An Idempotency-Key must have 1 to 255 printable ASCII characters.");
     auto posted = read_posted(call.request.body);
-    if (auto* no = std::get_if<ApiResponse>(&posted)) return std::move(*no);
+    if (auto* refusal = std::get_if<ApiResponse>(&posted)) return std::move(*refusal);
     auto& scenario = std::get<PostedScenario>(posted);
     auto examined = examine_posted(context, scenario);
-    if (auto* no = std::get_if<ApiResponse>(&examined)) return std::move(*no);
+    if (auto* refusal = std::get_if<ApiResponse>(&examined)) return std::move(*refusal);
     const auto& facts = std::get<nlohmann::json>(examined);
     JobRequest request;
     request.scenario = std::move(scenario.text);
@@ -83,13 +84,13 @@ ApiResponse list_jobs(Context& context, const Call& call) {
     std::optional<JobState> state;
     if (const std::string* text = call.request.parameter("state")) {
         state = parse_job_state(*text);
-        if (!state) return problem(400, "state: queued, running, succeeded, failed or cancelled.");
+        if (!state) return problem(400, "The parameter state must be queued, running, succeeded, failed or cancelled.");
     }
     std::size_t limit = page;
     if (const std::string* text = call.request.parameter("limit")) {
         const auto [rest, fault] = std::from_chars(text->data(), text->data() + text->size(), limit);
         if (fault != std::errc() || rest != text->data() + text->size() || limit < 1 || limit > longest_page)
-            return problem(400, "limit: 1 to 200.");
+            return problem(400, "The parameter limit must be a number from 1 to 200.");
     }
     const std::string* cursor = call.request.parameter("cursor");
     const JobPage found = context.jobs.list(state, limit, cursor ? *cursor : "");
@@ -110,14 +111,14 @@ ApiResponse cancel_job(Context& context, const Call& call) {
     const Jobs::Change change = context.jobs.cancel(id);
     const std::optional<JobInfo> job = context.jobs.find(id);
     if (change == Jobs::Change::not_found || !job) return no_such_job();
-    if (change == Jobs::Change::refused) return problem(409, "The job has ended.");
+    if (change == Jobs::Change::refused) return problem(409, "The job has already ended.");
     return json_answer(202, job_json(context.jobs, *job));
 }
 
 ApiResponse delete_job(Context& context, const Call& call) {
     const Jobs::Change change = context.jobs.remove(call.parameter("id"));
     if (change == Jobs::Change::not_found) return no_such_job();
-    if (change == Jobs::Change::refused) return problem(409, "The job runs; cancel it first.");
+    if (change == Jobs::Change::refused) return problem(409, "The job is running; cancel it first.");
     ApiResponse response;
     response.status = 204;
     return response;
@@ -148,7 +149,7 @@ ApiResponse job_report(Context& context, const Call& call) {
     const nlohmann::json document = nlohmann::json::parse(read_all(*file.file));
     ApiResponse response;
     response.type = "text/html; charset=utf-8";
-    // A document of its own: its inline scripts run, and reach nothing of this server.
+    // The report is sandboxed: its inline scripts run, but cannot reach this server.
     response.headers = {{"Cache-Control", "private, no-cache"},
                         {"Content-Security-Policy",
                          "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; "
@@ -156,7 +157,7 @@ ApiResponse job_report(Context& context, const Call& call) {
                          "frame-ancestors 'self'"}};
     try {
         response.body = report_html(document, result->parent_path() / "images");
-    } catch (const base::Error&) {  // whose place is for nobody outside
+    } catch (const base::Error&) {  // its place is a folder of the server
         return problem(500, "The pictures of this job cannot be read.");
     }
     return response;

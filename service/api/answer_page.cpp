@@ -1,4 +1,4 @@
-// The page and its assets, embedded in the program.
+// GET / and /assets: the page and its files, which the program holds.
 #include "service/api/accept.h"
 #include "service/api/problem.h"
 #include "service/api/routes.h"
@@ -7,14 +7,14 @@
 namespace shadowbench::service {
 namespace {
 
-// Nothing but what this server gives, and no inline scripts.
+// The page loads files only from this server and runs no inline scripts.
 constexpr const char* page_policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-src 'self'; frame-ancestors 'none'";
 
 ApiResponse asset_answer(const ApiRequest& request, const std::string& path) {
     const Asset* asset = find_asset(path);
-    if (!asset) return problem(404, "There is nothing here.");
+    if (!asset) return problem(404, "There is no such file.");
     ApiResponse response;
     response.type = asset->type;
     response.headers = {{"ETag", std::string(asset->etag)},

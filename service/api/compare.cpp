@@ -15,7 +15,7 @@ using base::ErrorCode;
 
 compare::Measured read_side(const nlohmann::json& result, const char* where) {
     compare::Measured measured;
-    if (!compare::add(measured, result, "")) throw Error(ErrorCode::bad_input, where, "this is no result");
+    if (!compare::add(measured, result, "")) throw Error(ErrorCode::bad_input, where, "not a result of run");
     return measured;
 }
 

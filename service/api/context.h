@@ -1,4 +1,4 @@
-// What the answers of the API share.
+// The state that all answers of the API share.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ struct Context {
     CurveCache curves;
     Metrics metrics;
     std::shared_ptr<std::atomic<std::size_t>> streams = std::make_shared<std::atomic<std::size_t>>(0);
-    std::string scenarios;  // the answer of /v1/scenarios
+    std::string scenarios;  // the answer to /v1/scenarios
 
     Context(Jobs& jobs, const ServiceOptions& options);
 };

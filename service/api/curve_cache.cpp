@@ -26,7 +26,7 @@ CurveCache::CurveCache(StartHelper start, std::vector<std::string> arguments, do
 std::shared_ptr<CurveCache::Worker> CurveCache::worker_for(const std::string& key) {
     const std::scoped_lock lock(mutex_);
     if (const auto* known = workers_.find(key)) return *known;
-    std::erase_if(fresh_, [](const auto& one) { return one.second.expired(); });
+    std::erase_if(fresh_, [](const auto& entry) { return entry.second.expired(); });
     std::weak_ptr<Worker>& place = fresh_[key];
     std::shared_ptr<Worker> worker = place.lock();
     if (!worker) place = worker = std::make_shared<Worker>();
@@ -43,8 +43,8 @@ std::string CurveCache::curves(const CurveQuestion& question, const std::functio
     const Slots::Slot slot = slots_.take(seconds_);
     const std::string key = fmt::format("{} {} {}", question.job, question.variant, question.light);
     const std::shared_ptr<Worker> worker = worker_for(key);
-    const std::unique_lock one_at_a_time(worker->mutex, std::chrono::duration<double>(seconds_));
-    if (!one_at_a_time) throw Busy{};
+    const std::unique_lock turn(worker->mutex, std::chrono::duration<double>(seconds_));
+    if (!turn) throw Busy{};
     std::string line = fmt::format("{} {}", question.x, question.y);
     const bool first = !worker->helper;
     if (first) {
@@ -58,7 +58,7 @@ std::string CurveCache::curves(const CurveQuestion& question, const std::functio
     try {
         answer = worker->helper->ask(line, seconds_);
     } catch (const base::Error&) {
-        worker->helper.reset();  // it is gone, or in the middle of something
+        worker->helper.reset();  // it has ended, or still works on this request
         throw;
     }
     try {

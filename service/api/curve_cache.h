@@ -1,5 +1,5 @@
-// The curves of pixels, as a page asks for them while the mouse moves: helpers stay with the last few lights, and the
-// last answers are kept.
+// Caches the visibility functions of pixels, which the page requests while the mouse moves. It keeps the helper
+// processes of the last few lights, and the last answers.
 #pragma once
 
 #include <cstddef>
@@ -26,11 +26,13 @@ struct CurveQuestion {
 // Thread-safe.
 class CurveCache {
 public:
-    // `arguments` come before those of the light; `waiting`: how many may wait for their turn.
+    // `arguments` go to each helper, before those of the light. `seconds`: longest wait for one answer. `waiting`:
+    // requests that may wait for their turn.
     CurveCache(StartHelper start, std::vector<std::string> arguments, double seconds, std::size_t waiting);
 
-    // JSON of bench::PixelCurves. `scenario`, the job's on one line, is asked for only when it is needed, and before a
-    // helper is started: what it throws is thrown. A helper stays once its first answer was good. Throws Error, Busy.
+    // The JSON of bench::PixelCurves. `scenario` gives the job's scenario on one line; it is called only before a
+    // helper is started, and what it throws is passed on. A helper is kept once its first answer is not an error.
+    // Throws Error, Busy.
     std::string curves(const CurveQuestion& question, const std::function<std::string()>& scenario);
 
 private:
@@ -47,7 +49,7 @@ private:
     std::mutex mutex_;
     Lru<std::string> answers_;
     Lru<std::shared_ptr<Worker>> workers_;
-    std::map<std::string, std::weak_ptr<Worker>> fresh_;  // that have not answered yet, held by who asks
+    std::map<std::string, std::weak_ptr<Worker>> fresh_;  // workers without a first answer; their requests own them
 };
 
 }  // namespace shadowbench::service

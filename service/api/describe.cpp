@@ -71,12 +71,12 @@ void read_scenario(const fs::path& file, std::map<std::string, ordered_json>& fo
     try {
         const ordered_json document =
             ordered_json::parse(scene::parse_json(base::read_text(file), file.string()).dump());
-        // A name stands for its scenario in the first folder that has one, as on the command line.
+        // As on the command line, the first folder that has a name wins.
         found.try_emplace(document.at("name").get<std::string>(),
                           ordered_json{{"name", document.at("name")},
                                        {"purpose", document.value("purpose", "")},
                                        {"document", ordered_json::parse(base::read_text(file))}});
-    } catch (const std::exception&) {  // one broken file does not hide the others
+    } catch (const std::exception&) {  // a broken file is skipped
     }
 }
 
@@ -116,9 +116,9 @@ ApiResponse get_openapi(Context&, const Call& call) {
 
 ApiResponse validate_scenario(Context& context, const Call& call) {
     auto posted = read_posted(call.request.body);
-    if (auto* no = std::get_if<ApiResponse>(&posted)) return std::move(*no);
+    if (auto* refusal = std::get_if<ApiResponse>(&posted)) return std::move(*refusal);
     auto examined = examine_posted(context, std::get<PostedScenario>(posted));
-    if (auto* no = std::get_if<ApiResponse>(&examined)) return std::move(*no);
+    if (auto* refusal = std::get_if<ApiResponse>(&examined)) return std::move(*refusal);
     nlohmann::json answer = std::get<nlohmann::json>(examined);
     answer["valid"] = true;
     return json_answer(200, answer);
@@ -132,7 +132,7 @@ ApiResponse get_ready(Context& context, const Call&) {
     const bool stopping = context.jobs.stopping();
     if (!stopping && !context.jobs.storage_fails()) return json_answer(200, ordered_json{{"status", "ready"}});
     ApiResponse response = problem(
-        503, stopping ? "The server is stopping." : "The server's storage cannot be written: jobs wait until it can.");
+        503, stopping ? "The server is stopping." : "The server cannot write its storage; jobs wait until it can.");
     response.headers.push_back({"Retry-After", "10"});
     return response;
 }

@@ -18,7 +18,7 @@ base::Error error_of(const nlohmann::json& error) {
 
 nlohmann::json take_answer(const std::string& line) {
     nlohmann::json answer = nlohmann::json::parse(line, nullptr, false);
-    if (!answer.is_object()) throw base::Error(base::ErrorCode::internal, "helper process", "its answer is no JSON");
+    if (!answer.is_object()) throw base::Error(base::ErrorCode::internal, "helper process", "its answer is not JSON");
     if (const auto error = answer.find("error"); error != answer.end()) throw error_of(*error);
     return answer;
 }

@@ -1,4 +1,4 @@
-// Scenarios from strangers: checked with all their files, and what they will cost, by a helper.
+// Checks scenarios of clients with all their files, and estimates their cost, in a helper process.
 #pragma once
 
 #include <cstddef>
@@ -16,16 +16,18 @@
 
 namespace shadowbench::service {
 
-// Throws the Error that a line of a helper holds; the line's value otherwise.
+// The value of a helper's line. Throws the Error that the line holds, and Error{internal} where it is not a JSON
+// object.
 nlohmann::json take_answer(const std::string& line);
 
-// Thread-safe. The last answers are kept: the same scenario is often sent again.
+// Thread-safe. It keeps the last answers, since clients often send the same scenario again.
 class Examiner {
 public:
-    // `waiting`: how many may wait for their turn.
+    // `seconds`: longest wait for one answer. `waiting`: requests that may wait for their turn.
     Examiner(StartHelper start, std::vector<std::string> arguments, double seconds, std::size_t waiting);
 
-    // What helper_side.h's examine_lines says of a scenario, JSON on one line: facts, or faults. Throws Error, Busy.
+    // `scenario` is JSON on one line. The facts or the faults that examine_lines() in helper_side.h finds. Throws
+    // Error, Busy.
     std::variant<nlohmann::json, std::vector<base::Error>> examine(const std::string& scenario);
 
 private:

@@ -28,7 +28,7 @@ bool read_number(const std::string& text, std::uint64_t& value) {
     return fault == std::errc() && rest == text.data() + text.size();
 }
 
-// "bytes=0-99", "bytes=100-", "bytes=-100". Nothing: it cannot be satisfied, or is more than one.
+// Reads "bytes=0-99", "bytes=100-", "bytes=-100". Nothing for a range outside of the file, or several.
 std::optional<ByteRange> read_range(const std::string& text, std::uint64_t size) {
     const std::string unit = "bytes=";
     const std::size_t dash = text.find('-');
@@ -72,7 +72,7 @@ ApiResponse file_answer(const ApiRequest& request, const std::filesystem::path& 
     struct stat status {};
     if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return problem(404, "There is no such file.");
     const auto size = static_cast<std::uint64_t>(status.st_size);
-    // Jobs rename whole files into place, so a file of this number and time never changes.
+    // Jobs rename complete files into place, so a file with this inode and time never changes.
     const std::string etag =
         fmt::format("\"{:x}-{:x}-{:x}.{:x}\"", status.st_ino, size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
     if (has_version(request, etag)) return not_modified(etag);
@@ -84,7 +84,7 @@ ApiResponse file_answer(const ApiRequest& request, const std::filesystem::path& 
     if (!range || !range->starts_with("bytes") || (if_range && *if_range != etag)) return response;
     const std::optional<ByteRange> part = read_range(*range, size);
     if (!part) {
-        response = problem(416, "One range of bytes within the file, please.");
+        response = problem(416, "Range must be a single range of bytes within the file.");
         response.headers.push_back({"Content-Range", fmt::format("bytes */{}", size)});
         return response;
     }

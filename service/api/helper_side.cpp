@@ -16,6 +16,7 @@
 #include "bench/run.h"
 #include "document/document.h"
 #include "scene/scenario.h"
+#include "service/privacy/hidden_folders.h"
 
 namespace shadowbench::service {
 namespace {
@@ -25,36 +26,33 @@ using base::Error;
 using base::ErrorCode;
 using nlohmann::json;
 
-// Strangers do not learn where the data folders are.
-std::string without_folders(std::string text, const std::vector<fs::path>& data) {
-    for (const fs::path& folder : data) {
-        const std::string name = folder.string() + (folder.has_filename() ? "/" : "");
-        for (std::size_t at; name.size() > 1 && (at = text.find(name)) != std::string::npos;)
-            text.erase(at, name.size());
-    }
-    return text;
+using Hidden = std::vector<HiddenFolder>;
+
+Hidden hidden_of(const std::vector<fs::path>& data) {
+    std::vector<std::string> names;
+    for (const fs::path& folder : data) names.push_back(folder.string());
+    return hidden_folders("", names);
 }
 
-json to_json(const Error& error, const std::vector<fs::path>& data) {
-    return {{"code", static_cast<int>(error.code())},
-            {"where", without_folders(error.where(), data)},
-            {"message", without_folders(error.message(), data)}};
+json to_json(const Error& error, const Hidden& hidden) {
+    const Error shown = hide(error, hidden);
+    return {{"code", static_cast<int>(shown.code())}, {"where", shown.where()}, {"message", shown.message()}};
 }
 
-std::string fault(const Error& error, const std::vector<fs::path>& data) {
-    return json{{"error", to_json(error, data)}}.dump();
+std::string fault(const Error& error, const Hidden& hidden) {
+    return json{{"error", to_json(error, hidden)}}.dump();
 }
 
 template <class Answer>
-std::string answer_line(const std::vector<fs::path>& data, const Answer& answer) {
+std::string answer_line(const Hidden& hidden, const Answer& answer) {
     try {
         return answer();
     } catch (const Error& error) {
-        return fault(error, data);
+        return fault(error, hidden);
     } catch (const std::bad_alloc&) {
-        return fault({ErrorCode::bad_input, "", "it needs more memory than this server allows"}, data);
+        return fault({ErrorCode::bad_input, "", "it needs more memory than this server allows"}, hidden);
     } catch (const std::exception&) {
-        return fault({ErrorCode::internal, "", ""}, data);
+        return fault({ErrorCode::internal, "", ""}, hidden);
     }
 }
 
@@ -69,9 +67,10 @@ std::uint64_t seed_of(const json& document) {
     return document.value(json::json_pointer("/rays/seed"), std::uint64_t{1});
 }
 
-json facts_of(const json& document, const std::vector<fs::path>& data) {
+json facts_of(const json& document, const std::vector<fs::path>& data, const Hidden& hidden) {
     const bench::Validated v = bench::validate(document, options_for(data));
-    json notes = v.notes;
+    json notes = json::array();
+    for (const std::string& note : v.notes) notes.push_back(hide(note, hidden));
     for (const std::string& light : v.blind)
         notes.push_back(fmt::format("light {} sees nothing that casts a shadow", light));
     return {{"name", v.name},
@@ -88,14 +87,14 @@ json facts_of(const json& document, const std::vector<fs::path>& data) {
               {"samples_per_pixel", v.most_samples}}}};
 }
 
-std::string examine(const std::string& line, const std::vector<fs::path>& data) {
+std::string examine(const std::string& line, const std::vector<fs::path>& data, const Hidden& hidden) {
     const json document = scene::parse_json(line, "scenario");
     try {
-        return facts_of(document, data).dump();
+        return facts_of(document, data, hidden).dump();
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_input) throw;
         json faults = json::array();
-        for (const Error& one : document::all_faults(document, error)) faults.push_back(to_json(one, data));
+        for (const Error& each : document::all_faults(document, error)) faults.push_back(to_json(each, hidden));
         return json{{"faults", std::move(faults)}}.dump();
     }
 }
@@ -103,18 +102,20 @@ std::string examine(const std::string& line, const std::vector<fs::path>& data) 
 }  // namespace
 
 void examine_lines(const std::vector<fs::path>& data, std::istream& in, std::ostream& out) {
+    const Hidden hidden = hidden_of(data);
     for (std::string line; std::getline(in, line);)
-        out << answer_line(data, [&] { return examine(line, data); }) << std::endl;
+        out << answer_line(hidden, [&] { return examine(line, data, hidden); }) << std::endl;
 }
 
 void curve_lines(const std::vector<fs::path>& data, const std::string& light, std::size_t variant, std::istream& in,
                  std::ostream& out) {
+    const Hidden hidden = hidden_of(data);
     std::string scenario;
     std::getline(in, scenario);
     std::unique_ptr<bench::PixelProbe> probe;
     int x = 0, y = 0;
     while (in >> x >> y)
-        out << answer_line(data, [&] {
+        out << answer_line(hidden, [&] {
             if (!probe)
                 probe = std::make_unique<bench::PixelProbe>(scene::parse_json(scenario, "scenario"), options_for(data),
                                                             light, variant);

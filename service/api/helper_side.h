@@ -1,5 +1,5 @@
-// The child's side of the helpers: reads lines, answers each with a line of JSON. A fault is
-// {"error": {"code": 65, "where": "/lights/0", "message": "..."}}.
+// The helper process's side: it reads lines and answers each with a line of JSON. The answer to a line that fails is
+// {"error": {"code": 65, "where": "/lights/0", "message": "..."}}. Answers name no folder of the server.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,12 @@
 
 namespace shadowbench::service {
 
-// Each line a scenario: {"name", "seed", "hash", "variants", "lights", "techniques", "notes", "estimate"}; of one that
-// is wrong {"faults": [{"code", "where", "message"}, ...]}.
+// Each line is a scenario. The answer is {"name", "seed", "hash", "variants", "lights", "techniques", "notes",
+// "estimate"}, or {"faults": [{"code", "where", "message"}, ...]} for a wrong scenario.
 void examine_lines(const std::vector<std::filesystem::path>& data, std::istream& in, std::ostream& out);
 
-// The first line a scenario, without an answer of its own, each further one "X Y": bench::PixelCurves of that pixel.
+// The first line is a scenario and gets no answer. Each further line is "X Y"; its answer is the bench::PixelCurves of
+// that pixel.
 void curve_lines(const std::vector<std::filesystem::path>& data, const std::string& light, std::size_t variant,
                  std::istream& in, std::ostream& out);
 

@@ -1,4 +1,4 @@
-// A job as the API shows it.
+// The JSON form of a job in the API.
 #pragma once
 
 #include <string>
@@ -12,9 +12,10 @@ namespace shadowbench::service {
 
 nlohmann::ordered_json to_json(const JobInfo& job, const std::vector<std::string>& artifacts);
 
-// With the names of its artifacts, once there may be any.
+// The JSON of a job with the names of its artifacts; a queued job has none.
 nlohmann::ordered_json job_json(const Jobs& jobs, const JobInfo& job);
 
+// Whether the job succeeded, failed or was cancelled.
 bool has_ended(const JobInfo& job);
 
 }  // namespace shadowbench::service

@@ -1,4 +1,4 @@
-// The answers that were asked for last.
+// A cache that keeps the values used last.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace shadowbench::service {
 
-// Not thread-safe.
+// Keeps at most `most` values. Not thread-safe.
 template <class Value>
 class Lru {
 public:

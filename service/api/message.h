@@ -1,4 +1,4 @@
-// What the API is asked and what it answers: HTTP's meaning without its sockets.
+// Requests and responses of the API: the content of HTTP messages, without sockets.
 #pragma once
 
 #include <cstddef>
@@ -23,12 +23,12 @@ struct ApiRequest {
     bool has_body = false;          // known before the body is read
     std::string body;
 
-    // The first of this name; null: none.
+    // The value of the first field of this name; null where there is none.
     const std::string* header(const std::string& lower_name) const;
     const std::string* parameter(const std::string& name) const;
 };
 
-// A part of a regular file, open, so that it stays whole whatever happens to its name.
+// A part of an open regular file. It stays complete when the file is renamed or removed.
 struct OpenFile {
     explicit OpenFile(int open) : descriptor(open) {}
     ~OpenFile();
@@ -41,8 +41,8 @@ struct FilePart {
     std::uint64_t offset = 0, length = 0;
 };
 
-// Server-sent events: called again and again, each call blocks for a second at most. Gives text to send, which may be
-// empty; nothing: the stream has ended.
+// A source of server-sent events. Each call blocks for a second at most and gives text to send, which may be empty;
+// nothing at the end of the stream.
 using EventSource = std::function<std::optional<std::string>()>;
 
 struct ApiResponse {
@@ -53,7 +53,7 @@ struct ApiResponse {
     std::optional<FilePart> file;  // instead of the body
     EventSource events;            // instead of the body
 
-    const std::string* header(const std::string& name) const;  // as it was set
+    const std::string* header(const std::string& name) const;  // `name` is case-sensitive
 };
 
 }  // namespace shadowbench::service

@@ -19,11 +19,11 @@ using prometheus::MetricType;
 constexpr std::array bounds{0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 10.0};  // seconds
 
 MetricFamily family(const char* name, const char* help, MetricType type) {
-    MetricFamily made;
-    made.name = name;
-    made.help = help;
-    made.type = type;
-    return made;
+    MetricFamily result;
+    result.name = name;
+    result.help = help;
+    result.type = type;
+    return result;
 }
 
 ClientMetric gauge(double value, std::vector<ClientMetric::Label> labels = {}) {
@@ -34,11 +34,11 @@ ClientMetric gauge(double value, std::vector<ClientMetric::Label> labels = {}) {
 }
 
 MetricFamily jobs_by_state(const Jobs& jobs) {
-    MetricFamily made = family("shadowbench_jobs", "Jobs that are kept, by state.", MetricType::Gauge);
+    MetricFamily result = family("shadowbench_jobs", "Jobs on this server, by state.", MetricType::Gauge);
     for (const JobState state :
          {JobState::queued, JobState::running, JobState::succeeded, JobState::failed, JobState::cancelled})
-        made.metric.push_back(gauge(static_cast<double>(jobs.count(state)), {{"state", to_string(state)}}));
-    return made;
+        result.metric.push_back(gauge(static_cast<double>(jobs.count(state)), {{"state", to_string(state)}}));
+    return result;
 }
 
 }  // namespace
@@ -55,18 +55,20 @@ void Metrics::count(const std::string& method, const std::string& route, int sta
 
 std::string Metrics::text(const Jobs& jobs, std::size_t event_streams) const {
     std::vector<MetricFamily> families{jobs_by_state(jobs)};
-    MetricFamily queue = family("shadowbench_queue_length", "Jobs that wait for their turn.", MetricType::Gauge);
+    MetricFamily queue = family("shadowbench_queue_length", "Jobs in the queue.", MetricType::Gauge);
     queue.metric.push_back(gauge(static_cast<double>(jobs.count(JobState::queued))));
-    MetricFamily storage = family("shadowbench_storage_failing",
-                                  "1 while jobs wait because the state folder cannot be written.", MetricType::Gauge);
+    MetricFamily storage =
+        family("shadowbench_storage_failing", "1 while jobs wait because the server cannot write its state folder.",
+               MetricType::Gauge);
     storage.metric.push_back(gauge(jobs.storage_fails() ? 1.0 : 0.0));
     MetricFamily streams = family("shadowbench_event_streams", "Clients that follow events.", MetricType::Gauge);
     streams.metric.push_back(gauge(static_cast<double>(event_streams)));
     MetricFamily requests =
-        family("shadowbench_http_requests_total", "Answers, by method, route and status.", MetricType::Counter);
-    MetricFamily latencies = family("shadowbench_http_request_seconds",
-                                    "Time from the whole request to its answer, by route; of events, to their start.",
-                                    MetricType::Histogram);
+        family("shadowbench_http_requests_total", "Responses, by method, route and status.", MetricType::Counter);
+    MetricFamily latencies =
+        family("shadowbench_http_request_seconds",
+               "Seconds from the complete request to its response, by route; for events, to their start.",
+               MetricType::Histogram);
     const std::scoped_lock lock(mutex_);
     for (const auto& [key, count] : requests_) {
         ClientMetric metric;
@@ -87,7 +89,8 @@ std::string Metrics::text(const Jobs& jobs, std::size_t event_streams) const {
         metric.histogram.sample_sum = latency.sum;
         latencies.metric.push_back(std::move(metric));
     }
-    for (MetricFamily* one : {&queue, &storage, &streams, &requests, &latencies}) families.push_back(std::move(*one));
+    for (MetricFamily* other : {&queue, &storage, &streams, &requests, &latencies})
+        families.push_back(std::move(*other));
     return prometheus::TextSerializer().Serialize(families);
 }
 

@@ -1,4 +1,4 @@
-// Counts for Prometheus.
+// Counts requests and jobs for Prometheus.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,16 @@ class Jobs;
 // Thread-safe.
 class Metrics {
 public:
-    // One answer. `route` is a pattern of the route table, so that there are few; "none" where there was no route.
+    // Counts one answer. `route` is a pattern of the route table, which bounds the number of labels; "none" without a
+    // route.
     void count(const std::string& method, const std::string& route, int status, double seconds);
 
-    // In Prometheus' text format, with the jobs by state.
+    // All counts in Prometheus' text format, with the jobs by state.
     std::string text(const Jobs& jobs, std::size_t event_streams) const;
 
 private:
     struct Latency {
-        std::vector<std::uint64_t> buckets;  // not cumulated; the last one has no bound
+        std::vector<std::uint64_t> buckets;  // not cumulative; the last one has no upper bound
         double sum = 0.0;
     };
     mutable std::mutex mutex_;

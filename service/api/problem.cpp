@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-// Bytes that are no UTF-8, as in file names, do not stop an answer.
+// Bytes that are not UTF-8, which file names may have, are replaced.
 template <class Json>
 std::string text_of(const Json& value) {
     return value.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -97,23 +97,23 @@ ApiResponse problem_of(const base::Error& error) {
         case base::ErrorCode::usage:
             return problem(400, error.what());
         case base::ErrorCode::io: {
-            ApiResponse response = problem(503, "Reading or writing failed on this side.");
+            ApiResponse response = problem(503, "The server could not read or write a file.");
             response.headers.push_back({"Retry-After", "10"});
             return response;
         }
         case base::ErrorCode::internal:
             break;
     }
-    return problem(500, "A fault of this program.");
+    return problem(500, "Internal fault of the server.");
 }
 
 ApiResponse problem_of(const std::vector<base::Error>& faults) {
     std::string detail;
     std::vector<ProblemPart> parts;
     for (const base::Error& fault : faults) {
-        const bool whole = fault.where() == "/";  // the document, whose pointer is empty
-        if (detail.empty()) detail = whole ? fault.message() : fault.what();
-        if (whole || fault.where().empty())
+        const bool is_document = fault.where() == "/";  // the document; its pointer is empty
+        if (detail.empty()) detail = is_document ? fault.message() : fault.what();
+        if (is_document || fault.where().empty())
             parts.push_back({"", fault.message()});
         else if (fault.where().starts_with('/'))
             parts.push_back({fault.where(), fault.message()});

@@ -1,4 +1,4 @@
-// Answers that say no, as RFC 9457 has them, and answers of JSON.
+// Answers with JSON: problems (RFC 9457) and values.
 #pragma once
 
 #include <string>
@@ -12,18 +12,18 @@
 namespace shadowbench::service {
 
 struct ProblemPart {
-    std::string pointer, detail;  // JSON pointer into the scenario
+    std::string pointer, detail;  // JSON pointer into the scenario, or into the body
 };
 
 ApiResponse problem(int status, const std::string& detail, const std::vector<ProblemPart>& errors = {});
-// With further members, as "estimate".
+// The same with further members, such as "estimate".
 ApiResponse problem(int status, const std::string& detail, const std::vector<ProblemPart>& errors,
                     const nlohmann::json& members);
 
-// What the engine says of an input, for strangers: 422 with the pointer of its place; 400 for usage; 500 or 503, and
-// nothing of the cause, for faults of this side.
+// The answer to an error of the engine: 422 with the pointer of its place for bad input, 400 for wrong usage. For a
+// fault of the server 500 or 503, without its cause.
 ApiResponse problem_of(const base::Error& error);
-// Of several at once, all of inputs.
+// The answer 422 to several errors in the input.
 ApiResponse problem_of(const std::vector<base::Error>& faults);
 
 ApiResponse json_answer(int status, const nlohmann::json& value);

@@ -1,4 +1,4 @@
-// The one list of what the API answers to. openapi.json documents the same list; a test holds them together.
+// The routes of the API. openapi.json documents the same list; a test compares the two.
 #pragma once
 
 #include <array>
@@ -16,25 +16,26 @@ using PathParameters = std::map<std::string, std::string>;
 struct Call {
     const ApiRequest& request;
     const PathParameters& path;
-    // Throws Error{internal} for a name that the route's pattern does not have.
+    // The part of the path in the place of {name}. Throws Error{internal} where the route's pattern does not have it.
     const std::string& parameter(const char* name) const;
 };
 
 struct Route {
     const char* method;
-    const char* pattern;  // "{name}" is one segment, "{name...}" all that follow
-    const char* type;     // what it answers with when all goes well; "": of many types
-    bool takes_body;      // of JSON
+    const char* pattern;  // "{name}" is one segment, "{name...}" the rest of the path
+    const char* type;     // media type of a successful answer; "": several types
+    bool takes_body;      // JSON
     ApiResponse (*answer)(Context& context, const Call& call);
-    std::array<const char*, 4> query = {};  // the parameters it knows, then null
+    std::array<const char*, 4> query = {};  // names of its parameters, then null
 };
 
 std::span<const Route> routes();
 
-// The route of a request, HEAD as GET. Null: there is none, or, when `allowed` is not empty, none of this method.
+// The route of a request; HEAD finds that of GET. Null where there is none. `allowed` then gets the methods that the
+// path has; it stays empty for an unknown path.
 const Route* find_route(const ApiRequest& request, PathParameters& parameters, std::string& allowed);
 
-// The answers, by subject.
+// The answers.
 ApiResponse post_job(Context& context, const Call& call);
 ApiResponse list_jobs(Context& context, const Call& call);
 ApiResponse get_job(Context& context, const Call& call);

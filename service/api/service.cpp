@@ -26,7 +26,7 @@ bool is_json(const std::string& type) {
 }
 
 ApiResponse not_allowed(const std::string& allowed) {
-    ApiResponse response = problem(405, "This place takes " + allowed + ".");
+    ApiResponse response = problem(405, "This path takes " + allowed + ".");
     response.headers.push_back({"Allow", allowed});
     return response;
 }
@@ -35,7 +35,7 @@ std::optional<ApiResponse> refuse_query(const ApiRequest& request, const Route& 
     std::set<std::string> seen;
     for (const Field& given : request.query) {
         if (!seen.insert(given.name).second)
-            return problem(400, "The parameter \"" + given.name + "\" is given twice.");
+            return problem(400, "The parameter \"" + given.name + "\" is given twice; give it once.");
         std::string known;
         bool found = false;
         for (const char* name : route.query) {
@@ -44,7 +44,7 @@ std::optional<ApiResponse> refuse_query(const ApiRequest& request, const Route& 
             found = found || given.name == name;
         }
         if (!found)
-            return problem(400, "There is no parameter \"" + given.name + "\" here; " +
+            return problem(400, "Unknown parameter \"" + given.name + "\"; " +
                                     (known.empty() ? "this request takes none." : "there are: " + known + "."));
     }
     return {};
@@ -53,8 +53,7 @@ std::optional<ApiResponse> refuse_query(const ApiRequest& request, const Route& 
 std::optional<ApiResponse> refuse_body(const ApiRequest& request, const Route& route) {
     if (!request.has_body) return {};
     if (!route.takes_body) return problem(400, "This request takes no body.");
-    if (request.header("content-encoding"))
-        return problem(415, "Request bodies are taken as they are, without Content-Encoding.");
+    if (request.header("content-encoding")) return problem(415, "The body must be sent without Content-Encoding.");
     const std::string* type = request.header("content-type");
     if (!type || !is_json(*type)) {
         ApiResponse response = problem(415, "The body must be JSON, with Content-Type: application/json.");
@@ -66,10 +65,11 @@ std::optional<ApiResponse> refuse_body(const ApiRequest& request, const Route& r
 
 std::optional<ApiResponse> refuse_request(const ApiRequest& request, const Route* route, const std::string& allowed) {
     if (!route && !allowed.empty()) return not_allowed(allowed);
-    if (!route) return problem(404, "There is nothing here; /openapi.json tells what there is.");
+    if (!route) return problem(404, "There is nothing at this path; /openapi.json lists all paths.");
     if (route->type[0] != '\0' && !accepts(request, route->type))
-        return problem(406, std::string("What is here is of the type ") + route->type + ".");
-    if (auto no = refuse_query(request, *route)) return no;
+        return problem(406,
+                       std::string("This path answers with ") + route->type + ", which the Accept header excludes.");
+    if (auto refusal = refuse_query(request, *route)) return refusal;
     return refuse_body(request, *route);
 }
 
@@ -79,11 +79,11 @@ ApiResponse answer(Context& context, const ApiRequest& request, const Route& rou
     } catch (const base::Error& error) {
         return problem_of(error);
     } catch (const Busy&) {
-        ApiResponse response = problem(503, "Too many requests of this kind are at work.");
+        ApiResponse response = problem(503, "The server works on too many requests of this kind; try again later.");
         response.headers.push_back({"Retry-After", "2"});
         return response;
-    } catch (const std::exception&) {  // its text is for nobody outside
-        return problem(500, "A fault of this program.");
+    } catch (const std::exception&) {  // its text may name folders of the server
+        return problem(500, "Internal fault of the server.");
     }
 }
 

@@ -1,4 +1,4 @@
-// The API: JSON in, JSON out, no sockets. Thread-safe.
+// The API: answers requests, without sockets. Thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -14,22 +14,23 @@
 
 namespace shadowbench::service {
 
-// The largest scenarios that are taken. All but the body are judged by an estimate made before the job is queued.
+// The largest scenarios that are accepted. All limits but the body's apply to the estimate that is made before a job is
+// queued.
 struct CostLimits {
     std::size_t body = std::size_t{4} << 20;  // bytes of a request
     int resolution = 4096;                    // map pixels a side
-    int samples_per_pixel = 4096;             // light rays, and of the truth
-    double bytes = 8.0 * (1 << 30);           // that a run surely needs
-    double seconds = 1800.0;                  // of a run, guessed
+    int samples_per_pixel = 4096;             // light rays, and rays of the reference
+    double bytes = 8.0 * (1 << 30);           // of memory that a run certainly needs
+    double seconds = 1800.0;                  // estimated duration of a run
 };
 
 struct ServiceOptions {
-    std::vector<std::filesystem::path> data;       // folders of the files that scenarios may name
-    std::vector<std::filesystem::path> scenarios;  // folders of the scenarios that /v1/scenarios gives
+    std::vector<std::filesystem::path> data;       // folders with files that scenarios may name
+    std::vector<std::filesystem::path> scenarios;  // folders with the scenarios that /v1/scenarios lists
     CostLimits limits;
-    StartHelper start_helper;        // of subcommands of this program
-    double helper_seconds = 20.0;    // that one answer of a helper may take
-    std::size_t waiting = 8;         // requests of one kind that may wait for a helper: fewer than there are threads
+    StartHelper start_helper;        // starts a subcommand of this program
+    double helper_seconds = 20.0;    // longest wait for one answer of a helper
+    std::size_t waiting = 8;         // requests of one kind that may wait for a helper; less than the number of threads
     std::size_t event_streams = 64;  // clients that may follow events at a time
 };
 
@@ -41,13 +42,13 @@ public:
     Service(const Service&) = delete;
     Service& operator=(const Service&) = delete;
 
-    // What speaks against a request before its body is read: 404, 405, 406, 413, 415; nothing: go on.
+    // The answer that refuses a request before its body is read: 400, 404, 405, 406 or 415. Nothing: go on.
     std::optional<ApiResponse> refuse(const ApiRequest& request) const;
 
-    // The answer to a whole request. Throws nothing.
+    // The answer to a complete request. Throws nothing.
     ApiResponse handle(const ApiRequest& request);
 
-    // Counts an answer that was given without handle().
+    // Counts an answer that did not come from handle().
     void count_refusal(const ApiRequest& request, int status);
 
     const CostLimits& limits() const;

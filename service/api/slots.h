@@ -1,4 +1,5 @@
-// Work that holds a thread of the server while a helper does it: so much of it at a time, and so much that waits.
+// Limits how many requests work at a time, and how many wait. A request that waits for a helper holds a thread of the
+// server.
 #pragma once
 
 #include <condition_variable>
@@ -7,13 +8,13 @@
 
 namespace shadowbench::service {
 
-// Too much of one kind is at work: 503, to be tried again soon.
+// Too many requests of one kind work or wait: the answer is 503.
 struct Busy {};
 
 // Thread-safe.
 class Slots {
 public:
-    // `most` at a time; `waiting` more may wait for their turn.
+    // `most` work at a time; `waiting` more may wait for their turn.
     Slots(std::size_t most, std::size_t waiting) : free_(most), waiting_(waiting) {}
     class Slot {
     public:
@@ -25,14 +26,14 @@ public:
     private:
         Slots& slots_;
     };
-    // Throws Busy: at once where as many wait as may, else after `seconds` without a turn.
+    // Waits for a turn. Throws Busy at once where too many wait already, and after `seconds` without a turn.
     Slot take(double seconds);
 
 private:
     void give_back();
     std::mutex mutex_;
     std::condition_variable freed_;
-    std::size_t free_, waiting_;  // how many more may work, and may wait
+    std::size_t free_, waiting_;  // how many more may work, and how many may wait
 };
 
 }  // namespace shadowbench::service

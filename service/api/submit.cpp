@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/json_pointer.h"
 #include "scene/scenario.h"
 #include "service/api/problem.h"
 
@@ -12,40 +13,40 @@ namespace {
 using nlohmann::json;
 
 std::variant<PostedScenario, ApiResponse> read_options(const json& options, PostedScenario posted) {
-    const auto wrong = [](const std::string& pointer, const std::string& detail) {
+    const auto refuse = [](const std::string& pointer, const std::string& detail) {
         return problem(422, detail, {{pointer, detail}});
     };
-    if (!options.is_object()) return wrong("/options", "must be an object");
+    if (!options.is_object()) return refuse("/options", "must be an object");
     for (const auto& [key, value] : options.items()) {
         if (key == "cache" && (value == "reuse" || value == "fresh"))
             posted.reuse = value == "reuse";
         else if (key == "pictures" && value.is_boolean())
             posted.pictures = value.get<bool>();
         else
-            return wrong("/options/" + key,
-                         "there are \"cache\": \"reuse\" or \"fresh\", and \"pictures\": true or false");
+            return refuse(base::append_token("/options", key),
+                          "the options are \"cache\": \"reuse\" or \"fresh\", and \"pictures\": true or false");
     }
     return posted;
 }
 
-// What the estimate exceeds; nothing: no limit.
+// The limits that the estimate exceeds.
 std::vector<ProblemPart> over_limits(const json& estimate, const CostLimits& limits) {
     std::vector<ProblemPart> over;
     const double bytes = estimate.at("bytes").get<double>(), seconds = estimate.at("seconds").get<double>();
     if (const int side = estimate.at("resolution").get<int>(); side > limits.resolution)
         over.push_back({"/rays/resolution",
-                        fmt::format("a map of {} pixels a side; this server takes {}", side, limits.resolution)});
+                        fmt::format("the map has {} pixels a side; this server accepts {}", side, limits.resolution)});
     if (const int samples = estimate.at("samples_per_pixel").get<int>(); samples > limits.samples_per_pixel)
-        over.push_back({"/rays/samples_per_pixel", fmt::format("{} rays a pixel, the truth's among them; this server "
-                                                               "takes {}",
+        over.push_back({"/rays/samples_per_pixel", fmt::format("{} rays a pixel, with those of the reference; this "
+                                                               "server accepts {}",
                                                                samples, limits.samples_per_pixel)});
     constexpr double gib = 1 << 30;
     if (bytes > limits.bytes)
-        over.push_back({"/rays", fmt::format("it needs at least {:.3g} GiB of memory; this server gives {:.3g}",
+        over.push_back({"/rays", fmt::format("it needs at least {:.3g} GiB of memory; this server allows {:.3g}",
                                              bytes / gib, limits.bytes / gib)});
     if (seconds > limits.seconds)
         over.push_back(
-            {"", fmt::format("it would run for about {:.3g} s; this server gives {:.3g}", seconds, limits.seconds)});
+            {"", fmt::format("it would run for about {:.3g} s; this server allows {:.3g}", seconds, limits.seconds)});
     return over;
 }
 
@@ -65,7 +66,8 @@ std::variant<PostedScenario, ApiResponse> read_posted(const std::string& body) {
     }
     for (const auto& [key, value] : document.items())
         if (key != "scenario" && key != "options")
-            return problem(422, "Beside \"scenario\" there is \"options\" alone.", {{"/" + key, "unknown"}});
+            return problem(422, "Unknown key \"" + key + "\"; the body has the keys scenario and options.",
+                           {{base::append_token("", key), "unknown key"}});
     posted.text = document["scenario"].dump();
     if (!document.contains("options")) return posted;
     return read_options(document["options"], std::move(posted));
@@ -78,7 +80,7 @@ std::variant<json, ApiResponse> examine_posted(Context& context, const PostedSce
     const json& estimate = facts.at("estimate");
     const std::vector<ProblemPart> over = over_limits(estimate, context.options.limits);
     if (over.empty()) return std::move(facts);
-    return problem(422, "The scenario costs more than this server gives: " + over[0].detail + ".", over,
+    return problem(422, "The scenario costs more than this server allows: " + over[0].detail + ".", over,
                    {{"estimate", estimate}});
 }
 

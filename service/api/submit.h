@@ -1,4 +1,4 @@
-// A scenario in a request body, from text to what may be queued.
+// Reads and checks the scenario in a request body.
 #pragma once
 
 #include <string>
@@ -16,11 +16,12 @@ struct PostedScenario {
     bool pictures = true, reuse = true;
 };
 
-// The body is the scenario, or {"scenario": ..., "options": {"cache": "reuse"|"fresh", "pictures": true}}. The answer
-// that says no, when it is neither.
+// The body is a scenario, or {"scenario": ..., "options": {"cache": "reuse"|"fresh", "pictures": true}}. Returns the
+// answer that refuses any other body.
 std::variant<PostedScenario, ApiResponse> read_posted(const std::string& body);
 
-// What the scenario is and costs (see helper_side.h), or the answer that says no: it is wrong, or costs too much.
+// The facts and the estimated cost of the scenario (helper_side.h), or the answer that refuses a wrong or too costly
+// one.
 std::variant<nlohmann::json, ApiResponse> examine_posted(Context& context, const PostedScenario& posted);
 
 }  // namespace shadowbench::service

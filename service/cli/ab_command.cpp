@@ -17,8 +17,8 @@ namespace {
 using base::Error;
 using base::ErrorCode;
 
-// "--set x --data y": what every run of the scenario, or of kernels, is given.
-std::vector<std::string> given(const AbArguments& arguments) {
+// The arguments of every run: "--set x --data y" of a scenario, "--benchmark_min_time=s" of kernels.
+std::vector<std::string> run_options(const AbArguments& arguments) {
     if (!arguments.kernels.empty()) return {fmt::format("--benchmark_min_time={}", arguments.min_time)};
     std::vector<std::string> words;
     for (const std::string& assignment : arguments.set) words.insert(words.end(), {"--set", assignment});
@@ -29,23 +29,22 @@ std::vector<std::string> given(const AbArguments& arguments) {
 Turns turns_of(const AbArguments& arguments) {
     Turns turns{arguments.binary_a, arguments.binary_b, {}, !arguments.kernels.empty(), arguments.pairs, ""};
     if (turns.kernels == !arguments.scenario.empty())
-        throw Error(ErrorCode::usage, "ab",
-                    "give a SCENARIO, or --kernels with a filter where the programs are kernels");
+        throw Error(ErrorCode::usage, "ab", "give a SCENARIO or --kernels, one of the two");
     if (turns.kernels)
         turns.arguments = {"--benchmark_filter=" + arguments.kernels};
     else
         turns.arguments = {"run", arguments.scenario};
-    for (const std::string& word : given(arguments)) turns.arguments.push_back(word);
+    for (const std::string& word : run_options(arguments)) turns.arguments.push_back(word);
     for (const std::string& only : arguments.only) turns.arguments.insert(turns.arguments.end(), {"--only", only});
     return turns;
 }
 
-// The temporary results are gone when someone reads the command.
+// The command in the report must name the scenario: the temporary results are deleted.
 void name_the_source(compare::Comparison& comparison, const AbArguments& arguments) {
     for (compare::Line& line : comparison.lines) {
         if (line.rerun.source.empty()) continue;
         line.rerun.program = arguments.binary_b;
-        line.rerun.given = given(arguments);
+        line.rerun.given = run_options(arguments);
         if (!line.rerun.kernel) line.rerun.source = arguments.scenario;
     }
 }

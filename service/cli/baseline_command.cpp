@@ -34,11 +34,11 @@ std::vector<fs::path> files_of(const std::vector<std::string>& names) {
     return files;
 }
 
-// Whether all promises are kept.
+// Whether all techniques kept their promises.
 bool add_scenario(const fs::path& scenario, int threads, const fs::path& folder, std::vector<base::NewFile>& files) {
-    JobArguments given;
-    given.threads = threads;
-    const Job job = read_job(given, scenario);
+    JobArguments arguments;
+    arguments.threads = threads;
+    const Job job = read_job(arguments, scenario);
     nlohmann::json document = *job.document;
     if (document.is_object()) results::make_portable_document(document);
     const results::Result result = bench::run(document, job.options, {});
@@ -48,13 +48,13 @@ bool add_scenario(const fs::path& scenario, int threads, const fs::path& folder,
     for (const base::NewFile& other : files)
         if (other.path == file)
             throw Error(ErrorCode::bad_input, scenario.string() + ": /name",
-                        fmt::format("another scenario is named {} too", result.name));
+                        fmt::format("another scenario has the name {} too; rename one of them", result.name));
     files.push_back({file, portable.dump(1) + "\n"});
     return !results::any_failed(result);
 }
 
-bool add_kernels(const std::string& told, const fs::path& folder, std::vector<base::NewFile>& files) {
-    const std::string program = kernel_program(told);
+bool add_kernels(const std::string& given, const fs::path& folder, std::vector<base::NewFile>& files) {
+    const std::string program = kernel_program(given);
     const EndingSignals signals;
     const base::TemporaryFolder temporary;
     const fs::path counts = temporary.path() / "kernels.json", log = temporary.path() / "log";
@@ -81,7 +81,8 @@ bool baseline_command(const BaselineArguments& arguments, std::ostream& out) {
     }
     base::write_files(files);
     for (const base::NewFile& file : files) out << fmt::format("written: {}\n", file.path.string());
-    if (!kept) out << "a technique or a kernel broke its promise; see \"reason\" and \"error_message\" there\n";
+    if (!kept)
+        out << "a technique or a kernel broke its promise; see \"reason\" and \"error_message\" in these files\n";
     return kept;
 }
 

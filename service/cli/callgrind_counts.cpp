@@ -10,7 +10,7 @@
 namespace shadowbench::service {
 namespace {
 
-// The name and the count stand in the head of a dump; the lines of functions follow.
+// The name and the count of a dump. They stand in its head, before the lines of functions.
 struct Dump {
     std::string name;
     std::optional<std::uint64_t> instructions;
@@ -44,7 +44,8 @@ std::map<std::string, std::uint64_t> callgrind_counts(const std::filesystem::pat
         if (!std::filesystem::exists(file)) return counts;
         const Dump dump = read_dump(file);
         if (!dump.instructions)
-            throw base::Error(base::ErrorCode::bad_input, file.string(), "tells no number of instructions");
+            throw base::Error(base::ErrorCode::bad_input, file.string(),
+                              "not a dump of callgrind: it has no number of instructions");
         if (!dump.name.empty()) counts[dump.name] = *dump.instructions;
     }
 }

@@ -1,4 +1,4 @@
-// What callgrind counted for a program that dumps its counts under names.
+// Reads the instruction counts that callgrind dumped for a program.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace shadowbench::service {
 
-// Reads the dumps <prefix>.1, <prefix>.2, ... that client requests with a name caused: the name -> instructions. Throws
-// base::Error{bad_input}, place the file, for one that is no such dump.
+// Reads the dumps <prefix>.1, <prefix>.2, ..., each caused by a client request with a name: name -> instructions.
+// Throws base::Error{bad_input}, place the file, for a file that is not such a dump.
 std::map<std::string, std::uint64_t> callgrind_counts(const std::filesystem::path& prefix);
 
 }  // namespace shadowbench::service

@@ -19,28 +19,35 @@ namespace {
 
 using base::ErrorCode;
 
-constexpr const char* examples = R"(Examples:
-  shadowbench run scenarios/quickstart.json
-  shadowbench run scenarios/hard --verdicts results/stability.md
-  shadowbench run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64
-  shadowbench render quickstart --size 512x384 --out pictures
-  shadowbench report results/runs/quickstart --images results/images/quickstart
-  shadowbench validate smoke_vdb --data ~/volumes
-  shadowbench export quickstart --technique deep:tolerance=0.02 --out hair.dsm
-  shadowbench inspect hair.dsm
-  shadowbench list techniques
-  shadowbench reproduce lokovic2000 --quick
-  shadowbench compare nightly/monday nightly/tuesday --markdown verdict.md
-  shadowbench ab old/shadowbench build/release/shadowbench hairball --only deep
-  shadowbench ab old/kernels build/release/kernels --kernels ^compress/
-  shadowbench instructions --filter ^compress/ --out counts.json
-  shadowbench history results/nightly
-  shadowbench serve --data ~/volumes --port 8080
-  shadowbench submit quickstart --server http://127.0.0.1:8080 --wait
-  shadowbench curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json
-SCENARIO is a file, or the name of one in ./scenarios, in the folders of $SHADOWBENCH_SCENARIOS or among those installed with the program; for run also a folder.
-Results go to results/ in the current folder, unless --out names another.
-Exit codes: 0 ok; 1 slower (compare, ab); 2 a technique broke what it promises, or something is larger, less accurate or missing (compare, ab); 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
+constexpr const char* program_notes = R"(Examples:
+  shadowbench run quickstart
+  shadowbench render quickstart --out pictures
+  shadowbench compare nightly/monday nightly/tuesday
+  shadowbench serve --data ~/volumes
+
+shadowbench COMMAND --help describes a command and its options.
+A SCENARIO is a file, or the name of one in ./scenarios, in the folders of $SHADOWBENCH_SCENARIOS, or among the
+scenarios that were installed with the program. Results go to results/ in the current folder, unless --out is given.
+Exit codes: 0 success; 1 slower (compare, ab); 2 a technique broke a promise, or a measure is larger, less accurate or
+missing (compare, ab); 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
+
+// The parser with all commands.
+struct CommandLine {
+    CLI::App app{"Compares shadow-map techniques on the same scenes, against the same ray-traced reference.",
+                 "shadowbench"};
+    Commands commands;
+
+    CommandLine() {
+        const results::Program build = results::this_program();
+        app.set_version_flag("--version", fmt::format("shadowbench {} ({}, {}, {})", build.version, build.commit,
+                                                      build.compiler, build.build_type));
+        app.require_subcommand(1);
+        for (const auto add : {add_measuring_commands, add_web_commands, add_gate_commands, add_kernel_commands,
+                               add_server_commands, add_job_commands})
+            add(app, commands);
+        app.footer(program_notes);  // last: a subcommand takes on the footer that is there when it is added
+    }
+};
 
 int report(std::ostream& err, ErrorCode code, std::string message) {
     std::replace_if(
@@ -49,7 +56,7 @@ int report(std::ostream& err, ErrorCode code, std::string message) {
     return static_cast<int>(code);
 }
 
-// What CLI11 says of wrong arguments, but for an unknown command, which it calls a missing one.
+// CLI11's message, except that it calls an unknown command a missing one.
 std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
     if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
         std::string names;
@@ -61,31 +68,29 @@ std::string usage_message(const CLI::App& app, int argc, const char* const* argv
 }
 
 int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
-    const results::Program build = results::this_program();
-    CLI::App app("Shadow-map techniques held to one scene, one oracle and one clock.", "shadowbench");
-    app.set_version_flag("--version", fmt::format("shadowbench {} ({}, {}, {})", build.version, build.commit,
-                                                  build.compiler, build.build_type));
-    app.require_subcommand(1);
-    app.footer(examples);
-    Commands commands;
-    add_measuring_commands(app, commands);
-    add_gate_commands(app, commands);
-    add_kernel_commands(app, commands);
-    add_job_commands(app, commands);
-    add_server_commands(app, commands);
-    add_web_commands(app, commands);
+    CommandLine line;
     try {
-        app.parse(argc, argv);
+        line.app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return app.exit(error, out, err);
-        return report(err, ErrorCode::usage, usage_message(app, argc, argv, error));
+        if (error.get_exit_code() == 0) return line.app.exit(error, out, err);
+        return report(err, ErrorCode::usage, usage_message(line.app, argc, argv, error));
     }
-    for (const Command& command : commands)
+    for (const Command& command : line.commands)
         if (command.app->parsed()) return command.run(out, err);
     return 0;
 }
 
 }  // namespace
+
+std::string usage_fault(int argc, const char* const* argv) {
+    CommandLine line;
+    try {
+        line.app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) return usage_message(line.app, argc, argv, error);
+    }
+    return "";
+}
 
 int cli_main(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
     try {
@@ -96,12 +101,12 @@ int cli_main(int argc, const char* const* argv, std::ostream& out, std::ostream&
     } catch (const base::Error& error) {
         return report(err, error.code(), error.what());
     } catch (const Interrupted& interrupted) {
-        // Its caller shall see that a signal ended it, but only now that temporary files are gone.
+        // The temporary files are gone. Now the program ends by the signal, so that its caller sees that.
         std::signal(interrupted.signal, SIG_DFL);
         std::raise(interrupted.signal);
         return 128 + interrupted.signal;
     } catch (const std::bad_alloc&) {
-        return report(err, ErrorCode::internal, "out of memory; a smaller map or --memory-limit may help");
+        return report(err, ErrorCode::internal, "out of memory; use a smaller map or a lower --memory-limit");
     } catch (const std::exception& error) {
         return report(err, ErrorCode::internal, std::string("internal fault: ") + error.what());
     }

@@ -1,4 +1,4 @@
-// The commands, once their arguments are read. Each throws base::Error.
+// The commands that measure and read or write files, with their parsed arguments. Each throws base::Error.
 #pragma once
 
 #include <iosfwd>
@@ -16,28 +16,28 @@ struct JobArguments {
 };
 
 struct ScenarioArguments : JobArguments {
-    std::string scenario;  // a path, or a name in the scenario folders
+    std::string scenario;  // a path, or the name of one in the scenario folders
 };
 
 struct RunArguments : JobArguments {
-    std::vector<std::string> scenarios;  // each a path or a name, of a scenario or of a folder of them
+    std::vector<std::string> scenarios;  // paths or names, of scenarios or of folders with scenarios
     std::string out;                     // folder; empty: results/runs/<scenario name>
-    std::string verdicts;                // file; empty: verdicts.md beside the results of several scenarios
+    std::string verdicts;                // file; empty: verdicts.md beside the results, if there are several scenarios
 };
 
 struct RenderArguments : ScenarioArguments {
     std::string out;          // folder; empty: results/images/<scenario name>
     std::string size;         // WIDTHxHEIGHT; empty: the scenario's own
-    int rays_per_side = 1;    // squared: view rays a pixel
-    int media_lookups = 128;  // of a view ray through all media
+    int rays_per_side = 1;    // its square is the number of view rays per pixel
+    int media_lookups = 128;  // lookups per view ray, over all media
 };
 
 struct ExportArguments : ScenarioArguments {
     std::string technique = "deep";  // id:name=value,name=value
-    std::string light;               // a name, or a number from 0 on; empty: the first
+    std::string light;               // a name, or a number, from 0; empty: the first
     std::string out;                 // .exr or .dsm
-    bool rays = false;               // the light rays instead of a map
-    int tile = 16;                   // pixels a side, .dsm alone
+    bool rays = false;               // write the light rays instead of a map
+    int tile = 16;                   // side in pixels, only for .dsm
 };
 
 struct CurveArguments {
@@ -50,26 +50,26 @@ struct CurveArguments {
 
 struct ReproduceArguments {
     std::string paper = "all";      // a paper's id, or all
-    std::string out;                // folder; empty: results
+    std::string out;                // folder; empty: results/
     std::vector<std::string> data;  // folders
     bool quick = false;
     int threads = 0;  // 0: all processors
 };
 
 struct ReportArguments {
-    std::string folder;  // of result.json
-    std::string images;  // folder of images.json; empty: images/ in that folder
+    std::string folder;  // with result.json
+    std::string images;  // folder with images.json; empty: images/ in that folder
     std::string out;     // file; empty: report.html in that folder
 };
 
-// Whether every technique kept its promises in every scenario.
+// Returns whether every technique kept its promises in every scenario.
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err);
-// Whether every technique answered with visibilities.
+// Returns whether no technique failed.
 bool render_command(const RenderArguments& arguments, std::ostream& out, std::ostream& err);
-// One light's map, or its light rays, as a file.
+// Writes one light's map, or its light rays, to a file.
 void export_command(const ExportArguments& arguments, std::ostream& out, std::ostream& err);
 void inspect_command(const std::string& file, std::ostream& out);
-// All faults but the last, which is thrown, go to `err`, a line each.
+// Throws the last fault of the scenario; the others go to `err`, a line each.
 void validate_command(const ScenarioArguments& arguments, std::ostream& out, std::ostream& err);
 void list_techniques(std::ostream& out);
 void list_scenarios(std::ostream& out);

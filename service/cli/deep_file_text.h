@@ -1,4 +1,4 @@
-// A deep shadow map file in words.
+// Describes a deep shadow map file as text.
 #pragma once
 
 #include <string>
@@ -9,7 +9,8 @@ class DeepFile;
 
 namespace shadowbench::service {
 
-// What the header says and what the tiles hold. Reads and so checks every tile; throws what that throws.
+// The facts of the header, and of each level the nodes and bytes of its tiles. Reads, and so checks, every tile. Throws
+// what DeepFile::read_tile() throws.
 std::string describe(const techniques::DeepFile& file, const std::string& name);
 
 }  // namespace shadowbench::service

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using base::Error;
 using base::ErrorCode;
 
-// Whether `--out` names a tiled file; else it names a deep image.
+// Whether --out names a tiled file. Otherwise it names a deep image.
 bool is_tiled(const ExportArguments& arguments) {
     const std::string extension = fs::path(arguments.out).extension().string();
     if (extension != ".dsm" && extension != ".exr")
@@ -73,7 +73,7 @@ std::string export_functions(const ExportArguments& arguments, const bench::Cont
 std::string export_tiled(const ExportArguments& arguments, const bench::Contender& built, const std::string& text) {
     if (built.maps.parts.size() > 1)
         throw Error(ErrorCode::bad_input, "--out " + arguments.out,
-                    "a map of three channels that are stored apart does not fit one file; write it as .exr");
+                    "the map stores its three channels separately, which a .dsm cannot hold; write it as .exr");
     techniques::DeepFileNotes notes{0.0f, built.maps.layout->z_min, built.maps.layout->z_max, text};
     notes.tolerance = static_cast<float>(built.row->error_bound(built.values, *built.maps.layout));
     techniques::write_deep_file(arguments.out, techniques::levels(*built.maps.parts[0]), arguments.tile, notes);
@@ -84,7 +84,8 @@ std::string export_map(const ExportArguments& arguments, bool tiled, const bench
                        const document::TechniqueChoice& technique, const bench::ProgressCallback& progress) {
     const bench::Contender built = light.build(technique, progress);
     if (techniques::Cells::none == bench::cells(built.maps))
-        throw Error(ErrorCode::usage, "--technique " + arguments.technique, "this technique stores no functions");
+        throw Error(ErrorCode::usage, "--technique " + arguments.technique,
+                    "this technique stores no functions; choose another");
     const std::string text = title_of(light, results::title(built.cell));
     return tiled ? export_tiled(arguments, built, text) : export_functions(arguments, built, text);
 }
@@ -95,9 +96,10 @@ void export_command(const ExportArguments& arguments, std::ostream& out, std::os
     const bool tiled = is_tiled(arguments);
     const document::TechniqueChoice technique = document::read_any_technique(arguments.technique);
     if (tiled && technique.row->id != std::string("deep"))
-        throw Error(ErrorCode::usage, "--out " + arguments.out, "only technique deep is written as .dsm");
+        throw Error(ErrorCode::usage, "--out " + arguments.out,
+                    "only technique deep can be written as .dsm; write an .exr");
     const Job job = read_job(arguments);
-    { const base::PendingFile writable(arguments.out); }  // found out now, and not after all the work
+    { const base::PendingFile writable(arguments.out); }  // fails now rather than after all the work
     const base::ThreadLimit threads(job.options.threads);
     ProgressBar bar(err);
     const bench::ProgressCallback progress = [&](const bench::Progress& p) { bar.show(p); };

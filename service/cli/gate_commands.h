@@ -1,4 +1,4 @@
-// The commands of the regression gate, once their arguments are read. Each throws base::Error.
+// The commands that compare results, with their parsed arguments. Each throws base::Error.
 #pragma once
 
 #include <iosfwd>
@@ -11,16 +11,16 @@ struct VerdictArguments {
     double effect = 5.0;                 // percent
     std::vector<std::string> tolerance;  // measure=relative
     bool allow_missing = false;
-    bool all = false;                   // every line on the terminal
-    bool confirm = false;               // run again what looks slower
-    int pairs = 20;                     // interleaved; of --confirm twice as many
+    bool all = false;                   // print every line
+    bool confirm = false;               // run cells again that look slower
+    int pairs = 20;                     // of processes, in turns; ab --confirm runs twice as many
     std::string markdown, junit, json;  // files; "-": standard output; empty: none
-    std::vector<std::string> data;      // folders, for what is run
+    std::vector<std::string> data;      // folders with the data of scenarios that are run
 };
 
 struct CompareArguments : VerdictArguments {
     std::string baseline, current;   // files or folders
-    std::string binary_a, binary_b;  // builds of both sides for --confirm; empty: only the present program
+    std::string binary_a, binary_b;  // builds for --confirm; binary_b empty: this program
 };
 
 struct AbArguments : VerdictArguments {
@@ -29,7 +29,7 @@ struct AbArguments : VerdictArguments {
     std::string kernels;     // a regular expression; empty: a scenario
     double min_time = 0.05;  // seconds of one kernel in one process
     std::vector<std::string> set, only;
-    std::string out;  // folder that keeps the results; empty: none is kept
+    std::string out;  // folder of the results; empty: they are deleted
 };
 
 struct HistoryArguments {
@@ -39,7 +39,7 @@ struct HistoryArguments {
     double effect = 5.0;  // percent
 };
 
-// The exit codes: 0, 1 (slower) or 2 (larger, less accurate, missing).
+// Return the exit code: 0, 1 (slower) or 2 (larger, less accurate, missing).
 int compare_command(const CompareArguments& arguments, std::ostream& out, std::ostream& err);
 int ab_command(const AbArguments& arguments, std::ostream& out, std::ostream& err);
 void history_command(const HistoryArguments& arguments, std::ostream& out);

@@ -27,9 +27,9 @@ using base::Error;
 using base::ErrorCode;
 using json = nlohmann::ordered_json;
 
-// The C library chooses its functions by what the processor can do: these features are hidden from it, so that as many
-// processors as can be count alike, and symbols are bound before anything is counted.
-constexpr const char* surroundings[] = {
+// The environment of the program that is counted. The C library chooses its functions by the features of the processor;
+// hiding these features makes the counts of different processors comparable. Symbols are bound before counting starts.
+constexpr const char* environment[] = {
     "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX512BW,-AVX2,-AVX,-FMA,-ERMS", "LD_BIND_NOW=1"};
 
 std::string find_valgrind() {
@@ -39,28 +39,27 @@ std::string find_valgrind() {
         const fs::path program = fs::path(folder) / "valgrind";
         if (access(program.c_str(), X_OK) == 0) return program.string();
     }
-    throw Error(ErrorCode::no_such_file, "valgrind",
-                "it is not installed, so no instructions are counted; install the package valgrind");
+    throw Error(ErrorCode::no_such_file, "valgrind", "the program is not in $PATH; install the package valgrind");
 }
 
-// What the program itself said last: valgrind's own lines begin with "==".
+// The last line that the program itself wrote: valgrind's lines begin with "==".
 std::string last_line(const std::string& text) {
     std::istringstream lines(text);
-    std::string last = "it said nothing";
+    std::string last = "it wrote nothing";
     for (std::string line; std::getline(lines, line);)
         if (!line.empty() && line.rfind("==", 0) != 0) last = line;
     return last;
 }
 
-std::vector<std::string> arguments_of(const InstructionArguments& told, const std::string& program,
+std::vector<std::string> arguments_of(const InstructionArguments& given, const std::string& program,
                                       const std::string& valgrind, const fs::path& folder) {
-    std::vector<std::string> arguments(std::begin(surroundings), std::end(surroundings));
+    std::vector<std::string> arguments(std::begin(environment), std::end(environment));
     arguments.insert(arguments.end(),
                      {valgrind, "--tool=callgrind", "--instr-atstart=no",
                       "--callgrind-out-file=" + (folder / "counts").string(), program, "--benchmark_min_time=0",
                       "--benchmark_out_format=json", "--benchmark_out=" + (folder / "kernels.json").string()});
-    if (!told.filter.empty()) arguments.push_back("--benchmark_filter=" + told.filter);
-    arguments.insert(arguments.end(), told.arguments.begin(), told.arguments.end());
+    if (!given.filter.empty()) arguments.push_back("--benchmark_filter=" + given.filter);
+    arguments.insert(arguments.end(), given.arguments.begin(), given.arguments.end());
     return arguments;
 }
 
@@ -72,15 +71,15 @@ json read_kernels(const fs::path& file, const std::string& log) {
     }
 }
 
-// Times under callgrind say nothing: the counts stand in their place.
-void put_in(const std::map<std::string, std::uint64_t>& counts, json& kernels) {
+// Puts the counts in the place of the times, which mean nothing under callgrind.
+void put_counts(const std::map<std::string, std::uint64_t>& counts, json& kernels) {
     for (json& kernel : kernels.at("benchmarks")) {
         for (const char* time : {"iterations", "real_time", "cpu_time", "time_unit"}) kernel.erase(time);
         if (kernel.contains("error_occurred")) continue;
         const auto count = counts.find(kernel.at("name").get<std::string>());
         if (count == counts.end())
             throw Error(ErrorCode::internal, kernel.at("name").get<std::string>(),
-                        "callgrind has not counted this kernel; was the program built with valgrind/callgrind.h?");
+                        "callgrind did not count this kernel; build the program with valgrind/callgrind.h");
         kernel["instructions"] = count->second;
     }
 }
@@ -97,8 +96,8 @@ void print(const json& kernels, std::ostream& out) {
 
 }  // namespace
 
-std::string kernel_program(const std::string& told) {
-    const std::string program = told.empty() ? (fs::path(this_program()).parent_path() / "kernels").string() : told;
+std::string kernel_program(const std::string& given) {
+    const std::string program = given.empty() ? (fs::path(this_program()).parent_path() / "kernels").string() : given;
     check_program(program);
     return program;
 }
@@ -109,12 +108,12 @@ bool instructions_command(const InstructionArguments& arguments, std::ostream& o
     const base::TemporaryFolder folder;
     const fs::path log = folder.path() / "log";
     const int code = run_child("/usr/bin/env", arguments_of(arguments, program, find_valgrind(), folder.path()), log);
-    const std::string said = base::read_text(log);
+    const std::string output = base::read_text(log);
     if (code != 0 && code != wrong_answer)
         throw Error(ErrorCode::internal, program,
-                    fmt::format("ended with exit code {} under callgrind: {}", code, last_line(said)));
-    json kernels = read_kernels(folder.path() / "kernels.json", said);
-    put_in(callgrind_counts(folder.path() / "counts"), kernels);
+                    fmt::format("ended with exit code {} under callgrind: {}", code, last_line(output)));
+    json kernels = read_kernels(folder.path() / "kernels.json", output);
+    put_counts(callgrind_counts(folder.path() / "counts"), kernels);
     base::write_files({{arguments.out, kernels.dump(2) + "\n"}});
     print(kernels, out);
     out << fmt::format("written: {}\n", arguments.out);

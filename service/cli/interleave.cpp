@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using base::Error;
 using base::ErrorCode;
 
-// What a child said last; it is the error where it failed.
+// The last line that a process wrote. That is its error if it failed.
 std::string last_line(const fs::path& log) {
     std::istringstream text(base::read_text(log));
     std::string last;
@@ -52,17 +52,17 @@ void run_once(const Turns& turns, bool is_b, int pair, const fs::path& folder) {
         arguments.insert(arguments.end(), {"--out", place.string()});
     }
     const int code = run_child(program, arguments, log);
-    constexpr int promise_broken = 2;  // a result all the same
+    constexpr int promise_broken = 2;  // it wrote a result
     const bool written = fs::exists(result);
     if (code != 0 && !(code == promise_broken && written))
         throw Error(code_of_child(code), fmt::format("{} ({}), exit code {}", program, is_b ? "B" : "A", code),
                     last_line(log));
-    if (!written) throw Error(ErrorCode::internal, program, "ended well, but wrote no result");
-    if (turns.kernels && fs::file_size(result) == 0)  // Google Benchmark's way to say so
+    if (!written) throw Error(ErrorCode::internal, program, "ended with exit code 0 but wrote no result");
+    if (turns.kernels && fs::file_size(result) == 0)  // Google Benchmark reports wrong filters so
         throw Error(ErrorCode::usage, program + " --kernels", last_line(log));
 }
 
-// Older builds take no result.json in a scenario's place.
+// The scenario of a result.json, as a file: older builds cannot run a result.json.
 std::string scenario_of(const std::string& source, const fs::path& folder) {
     std::error_code failed;
     if (!fs::is_regular_file(source, failed)) return source;
@@ -80,7 +80,8 @@ void run_turns(const Turns& turns, const fs::path& folder, std::ostream& err) {
     check_program(turns.binary_b);
     for (const char* side : {"a", "b"})
         if (fs::exists(folder / side))
-            throw Error(ErrorCode::usage, (folder / side).string(), "is there already; results would be mixed");
+            throw Error(ErrorCode::usage, (folder / side).string(),
+                        "already exists; choose a new folder, so that results do not mix");
     std::error_code failed;
     for (const char* side : {"a", "b"}) {
         fs::create_directories(folder / side, failed);
@@ -90,7 +91,7 @@ void run_turns(const Turns& turns, const fs::path& folder, std::ostream& err) {
     const auto total = static_cast<std::size_t>(turns.pairs) * 2;
     for (int pair = 0; pair < turns.pairs; ++pair)
         for (const bool second : {false, true}) {
-            const bool is_b = second == (pair % 2 == 0);  // neither always goes first
+            const bool is_b = second == (pair % 2 == 0);  // A and B take turns to go first
             bar.show({fmt::format("{} pair {}/{}", turns.what, pair + 1, turns.pairs), is_b ? "B" : "A",
                       static_cast<std::size_t>(pair) * 2 + second, total});
             run_once(turns, is_b, pair, folder);
@@ -108,7 +109,7 @@ compare::Comparison compare_turns(const Turns& turns, const fs::path& folder, co
 }
 
 void confirm_with_turns(compare::Comparison& first, Turns turns, const compare::Options& options, std::ostream& err) {
-    // Cells that one process can run together; they are of one result, so of one suite.
+    // Cells that one process can run together. They come from one result, and so from one suite.
     struct Group {
         std::string suite;
         std::map<std::string, compare::Rerun> cells;
@@ -122,7 +123,7 @@ void confirm_with_turns(compare::Comparison& first, Turns turns, const compare::
         group.suite = line.suite;
         group.cells[line.cell] = line.rerun;
     }
-    // Holm's correction is over one group; that none of all groups raises a false alarm takes Bonferroni's.
+    // compare() corrects for the cells of one group (Holm); Bonferroni's correction covers all groups.
     compare::Options each = options;
     each.alpha /= static_cast<double>(std::max<std::size_t>(groups.size(), 1));
     compare::Comparison again;
@@ -139,7 +140,7 @@ void confirm_with_turns(compare::Comparison& first, Turns turns, const compare::
         compare::Comparison fresh = compare_turns(turns, folder.path(), each);
         again.enough = std::max(again.enough, fresh.enough);
         for (compare::Line& line : fresh.lines) {
-            line.suite = group.suite;  // whose name may have been told from others by its hash
+            line.suite = group.suite;  // its name may carry a hash that tells it apart
             again.lines.push_back(std::move(line));
         }
     }

@@ -1,4 +1,4 @@
-// Two builds, in turns.
+// Runs two builds in turns and compares their results.
 #pragma once
 
 #include <filesystem>
@@ -11,22 +11,22 @@
 namespace shadowbench::service {
 
 struct Turns {
-    std::string binary_a, binary_b;      // the same twice is an A/A comparison
-    std::vector<std::string> arguments;  // of both
-    bool kernels = false;                // programs of Google Benchmark, not shadowbench
+    std::string binary_a, binary_b;      // the same build twice: an A/A comparison
+    std::vector<std::string> arguments;  // of both builds
+    bool kernels = false;                // the programs use Google Benchmark; they are not shadowbench
     int pairs = 20;
-    std::string what;  // for the progress bar
+    std::string what;  // title in the progress bar
 };
 
-// Runs A B, B A, A B, ...: each process leaves its result in folder/a or folder/b, and the folder is marked as
-// interleaved. Throws Error: a child that fails, with its exit code and the last line it wrote.
+// Runs A B, B A, A B, ... Each process leaves its result in folder/a or folder/b, and the folder is marked as
+// interleaved. Throws Error for a process that fails, with its exit code and the last line that it wrote.
 void run_turns(const Turns& turns, const std::filesystem::path& folder, std::ostream& err);
 
-// The results of run_turns(), compared in pairs.
+// Compares the results of run_turns() in pairs.
 compare::Comparison compare_turns(const Turns& turns, const std::filesystem::path& folder,
                                   const compare::Options& options);
 
-// Fresh pairs of the cells that look slower, in place of the first look's verdict (compare::confirm).
+// Runs new pairs of the cells that look slower. Their verdicts replace those of `first` (compare::confirm).
 void confirm_with_turns(compare::Comparison& first, Turns turns, const compare::Options& options, std::ostream& err);
 
 }  // namespace shadowbench::service

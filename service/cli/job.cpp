@@ -42,11 +42,11 @@ Job read_job(const ScenarioArguments& arguments) {
     return read_job(arguments, find_scenario(arguments.scenario));
 }
 
-fs::path output_folder(const std::string& told, const fs::path& otherwise, const nlohmann::json& document) {
-    if (!told.empty()) return told;
+fs::path output_folder(const std::string& given, const fs::path& parent, const nlohmann::json& document) {
+    if (!given.empty()) return given;
     const auto name = document.is_object() ? document.find("name") : document.end();
     const bool named = name != document.end() && name->is_string() && !name->get_ref<const std::string&>().empty();
-    return otherwise / (named ? fs::path(name->get<std::string>()).filename() : fs::path("unnamed"));
+    return parent / (named ? fs::path(name->get<std::string>()).filename() : fs::path("unnamed"));
 }
 
 }  // namespace shadowbench::service

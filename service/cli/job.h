@@ -1,4 +1,4 @@
-// What the commands that take a scenario share: arguments -> document and options.
+// Turns the arguments that the commands with a scenario share into the document and the options of a run.
 #pragma once
 
 #include <filesystem>
@@ -17,12 +17,12 @@ struct Job {
     bench::RunOptions options;
 };
 
-// `scenario` may be a result.json too: the scenario it holds is run again. Throws base::Error.
+// `scenario` may also be a result.json: it stands for the scenario that it holds. Throws base::Error.
 Job read_job(const JobArguments& arguments, const std::filesystem::path& scenario);
 Job read_job(const ScenarioArguments& arguments);
 
-// As told, or in `otherwise` by the scenario's name.
-std::filesystem::path output_folder(const std::string& told, const std::filesystem::path& otherwise,
+// The folder `given`, or, where that is empty, one in `parent` with the scenario's name.
+std::filesystem::path output_folder(const std::string& given, const std::filesystem::path& parent,
                                     const nlohmann::json& document);
 
 }  // namespace shadowbench::service

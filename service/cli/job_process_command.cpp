@@ -23,6 +23,7 @@
 #include "scene/scenario.h"
 #include "service/jobs/fraction.h"
 #include "service/jobs/progress_line.h"
+#include "service/privacy/hidden_folders.h"
 
 namespace shadowbench::service {
 namespace {
@@ -33,15 +34,15 @@ using base::ErrorCode;
 
 constexpr std::chrono::milliseconds between_lines{100};
 
-// Lines of progress: of each stage the first, and of the others no more than ten a second.
+// Writes lines of progress: the first of each stage, and at most ten per second of the others.
 class Reporter {
 public:
     explicit Reporter(std::ostream& out) : out_(out) {}
 
-    void tell(const bench::Progress& progress, double fraction) {
+    void report(const bench::Progress& progress, double fraction) {
         const auto now = std::chrono::steady_clock::now();
-        if (progress.stage == stage_ && progress.place == place_ && now - told_ < between_lines) return;
-        told_ = now;
+        if (progress.stage == stage_ && progress.place == place_ && now - reported_ < between_lines) return;
+        reported_ = now;
         stage_ = progress.stage;
         place_ = progress.place;
         out_ << progress_line(progress, fraction) << '\n' << std::flush;
@@ -49,17 +50,17 @@ public:
 
 private:
     std::ostream& out_;
-    std::chrono::steady_clock::time_point told_{};
+    std::chrono::steady_clock::time_point reported_{};
     std::string stage_, place_;
 };
 
-// The lights of a variant; a deep image is one.
+// The number of lights of a variant; a deep image counts as one.
 std::size_t lights_of(const document::Variant& variant) {
     const auto lights = variant.document->find("lights");
     return lights == variant.document->end() ? 1 : std::max<std::size_t>(lights->size(), 1);
 }
 
-// Whether there is a world that a camera could see.
+// Whether the scene has objects for a camera to see; a deep image has none.
 bool has_objects(const document::Variant& variant) {
     return variant.document->at("scene").contains("objects");
 }
@@ -70,33 +71,35 @@ JobFraction make_fraction(const std::vector<document::Variant>& variants, bool p
     return {lights, pictures ? lights_of(variants.front()) : 0};
 }
 
+// Draws into `folder`. Clients can read the fault that it leaves there.
 void draw(const nlohmann::json& document, const bench::RunOptions& run, const fs::path& folder,
-          const bench::ProgressCallback& progress) {
+          const std::vector<HiddenFolder>& hidden, const bench::ProgressCallback& progress) {
     try {
         render::RenderOptions options;
         options.run = run;
         render::write_pictures(folder, render::render(document, options, progress));
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_input) throw;
-        base::write_files({{folder / "error.json", error_line(error) + "\n"}});
+        base::write_files({{folder / "error.json", error_line(hide(error, hidden)) + "\n"}});
     }
 }
 
-// Whether a place is in the job's own folder: what fails there is the server's storage.
+// Whether the place of an error is in the job's own folder, which is the server's storage.
 bool is_in(const std::string& folder, const std::string& place) {
-    const std::string as_told = Error(ErrorCode::io, folder, "").where();  // as places of errors are written
-    return place == as_told || place.starts_with(as_told + "/");
+    const std::string printed = Error(ErrorCode::io, folder, "").where();  // as errors write it
+    return place == printed || place.starts_with(printed + "/");
 }
 
-// What no other disk would take either, as a name that is too long, is the job's fault.
+// Whether storage failed. An error that any disk would report, such as a name that is too long, is the job's fault.
 bool is_of_storage(const std::error_code& why) {
-    for (const std::errc of_job : {std::errc::filename_too_long, std::errc::file_too_large, std::errc::invalid_argument,
-                                   std::errc::is_a_directory, std::errc::not_a_directory, std::errc::file_exists})
-        if (why == of_job) return false;
+    for (const std::errc job_fault :
+         {std::errc::filename_too_long, std::errc::file_too_large, std::errc::invalid_argument,
+          std::errc::is_a_directory, std::errc::not_a_directory, std::errc::file_exists})
+        if (why == job_fault) return false;
     return static_cast<bool>(why);
 }
 
-// Nothing: it is a fault of the job.
+// The fault of the server's storage that the error means; nothing for a fault of the job.
 std::optional<StorageFault> storage_fault(const Error& error, const std::string& folder) {
     if (!is_in(folder, error.where())) return std::nullopt;
     if (const auto* write = dynamic_cast<const base::WriteError*>(&error))
@@ -120,35 +123,35 @@ bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
     bool kept = true;
     {
         const results::Result result = bench::run(document, options, [&](const bench::Progress& progress) {
-            reporter.tell(progress, fraction.measuring(progress));
+            reporter.report(progress, fraction.measuring(progress));
         });
         base::write_files({{folder / "table.txt", results::to_table(result)}});
         results::write_result(folder, result);
         kept = !results::any_failed(result);
     }
     if (pictures)
-        draw(document, options, folder / "images",
-             [&](const bench::Progress& progress) { reporter.tell(progress, fraction.picturing(progress)); });
+        draw(document, options, folder / "images", hidden_folders(arguments.folder, arguments.data),
+             [&](const bench::Progress& progress) { reporter.report(progress, fraction.picturing(progress)); });
     return kept;
 }
 
 }  // namespace
 
 bool job_process_command(const JobProcessArguments& arguments, std::ostream& out) {
-    const auto tell = [&](const Error& error) { out << error_line(error) << '\n' << std::flush; };
+    const auto report = [&](const Error& error) { out << error_line(error) << '\n' << std::flush; };
     try {
         return run_job(arguments, out);
     } catch (const Error& error) {
         if (const auto fault = storage_fault(error, arguments.folder))
             out << storage_line(*fault) << '\n' << std::flush;
         else
-            tell(error);
+            report(error);
         throw;
     } catch (const std::bad_alloc&) {
-        tell({ErrorCode::internal, "", "out of memory; a smaller map or fewer samples may help"});
+        report({ErrorCode::internal, "", "out of memory; use a smaller map or fewer samples"});
         throw;
-    } catch (const std::exception&) {  // its text goes to this process's log, not to clients
-        tell({ErrorCode::internal, "", "internal fault"});
+    } catch (const std::exception&) {  // clients do not get its text
+        report({ErrorCode::internal, "", "internal fault"});
         throw;
     }
 }

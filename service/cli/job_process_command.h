@@ -1,4 +1,4 @@
-// What a server's job runs as, in a process of its own.
+// The command that a server runs for each job, in a child process.
 #pragma once
 
 #include <iosfwd>
@@ -14,10 +14,10 @@ struct JobProcessArguments {
     bool pictures = true;
 };
 
-// Runs the folder's scenario.json: writes result.json and result.csv there and, where the scene has objects, images/ as
-// render does. What only the pictures lack, as something to see, stands in images/error.json: the result is whole
-// without them. Progress, and a fault before it is thrown, are lines of JSON on `out`: see
-// service/jobs/progress_line.h. Whether every technique kept its promises.
+// Runs the folder's scenario.json: writes result.json, result.csv and table.txt there and, where the scene has objects,
+// images/ as render does. An error that prevents only the pictures, such as an empty view, goes to images/error.json;
+// the result is complete without them. Progress, and an error before it is thrown, are lines of JSON on `out`: see
+// service/jobs/progress_line.h. Returns whether every technique kept its promises.
 bool job_process_command(const JobProcessArguments& arguments, std::ostream& out);
 
 }  // namespace shadowbench::service

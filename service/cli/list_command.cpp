@@ -78,7 +78,7 @@ void list_techniques(std::ostream& out) {
 }
 
 void list_scenarios(std::ostream& out) {
-    std::set<fs::path> files, names;  // names: below their folders, by which they are found in the first that has them
+    std::set<fs::path> files, names;  // names: relative to their folders; the first folder that has a name wins
     std::error_code ignored;
     for (const fs::path& folder : scenario_folders())
         for (fs::recursive_directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
@@ -89,8 +89,8 @@ void list_scenarios(std::ostream& out) {
     if (files.empty())
         throw base::Error(
             base::ErrorCode::no_such_file, "scenarios",
-            "there is none in ./scenarios, and none was installed with the program; set SHADOWBENCH_SCENARIOS "
-            "to folders that hold some");
+            "./scenarios has none, and none was installed with the program; set SHADOWBENCH_SCENARIOS to folders "
+            "that have some");
     std::vector<Listed> list;
     std::size_t width = 0;
     for (const fs::path& file : files) {

@@ -1,8 +1,10 @@
-// The commands with their options, a group a file.
+// The commands with their options, a file for each group of the program's --help.
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 namespace CLI {
@@ -18,16 +20,27 @@ struct Command {
 };
 using Commands = std::vector<Command>;
 
-constexpr int promise_broken = 2;  // exit code: less accurate than a technique says
+constexpr int promise_broken = 2;  // exit code: a technique is less accurate than it promises
 
-// One value an option, as often as the option is given: a positional argument after it stays one.
+// The option may be given several times, with one value each time. A positional argument may follow it.
 void repeatable(CLI::Option* option);
 
-// Each adds its subcommands to the application, and what each runs once the arguments are parsed.
+// Groups of subcommands, as the program's --help heads them, in its order.
+namespace command_groups {
+inline constexpr const char *measure = "Measure scenarios", *files = "Read and write files",
+                            *compare = "Compare results over time", *serve = "Run a server";
+}
+
+// Puts a subcommand into a group, and its examples, each a line of arguments that begins with its name, at the end of
+// its --help. `notes` follow them.
+void set_help(CLI::App& command, const char* group, std::initializer_list<const char*> examples,
+              const std::string& notes = "");
+
+// Each adds its subcommands to the application, and to `commands` what they run once the arguments are parsed.
 void add_measuring_commands(CLI::App& app, Commands& commands);
 void add_job_commands(CLI::App& app, Commands& commands);
 void add_server_commands(CLI::App& app, Commands& commands);
-void add_gate_commands(CLI::App& app, Commands& commands);  // compare, ab, history
+void add_gate_commands(CLI::App& app, Commands& commands);
 void add_kernel_commands(CLI::App& app, Commands& commands);
 void add_web_commands(CLI::App& app, Commands& commands);
 

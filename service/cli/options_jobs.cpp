@@ -8,17 +8,18 @@
 
 namespace shadowbench::service {
 
-// Hidden: the server runs it, and nobody types it.
+// Not in --help: the server runs it.
 void add_job_commands(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<JobProcessArguments>();
     CLI::App* job = app.add_subcommand("job", "Run FOLDER/scenario.json as a job of a server");
     job->group("");
-    job->add_option("FOLDER", arguments->folder, "Where the scenario is and the results go")->required();
-    job->add_option("--data", arguments->data, "The folders to look for data in, and no others");
-    job->add_option("--memory-limit", arguments->memory_limit, "GiB; what surely needs more is refused")
+    job->add_option("FOLDER", arguments->folder, "Folder of scenario.json; the results go there too")->required();
+    job->add_option("--data", arguments->data, "Look for data only in these folders");
+    job->add_option("--memory-limit", arguments->memory_limit,
+                    "GiB of memory. A scenario that certainly needs more is refused")
         ->check(CLI::Range(0.001, 1e6))
         ->capture_default_str();
-    job->add_flag("!--no-pictures", arguments->pictures, "Measure alone");
+    job->add_flag("!--no-pictures", arguments->pictures, "Measure, but render no pictures");
     commands.push_back(
         {job, [arguments](std::ostream& out, std::ostream&) { return job_process_command(*arguments, out) ? 0 : 2; }});
 }

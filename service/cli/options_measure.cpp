@@ -14,9 +14,17 @@ void repeatable(CLI::Option* option) {
     option->allow_extra_args(false);
 }
 
+void set_help(CLI::App& command, const char* group, std::initializer_list<const char*> examples,
+              const std::string& notes) {
+    command.group(group);
+    std::string footer = examples.size() == 1 ? "Example:" : "Examples:";
+    for (const char* example : examples) footer += std::string("\n  shadowbench ") + example;
+    command.footer(footer + (notes.empty() ? "" : "\n") + notes);
+}
+
 namespace {
 
-// CLI::Range lets what is not a number through.
+// CLI::Range accepts NaN.
 CLI::Validator in_range(double least, double most) {
     const CLI::Range range(least, most);
     return {[range](std::string& text) {
@@ -31,50 +39,59 @@ CLI::Validator in_range(double least, double most) {
 void add_job_options(CLI::App& command, JobArguments& arguments) {
     repeatable(command.add_option("--set", arguments.set,
                                   "path=value: change one value of the scenario, as in rays.samples_per_pixel=64 or "
-                                  "/techniques/0/tolerance=0.01; a sweep over it is dropped"));
-    repeatable(command.add_option("--data", arguments.data,
-                                  "A folder to look for data in; before $SHADOWBENCH_DATA, the scenario's folder, its "
-                                  "data/, and scenarios/data"));
-    command.add_option("--threads", arguments.threads, "Threads of capture and checks; 0: all (times are of one)")
+                                  "/techniques/0/tolerance=0.01. A sweep over that value is dropped"));
+    repeatable(
+        command.add_option("--data", arguments.data,
+                           "Look for data in this folder first, then in $SHADOWBENCH_DATA, the scenario's folder, its "
+                           "data/, and scenarios/data"));
+    command
+        .add_option(
+            "--threads", arguments.threads,
+            "Threads that capture and check; 0: one for each processor. Times are always measured on one thread")
         ->check(CLI::Range(0, 4096));
-    command.add_option("--memory-limit", arguments.memory_limit, "GiB; what surely needs more is refused")
+    command
+        .add_option("--memory-limit", arguments.memory_limit,
+                    "GiB of memory. A scenario that certainly needs more is refused")
         ->check(in_range(0.001, 1e6))
         ->capture_default_str();
 }
 
 void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
-    command.add_option("SCENARIO", arguments.scenario, "A scenario file, or its name")->required();
+    command.add_option("SCENARIO", arguments.scenario, "A scenario file, or the name of one")->required();
     add_job_options(command, arguments);
 }
 
 void add_folder_option(CLI::App& command, std::string& folder, const char* text) {
     command.add_option("--out", folder, text)->check([](const std::string& name) {
-        return std::string(name.empty() ? "the folder has no name" : "");
+        return std::string(name.empty() ? "the name of the folder is empty" : "");
     });
 }
 
 void add_only_option(CLI::App& command, JobArguments& arguments) {
-    repeatable(command.add_option("--only", arguments.only, "Only techniques of this type"));
+    repeatable(command.add_option("--only", arguments.only, "Measure only techniques of this type"));
 }
 
 void add_run(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<RunArguments>();
-    CLI::App* run = app.add_subcommand("run",
-                                       "Run scenarios: print a table, write result.json and result.csv; of several "
-                                       "also a verdict per technique and scenario");
+    CLI::App* run = app.add_subcommand("run", "Measure scenarios: print a table, write result.json and result.csv");
+    set_help(*run, command_groups::measure,
+             {"run quickstart", "run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64",
+              "run scenarios/hard --verdicts results/stability.md"},
+             "Exit codes: 0; 2 a technique broke a promise; others as in shadowbench --help.");
     run->add_option("SCENARIO", arguments->scenarios,
-                    "Scenario files, their names, or folders: each *.json directly in one. All are checked before the "
-                    "first is run")
+                    "Scenario files, their names, or folders (every *.json directly in the folder). All are checked "
+                    "before the first runs")
         ->required();
     add_job_options(*run, *arguments);
     add_only_option(*run, *arguments);
     add_folder_option(*run, arguments->out,
-                      "Folder of the results [results/runs/<scenario name>, in the current folder]; of several "
-                      "scenarios or a folder, each gets DIR/<scenario name>");
+                      "Folder of the results [results/runs/<scenario name>, in the current folder]. Each of several "
+                      "scenarios gets the folder DIR/<scenario name>");
     run->add_option("--verdicts", arguments->verdicts,
-                    "Markdown file of the verdicts [of several scenarios or a folder: verdicts.md in the folder of "
-                    "the results]")
-        ->check([](const std::string& name) { return std::string(name.empty() ? "the file has no name" : ""); });
+                    "Markdown file with a verdict per scenario and technique [for several scenarios or a folder: "
+                    "verdicts.md in the folder of the results]")
+        ->check(
+            [](const std::string& name) { return std::string(name.empty() ? "the name of the file is empty" : ""); });
     commands.push_back({run, [arguments](std::ostream& out, std::ostream& err) {
                             return run_command(*arguments, out, err) ? 0 : promise_broken;
                         }});
@@ -82,19 +99,21 @@ void add_run(CLI::App& app, Commands& commands) {
 
 void add_render(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<RenderArguments>();
-    CLI::App* render = app.add_subcommand(
-        "render", "Render what the camera sees through every technique: pictures as EXR and PNG, and images.json");
+    CLI::App* render = app.add_subcommand("render", "Render the camera's view with every technique's shadows");
+    set_help(*render, command_groups::measure,
+             {"render quickstart --size 512x384 --out pictures", "render hairball --only deep --view-rays 2"},
+             "Writes EXR and PNG pictures, and images.json, which lists them.");
     add_scenario_options(*render, *arguments);
     add_only_option(*render, *arguments);
     add_folder_option(*render, arguments->out,
                       "Folder of the pictures [results/images/<scenario name>, in the current folder]");
     render->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels [the scenario's own]");
-    render->add_option("--view-rays", arguments->rays_per_side, "N x N view rays a pixel: smooth edges and hair")
+    render->add_option("--view-rays", arguments->rays_per_side, "N x N view rays per pixel, for smooth edges and hair")
         ->check(CLI::Range(1, 8))
         ->capture_default_str();
     render
         ->add_option("--media-lookups", arguments->media_lookups,
-                     "Lookups along a view ray through all media of the scene")
+                     "Lookups per view ray, over all media that it crosses")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
     commands.push_back({render, [arguments](std::ostream& out, std::ostream& err) {
@@ -105,6 +124,8 @@ void add_render(CLI::App& app, Commands& commands) {
 void add_validate(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<ScenarioArguments>();
     CLI::App* validate = app.add_subcommand("validate", "Check a scenario and its files without running it");
+    set_help(*validate, command_groups::measure,
+             {"validate quickstart --set rays.resolution=1024", "validate smoke_vdb --data ~/volumes"});
     add_scenario_options(*validate, *arguments);
     add_only_option(*validate, *arguments);
     commands.push_back({validate, [arguments](std::ostream& out, std::ostream& err) {
@@ -115,18 +136,23 @@ void add_validate(CLI::App& app, Commands& commands) {
 
 void add_export(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<ExportArguments>();
-    CLI::App* exported = app.add_subcommand("export", "Write one light's map, or its light rays, for other programs");
+    CLI::App* exported = app.add_subcommand("export", "Write one light's map, or its light rays, as a file");
+    set_help(*exported, command_groups::files,
+             {"export quickstart --technique deep:tolerance=0.02 --out hair.dsm",
+              "export quickstart --technique avsm:nodes=8 --light 0 --out map.exr",
+              "export quickstart --rays --out rays.exr"});
     add_scenario_options(*exported, *arguments);
     exported
         ->add_option("--out", arguments->out,
-                     "FILE.exr: deep OpenEXR, any technique that stores functions; FILE.dsm: tiled file, deep alone")
+                     "FILE.exr: a deep OpenEXR image, for every technique that stores functions; FILE.dsm: a tiled "
+                     "deep shadow map, only for technique deep")
         ->required();
     CLI::Option* technique =
         exported->add_option("--technique", arguments->technique, "id:name=value,name=value")->capture_default_str();
-    exported->add_flag("--rays", arguments->rays, "The captured light rays instead of a technique's map")
+    exported->add_flag("--rays", arguments->rays, "Write the captured light rays instead of a technique's map")
         ->excludes(technique);
-    exported->add_option("--light", arguments->light, "A light's name, or its number from 0 on [the first]");
-    exported->add_option("--tile", arguments->tile, "Pixels a side of a tile of FILE.dsm")
+    exported->add_option("--light", arguments->light, "A light's name, or its number, from 0 [the first light]");
+    exported->add_option("--tile", arguments->tile, "Side of a tile of FILE.dsm, in pixels")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     commands.push_back({exported, [arguments](std::ostream& out, std::ostream& err) {
@@ -137,7 +163,8 @@ void add_export(CLI::App& app, Commands& commands) {
 
 void add_inspect(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<std::string>();
-    CLI::App* inspect = app.add_subcommand("inspect", "Check a tiled deep shadow map file and tell what it holds");
+    CLI::App* inspect = app.add_subcommand("inspect", "Check a tiled deep shadow map file and describe it");
+    set_help(*inspect, command_groups::files, {"inspect hair.dsm"});
     inspect->add_option("FILE", *arguments, "A .dsm file")->required();
     commands.push_back({inspect, [arguments](std::ostream& out, std::ostream&) {
                             inspect_command(*arguments, out);
@@ -148,6 +175,7 @@ void add_inspect(CLI::App& app, Commands& commands) {
 void add_list(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<std::string>();
     CLI::App* list = app.add_subcommand("list", "List the techniques with their parameters, or the scenarios");
+    set_help(*list, command_groups::measure, {"list techniques", "list scenarios"});
     list->add_option("WHAT", *arguments, "techniques or scenarios")
         ->required()
         ->check(CLI::IsMember({"techniques", "scenarios"}));
@@ -159,15 +187,20 @@ void add_list(CLI::App& app, Commands& commands) {
 
 void add_curve(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<CurveArguments>();
-    CLI::App* curve = app.add_subcommand("curve", "Store given functions of depth: nodes, bytes, errors, times");
+    CLI::App* curve = app.add_subcommand("curve", "Compress visibility functions from a text file");
+    set_help(*curve, command_groups::measure,
+             {"curve functions.txt --technique deep:tolerance=0.01 --technique avsm:nodes=8 --json",
+              "curve functions.txt --technique deep --dump stored.txt"},
+             "Prints the nodes, bytes, errors and times of each technique.");
     curve
         ->add_option("FUNCTIONS", arguments->functions,
-                     "Text file of records: a line n, then n lines `z T`; z non-decreasing, T non-increasing in [0, 1]")
+                     "Text file of records: a line n, then n lines `z T`. z does not decrease; T is in [0, 1] and does "
+                     "not increase")
         ->required();
     repeatable(curve->add_option("--technique", arguments->techniques,
                                  "id:name=value,name=value [deep:tolerance=0.02 and avsm:nodes=8]"));
     curve->add_option("--dump", arguments->dump,
-                      "Write the stored functions here in the same format; with several techniques, to "
+                      "Write the stored functions to this file, in the same format; for several techniques to "
                       "FILE.1-<id>, FILE.2-<id>, ...");
     curve->add_flag("--json", arguments->json, "Print JSON instead of a table");
     curve->add_option("--repetitions", arguments->repetitions, "Timed passes")
@@ -184,14 +217,19 @@ void add_curve(CLI::App& app, Commands& commands) {
 void add_reproduce(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<ReproduceArguments>();
     CLI::App* reproduce =
-        app.add_subcommand("reproduce", "Measure the claims of the papers again: a report with a verdict a claim");
+        app.add_subcommand("reproduce", "Measure the claims of the papers again, with a verdict each");
+    set_help(*reproduce, command_groups::measure, {"reproduce lokovic2000 --quick", "reproduce all --out results"});
     reproduce->add_option("PAPER", arguments->paper, "reeves1987, lokovic2000, pagot2004, volume, salvi2010, or all")
         ->capture_default_str();
     reproduce->add_option("--out", arguments->out,
-                          "Folder of the report, its plots in plots/ [results, in the current folder]");
-    repeatable(reproduce->add_option("--data", arguments->data, "A folder to look for data in"));
-    reproduce->add_flag("--quick", arguments->quick, "Smaller sizes, under five minutes for all; marked as such");
-    reproduce->add_option("--threads", arguments->threads, "Threads of capture and checks; 0: all (times are of one)")
+                          "Folder of the report; its plots go to plots/ there [results, in the current folder]");
+    repeatable(reproduce->add_option("--data", arguments->data, "Look for data in this folder first"));
+    reproduce->add_flag("--quick", arguments->quick,
+                        "Smaller sizes: all papers in under five minutes. The report says so");
+    reproduce
+        ->add_option(
+            "--threads", arguments->threads,
+            "Threads that capture and check; 0: one for each processor. Times are always measured on one thread")
         ->check(CLI::Range(0, 4096));
     commands.push_back({reproduce, [arguments](std::ostream& out, std::ostream& err) {
                             reproduce_command(*arguments, out, err);

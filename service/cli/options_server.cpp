@@ -15,50 +15,64 @@ void add_data(CLI::App& command, std::vector<std::string>& data, const char* tex
 }
 
 void add_limits(CLI::App& serve, ServeArguments& a) {
-    serve.add_option("--queue", a.queue, "Jobs that may wait")->check(CLI::Range(1, 1'000'000))->capture_default_str();
-    serve.add_option("--parallel", a.parallel, "Jobs at a time; more than one disturb each other's times")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
-    serve.add_option("--job-seconds", a.job_seconds, "Of one job; then it is killed")
-        ->check(CLI::Range(1.0, 1e7))
-        ->capture_default_str();
-    serve.add_option("--job-memory", a.job_memory, "GiB a job may take; what surely needs more is refused")
-        ->check(CLI::Range(0.1, 1e5))
-        ->capture_default_str();
-    serve.add_option("--estimate", a.estimate_seconds, "Seconds; what is guessed to run longer is refused")
-        ->check(CLI::Range(0.0, 1e9))
-        ->capture_default_str();
-    serve.add_option("--resolution", a.resolution, "Map pixels a side that are taken")
-        ->check(CLI::Range(1, 65536))
-        ->capture_default_str();
-    serve.add_option("--samples", a.samples, "Rays a pixel that are taken, of maps and of the truth")
+    serve.add_option("--queue", a.queue, "Jobs that may wait. More are refused")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
-    serve.add_option("--body", a.body, "MiB of a request")->check(CLI::Range(0.001, 1024.0))->capture_default_str();
-    serve.add_option("--workers", a.workers, "Threads that answer")->check(CLI::Range(1, 1024))->capture_default_str();
+    serve.add_option("--parallel", a.parallel, "Jobs that run at a time. More than one disturb each other's times")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    serve.add_option("--job-seconds", a.job_seconds, "Seconds that a job may run before it is killed")
+        ->check(CLI::Range(1.0, 1e7))
+        ->capture_default_str();
     serve
-        .add_option("--event-clients", a.event_clients, "Clients that may follow events, each with a thread of its own")
+        .add_option("--job-memory", a.job_memory,
+                    "GiB that a job may take. A scenario that certainly needs more is refused")
+        ->check(CLI::Range(0.1, 1e5))
+        ->capture_default_str();
+    serve
+        .add_option("--estimate", a.estimate_seconds, "Seconds. A scenario that is estimated to run longer is refused")
+        ->check(CLI::Range(0.0, 1e9))
+        ->capture_default_str();
+    serve.add_option("--resolution", a.resolution, "Largest side of a map, in pixels")
+        ->check(CLI::Range(1, 65536))
+        ->capture_default_str();
+    serve.add_option("--samples", a.samples, "Most rays per pixel, of maps and of the reference")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    serve.add_option("--body", a.body, "Largest body of a request, in MiB")
+        ->check(CLI::Range(0.001, 1024.0))
+        ->capture_default_str();
+    serve.add_option("--workers", a.workers, "Threads that answer requests")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    serve
+        .add_option("--event-clients", a.event_clients, "Clients that may follow events at a time; each takes a thread")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
 }
 
 void add_serve(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<ServeArguments>();
-    CLI::App* serve = app.add_subcommand("serve", "Take scenarios over HTTP: jobs, results, a page; until SIGTERM");
-    serve->add_option("--host", arguments->host, "Address to listen at; beyond this machine a token is needed")
+    CLI::App* serve = app.add_subcommand("serve", "Run scenarios that clients send over HTTP; serve their results");
+    set_help(*serve, command_groups::serve,
+             {"serve", "serve --data ~/volumes --port 8080", "serve --host 0.0.0.0 --token-file token.txt"},
+             "Serves the API, which /openapi.json describes, and a page. SIGTERM and SIGINT stop it.");
+    serve
+        ->add_option("--host", arguments->host,
+                     "Address to listen on. One that other machines can reach needs --token-file")
         ->capture_default_str();
-    serve->add_option("--port", arguments->port, "0: any that is free")
+    serve->add_option("--port", arguments->port, "Port to listen on; 0: any free port")
         ->check(CLI::Range(0, 65535))
         ->capture_default_str();
-    serve->add_option("--port-file", arguments->port_file, "File that the port is written to once it listens");
+    serve->add_option("--port-file", arguments->port_file, "Write the port to this file once the server listens");
     serve->add_option("--token-file", arguments->token_file,
-                      "File of a token, readable by its owner alone, that every request must bring");
+                      "File with the token that every request must carry. Only its owner may be able to read it");
     serve
         ->add_option("--state", arguments->state,
-                     "Folder of the jobs and their results: new, empty, or one of a server's")
+                     "Folder of the jobs and their results: a new or empty one, or that of an earlier server")
         ->capture_default_str();
-    add_data(*serve, arguments->data, "A folder whose files scenarios may name; without it none");
-    serve->add_option("--grace", arguments->grace, "Seconds that jobs have to end when the server stops")
+    add_data(*serve, arguments->data, "Scenarios may name the files of this folder [no files]");
+    serve->add_option("--grace", arguments->grace, "Seconds that running jobs may take to finish when the server stops")
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
     add_limits(*serve, *arguments);
@@ -70,37 +84,41 @@ void add_serve(CLI::App& app, Commands& commands) {
 
 void add_submit(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<SubmitArguments>();
-    CLI::App* submit = app.add_subcommand("submit", "Send a scenario to a server; with --wait print its table");
-    submit->add_option("SCENARIO", arguments->scenario, "A scenario file, or its name")->required();
-    submit->add_option("--server", arguments->server, "Its URL")->capture_default_str();
-    submit->add_option("--token-file", arguments->token_file, "File of the token that the server asks for");
+    CLI::App* submit = app.add_subcommand("submit", "Send a scenario to a server");
+    set_help(*submit, command_groups::serve,
+             {"submit quickstart", "submit quickstart --server http://127.0.0.1:8080 --wait",
+              "submit hairball --set rays.resolution=256 --fresh --wait"});
+    submit->add_option("SCENARIO", arguments->scenario, "A scenario file, or the name of one")->required();
+    submit->add_option("--server", arguments->server, "URL of the server")->capture_default_str();
+    submit->add_option("--token-file", arguments->token_file, "File with the token of the server");
     submit->add_option("--set", arguments->set, "path=value: change one value of the scenario, as for run")
         ->allow_extra_args(false);
     submit->add_flag(
         "--wait", arguments->wait,
-        "Wait for the result; exit codes as of run; a server that does not answer is tried again for 60 s");
-    submit->add_flag("--fresh", arguments->fresh, "Run it even if there is a result of the same scenario");
-    submit->add_flag("--no-pictures", arguments->no_pictures, "Measure alone, render nothing");
+        "Wait for the result and print its table, with the exit codes of run. A server that does not answer is tried "
+        "again for 60 s");
+    submit->add_flag("--fresh", arguments->fresh, "Run the scenario even if the server has a result of it");
+    submit->add_flag("--no-pictures", arguments->no_pictures, "Measure, but render no pictures");
     commands.push_back({submit, [arguments](std::ostream& out, std::ostream& err) {
                             return submit_command(*arguments, out, err) ? 0 : promise_broken;
                         }});
 }
 
-// What the server asks of a process of its own. Not for people, so --help does not show them.
+// Not in --help: the server runs these as child processes.
 void add_helpers(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<HelperArguments>();
-    CLI::App* examine = app.add_subcommand("examine", "Scenarios on standard input, a line each, checked")->group("");
-    add_data(*examine, arguments->data, "A folder whose files scenarios may name");
+    CLI::App* examine = app.add_subcommand("examine", "Check scenarios, one per line of standard input")->group("");
+    add_data(*examine, arguments->data, "Scenarios may name the files of this folder");
     commands.push_back({examine, [arguments](std::ostream& out, std::ostream&) {
                             examine_command(*arguments, out);
                             return 0;
                         }});
     CLI::App* curves =
-        app.add_subcommand("curves", "A scenario, then pixels, on standard input, a line each: their functions")
+        app.add_subcommand("curves", "Read a scenario, then pixels, one per line; write their visibility functions")
             ->group("");
-    add_data(*curves, arguments->data, "A folder whose files scenarios may name");
-    curves->add_option("--light", arguments->light, "A light's name, or its number from 0 on [the first]");
-    curves->add_option("--variant", arguments->variant, "A combination of the sweeps' values, counted from 0");
+    add_data(*curves, arguments->data, "Scenarios may name the files of this folder");
+    curves->add_option("--light", arguments->light, "A light's name, or its number, from 0 [the first light]");
+    curves->add_option("--variant", arguments->variant, "Number of a combination of the sweeps' values, from 0");
     commands.push_back({curves, [arguments](std::ostream& out, std::ostream&) {
                             curves_command(*arguments, out);
                             return 0;

@@ -10,11 +10,12 @@ namespace shadowbench::service {
 
 void add_web_commands(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<ReportArguments>();
-    CLI::App* report =
-        app.add_subcommand("report", "A result as one HTML file with plots and pictures, to read offline");
-    report->add_option("RESULT_DIR", arguments->folder, "The folder in which run wrote result.json")->required();
+    CLI::App* report = app.add_subcommand("report", "Write a result as one HTML file with plots and pictures");
+    set_help(*report, command_groups::files,
+             {"report results/runs/quickstart", "report results/runs/quickstart --images results/images/quickstart"});
+    report->add_option("RESULT_DIR", arguments->folder, "The folder with result.json, which run wrote")->required();
     report->add_option("--images", arguments->images,
-                       "The folder in which render wrote images.json [RESULT_DIR/images]");
+                       "The folder with images.json, which render wrote [RESULT_DIR/images]");
     report->add_option("--out", arguments->out, "The file to write [RESULT_DIR/report.html]");
     commands.push_back({report, [arguments](std::ostream& out, std::ostream&) {
                             report_command(*arguments, out);

@@ -21,7 +21,7 @@ ProgressBar::Style style_of(const std::ostream& stream) {
     return isatty(STDERR_FILENO) == 1 ? ProgressBar::Style::bar : ProgressBar::Style::lines;
 }
 
-// A thread started while it lives gets no signals.
+// Blocks all signals while it lives, also in threads that are started meanwhile.
 class NoSignals {
 public:
     NoSignals() {

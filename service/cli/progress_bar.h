@@ -1,4 +1,4 @@
-// How far a command is, for those who wait for it.
+// Shows the progress of a command.
 #pragma once
 
 #include <chrono>
@@ -14,23 +14,23 @@
 
 namespace shadowbench::service {
 
-// On a terminal one line that is drawn over and over, and gone at the end. Elsewhere, as in a log, a line every few
-// seconds: "progress: 2/5 key build 3/7, 25 s". A thread of its own draws, so that long pieces of work show life too;
-// signals never end up in it.
+// On a terminal it draws one line again and again and removes it at the end. Elsewhere, for example in a log, it writes
+// a line every few seconds: "progress: 2/5 key build 3/7, 25 s". A thread draws, so that a long step shows progress
+// too; all signals are blocked in it.
 class ProgressBar {
 public:
     enum class Style { none, bar, lines };
 
-    // On standard error, whichever fits what reads it; on any other stream nothing.
+    // On standard error a bar for a terminal, else lines; on any other stream nothing.
     explicit ProgressBar(std::ostream& stream);
-    // A line, or a drawing, `every` so often, besides those that show() draws on a bar.
+    // Writes a line, or draws the bar, once per `every`. show() also draws the bar.
     ProgressBar(std::ostream& stream, Style style, std::chrono::milliseconds every);
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
     void show(const bench::Progress& progress);
-    void end();  // nothing is written after it; the bar is gone
+    void end();  // removes the bar; nothing is written afterwards
 
 private:
     void tick(const std::stop_token& stop);
@@ -41,12 +41,12 @@ private:
     const Style style_;
     const std::chrono::milliseconds every_;
     const std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-    std::mutex mutex_;  // of all below
+    std::mutex mutex_;  // guards the members below
     std::condition_variable_any ended_;
     std::string what_ = "preparing";
     std::size_t done_ = 0, total_ = 0;
     std::chrono::steady_clock::time_point drawn_{};
-    std::size_t length_ = 0;  // of the bar on the screen
+    std::size_t length_ = 0;  // characters of the bar on the screen
     std::jthread ticker_;
 };
 

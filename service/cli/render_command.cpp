@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "640x480".
+// Reads "640x480".
 base::Vec2i read_size(const std::string& text) {
     const char* const end = text.data() + text.size();
     base::Vec2i size(0, 0);
@@ -33,14 +33,14 @@ base::Vec2i read_size(const std::string& text) {
     }
     if (!good)
         throw base::Error(base::ErrorCode::usage, "--size " + text,
-                          fmt::format("not WIDTHxHEIGHT of 1 to {} pixels a side and {} in all", scene::max_image_side,
-                                      scene::max_camera_pixels));
+                          fmt::format("expected WIDTHxHEIGHT, 1 to {} pixels per side and at most {} in all",
+                                      scene::max_image_side, scene::max_camera_pixels));
     return size;
 }
 
 bool all_ok(const render::Rendering& rendering) {
     return std::all_of(rendering.techniques.begin(), rendering.techniques.end(),
-                       [](const auto& one) { return one.cell.status == results::CellStatus::ok; });
+                       [](const auto& technique) { return technique.cell.status == results::CellStatus::ok; });
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ bool render_command(const RenderArguments& arguments, std::ostream& out, std::os
     options.rays_per_side = arguments.rays_per_side;
     options.media_lookups = arguments.media_lookups;
     const fs::path folder = output_folder(arguments.out, "results/images", *job.document);
-    base::Undo made;  // a rendering that fails leaves no folder
+    base::Undo made;  // a rendering that fails leaves no new folder
     base::make_writable(folder, made);
 
     ProgressBar bar(err);

@@ -26,7 +26,7 @@ nlohmann::json read_result(const fs::path& file) {
         throw Error(ErrorCode::bad_input, file.string(), "not a result of run");
     if (*version != results::result_schema_version)
         throw Error(ErrorCode::bad_input, file.string() + "/schema_version",
-                    fmt::format("{}, and this program shows {}: run the scenario again",
+                    fmt::format("version {}, but this program reads version {}; run the scenario again",
                                 version->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace),
                                 results::result_schema_version));
     return result;
@@ -37,17 +37,17 @@ nlohmann::json read_result(const fs::path& file) {
 void report_command(const ReportArguments& arguments, std::ostream& out) {
     const fs::path folder = arguments.folder;
     if (!fs::is_directory(folder))
-        throw Error(ErrorCode::no_such_file, arguments.folder, "no such folder; it is where run wrote result.json");
+        throw Error(ErrorCode::no_such_file, arguments.folder,
+                    "no such folder; give the one in which run wrote result.json");
     const nlohmann::json result = read_result(folder / "result.json");
     const fs::path images = arguments.images.empty() ? folder / "images" : fs::path(arguments.images);
     if (!arguments.images.empty() && !fs::exists(images / "images.json"))
-        throw Error(ErrorCode::no_such_file, (images / "images.json").string(),
-                    "no such file; it is what render writes");
+        throw Error(ErrorCode::no_such_file, (images / "images.json").string(), "no such file; render writes it");
     const fs::path file = arguments.out.empty() ? folder / "report.html" : fs::path(arguments.out);
     const std::string page = report_html(result, images);
     base::write_files({{file, page}});
     out << fmt::format("written: {} ({} KiB{})\n", file.string(), page.size() / 1024,
-                       fs::exists(images / "images.json") ? "" : ", without pictures: see render");
+                       fs::exists(images / "images.json") ? "" : ", without pictures: render makes them");
 }
 
 }  // namespace shadowbench::service

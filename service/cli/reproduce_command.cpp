@@ -29,7 +29,7 @@ std::vector<const claims::Paper*> chosen(const std::string& name) {
     }
     if (papers.empty())
         throw base::Error(base::ErrorCode::usage, "reproduce",
-                          fmt::format("no paper \"{}\"; there are: {}", name, names));
+                          fmt::format("unknown paper \"{}\"; there are: {}", name, names));
     return papers;
 }
 

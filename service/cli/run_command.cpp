@@ -34,7 +34,7 @@ struct Planned {
     fs::path folder;  // of its results
 };
 
-// The place of an error in one of several scenarios: its file, then the place in it.
+// The error with the file of its scenario in front of its place.
 base::Error in_file(const base::Error& error, const fs::path& file) {
     const std::string name = file.string();
     if (error.where().rfind(name, 0) == 0) return error;
@@ -43,16 +43,17 @@ base::Error in_file(const base::Error& error, const fs::path& file) {
 
 void refuse_equal_names(const std::vector<Planned>& plan) {
     std::map<fs::path, fs::path> files;
-    for (const Planned& one : plan) {
-        const auto [other, is_new] = files.emplace(one.folder, one.file);
+    for (const Planned& planned : plan) {
+        const auto [other, is_new] = files.emplace(planned.folder, planned.file);
         if (!is_new)
-            throw base::Error(base::ErrorCode::bad_input, one.file.string() + ": /name",
-                              fmt::format("{} has the same name, and so the same folder of results, {}",
-                                          other->second.string(), one.folder.string()));
+            throw base::Error(
+                base::ErrorCode::bad_input, planned.file.string() + ": /name",
+                fmt::format("{} has the same name, and so the same folder of results, {}; rename one of them",
+                            other->second.string(), planned.folder.string()));
     }
 }
 
-// All that are asked for. Of several, each is checked first: a fault in one is found before the first is run.
+// The scenarios that the arguments name. If there are several, all are checked before the first runs.
 std::vector<Planned> make_plan(const RunArguments& arguments, bool& several, std::ostream& err) {
     std::vector<fs::path> files;
     several = arguments.scenarios.size() > 1;
@@ -92,7 +93,7 @@ results::Result run_one(const Planned& planned, const std::string& place, std::o
     });
 }
 
-// What is known of a scenario that could not be run.
+// The outcome of a scenario that could not be run.
 results::ScenarioOutcome not_run(const nlohmann::json& document, const base::Error& error) {
     results::ScenarioOutcome outcome;
     outcome.result.name = document.at("name").get<std::string>();
@@ -101,13 +102,13 @@ results::ScenarioOutcome not_run(const nlohmann::json& document, const base::Err
     return outcome;
 }
 
-// Where the verdicts go; empty: nowhere.
+// The file of the verdicts; empty: none.
 fs::path verdicts_file(const RunArguments& arguments, bool several) {
     if (!arguments.verdicts.empty() || !several) return arguments.verdicts;
     return fs::path(arguments.out.empty() ? standard_folder : arguments.out) / "verdicts.md";
 }
 
-// All faults of a document, not the first alone.
+// Validates a document. Writes all its faults but the last to `err` and throws that one.
 bench::Validated check(const Job& job, std::ostream& err) {
     try {
         return bench::validate(*job.document, job.options);
@@ -124,7 +125,7 @@ bench::Validated check(const Job& job, std::ostream& err) {
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
     bool several = false;
     const std::vector<Planned> plan = make_plan(arguments, several, err);
-    // Before hours are spent on what goes there. A run that fails leaves no folder.
+    // Folders are made before hours of work. A run that fails leaves no new folder.
     base::Undo made_for_verdicts;
     const fs::path verdicts = verdicts_file(arguments, several);
     if (verdicts.has_parent_path()) base::make_writable(verdicts.parent_path(), made_for_verdicts);
@@ -138,24 +139,24 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
     std::optional<base::Error> first_error;
     bool kept = true;
     for (std::size_t i = 0; i < plan.size(); ++i) {
-        const Planned& one = plan[i];
+        const Planned& planned = plan[i];
         try {
             const std::string place =
-                several ? fmt::format("{}/{} {}", i + 1, plan.size(), one.folder.filename().string()) : "";
-            outcomes.push_back({run_one(one, place, err), ""});
+                several ? fmt::format("{}/{} {}", i + 1, plan.size(), planned.folder.filename().string()) : "";
+            outcomes.push_back({run_one(planned, place, err), ""});
         } catch (const base::Error& error) {
             if (!several) throw;
-            // What validation cannot find: the others are run all the same.
-            if (!first_error) first_error = in_file(error, one.file);
-            outcomes.push_back(not_run(*one.job.document, error));
+            // Validation could not find this. The other scenarios run.
+            if (!first_error) first_error = in_file(error, planned.file);
+            outcomes.push_back(not_run(*planned.job.document, error));
             continue;
         }
         const results::Result& result = outcomes.back().result;
-        results::write_result(one.folder, result);
+        results::write_result(planned.folder, result);
         made[i].keep();
         kept = kept && !results::any_failed(result);
         out << results::to_table(result)
-            << fmt::format("written: {0}/result.json, {0}/result.csv\n", one.folder.string()) << std::flush;
+            << fmt::format("written: {0}/result.json, {0}/result.csv\n", planned.folder.string()) << std::flush;
     }
     std::vector<std::string> columns;
     for (const techniques::Technique& row : techniques::all()) columns.push_back(row.id);

@@ -23,7 +23,7 @@ std::vector<fs::path> folders_of(const char* variable) {
     return folders;
 }
 
-// Where `cmake --install` puts scenarios, seen from the program's own file: any prefix will do.
+// The folder in which `cmake --install` puts scenarios, relative to the program's file and so for any prefix.
 fs::path installed_scenarios() {
     return (fs::path(this_program()).parent_path() / SHADOWBENCH_SHARE_FROM_PROGRAM / "scenarios").lexically_normal();
 }
@@ -65,7 +65,8 @@ fs::path paper_scenarios() {
         looked_in += ", " + folder.string();
     }
     throw Error(ErrorCode::no_such_file, "papers",
-                "there is no folder of this name in" + looked_in.substr(1) + "; set SHADOWBENCH_SCENARIOS");
+                "there is no folder of this name in" + looked_in.substr(1) +
+                    "; set SHADOWBENCH_SCENARIOS to its parent folder");
 }
 
 fs::path find_scenario(const std::string& name) {
@@ -78,7 +79,7 @@ fs::path find_scenario(const std::string& name) {
         looked_in += ", " + folder.string();
     }
     throw Error(ErrorCode::no_such_file, name,
-                "there is no such scenario file, nor one of this name in" + looked_in.substr(1));
+                "there is no such file, and no scenario of this name in" + looked_in.substr(1));
 }
 
 FoundScenarios find_scenarios(const std::string& name) {

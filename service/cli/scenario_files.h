@@ -1,4 +1,4 @@
-// Where scenarios and their data are looked for.
+// Finds scenarios and their data.
 #pragma once
 
 #include <filesystem>
@@ -16,19 +16,19 @@ std::vector<std::filesystem::path> scenario_folders();
 // The folder papers/ of the first scenario folder that has one. Throws Error{no_such_file}.
 std::filesystem::path paper_scenarios();
 
-// A path to a file, or the name of one in the scenario folders, with or without ".json". Throws Error{no_such_file}.
+// `name` is a path, or the name of a file in the scenario folders, with or without ".json". Throws Error{no_such_file}.
 std::filesystem::path find_scenario(const std::string& name);
 
-// What a name stands for: one scenario, or the *.json directly in a folder, by name. Folders are looked for like files,
-// and after them. Throws Error{no_such_file}, also for a folder without scenarios.
+// The scenarios that a name means: one, or every *.json directly in a folder, sorted by name. A folder is looked for
+// like a file, and after files. Throws Error{no_such_file}, also for a folder without scenarios.
 struct FoundScenarios {
     std::vector<std::filesystem::path> files;
     bool folder = false;
 };
 FoundScenarios find_scenarios(const std::string& name);
 
-// The folders given, $SHADOWBENCH_DATA (separated by colons), the scenario's own folder and its data/, scenarios/data.
-// Throws Error{no_such_file} when one of those given is not there.
+// The folders in which a scenario's data is looked for: those given, $SHADOWBENCH_DATA (separated by colons), the
+// scenario's own folder and its data/, scenarios/data. Throws Error{no_such_file} when a given folder does not exist.
 scene::SearchPath data_path(const std::vector<std::string>& given, const std::filesystem::path& scenario);
 
 }  // namespace shadowbench::service

@@ -42,7 +42,7 @@ std::vector<fs::path> folders_of(const std::vector<std::string>& names) {
     return folders;
 }
 
-// Signals that end the server. They are taken from all threads before there are any, and waited for by one.
+// The signals that stop the server. They are blocked before any thread starts; one thread waits for them.
 class StopSignals {
 public:
     StopSignals() {
@@ -54,7 +54,7 @@ public:
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 
-    // Whether one came before `done` was set.
+    // Waits for a signal or for `done`; returns whether a signal came.
     bool wait(const std::atomic<bool>& done) const {
         const timespec slice{0, 100'000'000};
         while (!done)
@@ -108,16 +108,16 @@ std::string read_token(const std::string& file) {
     const std::string text = base::read_text(file);
     struct stat status {};
     if (::stat(file.c_str(), &status) == 0 && (status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-        throw Error(ErrorCode::bad_input, file, "others can read the token; chmod 600 it");
+        throw Error(ErrorCode::bad_input, file, "others can read the token; run chmod 600 on the file");
     std::string token = text.substr(0, text.find_first_of("\r\n"));
     if (token.size() < 16 || token.find_first_of(" \t") != std::string::npos)
-        throw Error(ErrorCode::bad_input, file, "a token is one word of at least 16 characters");
+        throw Error(ErrorCode::bad_input, file, "a token must be one word of at least 16 characters");
     return token;
 }
 
 void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostream& err) {
     const StopSignals signals;
-    std::signal(SIGPIPE, SIG_IGN);  // a client or a child that went
+    std::signal(SIGPIPE, SIG_IGN);  // writing to a closed connection is an error, not a signal
     const HeldProgram held;
     const std::string program = held.path();
     const HttpOptions http = http_options(arguments);
@@ -133,7 +133,7 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     std::atomic<bool> done = false;
     std::thread stopper([&] {
         if (!signals.wait(done)) return;
-        jobs.stop();  // clients are answered meanwhile
+        jobs.stop();  // the server answers clients meanwhile
         server.stop();
     });
     server.run();

@@ -1,4 +1,4 @@
-// The commands around the service, once their arguments are read. Each throws base::Error.
+// The commands of the server and its clients, with their parsed arguments. Each throws base::Error.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@ namespace shadowbench::service {
 
 struct ServeArguments {
     std::string host = "127.0.0.1";
-    int port = 8080;         // 0: any that is free
-    std::string port_file;   // written once it listens; empty: none
+    int port = 8080;         // 0: any free port
+    std::string port_file;   // written once the server listens; empty: none
     std::string token_file;  // empty: no token
     std::string state = "results/service";
     std::vector<std::string> data;  // folders
-    double grace = 10.0;            // seconds that a job in work has to end when the server stops
+    double grace = 10.0;            // seconds that a running job may take to finish when the server stops
     std::size_t queue = 2000;
     int parallel = 1;                               // jobs at a time
     double job_seconds = 3600.0, job_memory = 8.0;  // GiB
@@ -26,7 +26,7 @@ struct ServeArguments {
 };
 
 struct SubmitArguments {
-    std::string scenario;          // a path, or a name in the scenario folders
+    std::string scenario;          // a path, or the name of one in the scenario folders
     std::vector<std::string> set;  // path=value
     std::string server = "http://127.0.0.1:8080";
     std::string token_file;
@@ -39,16 +39,16 @@ struct HelperArguments {
     std::size_t variant = 0;
 };
 
-// Until SIGTERM or SIGINT. What else its watcher should know goes to `err`, a line each: see Jobs.
+// Runs until SIGTERM or SIGINT. Messages for the operator go to `err`, a line each: see Jobs.
 void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostream& err);
-// Whether every technique kept its promises, as far as it was waited for.
+// Returns whether every technique kept its promises; true without --wait.
 bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::ostream& err);
-// The server's helpers: see service/api/helper_side.h.
+// The helpers of the server: see service/api/helper_side.h.
 void examine_command(const HelperArguments& arguments, std::ostream& out);
 void curves_command(const HelperArguments& arguments, std::ostream& out);
 
-// The first line of a file, which nobody else may be able to read. Throws Error: no_such_file, io, bad_input when it is
-// empty, has spaces, or is open to others.
+// The token in the first line of a file. Throws Error: no_such_file; io; bad_input when others can read the file, or
+// the token has spaces or less than 16 characters.
 std::string read_token(const std::string& file);
 
 }  // namespace shadowbench::service

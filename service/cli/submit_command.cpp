@@ -24,7 +24,7 @@ using base::ErrorCode;
 using json = nlohmann::ordered_json;
 
 constexpr std::chrono::milliseconds between_looks{500};
-constexpr std::chrono::seconds patience{60};  // with a server that does not answer
+constexpr std::chrono::seconds patience{60};  // longest wait for a server that does not answer
 
 ErrorCode code_of(int status) {
     switch (status) {
@@ -44,17 +44,17 @@ ErrorCode code_of(int status) {
     }
 }
 
-// The JSON of an answer of this status; what the server's problem says is thrown.
+// The JSON of an answer with this status. Throws the problem that any other answer describes.
 json take(const Reply& reply, int status, const std::string& server) {
     json value = json::parse(reply.body, nullptr, false);
     if (reply.status == status && !value.is_discarded()) return value;
-    std::string where = server, message = fmt::format("the server answers with status {}", reply.status);
+    std::string where = server, message = fmt::format("the server answered with status {}", reply.status);
     if (value.is_object() && value.contains("detail")) message = value.value("detail", message);
     if (value.is_object() && value.contains("errors") && !value["errors"].empty()) {
         where = value["errors"][0].value("pointer", where);
         message = value["errors"][0].value("detail", message);
         if (const std::size_t more = value["errors"].size() - 1; more > 0)
-            message += fmt::format(" (and {} more; \"shadowbench validate\" tells all)", more);
+            message += fmt::format(" (and {} more; run shadowbench validate to see all)", more);
     }
     throw Error(code_of(reply.status), where, message);
 }
@@ -80,10 +80,10 @@ void show(const json& job, ProgressBar& bar) {
     bar.show({progress.at("place"), stage.c_str(), progress.at("done"), progress.at("total")});
 }
 
-// The answer of a server that may be away or busy for a while, as one that is started anew or whose queue is full.
+// The answer of a server that may not answer, or be busy, for a while: because it restarts, or its queue is full.
 Reply patiently(const std::function<Reply()>& ask, const std::string& server, std::ostream& err) {
     const auto end = std::chrono::steady_clock::now() + patience;
-    for (bool told = false;; told = true) {
+    for (bool reported = false;; reported = true) {
         std::string why = "it is busy or stopping";
         try {
             Reply reply = ask();
@@ -93,7 +93,7 @@ Reply patiently(const std::function<Reply()>& ask, const std::string& server, st
             if (std::chrono::steady_clock::now() > end) throw;
             why = error.message();
         }
-        if (!told)
+        if (!reported)
             err << fmt::format("shadowbench: {}: {}; trying again for {} s\n", server, why, patience.count())
                 << std::flush;
         std::this_thread::sleep_for(between_looks);
@@ -111,7 +111,7 @@ json wait_for(Client& client, json job, const std::string& server, std::ostream&
     return job;
 }
 
-// With it the server takes a request once, however often it is sent.
+// An idempotency key: with it the server accepts the request once, however often it is sent.
 std::string new_key() {
     std::random_device random;
     std::string key = "submit";
@@ -119,12 +119,13 @@ std::string new_key() {
     return key;
 }
 
-// What `run` would have thrown.
+// Throws the error that `run` would have thrown.
 void refuse_failed(const json& job) {
     if (job.at("state") == "succeeded") return;
-    if (job.at("state") == "cancelled") throw Error(ErrorCode::io, job.at("id").get<std::string>(), "was cancelled");
+    if (job.at("state") == "cancelled")
+        throw Error(ErrorCode::io, job.at("id").get<std::string>(), "the job was cancelled");
     const json& error = job.at("error");
-    if (!error.is_object()) throw Error(ErrorCode::internal, job.at("id").get<std::string>(), "failed");
+    if (!error.is_object()) throw Error(ErrorCode::internal, job.at("id").get<std::string>(), "the job failed");
     throw Error(static_cast<ErrorCode>(error.at("code").get<int>()), error.at("where").get<std::string>(),
                 error.at("message").get<std::string>());
 }
@@ -145,7 +146,7 @@ bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::os
     }
     job = wait_for(client, std::move(job), server, err);
     refuse_failed(job);
-    // The table that run prints; jobs of earlier servers have none.
+    // The table that run prints. Jobs of earlier versions have none.
     const Reply table = patiently([&] { return client.get(self + "/artifacts/table.txt"); }, server, err);
     if (table.status == 200) out << table.body;
     out << fmt::format("result: {}{}/result\n", server, self);

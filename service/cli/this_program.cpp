@@ -16,7 +16,7 @@ namespace {
 constexpr const char* self = "/proc/self/exe";
 
 [[noreturn]] void fail(const std::string& cause) {
-    throw base::Error(base::ErrorCode::io, self, "this program cannot be found: " + cause);
+    throw base::Error(base::ErrorCode::io, self, "cannot find the file of this program: " + cause);
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ std::string this_program() {
 HeldProgram::HeldProgram() {
     const int open = ::open(self, O_PATH | O_CLOEXEC);
     if (open < 0) fail(std::strerror(errno));
-    // Not one of the first three, which children have of their own.
+    // Not a number below 3: those are the standard streams of children.
     descriptor_ = ::fcntl(open, F_DUPFD_CLOEXEC, 3);
     ::close(open);
     if (descriptor_ < 0) fail(std::strerror(errno));

@@ -1,14 +1,14 @@
-// The program that runs, for what has to be run by it again.
+// Finds the file of this program, to run it again.
 #pragma once
 
 #include <string>
 
 namespace shadowbench::service {
 
-// Where its file is, or was when it started. Throws Error{io}.
+// The path of its file when it started. Throws Error{io}.
 std::string this_program();
 
-// Its file, held open: what `path` starts is this program, whatever has become of the file's name since.
+// Holds the file of this program open: path() starts this program even when the file was replaced or removed.
 class HeldProgram {
 public:
     HeldProgram();  // throws Error{io}
@@ -16,7 +16,7 @@ public:
     HeldProgram(const HeldProgram&) = delete;
     HeldProgram& operator=(const HeldProgram&) = delete;
 
-    // For a child to execute; it means the same in every child that has not closed what this process holds open.
+    // A path to execute, for this process and its children.
     std::string path() const;
 
 private:

@@ -30,14 +30,15 @@ void check_names(const compare::Comparison& comparison) {
     for (const auto& [name, value] : comparison.options.tolerance)
         if (known.count(name) == 0)
             throw Error(ErrorCode::usage, "--tolerance " + name,
-                        "nothing that is compared has such a measure; there are: " + names.substr(2));
+                        "no cell has such a measure; there are: " + names.substr(2));
 }
 
 void check_places(const VerdictArguments& arguments) {
     std::map<std::string, int> uses;
     for (const std::string* place : {&arguments.markdown, &arguments.junit, &arguments.json})
         if (!place->empty() && ++uses[*place] > 1)
-            throw Error(ErrorCode::usage, *place, "only one of --markdown, --junit and --json can be written there");
+            throw Error(ErrorCode::usage, *place,
+                        "only one of --markdown, --junit and --json can go there; give the others another file");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What compare and ab share: options in, a report out.
+// Reads the options that compare and ab share, and reports their verdicts.
 #pragma once
 
 #include <iosfwd>
@@ -8,11 +8,11 @@
 
 namespace shadowbench::service {
 
-// Throws Error{usage}.
+// Throws Error{usage} for a wrong --tolerance, and for two reports with the same file.
 compare::Options verdict_options(const VerdictArguments& arguments);
 
-// Prints and writes what was asked for; the exit code. Throws Error{usage} for a tolerance of a measure that nothing
-// has, {io}.
+// Prints and writes the reports that the arguments ask for and returns the exit code. Throws Error{usage} for a
+// tolerance of a measure that no cell has, {io}.
 int report_verdict(const compare::Comparison& comparison, const VerdictArguments& arguments, std::ostream& out);
 
 }  // namespace shadowbench::service

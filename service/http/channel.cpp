@@ -12,7 +12,7 @@
 namespace shadowbench::service {
 namespace {
 
-constexpr auto slice = std::chrono::milliseconds(100);  // of waiting, between looks at what else goes on
+constexpr auto slice = std::chrono::milliseconds(100);  // between two checks for other reasons to stop waiting
 constexpr std::size_t linger_bytes = std::size_t{16} << 20;
 constexpr double linger_seconds = 2.0;
 
@@ -34,9 +34,9 @@ Channel::~Channel() {
 Channel::Ready Channel::wait(short what, Clock::time_point end, const std::function<bool()>& give_up) const {
     for (;;) {
         const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
-        pollfd one{socket_, what, 0};
+        pollfd polled{socket_, what, 0};
         const int ready = ::poll(
-            &one, 1,
+            &polled, 1,
             static_cast<int>(std::clamp(left, std::chrono::milliseconds(0), std::chrono::milliseconds(slice)).count()));
         if (ready > 0) return Ready::yes;
         if (ready < 0 && errno != EINTR) return Ready::failed;
@@ -53,7 +53,7 @@ long Channel::receive(char* to, std::size_t size) const {
 
 Channel::Outcome Channel::read_head(std::string& head) {
     const auto start = Clock::now();
-    Clock::time_point begun = start;  // of the head
+    Clock::time_point begun = start;  // when the head began
     std::size_t looked_at = 0;
     bool waiting = true;
     char piece[4096];
@@ -78,7 +78,7 @@ Channel::Outcome Channel::read_head(std::string& head) {
         const Ready ready = wait(POLLIN, since + limit, [&] {
             if (stopping_) return true;
             if (!hurry_()) return false;
-            // A client that has just come is given a moment to speak.
+            // A new client gets a moment to send its first request.
             return waiting && !first_ ? true : Clock::now() >= since + duration(0.1 * limits_.head_seconds);
         });
         if (ready == Ready::failed) return Outcome::closed;
@@ -131,8 +131,8 @@ bool Channel::write(const char* bytes, std::size_t size) {
 }
 
 bool Channel::gone() const {
-    char one;
-    const ssize_t n = ::recv(socket_, &one, 1, MSG_PEEK | MSG_DONTWAIT);
+    char byte;
+    const ssize_t n = ::recv(socket_, &byte, 1, MSG_PEEK | MSG_DONTWAIT);
     return n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR);
 }
 
@@ -140,11 +140,11 @@ void Channel::linger() {
     ::shutdown(socket_, SHUT_WR);
     const auto end = Clock::now() + duration(linger_seconds);
     char piece[16384];
-    for (std::size_t thrown = 0; thrown < linger_bytes;) {
+    for (std::size_t discarded = 0; discarded < linger_bytes;) {
         if (wait(POLLIN, end, [&] { return stopping_ || hurry_(); }) != Ready::yes) return;
         const long n = receive(piece, sizeof piece);
         if (n == 0 || (n < 0 && errno != EAGAIN)) return;
-        if (n > 0) thrown += static_cast<std::size_t>(n);
+        if (n > 0) discarded += static_cast<std::size_t>(n);
     }
 }
 

@@ -1,4 +1,5 @@
-// One client's connection: bytes in, within limits and deadlines, and bytes out. Of HTTP it knows where a head ends.
+// The connection of one client: it reads and writes bytes within limits and deadlines. All it knows of HTTP is where a
+// head ends.
 #pragma once
 
 #include <atomic>
@@ -11,36 +12,38 @@ namespace shadowbench::service {
 
 struct ChannelLimits {
     std::size_t head = 32 * 1024;  // bytes
-    double idle_seconds =
-        30.0;  // a connection may wait for its next request; when others wait for a thread, not at all
-    double head_seconds = 10.0;   // a head may take; when others wait, a tenth
-    double body_seconds = 30.0;   // a body may take
-    double write_seconds = 10.0;  // a client may take nothing of what is sent
+    // A connection may wait this long for its next request, but not at all when others wait for a thread.
+    double idle_seconds = 30.0;
+    double head_seconds = 10.0;   // for a head; a tenth of it when others wait for a thread
+    double body_seconds = 30.0;   // for a body
+    double write_seconds = 10.0;  // the longest time in which a client receives nothing
 };
 
 class Channel {
 public:
-    // Takes the socket. `hurry` tells whether other connections wait for a thread.
+    // Owns the socket. `hurry` returns whether other connections wait for a thread.
     Channel(int socket, const ChannelLimits& limits, const std::atomic<bool>& stopping, std::function<bool()> hurry);
     ~Channel();
     Channel(const Channel&) = delete;
     Channel& operator=(const Channel&) = delete;
 
     enum class Outcome { complete, closed, too_slow, too_large };
-    // Up to and with the empty line. `closed` also when nothing came in time, and when the server stops.
+    // Reads a head, with the empty line at its end. `closed` also when no request came in time, and when the server
+    // stops.
     Outcome read_head(std::string& head);
 
-    // From here on, read() gives at most so many bytes, until the time for a body is over.
+    // Allows read() this many bytes, until the time for a body is over.
     void begin_body(std::size_t most);
-    // As recv(): 0 at the end, -1 when it failed, took too long or gave too much.
+    // Reads as recv() does: 0 at the end, -1 when it failed, took too long or exceeded the limit.
     long read(char* to, std::size_t size);
 
     bool write(const char* bytes, std::size_t size);
 
-    // Whether the client has closed its side, and sent nothing more.
+    // Whether the client has closed the connection and nothing is left to read.
     bool gone() const;
 
-    // Lets the client read the answer even while it still sends: closing at once would throw the answer away.
+    // Reads and discards what the client still sends, so that it can read the answer: if the server closed the
+    // connection at once, the client could lose the answer.
     void linger();
 
 private:
@@ -53,7 +56,7 @@ private:
     const ChannelLimits limits_;
     const std::atomic<bool>& stopping_;
     const std::function<bool()> hurry_;
-    std::string buffer_;  // received, not yet given
+    std::string buffer_;  // received, but not yet read by a caller
     std::size_t body_left_ = 0;
     Clock::time_point body_end_{};
     bool first_ = true;

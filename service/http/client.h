@@ -1,4 +1,4 @@
-// Asks another shadowbench server.
+// An HTTP client for a shadowbench server.
 #pragma once
 
 #include <memory>
@@ -16,13 +16,13 @@ struct Reply {
 
 class Client {
 public:
-    // `url` as http://host:port. `token` may be empty. Throws Error{usage} for what is no URL.
+    // `url` has the form http://host:port. `token` may be empty. Throws Error{usage} for any other text.
     Client(const std::string& url, const std::string& token);
     ~Client();
     Client(const Client&) = delete;
     Client& operator=(const Client&) = delete;
 
-    // Each throws Error{io} when there is no answer.
+    // Both throw Error{io} when the server does not answer.
     Reply get(const std::string& path);
     Reply post_json(const std::string& path, const std::string& body, const std::vector<Field>& headers);
 

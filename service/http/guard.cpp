@@ -25,11 +25,11 @@ std::string token_of(const ApiRequest& request) {
 
 bool needs_no_token(const ApiRequest& request) {
     const std::string& first = request.path[0];
-    const bool alone = request.path.size() == 1;
-    return first == "assets" || (alone && (first.empty() || first == "healthz" || first == "readyz"));
+    const bool is_single = request.path.size() == 1;
+    return first == "assets" || (is_single && (first.empty() || first == "healthz" || first == "readyz"));
 }
 
-bool from_elsewhere(const ApiRequest& request) {
+bool is_cross_origin(const ApiRequest& request) {
     const std::string *origin = request.header("origin"), *host = request.header("host");
     if (const std::string* site = request.header("sec-fetch-site"); site && !origin)
         return (*site == "cross-site" || *site == "same-site") && request.method != "GET" && request.method != "HEAD";
@@ -58,11 +58,11 @@ bool equal_in_constant_time(const std::string& given, const std::string& secret)
 std::optional<ApiResponse> guard(const ApiRequest& request, const GuardOptions& options) {
     const std::string* host = request.header("host");
     if (options.loopback && host && !is_loopback(without_port(*host)))
-        return problem(421, "This server answers as localhost, 127.0.0.1 or [::1].");
-    if (from_elsewhere(request)) return problem(403, "Pages of other origins may not ask.");
+        return problem(421, "This server answers only to the hosts localhost, 127.0.0.1 and [::1].");
+    if (is_cross_origin(request)) return problem(403, "Pages of other origins may not use this server.");
     if (options.token.empty() || needs_no_token(request)) return {};
     if (equal_in_constant_time(token_of(request), options.token)) return {};
-    ApiResponse response = problem(401, "Authorization: Bearer and the token of this server, please.");
+    ApiResponse response = problem(401, "The request needs the server's token, as in Authorization: Bearer TOKEN.");
     response.headers.push_back({"WWW-Authenticate", "Bearer realm=\"shadowbench\""});
     return response;
 }

@@ -1,4 +1,4 @@
-// Who may ask: the token, the host that was meant, the page that asks.
+// Refuses requests without the token, for another host, or from pages of other origins.
 #pragma once
 
 #include <optional>
@@ -9,22 +9,23 @@
 namespace shadowbench::service {
 
 struct GuardOptions {
-    bool loopback = true;  // the server listens to this machine alone
-    std::string token;     // empty: none is needed
+    bool loopback = true;  // the server listens only on this machine
+    std::string token;     // empty: requests need none
 };
 
-// Whether an address is one of this machine alone: "localhost", "127.0.0.1", "::1".
+// Whether only this machine can reach an address: "localhost", "127.0.0.1", "::1".
 bool is_loopback(const std::string& host);
 
-// The answer to whoever may not ask; nothing: go on.
-//  - 421: on loopback, a Host that is not this machine. A page elsewhere whose name was made to mean 127.0.0.1 (DNS
-//    rebinding) cannot pretend another Host.
-//  - 403: a browser says that a page of another origin asks.
-//  - 401: no token, or another, in "Authorization: Bearer TOKEN". Compared in constant time. /healthz and /readyz need
-//    none, nor do the page and its assets, which ask for it.
+// The answer that refuses a request; nothing: go on.
+//  - 421: on loopback, a Host that is not this machine. A page whose name an attacker resolves to 127.0.0.1 (DNS
+//  rebinding)
+//    cannot send another Host.
+//  - 403: the browser reports that a page of another origin sent the request.
+//  - 401: "Authorization: Bearer TOKEN" is missing or has another token. The comparison takes constant time. /healthz,
+//    /readyz, the page and its assets need no token: the page asks the user for it.
 std::optional<ApiResponse> guard(const ApiRequest& request, const GuardOptions& options);
 
-// Takes as long for texts that differ early as for those that differ late.
+// Its time does not depend on where the texts differ.
 bool equal_in_constant_time(const std::string& given, const std::string& secret);
 
 }  // namespace shadowbench::service

@@ -1,5 +1,5 @@
-// The head of a request, read strictly (RFC 9112) before any library sees it: what could be read in two ways is
-// refused.
+// Parses the head of a request strictly (RFC 9112), before any library sees it. Heads that could be understood in two
+// ways are refused.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Head {
     bool keep_alive = true;
     bool expects_continue = false;
     bool chunked = false;
-    std::optional<std::uint64_t> content_length;  // nothing: not told, or chunked
+    std::optional<std::uint64_t> content_length;  // nothing: absent, or the body is chunked
 };
 
 struct HeadFault {
@@ -25,12 +25,13 @@ struct HeadFault {
     const char* detail;
 };
 
-// `text` ends with the empty line. What it holds up to a fault is in `head` all the same, as far as it was understood.
+// `text` ends with the empty line. Returns the first fault; `head` then has the parts before it.
 std::optional<HeadFault> parse_head(std::string_view text, Head& head);
 
-std::string lower(std::string_view text);  // ASCII letters
+// Makes ASCII letters lower case.
+std::string lower(std::string_view text);
 
-// "%41b+c" -> "Ab+c", or "Ab c" where `plus_is_space`. Nothing for a broken escape or one of a control character.
+// "%41b+c" -> "Ab+c", or "Ab c" if `plus_is_space`. Nothing for an invalid escape or an escaped control character.
 std::optional<std::string> decode_percent(std::string_view text, bool plus_is_space);
 
 }  // namespace shadowbench::service

@@ -1,5 +1,5 @@
-// The one file that knows cpp-httplib (0.11.4). It frames bodies and answers; what it would read of a request's head it
-// gets in a form without traps: see head.h, and canonical_head() below.
+// The only file that uses cpp-httplib (0.11.4), which frames bodies and answers. head.h parses the heads of requests;
+// httplib gets a safe one instead: see canonical_head().
 #include <algorithm>
 #include <atomic>
 #include <mutex>
@@ -25,7 +25,7 @@ namespace {
 using base::Error;
 using base::ErrorCode;
 
-constexpr std::size_t framing = 64 * 1024;  // bytes of chunk sizes that a body may come with, beside its own
+constexpr std::size_t framing = 64 * 1024;  // bytes that the framing of chunks may add to a body
 constexpr std::size_t piece_size = 64 * 1024;
 
 // One request on its way through httplib.
@@ -33,14 +33,15 @@ struct Exchange {
     explicit Exchange(Channel& of) : channel(of) {}
     Channel& channel;
     Head head;
-    std::optional<ApiResponse> refusal;  // given instead of asking the service
-    bool keep = false;                   // the connection, afterwards
+    std::optional<ApiResponse> refusal;  // the answer, if the service is not asked
+    bool keep = false;                   // the connection stays open afterwards
 };
-// The request that httplib works on in this thread: its handlers are given nothing of ours.
+// The request that httplib works on in this thread. Its handlers take no further argument.
 thread_local Exchange* current = nullptr;
 
-// What httplib sees. It decodes header values, reads a POST without a length to the end of the connection, matches
-// paths with recursive regular expressions and takes its own REMOTE_ADDR for the client's: it gets none of that.
+// The head that httplib gets. httplib decodes header values, reads a POST without a length to the end of the
+// connection, matches paths with recursive regular expressions, and mistakes a REMOTE_ADDR from the client for its own.
+// This head gives it no occasion.
 std::string canonical_head(const Exchange& exchange) {
     const Head& head = exchange.head;
     if (exchange.refusal) return head.request.method == "HEAD" ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n";
@@ -53,7 +54,7 @@ std::string canonical_head(const Exchange& exchange) {
     return text + "\r\n";
 }
 
-// The canonical head, then the body as it comes.
+// Gives httplib the canonical head, then the body from the channel.
 class Wire final : public httplib::Stream {
 public:
     Wire(Channel& channel, std::string head) : channel_(channel), head_(std::move(head)) {}
@@ -80,18 +81,18 @@ private:
     std::size_t given_ = 0;
 };
 
-// Threads, and how many connections wait for one.
+// A thread pool that counts the connections that wait for a thread.
 class Pool final : public httplib::TaskQueue {
 public:
     Pool(std::size_t threads, std::size_t most, std::atomic<std::size_t>& waiting)
         : pool_(threads), most_(most), waiting_(waiting) {}
 
-    static thread_local bool refused;  // this connection is one too many
+    static thread_local bool refused;  // the connection in work exceeds the limit
 
     void enqueue(std::function<void()> task) override {
         if (waiting_ >= most_) {
             refused = true;
-            task();  // on the thread that accepts: it only says no
+            task();  // on the accepting thread: it only refuses the connection
             refused = false;
             return;
         }
@@ -157,7 +158,7 @@ void put(const ApiResponse& from, Exchange& exchange, httplib::Response& to) {
         to.set_content(from.body, from.type);
 }
 
-// What httplib adds of its own is left out where it says too much.
+// Removes header fields that httplib adds wrongly.
 void tidy(httplib::Response& response) {
     response.headers.erase("Keep-Alive");
     if (response.status == 204 || response.status == 304) response.headers.erase("Content-Length");
@@ -177,9 +178,9 @@ public:
         });
         set_post_routing_handler([](const httplib::Request&, httplib::Response& response) { tidy(response); });
         set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
-            put(problem(500, "A fault of this program."), *current, response);
+            put(problem(500, "Internal fault of the server."), *current, response);
         });
-        // Not SO_REUSEPORT, with which another process could listen beside this one.
+        // Not SO_REUSEPORT: with it another process could listen on the same port.
         set_socket_options([](socket_t socket) {
             const int yes = 1;
             ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -192,12 +193,12 @@ public:
         const int port = options_.port == 0                           ? bind_to_any_port(options_.host)
                          : bind_to_port(options_.host, options_.port) ? options_.port
                                                                       : -1;
-        // httplib asks for a queue of 5 connections, which a burst of clients overflows.
+        // httplib's queue of 5 connections would overflow when many clients connect at once.
         if (port > 0) ::listen(svr_sock_, 1024);
         return port;
     }
 
-    // Server::stop() does nothing before the loop has begun; a socket that is shut down ends it whenever it begins.
+    // Server::stop() has no effect before the loop begins. A socket that is shut down ends the loop whenever it begins.
     void shut_down() {
         stopping_ = true;
         ::shutdown(svr_sock_, SHUT_RDWR);
@@ -212,7 +213,7 @@ private:
         ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
         if (Pool::refused) {
             Exchange exchange(channel);
-            exchange.refusal = problem(503, "Too many clients; try again.");
+            exchange.refusal = problem(503, "Too many clients; try again later.");
             exchange.refusal->headers.push_back({"Retry-After", "5"});
             pass_on(exchange);
             return true;
@@ -222,7 +223,7 @@ private:
         return true;
     }
 
-    // One request; whether another may follow on the connection.
+    // Answers one request. Returns whether another may follow on the connection.
     bool converse(Channel& channel) {
         Exchange exchange(channel);
         std::string text;
@@ -230,13 +231,13 @@ private:
             case Channel::Outcome::closed:
                 return false;
             case Channel::Outcome::too_slow:
-                exchange.refusal = problem(408, "The request took too long.");
+                exchange.refusal = problem(408, "The request took too long to arrive.");
                 break;
             case Channel::Outcome::too_large:
                 exchange.refusal = problem(431, "The head of the request is too long.");
                 break;
             case Channel::Outcome::complete:
-                look_at(text, exchange);
+                check_head(text, exchange);
                 break;
         }
         const bool refused = exchange.refusal.has_value();
@@ -246,8 +247,8 @@ private:
         return exchange.keep;
     }
 
-    // Everything that can be said before the body is read.
-    void look_at(const std::string& text, Exchange& exchange) {
+    // Checks what can be checked before the body is read.
+    void check_head(const std::string& text, Exchange& exchange) {
         Head& head = exchange.head;
         if (const auto fault = parse_head(text, head)) {
             exchange.refusal = problem(fault->status, fault->detail);
@@ -257,7 +258,7 @@ private:
         if (!exchange.refusal) exchange.refusal = service_.refuse(head.request);
         if (!exchange.refusal && head.content_length.value_or(0) > service_.limits().body)
             exchange.refusal = too_large();
-        // A body that was not read is not to be taken for the next request.
+        // A body that was not read must not be taken for the next request.
         exchange.keep = head.keep_alive && waiting_ == 0 && !(exchange.refusal && head.request.has_body);
         exchange.channel.begin_body(service_.limits().body + framing);
     }
@@ -270,9 +271,9 @@ private:
         Wire wire(exchange.channel, canonical_head(exchange));
         current = &exchange;
         bool closed = false;
-        const bool whole = process_request(wire, !exchange.keep, closed, nullptr);
+        const bool processed = process_request(wire, !exchange.keep, closed, nullptr);
         current = nullptr;
-        exchange.keep = exchange.keep && whole && !closed;
+        exchange.keep = exchange.keep && processed && !closed;
     }
 
     void respond(httplib::Response& response) {
@@ -281,19 +282,20 @@ private:
         if (!exchange.keep) response.set_header("Connection", "close");
     }
 
-    // httplib holds chunked bodies to no limit, so their bytes are counted here.
+    // httplib does not limit chunked bodies, so this counts their bytes.
     void read_and_respond(const httplib::ContentReader& body, httplib::Response& response) {
         Exchange& exchange = *current;
         std::string& bytes = exchange.head.request.body;
-        bool over = false;
-        const bool whole = !exchange.head.request.has_body || body([&](const char* piece, size_t size) {
-            over = bytes.size() + size > service_.limits().body;
-            if (!over) bytes.append(piece, size);
-            return !over;
+        bool too_long = false;
+        const bool complete = !exchange.head.request.has_body || body([&](const char* piece, size_t size) {
+            too_long = bytes.size() + size > service_.limits().body;
+            if (!too_long) bytes.append(piece, size);
+            return !too_long;
         });
-        if (!whole) {
+        if (!complete) {
             exchange.keep = false;
-            exchange.refusal = over ? too_large() : problem(400, "The body is broken, or came too slowly.");
+            exchange.refusal =
+                too_long ? too_large() : problem(400, "The body is malformed, or took too long to arrive.");
             service_.count_refusal(exchange.head.request, exchange.refusal->status);
         }
         respond(response);
@@ -313,17 +315,19 @@ struct HttpServer::State {
     std::string host;
     int port = 0;
     std::mutex mutex;
-    bool over = false;  // the listening socket is closed
+    bool ended = false;  // the listening socket is closed
 };
 
 HttpServer::HttpServer(Service& service, std::size_t streams, HttpOptions options) {
     if (options.token.empty() && !is_loopback(options.host))
-        throw Error(ErrorCode::usage, "--host " + options.host,
-                    "an address beyond this machine needs --token-file FILE, so that not everybody may ask");
+        throw Error(
+            ErrorCode::usage, "--host " + options.host,
+            "other machines can reach this address; give --token-file FILE, so that not everybody can use the server");
     state_.reset(new State{Front(service, streams, options), options.host, 0, {}, false});
     state_->port = state_->front.bind();
     if (state_->port <= 0)
-        throw Error(ErrorCode::io, fmt::format("{}:{}", options.host, options.port), "cannot listen there; in use?");
+        throw Error(ErrorCode::io, fmt::format("{}:{}", options.host, options.port),
+                    "cannot listen on this address; it may be in use");
 }
 
 HttpServer::~HttpServer() = default;
@@ -340,12 +344,12 @@ std::string HttpServer::url() const {
 void HttpServer::run() {
     state_->front.listen_after_bind();
     const std::scoped_lock lock(state_->mutex);
-    state_->over = true;
+    state_->ended = true;
 }
 
 void HttpServer::stop() {
     const std::scoped_lock lock(state_->mutex);
-    if (!state_->over && !state_->front.stopping()) state_->front.shut_down();
+    if (!state_->ended && !state_->front.stopping()) state_->front.shut_down();
 }
 
 struct Client::State {
@@ -354,9 +358,10 @@ struct Client::State {
 
 Client::Client(const std::string& url, const std::string& token) : url_(url) {
     if (!url.starts_with("http://") && !url.starts_with("https://"))
-        throw Error(ErrorCode::usage, "--server " + url, "a server is named as http://host:port");
+        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port");
     state_.reset(new State{httplib::Client(url)});
-    if (!state_->client.is_valid()) throw Error(ErrorCode::usage, "--server " + url, "this is no server's URL");
+    if (!state_->client.is_valid())
+        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port");
     state_->client.set_connection_timeout(10);
     state_->client.set_read_timeout(120);
     state_->client.set_tcp_nodelay(true);
@@ -368,7 +373,7 @@ Client::~Client() = default;
 namespace {
 
 Reply reply_of(const httplib::Result& result, const std::string& url) {
-    if (!result) throw Error(ErrorCode::io, url, "no answer: " + httplib::to_string(result.error()));
+    if (!result) throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
     return {result->status, result->get_header_value("Content-Type"), result->body,
             result->get_header_value("Location")};
 }

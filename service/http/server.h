@@ -1,4 +1,4 @@
-// The HTTP front: sockets around a Service.
+// The HTTP server: sockets around a Service.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,17 @@ namespace shadowbench::service {
 
 struct HttpOptions {
     std::string host = "127.0.0.1";
-    int port = 0;               // 0: any that is free
-    std::string token;          // empty: none; only on loopback
-    std::size_t workers = 32;   // threads, beside one for each client that may follow events
-    std::size_t waiting = 512;  // connections that may wait for a thread; more are told 503
+    int port = 0;               // 0: any free port
+    std::string token;          // empty: none; allowed only on loopback
+    std::size_t workers = 32;   // threads, besides one for each client that may follow events
+    std::size_t waiting = 512;  // connections that may wait for a thread; more get 503
     ChannelLimits channel;
 };
 
 class HttpServer {
 public:
-    // Binds: from here on clients can connect. `streams` is ServiceOptions::event_streams. Throws Error{usage} for an
-    // address beyond this machine without a token, Error{io} when it cannot bind.
+    // Binds, so that clients can connect. `streams` is ServiceOptions::event_streams. Throws Error{usage} for an
+    // address that other machines can reach without a token, Error{io} when it cannot bind.
     HttpServer(Service& service, std::size_t streams, HttpOptions options);
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;
@@ -31,9 +31,9 @@ public:
     int port() const;
     std::string url() const;
 
-    // Answers until stop(), then lets the answers in work end.
+    // Answers requests until stop(), and finishes those in work.
     void run();
-    // From any thread, also before run(). Clients that follow events go when their Jobs stops.
+    // Any thread may call it, also before run(). The streams of events end when their Jobs stops.
     void stop();
 
 private:

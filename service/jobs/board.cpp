@@ -18,7 +18,7 @@ std::shared_ptr<JobBoard::Run> JobBoard::begin(const std::string& id) {
 void JobBoard::end(const std::shared_ptr<Run>& run) {
     const Lock lock(mutex_);
     const auto place = runs_.find(run->id);
-    if (place != runs_.end() && place->second == run) runs_.erase(place);  // another run of it may have begun
+    if (place != runs_.end() && place->second == run) runs_.erase(place);  // another run of the job may have begun
 }
 
 void JobBoard::show(Run& run, JobProgress progress, std::uint64_t revision) {

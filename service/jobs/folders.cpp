@@ -20,13 +20,13 @@ void check(const std::error_code& failed, const fs::path& path, const char* what
     if (failed) throw Error(ErrorCode::io, path.string(), std::string(what) + ": " + failed.message());
 }
 
-// Onto the disk: a file's content, or which names a folder holds.
+// Syncs the content of a file, or the names in a folder, to the disk.
 void sync(const fs::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
     const bool done = file >= 0 && ::fsync(file) == 0;
     const std::error_code failed(errno, std::generic_category());
     if (file >= 0) ::close(file);
-    if (!done) check(failed, path, "cannot be put onto the disk");
+    if (!done) check(failed, path, "cannot be synced to the disk");
 }
 
 void sync_all(const fs::path& folder) {
@@ -34,7 +34,7 @@ void sync_all(const fs::path& folder) {
         const fs::file_type type = entry.symlink_status().type();
         if (type != fs::file_type::regular && type != fs::file_type::directory)
             throw Error(ErrorCode::internal, entry.path().filename().string(),
-                        "a job's results hold files and folders alone");
+                        "a job's results may hold only files and folders");
         sync(entry.path());
     }
     sync(folder);
@@ -43,7 +43,7 @@ void sync_all(const fs::path& folder) {
 void make_folder(const fs::path& folder) {
     std::error_code failed;
     fs::create_directories(folder, failed);
-    check(failed, folder, "the folder cannot be made");
+    check(failed, folder, "cannot make the folder");
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ JobFolders make_job_folders(const fs::path& state) {
     const JobFolders folders{state / "jobs", state / "work"};
     make_folder(folders.jobs);
     make_folder(folders.work);
-    sync(state / ".");  // which may be a link
+    sync(state / ".");  // the state folder may be a link
     return folders;
 }
 
@@ -96,7 +96,7 @@ void discard_results(const JobFolders& folders, const std::string& id) {
     try {
         if (unpublish(folders, id)) remove_folder(removed_folder(folders, id));
     } catch (const Error&) {
-        // They stay, and the next start finds them.
+        // The next start removes them.
     }
 }
 
@@ -162,7 +162,7 @@ std::optional<fs::path> find_file_in(const fs::path& folder, const std::string& 
     for (std::size_t start = 0; start <= name.size();) {
         const std::size_t end = std::min(name.find('/', start), name.size());
         const std::string part = name.substr(start, end - start);
-        // "", "." and "..", and hidden files.
+        // Refuses "", ".", ".." and hidden files.
         if (part.empty() || part[0] == '.' || type != fs::file_type::directory) return std::nullopt;
         path /= part;
         std::error_code failed;

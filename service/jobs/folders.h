@@ -1,9 +1,9 @@
-// Where the files of jobs are, under the state folder:
-//   work/<id>-<attempt>/   what a child writes; it may be half of something
-//   work/<id>-copy/        the results of an earlier job, on their way to answer for a new one
+// The folders for the files of jobs, in the state folder:
+//   work/<id>-<attempt>/   the files of a run, which may be incomplete
+//   work/<id>-copy/        the results of an earlier job, which become those of a new job
 //   work/<id>-removed/     the results of a job that is being removed
-//   jobs/<id>/             the whole results of a job, with its record (record.h)
-// A folder moves from work/ to jobs/ once all in it is on the disk.
+//   jobs/<id>/             the complete results of a job, with its record (record.h)
+// A folder moves from work/ to jobs/ once all its files are on the disk.
 #pragma once
 
 #include <filesystem>
@@ -17,37 +17,37 @@ struct JobFolders {
     std::filesystem::path jobs, work;
 };
 
-// Makes both. Throws Error{io}, as does all of this file that changes something.
+// Makes both folders. Throws Error{io}, like every function of this file that changes something.
 JobFolders make_job_folders(const std::filesystem::path& state);
 
-// An empty folder, in place of what was there.
+// Makes an empty folder; removes the one that was there.
 void make_work_folder(const std::filesystem::path& work);
 
-// Puts all of a work folder onto the disk, then moves it to its place. Refuses links and whatever else is neither file
-// nor folder, with Error{internal}: that is the job's fault.
+// Syncs a work folder to the disk, then moves it to its place in jobs/. Throws Error{internal} for anything that is
+// neither file nor folder, such as a link: that is the job's fault.
 void publish(const JobFolders& folders, const std::filesystem::path& work, const std::string& id);
 
-// The files of one job as those of another, in a work folder: linked, or copied where the file system has no links.
-// Either may be removed without the other.
+// Puts the files of a job into a work folder: linked, or copied where the file system has no links. Each of the two
+// folders can be removed without the other.
 void link_files(const std::filesystem::path& from, const std::filesystem::path& work);
 
 bool is_published(const JobFolders& folders, const std::string& id);
-void remove_folder(const std::filesystem::path& folder);  // as far as it can be
+void remove_folder(const std::filesystem::path& folder);  // ignores faults
 void empty_folder(const std::filesystem::path& folder);   // likewise
 
-// Takes the results of a job from their place to removed_folder(), from where a start would go on to remove them;
-// false: there are none.
+// Moves the results of a job to removed_folder(); if the server dies then, the next start removes them. Returns false
+// for a job without results.
 bool unpublish(const JobFolders& folders, const std::string& id);
-void discard_results(const JobFolders& folders, const std::string& id);  // all that, as far as it can be
+void discard_results(const JobFolders& folders, const std::string& id);  // unpublishes and removes them; ignores faults
 std::filesystem::path removed_folder(const JobFolders& folders, const std::string& id);
 std::filesystem::path copy_folder(const JobFolders& folders, const std::string& id);
 std::filesystem::path attempt_folder(const JobFolders& folders, const std::string& id, int attempt);
 
-// What lies in a folder, sorted; hidden things and links too. Throws Error{io}, place the folder.
+// Everything in a folder, sorted, with hidden files and links. Throws Error{io}, place the folder.
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
-// By relative names with '/', sorted; hidden files are left out.
+// The files at any depth of a folder by their relative names, sorted; without hidden files.
 std::vector<std::string> list_files(const std::filesystem::path& folder);
-// The file of such a name; nothing when there is none, when the name leads elsewhere, or through a link.
+// The file of such a name. Nothing when it does not exist, or the name leads out of the folder or through a link.
 std::optional<std::filesystem::path> find_file_in(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace shadowbench::service

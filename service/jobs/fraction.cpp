@@ -6,11 +6,11 @@
 namespace shadowbench::service {
 namespace {
 
-constexpr double measured_of_both = 0.75;  // where pictures follow
+constexpr double measured_of_both = 0.75;  // share of the measurements in a job with pictures
 
 }  // namespace
 
-// Between two scenarios: quickstart, where lookups take most, and smoke_column, where the reference and builds do.
+// A compromise between two scenarios: lookups take most of quickstart, the reference and builds most of smoke_column.
 const JobFraction::Stage JobFraction::measuring_stages[] = {
     {"capture", 0.03}, {"reference", 0.28},    {"spread over seeds", 0.05}, {"build", 0.03},
     {"check", 0.06},   {"timing builds", 0.2}, {"timing lookups", 0.35}};
@@ -23,7 +23,7 @@ JobFraction::JobFraction(std::size_t lights, std::size_t pictured)
       measured_share_(pictured > 0 ? measured_of_both : 1.0) {}
 
 double JobFraction::Part::done(const bench::Progress& progress) {
-    // Lights have names of their own, and a light alone has no place to name.
+    // The place names the light; it is empty if there is only one.
     if (begun && progress.place != place) light = std::min(light + 1, lights - 1);
     begun = true;
     place = progress.place;
@@ -35,7 +35,7 @@ double JobFraction::Part::done(const bench::Progress& progress) {
             return (static_cast<double>(light) + before + stage.share * within) / static_cast<double>(lights);
         before += stage.share;
     }
-    return 0.0;  // a stage unknown here tells nothing
+    return 0.0;  // an unknown stage
 }
 
 double JobFraction::measuring(const bench::Progress& progress) {

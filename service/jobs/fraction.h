@@ -1,3 +1,4 @@
+// Estimates how much of a job is done.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +9,16 @@
 
 namespace shadowbench::service {
 
-// How much of a job is done, told from the stages that pass. The stages' shares of the time are those of a typical
-// scenario. What it answers never falls.
+// The fraction of a job that is done, in [0, 1], from the stages of its progress. Each stage has a share of the time
+// that is typical of scenarios. The fraction never decreases.
 class JobFraction {
 public:
-    // `lights`: that are measured, summed over the variants. `pictured`: lights of the pictures that follow; 0: none.
+    // `lights`: number of lights that are measured, in all variants. `pictured`: number of lights of the pictures that
+    // are rendered afterwards; 0: no pictures.
     JobFraction(std::size_t lights, std::size_t pictured);
 
-    double measuring(const bench::Progress& progress);  // of bench::run
-    double picturing(const bench::Progress& progress);  // of render::render
+    double measuring(const bench::Progress& progress);  // progress of bench::run
+    double picturing(const bench::Progress& progress);  // progress of render::render
 
 private:
     struct Stage {
@@ -24,7 +26,7 @@ private:
         double share;
     };
     static const Stage measuring_stages[], picturing_stages[];
-    // One of the two parts of the work: the same stages for one light after the other.
+    // Measuring, or rendering: the same stages for each light.
     struct Part {
         std::span<const Stage> stages;
         std::size_t lights, light = 0;

@@ -38,7 +38,7 @@ constexpr std::pair<JobState, const char*> state_names[] = {{JobState::queued, j
                                                             {JobState::failed, job_states::failed},
                                                             {JobState::cancelled, job_states::cancelled}};
 
-// One line at a time; nobody listens: lost.
+// Serialises the calls of `say`. Without `say`, lines are dropped.
 Say one_at_a_time(Say say) {
     if (!say) return [](const std::string&) {};
     return [say = std::move(say), mutex = std::make_shared<std::mutex>()](const std::string& line) {
@@ -49,7 +49,7 @@ Say one_at_a_time(Say say) {
 
 std::string check_program(const std::string& program) {
     if (::access(program.c_str(), X_OK) != 0)
-        throw Error(ErrorCode::io, program, "the program that jobs are run by cannot be executed");
+        throw Error(ErrorCode::io, program, "cannot execute the program that runs jobs");
     return program;
 }
 
@@ -63,7 +63,7 @@ std::string program_version() {
     return fmt::format("{} {}", build.version, build.commit);
 }
 
-// What must be the same when an idempotency key comes again.
+// Requests with the same idempotency key must have the same hash.
 std::string request_hash(const JobRequest& request) {
     return base::hash_text(fmt::format("{} {} {}", request.pictures, request.reuse, request.scenario));
 }
@@ -74,7 +74,7 @@ std::int64_t read_cursor(const std::string& cursor) {
     const char* const end = cursor.data() + cursor.size();
     const auto [rest, failed] = std::from_chars(cursor.data(), end, before);
     if (failed != std::errc() || rest != end || before <= 0)
-        throw Error(ErrorCode::usage, "cursor", "this is no cursor that a list of jobs has given");
+        throw Error(ErrorCode::usage, "cursor", "not a cursor of a list of jobs; use \"next\" of the page before");
     return before;
 }
 
@@ -140,12 +140,12 @@ struct Jobs::State {
         recover(folder, store, folders, say);
     }
 
-    // Gives a new job the results of an earlier one of the same key: whether its promises were kept. Nothing: there is
-    // none.
+    // Gives a new job the results of an earlier one with the same key. Returns whether its promises were kept; nothing
+    // without such a job.
     std::optional<bool> reuse_result(const NewJob& job);
 
     std::string checked_program;
-    StateFolder folder;  // locked before anything, and until the last
+    StateFolder folder;  // first member: locked before the others exist, and until they are gone
     JobFolders folders;
     std::unique_ptr<JobStore> opened;
     JobStore& store;
@@ -173,13 +173,13 @@ std::optional<bool> Jobs::State::reuse_result(const NewJob& job) {
         kept.job.kept = earlier->kept;
         write_record(work, kept);
         link_files(folders.jobs / earlier->id, work);
-        // They leave as a whole and before their row does: where that still is, all were there.
+        // A removal takes all files away before the row. The row still exists, so all files were linked.
         if (find_file_in(work, "result.json") && store.find(earlier->id)) {
             publish(folders, work, job.id);
             return earlier->kept;
         }
     } catch (const Error&) {
-        // Then the job is run.
+        // The job is run instead.
     }
     remove_folder(work);
     return std::nullopt;
@@ -229,7 +229,7 @@ Submitted Jobs::submit(const JobRequest& request) {
 }
 
 std::optional<JobInfo> Jobs::find(const std::string& id) const {
-    // The board first: where a run ends in between, the store's row is the newer, and rules.
+    // The board first: if the run ends between the two, the row in the store is newer and counts.
     JobBoard::Shown shown = state_->board.shown(id);
     const std::optional<StoredJob> job = state_->store.find(id);
     return job ? std::optional(info_of(*job, std::move(shown))) : std::nullopt;
@@ -238,7 +238,7 @@ std::optional<JobInfo> Jobs::find(const std::string& id) const {
 JobPage Jobs::list(std::optional<JobState> state, std::size_t limit, const std::string& cursor) const {
     const std::int64_t before = read_cursor(cursor);
     limit = std::clamp<std::size_t>(limit, 1, longest_page);
-    // One more than asked for tells whether there is a next page.
+    // One more job than the page has shows whether there is a next page.
     std::vector<StoredJob> jobs = state_->store.list(state ? to_string(*state) : "", limit + 1, before);
     JobPage page;
     if (jobs.size() > limit) {
@@ -262,8 +262,8 @@ Jobs::Change Jobs::cancel(const std::string& id) {
     return Change::done;
 }
 
-// Files first, and a start would go on from there: so a full disk can be emptied, and no result is left without its
-// job, which the next start would take back.
+// Removes the files before the row, so that it works on a full disk, and leaves no results without a job, which the
+// next start would adopt. If the server dies in between, the next start completes the removal.
 Jobs::Change Jobs::remove(const std::string& id) {
     State& all = *state_;
     const std::optional<StoredJob> job = all.store.find(id);

@@ -1,5 +1,5 @@
-// Jobs: scenarios that are queued, run one at a time (or a few) each in a child process of its own, and kept with their
-// results under one folder. What is accepted survives any kill: see service/store.
+// Queues scenarios as jobs, runs each in a child process, one or a few at a time, and keeps them with their results in
+// one folder. An accepted job survives any kill: see service/store.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ std::optional<JobState> parse_job_state(const std::string& text);
 struct JobProgress {
     std::string stage, place;
     std::uint64_t done = 0, total = 0;
-    double fraction = 0.0;  // of the whole job, never falling
+    double fraction = 0.0;  // of the whole job; never decreases
 };
 
 struct JobFault {
@@ -37,19 +37,19 @@ struct JobInfo {
     int attempts = 0;
     bool pictures = true;
     bool cached = false;                    // answered from the result of an earlier job
-    std::optional<bool> promises_kept;      // once it succeeded
-    std::optional<std::uint64_t> position;  // of a queued job: jobs before it
+    std::optional<bool> promises_kept;      // of a job that succeeded
+    std::optional<std::uint64_t> position;  // of a queued job: number of jobs before it
     std::optional<JobProgress> progress;    // while it runs
     std::optional<JobFault> fault;          // of a failed job
-    std::uint64_t revision = 0;             // grows with every change of this job; the id of its events
+    std::uint64_t revision = 0;             // grows with every change of the job; the id of its events
 };
 
 struct JobRequest {
     std::string scenario;    // JSON text, validated by the caller
-    std::string name, hash;  // of it
+    std::string name, hash;  // of the scenario
     std::uint64_t seed = 0;
     bool pictures = true;
-    bool reuse = true;            // the result of an earlier job of the same scenario and program version may answer
+    bool reuse = true;            // an earlier result of the same scenario and program version may be the answer
     std::string idempotency_key;  // empty: none
 };
 
@@ -59,61 +59,62 @@ struct Submitted {
         existing,
         conflict,
         queue_full
-    } outcome;  // existing: same key, same request; conflict: same key, another
+    } outcome;  // existing: same key and request; conflict: same key, another request
     JobInfo job;
 };
 
 struct JobLimits {
-    std::size_t queue = 2000;                    // jobs that wait; more are refused
-    double seconds = 3600.0;                     // of one run
-    std::size_t memory = std::size_t{16} << 30;  // bytes a child may take
-    int attempts = 3;                            // runs of a job whose process died by itself
-    int parallel = 1;
-    double grace = 10.0;  // seconds that stop() waits before it requeues what runs
+    std::size_t queue = 2000;                    // jobs that may wait; more are refused
+    double seconds = 3600.0;                     // that one run may take
+    std::size_t memory = std::size_t{16} << 30;  // bytes that a run may take
+    int attempts = 3;                            // runs of a job whose process dies
+    int parallel = 1;                            // jobs that run at a time
+    double grace = 10.0;                         // seconds that stop() waits for running jobs before it requeues them
 };
 
 struct JobPage {
     std::vector<JobInfo> jobs;  // newest first
-    std::string next;           // cursor; empty: no more
+    std::string next;           // cursor of the next page; empty: this is the last
 };
 
 class Jobs {
 public:
-    // Opens or makes `state` (see state_folder.h), queues again what ran when the last server died, takes back results
-    // that the database does not know, starts the worker. `program` is run as `program job FOLDER --data DIR...`.
-    // `say` gets what who watches the server should know, a line each, one at a time: what was found and moved away,
-    // results taken back, storage that fails and works again. Its lines name places of the machine.
-    // Throws base::Error{usage}: the folder is none of ours; {io}: not writable, or another server holds it.
+    // Opens or makes the folder `state` (see state_folder.h), requeues the jobs that ran when the last server died,
+    // adopts results that the database does not know, and starts the workers. They run `program job FOLDER --data
+    // DIR...`. `say` gets messages for the operator, a line each, one at a time: files that were moved aside, adopted
+    // results, storage that fails and works again. These lines name folders of the machine. Throws base::Error{usage}
+    // for a folder of another program, {io} where it is not writable or another server holds it.
     Jobs(std::filesystem::path state, std::string program, std::vector<std::string> data, JobLimits limits,
          std::function<void(const std::string& line)> say = {});
     ~Jobs();
     Jobs(const Jobs&) = delete;
     Jobs& operator=(const Jobs&) = delete;
 
-    Submitted submit(const JobRequest& request);  // durable once it returns
+    Submitted submit(const JobRequest& request);  // the job is on the disk once it returns
     std::optional<JobInfo> find(const std::string& id) const;
-    // `cursor` as in JobPage::next; empty: from the newest. Throws base::Error{usage} for a cursor that is none.
+    // `cursor` is a JobPage::next; empty: from the newest. Throws base::Error{usage} for any other text.
     JobPage list(std::optional<JobState> state, std::size_t limit, const std::string& cursor) const;
     std::size_t count(JobState state) const;
 
     enum class Change { done, not_found, refused };
-    Change cancel(const std::string& id);  // refused: it has ended
-    Change remove(const std::string& id);  // refused: it runs
+    Change cancel(const std::string& id);  // refused: the job has ended
+    Change remove(const std::string& id);  // refused: the job is running
 
-    // The scenario's text; a file of the job's folder by its relative path ("result.json", "images/reference.png").
-    // Nothing when there is no such job or file, it is not whole yet, or the path leads out of the folder (links, ..).
+    // The text of the scenario, and a file of the results by its relative path ("result.json", "images/reference.png").
+    // Nothing when the job or file does not exist, the job has not succeeded, or the path leads out of the folder.
     std::optional<std::string> scenario(const std::string& id) const;
     std::optional<std::filesystem::path> artifact(const std::string& id, const std::string& name) const;
     std::vector<std::string> artifacts(const std::string& id) const;
 
-    // Blocks until the job's revision is above `revision`, it is gone, stop() was called, or `seconds` have passed;
-    // the job then. Cheap for many waiting threads.
+    // Blocks until the job's revision is above `revision`, the job is removed, stop() is called, or `seconds` have
+    // passed; returns the job. Many threads may wait.
     std::optional<JobInfo> wait(const std::string& id, std::uint64_t revision, double seconds) const;
 
-    // While the state folder cannot be written, as on a full disk: jobs wait.
+    // Whether jobs wait because the state folder cannot be written, for example on a full disk.
     bool storage_fails() const;
 
-    // No more is started; what runs has `grace` seconds to end, then is killed and queued again. Wakes all waits.
+    // Starts no more jobs. Running jobs have `grace` seconds to finish; then they are killed and requeued. Ends all
+    // waits.
     void stop();
     bool stopping() const;
 

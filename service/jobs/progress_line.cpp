@@ -33,7 +33,7 @@ JobProgress progress_of(const json& line) {
     return progress;
 }
 
-// A code that is no base::ErrorCode is a fault of the program.
+// A code that is not a base::ErrorCode becomes `internal`.
 JobFault fault_of(const json& error) {
     int code = 0;
     for (const base::ErrorCode known :

@@ -1,9 +1,9 @@
-// What a job's process says on its standard output, a line of JSON each:
+// The lines of JSON that a job's process writes to its standard output:
 //   {"stage":"capture","place":"1/3 key","done":3,"total":16,"fraction":0.04}
 //   {"error":{"code":65,"where":"/lights/0","message":"..."}}
 //   {"storage":{"message":"...","bytes":1048576}}
-// The last says that the job's own folder could not be written or read, which is no fault of the job, and how many
-// bytes it has yet to write there, as far as that is known.
+// The last reports that the job's folder could not be written or read, which is not a fault of the job, and the number
+// of bytes that the job has yet to write there, as far as it is known.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace shadowbench::service {
 
-// Without the end of the line.
+// Each gives a line without its newline.
 std::string progress_line(const bench::Progress& progress, double fraction);
 std::string error_line(const base::Error& error);
 struct StorageFault {
@@ -26,8 +26,8 @@ struct StorageFault {
 };
 std::string storage_line(const StorageFault& fault);
 
-// Nothing for a line that is none of them: the process may have gone wrong, and print what it likes. Texts come out
-// printable; the fraction is in [0, 1], and 0 where the line has none.
+// Reads a line of an untrusted process: nothing for any other line. Texts become printable; the fraction is in [0, 1],
+// and 0 where the line has none.
 std::variant<std::monostate, JobProgress, JobFault, StorageFault> read_line(std::string_view line);
 
 }  // namespace shadowbench::service

@@ -69,7 +69,7 @@ KeptJob from_result(const json& result, const fs::path& folder, const std::strin
     kept.job.key.seed = scenario.value(json::json_pointer("/rays/seed"), std::uint64_t{1});
     const json& program = result.at("program");
     kept.job.key.program = program.at("version").get<std::string>() + " " + program.at("commit").get<std::string>();
-    // Where no objects are, pictures were wanted or not: there are none.
+    // A scene without objects has no pictures, whether they were wanted or not.
     kept.job.key.pictures = fs::exists(folder / "images") || !scenario.at("scene").contains("objects");
     kept.job.ended = time_of(folder / "result.json");
     const std::string started = result.at("times").value("started", "");
@@ -116,7 +116,7 @@ std::optional<KeptJob> read_record(const fs::path& folder, const std::string& id
     try {
         if (const json record = parse_file(folder / record_name); record.is_object()) return from_record(record, id);
     } catch (const json::exception&) {
-        // Then result.json tells.
+        // Read from result.json instead.
     }
     try {
         return from_result(parse_file(folder / "result.json"), folder, id);

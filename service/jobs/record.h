@@ -1,4 +1,4 @@
-// What the folder of a job's results says about the job, so that its row in the store can be made anew from it.
+// The record of a job in the folder of its results, from which its row in the store can be restored.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@ namespace shadowbench::service {
 // "j-" and 16 hexadecimal digits.
 bool is_job_id(const std::string& text);
 
-// Writes the job as the folder's hidden file ".job.json". Throws Error{io}.
+// Writes the job to the hidden file ".job.json" of the folder. Throws Error{io}.
 void write_record(const std::filesystem::path& folder, const KeptJob& job);
 
-// Of a folder with a result.json: what the record says or, of a folder of an earlier version, which has none, what
-// result.json does; the key of a request is then not known, times are those of the run. The id is `id`: a folder that
-// was copied by hand is a job of its own, without a key. Nothing: it holds no job's results.
+// The job of a folder with a result.json, from its record. A folder of an earlier version has no record: the job is
+// then read from result.json, without an idempotency key, with the times of the run. The job's id is `id`; a folder
+// that was copied by hand is a new job, without a key. Nothing for a folder without results.
 std::optional<KeptJob> read_record(const std::filesystem::path& folder, const std::string& id);
 
-// Whether the folder's record is of this job; a result.json need not be there.
+// Whether the folder has a record of this job, with or without a result.json.
 bool has_record_of(const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace shadowbench::service

@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t adopted_at_once = 200;  // each with its scenario's text
+constexpr std::size_t adopted_at_once = 200;  // jobs at a time, since each carries the text of its scenario
 
-// Of a job that the store has as running and has noted the promises of: an earlier version did so before it moved the
+// A job that the store has as running, with its promises noted. An earlier version noted them before it moved the
 // results to their place, and wrote no record.
 KeptJob kept_of(const JobStore& store, StoredJob job) {
     KeptJob kept;
@@ -41,14 +41,14 @@ std::optional<KeptJob> read_unclaimed(const JobStore& store, const JobFolders& f
     return job && job->kept && is_published(folders, id) ? std::optional(kept_of(store, *job)) : std::nullopt;
 }
 
-// Why results lie where nobody looks for them; empty: the store has them.
+// Why a folder in jobs/ does not belong there; empty if the store has its job as succeeded.
 std::string unknown(const fs::path& place, const std::optional<StoredJob>& job) {
     if (job && job->state == job_states::succeeded) return "";
     if (job && (job->state == job_states::failed || job->state == job_states::cancelled))
         return "the results of a job that is " + job->state;
     std::error_code ignored;
     if (job || (is_job_id(place.filename().string()) && fs::is_directory(fs::symlink_status(place, ignored))))
-        return "there is no result of a job in it";
+        return "it has no result of a job";
     return "not of this server";
 }
 
@@ -65,7 +65,7 @@ void adopt_results(StateFolder& state, JobStore& store, const JobFolders& folder
             }
         if (const std::string why = unknown(place, job); !why.empty()) state.set_aside(fs::path("jobs") / id, why);
     }
-    // In the order of their jobs, as near as it can be known.
+    // In the order of the jobs, as far as it is known.
     std::sort(unclaimed.begin(), unclaimed.end(), [](const Unclaimed& a, const Unclaimed& b) {
         return std::pair(a.created, a.id) < std::pair(b.created, b.id);
     });
@@ -74,10 +74,10 @@ void adopt_results(StateFolder& state, JobStore& store, const JobFolders& folder
         const std::string& id = unclaimed[i].id;
         if (auto kept = read_unclaimed(store, folders, id)) batch.push_back(std::move(*kept));
         const std::optional<StoredJob> job = store.find(id);
-        // The end of a run that its server did not live to note is nothing to tell of.
+        // Not reported for a run that ended just before the server died.
         if (!job || job->state == job_states::queued)
-            say(fmt::format("{}: the database {}; taken from its results as succeeded", (folders.jobs / id).string(),
-                            job ? "has this job as waiting" : "does not have this job"));
+            say(fmt::format("{}: the database {}; added from its results as succeeded", (folders.jobs / id).string(),
+                            job ? "has this job in the queue" : "does not have this job"));
         if (batch.size() == adopted_at_once || i + 1 == unclaimed.size()) {
             store.adopt(batch);
             batch.clear();
@@ -85,14 +85,14 @@ void adopt_results(StateFolder& state, JobStore& store, const JobFolders& folder
     }
 }
 
-// "<id>-<suffix>" -> both; nothing for other names.
+// Splits "<id>-<suffix>"; nothing for other names.
 std::optional<std::pair<std::string, std::string>> split(const std::string& name) {
     const std::size_t dash = name.rfind('-');
     if (dash == std::string::npos || dash + 1 == name.size()) return std::nullopt;
     return std::pair(name.substr(0, dash), name.substr(dash + 1));
 }
 
-bool is_half_done(JobStore& store, const fs::path& place) {
+bool is_incomplete(JobStore& store, const fs::path& place) {
     if (is_room_file(place)) return true;
     const auto parts = split(place.filename().string());
     std::error_code ignored;
@@ -106,7 +106,7 @@ bool is_half_done(JobStore& store, const fs::path& place) {
 void sweep_work(StateFolder& state, JobStore& store, const JobFolders& folders) {
     for (const fs::path& place : entries_of(folders.work)) {
         const std::string name = place.filename().string();
-        if (!is_half_done(store, place)) {
+        if (!is_incomplete(store, place)) {
             const auto parts = split(name);
             state.set_aside(fs::path("work") / name, parts && is_job_id(parts->first)
                                                          ? "of a job that the database does not have"
@@ -118,7 +118,7 @@ void sweep_work(StateFolder& state, JobStore& store, const JobFolders& folders) 
     }
 }
 
-void tell_of_missing(const JobStore& store, const JobFolders& folders, const Say& say) {
+void report_missing(const JobStore& store, const JobFolders& folders, const Say& say) {
     std::int64_t before = 0;
     for (;;) {
         const std::vector<StoredJob> page = store.list(job_states::succeeded, 1000, before);
@@ -134,23 +134,22 @@ void tell_of_missing(const JobStore& store, const JobFolders& folders, const Say
 
 std::unique_ptr<JobStore> open_store(StateFolder& state, const JobFolders& folders, const Say& say) {
     const fs::path file = state.database();
-    const auto tell = [&](const char* why) {
+    const auto report = [&](const char* why) {
         say(fmt::format(
-            "{}: {}; a new one gets the jobs that have results: those that waited, failed or were cancelled "
-            "are not known any more",
+            "{}: {}; a new one was made from the results. Jobs that waited, failed or were cancelled are lost",
             file.string(), why));
     };
     if (kind_of_store(file) == StoreKind::none) {
-        // SQLite would delete what lies beside a file that is not there.
-        state.set_beside_database_aside("the database that this belongs to is missing or empty");
+        // SQLite would delete the files beside a database that does not exist.
+        state.set_beside_database_aside("its database is missing or empty");
         if (!entries_of(folders.jobs).empty() || !entries_of(folders.work).empty())
-            tell("the database is missing or empty");
+            report("the database is missing or empty");
     }
     try {
         return std::make_unique<JobStore>(file);
     } catch (const DamagedStore&) {
         state.set_database_aside("the database is damaged");
-        tell("the database was damaged");
+        report("the database was damaged");
         return std::make_unique<JobStore>(file);
     }
 }
@@ -159,7 +158,7 @@ void recover(StateFolder& state, JobStore& store, const JobFolders& folders, con
     adopt_results(state, store, folders, say);
     for (const StoredJob& job : store.list(job_states::running, INT32_MAX, 0)) store.requeue_running(job.id, true);
     sweep_work(state, store, folders);
-    tell_of_missing(store, folders, say);
+    report_missing(store, folders, say);
 }
 
 }  // namespace shadowbench::service

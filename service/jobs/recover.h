@@ -1,4 +1,4 @@
-// What a start makes of what the last server left.
+// Recovers the state folder that the last server left.
 #pragma once
 
 #include <memory>
@@ -9,13 +9,13 @@
 
 namespace shadowbench::service {
 
-// Opens the store. A file that is broken is set aside, and a new one is made in its place: recover() fills it from the
-// results. Throws Error{io}, as for another program's file, which stays where it is.
+// Opens the store. A damaged file is set aside and replaced by a new one, which recover() fills from the results.
+// Throws Error{io}, also for the file of another program, which it leaves in place.
 std::unique_ptr<JobStore> open_store(StateFolder& state, const JobFolders& folders, const Say& say);
 
-// Before anything runs: results in their place whose job the store has not as ended are taken as that job's; jobs that
-// ran are queued again, and that run is not counted; what was half done is removed, and what nobody knows in jobs/ and
-// work/ is set aside. Says what it did beyond the usual. Throws Error{io}.
+// Called before any job runs. Complete results end their job, unless the store has it as ended. Jobs that ran are
+// requeued, and their run does not count. Incomplete folders are removed, and unknown files in jobs/ and work/ are set
+// aside. Reports unusual steps through `say`. Throws Error{io}.
 void recover(StateFolder& state, JobStore& store, const JobFolders& folders, const Say& say);
 
 }  // namespace shadowbench::service

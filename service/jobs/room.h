@@ -1,5 +1,5 @@
-// Whether the server's storage takes what jobs write. Space that is free is no answer where there are quotas, or where
-// a file system has become read-only: only trying is.
+// Finds out whether the server can write to its storage. The free space does not show quotas or a file system that has
+// become read-only, so it tries.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,16 @@
 
 namespace shadowbench::service {
 
-// The least that is asked for.
+// The least number of bytes that is tried.
 inline constexpr std::uintmax_t least_room = std::uintmax_t{64} << 10;
 
-// Writes least_room bytes into a file of the folder that nobody sees, reserves `bytes` in all (where the file system
-// can), puts them onto the disk and gives them back. A kill in between may leave a file whose name is_room_file()
-// knows.
+// Whether `bytes` can be written to the folder: writes least_room bytes to an unlinked file, reserves the rest (where
+// the file system can), syncs the file and frees it. A kill in between may leave a file, which is_room_file()
+// recognises.
 bool has_room(const std::filesystem::path& folder, std::uintmax_t bytes);
 bool is_room_file(const std::filesystem::path& file);
 
-// Bytes on the disk of all files in a folder, as far as they can be seen.
+// Bytes on the disk of all readable files in a folder.
 std::uintmax_t bytes_in(const std::filesystem::path& folder);
 
 }  // namespace shadowbench::service

@@ -61,7 +61,8 @@ fs::file_type type_of(const fs::path& place) {
     return type;
 }
 
-// What a start makes before its mark is in place, and lost+found, as a new file system has it, hold nothing.
+// Whether the folder is empty, but for files that a start makes before the mark, and for the lost+found of a new file
+// system.
 bool holds_nothing(const fs::path& folder) {
     for (const fs::path& entry : entries_of(folder)) {
         const std::string name = entry.filename().string();
@@ -99,30 +100,30 @@ void check_mark(const fs::path& mark) {
     const auto found = read.is_object() ? read.find("layout") : read.end();
     if (!read.is_object() || read.value("program", json()) != "shadowbench" || found == read.end() ||
         !found->is_number_integer())
-        refuse(mark, "this is not the mark of a state folder");
-    if (*found < layout) refuse(mark, "this is not the mark of a state folder");
+        refuse(mark, "not the mark of a state folder of shadowbench");
+    if (*found < layout) refuse(mark, "not the mark of a state folder of shadowbench");
     if (*found > layout)
         throw Error(ErrorCode::io, mark.string(),
                     "a newer shadowbench made this state folder; run that one, or use another folder");
 }
 
-// Looks, and writes nothing. Whether it has its mark.
+// Checks the folder without writing. Returns whether it has the mark.
 bool check_ours(const fs::path& folder) {
     std::error_code ignored;
-    if (!fs::is_directory(folder, ignored)) refuse(folder, "this is no folder");
+    if (!fs::is_directory(folder, ignored)) refuse(folder, "not a folder");
     for (const Part& part : parts) {
         const fs::file_type type = type_of(folder / part.name);
         if (type != fs::file_type::not_found && type != part.type)
             refuse(folder / part.name, part.type == fs::file_type::directory
-                                           ? "a state folder has a folder of its own here, and no link"
-                                           : "a state folder has a file of its own here, and no link");
+                                           ? "expected a folder here, not a file or a link"
+                                           : "expected a file here, not a folder or a link");
     }
     if (type_of(folder / mark_name) != fs::file_type::not_found) {
         check_mark(folder / mark_name);
         return true;
     }
     if (!holds_nothing(folder) && !is_of_earlier_version(folder))
-        refuse(folder, "this folder holds other things and carries no mark of a state folder of shadowbench");
+        refuse(folder, "this folder has other files and is not a state folder of shadowbench");
     return false;
 }
 
@@ -131,10 +132,10 @@ void sync_place(const fs::path& place) {
     const bool done = file >= 0 && ::fsync(file) == 0;
     const std::error_code failed(errno, std::generic_category());
     if (file >= 0) ::close(file);
-    if (!done) fail(place, "cannot be put onto the disk", failed);
+    if (!done) fail(place, "cannot be synced to the disk", failed);
 }
 
-// It is there as a whole or not at all.
+// The mark appears complete or not at all.
 void write_mark(const fs::path& folder) {
     const std::string text = json{{"program", "shadowbench"}, {"layout", layout}}.dump() + "\n";
     const fs::path pending = folder / pending_mark_name;
@@ -149,7 +150,7 @@ void write_mark(const fs::path& folder) {
     sync_place(folder);
 }
 
-// A new folder in lost+found, of this moment.
+// Makes a new folder in lost+found, named after the current time.
 fs::path make_lost(const fs::path& state) {
     std::error_code failed;
     fs::create_directory(state / lost_name, failed);
@@ -168,7 +169,7 @@ fs::path make_lost(const fs::path& state) {
 StateFolder::StateFolder(const fs::path& folder, Say say) : path_(folder), say_(std::move(say)) {
     std::error_code failed;
     if (!fs::exists(folder, failed)) fs::create_directories(folder, failed);
-    if (failed) fail(folder, "the state folder cannot be made", failed);
+    if (failed) fail(folder, "cannot make the state folder", failed);
     const bool marked = check_ours(folder);
     lock_.emplace(folder);
     if (!marked) write_mark(folder);
@@ -188,9 +189,10 @@ bool StateFolder::set_aside(const fs::path& place, const std::string& why) {
             say_(fmt::format("{}: {}; moved to {}", from, why, to.string()));
             return true;
         }
-        say_(fmt::format("{}: {}; it cannot be moved to {}, and stays: {}", from, why, to.string(), failed.message()));
+        say_(fmt::format("{}: {}; it stays, because it cannot be moved to {}: {}", from, why, to.string(),
+                         failed.message()));
     } catch (const Error& error) {
-        say_(fmt::format("{}: {}; it stays: {}", from, why, error.what()));
+        say_(fmt::format("{}: {}; it stays, because it cannot be moved: {}", from, why, error.what()));
     }
     return false;
 }

@@ -1,10 +1,10 @@
-// The folder that a server keeps its jobs in:
-//   shadowbench-state     the mark: whose folder it is, and the version of its layout
+// The state folder, in which a server keeps its jobs:
+//   shadowbench-state     the mark: it names the program and the version of the layout
 //   lock                  see store/folder_lock.h
-//   jobs.db               see store/job_store.h, with what SQLite puts beside it
+//   jobs.db               see store/job_store.h, with the files that SQLite puts beside it
 //   jobs/, work/          see folders.h
-//   lost+found/<time>/    what a start found in the server's places and nobody knows, moved there as it was
-// Anything else in it is left alone.
+//   lost+found/<time>/    unknown files that a start found in the places above and moved there
+// Other files in it are left alone.
 #pragma once
 
 #include <filesystem>
@@ -16,23 +16,25 @@
 
 namespace shadowbench::service {
 
-using Say = std::function<void(const std::string& line)>;  // to who watches the server
+using Say = std::function<void(const std::string& line)>;  // a message for the operator of the server
 
 class StateFolder {
 public:
-    // Takes a folder that is new or empty, has the mark, or is of an earlier version, which put none: it has a database
-    // of ours or, where that is lost, results of a job. Nothing in any other is touched: Error{usage}, as where one of
-    // the names above is a link or of another kind. Throws Error{io} too: it cannot be read or written, another server
-    // holds it, or a newer version made it. `say` gets what set_aside() does.
+    // Opens a folder that is new or empty, has the mark, or comes from an earlier version, which wrote no mark: it has
+    // a job store or, if that is lost, results of a job. Throws Error{usage} for any other folder, and when one of the
+    // names above is a link or of another kind; it then changes nothing. Throws Error{io} when the folder cannot be
+    // read or written, another server holds it, or a newer version made it. `say` gets a line for each call of
+    // set_aside().
     StateFolder(const std::filesystem::path& folder, Say say);
 
     const std::filesystem::path& path() const { return path_; }
     std::filesystem::path database() const { return path_ / "jobs.db"; }
 
-    // Moves what is at this place, relative to the folder, into lost+found, and says so and why. Nothing is ever
-    // overwritten there. False, and that is said: it cannot be moved, and stays.
+    // Moves a file or folder, by its path relative to the state folder, into lost+found, and reports it with the
+    // reason. Never overwrites a file there. Returns false, and reports that, when it cannot be moved.
     bool set_aside(const std::filesystem::path& place, const std::string& why);
-    // The database with what SQLite keeps beside it; or that alone. Throws Error{io}.
+    // The first sets aside the database and the files that SQLite keeps beside it, the second only those. Throw
+    // Error{io}.
     void set_database_aside(const std::string& why);
     void set_beside_database_aside(const std::string& why);
 
@@ -42,7 +44,7 @@ private:
     std::filesystem::path path_;
     Say say_;
     std::optional<FolderLock> lock_;
-    std::filesystem::path lost_;  // of this start; made with the first that goes there
+    std::filesystem::path lost_;  // the folder of this start in lost+found; made when it is needed
 };
 
 }  // namespace shadowbench::service

@@ -1,4 +1,4 @@
-// Moments as jobs have them: UTC, ISO 8601 with milliseconds, "2026-11-25T01:02:03.004Z".
+// Times as text: UTC, ISO 8601 with milliseconds, "2026-11-25T01:02:03.004Z".
 #pragma once
 
 #include <ctime>

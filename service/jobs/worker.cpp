@@ -27,38 +27,38 @@ using Clock = JobBoard::Clock;
 
 constexpr std::chrono::milliseconds between_progress{100};
 constexpr std::chrono::milliseconds first_wait{250}, longest_wait{10000};
-constexpr int promise_broken = 2;  // exit code: a result all the same
+constexpr int promise_broken = 2;  // exit code: the result is complete
 
 // How a run ended.
 struct Success {
     bool kept;
 };
-struct Again {
+struct Requeue {
     bool uncounted;
 };
-// The server's own storage failed, with so many bytes of the job's in it: no fault of the job, which waits.
+// The server's storage failed, which is not a fault of the job: the job waits. `bytes`: space that it needs.
 struct Waits {
     std::string why;
     std::uintmax_t bytes;
 };
 struct Cancelled {};
-using Verdict = std::variant<Success, Again, Waits, Cancelled, JobFault>;
+using Verdict = std::variant<Success, Requeue, Waits, Cancelled, JobFault>;
 
-// The server's storage fails, from begin() on until this goes. Who watches the server hears of it once, however often
-// it is tried again and by how many workers.
+// Marks the server's storage as failing from begin() to its destructor. The operator gets one message, however often
+// and by however many workers the storage is tried.
 class StorageAlarm {
 public:
     explicit StorageAlarm(const Workplace& place) : place_(place) {}
     ~StorageAlarm() {
         if (begun_ && place_.board.end_storage_fault() && !place_.board.stopping())
-            place_.say("the state folder can be written again: jobs go on");
+            place_.say("the state folder can be written again; jobs go on");
     }
     StorageAlarm(const StorageAlarm&) = delete;
     StorageAlarm& operator=(const StorageAlarm&) = delete;
 
     void begin(const std::string& why) {
         if (!begun_ && place_.board.begin_storage_fault())
-            place_.say("the state folder cannot be written, jobs wait until it can: " + why);
+            place_.say("the state folder cannot be written; jobs wait until it can: " + why);
         begun_ = true;
     }
 
@@ -67,7 +67,7 @@ private:
     bool begun_ = false;
 };
 
-// Waits longer and longer, until the server stops.
+// Waits, longer each time, or until the server stops.
 class Patience {
 public:
     void wait(const JobBoard& board) {
@@ -79,8 +79,8 @@ private:
     std::chrono::milliseconds next_ = first_wait;
 };
 
-// Repeats what the storage does not let through, as a full disk. Nothing: the server stops; the next one finds the job
-// as it is.
+// Calls `body` until the storage lets it succeed. Nothing when the server stops first: the next server then finds the
+// job unchanged.
 template <class Body>
 auto persist(const Workplace& place, const Body& body) -> std::optional<std::decay_t<decltype(body())>> {
     StorageAlarm alarm(place);
@@ -95,7 +95,8 @@ auto persist(const Workplace& place, const Body& body) -> std::optional<std::dec
     }
 }
 
-// Until there is room for what the job had written and more, it waits no longer, or the server stops.
+// Returns when there is room for more than the job had written, when the job is no longer queued, or when the server
+// stops.
 void wait_for_room(const Workplace& place, const StoredJob& job, const Waits& waits, Patience& patience) {
     StorageAlarm alarm(place);
     alarm.begin(job.id + ": " + waits.why);
@@ -128,7 +129,7 @@ std::vector<std::string> arguments_of(const Workplace& place, const StoredJob& j
     return arguments;
 }
 
-// What a child says about itself, passed on to the board no faster than people read.
+// Reads the lines of a job's process and passes its progress on to the board, at a limited rate.
 class Listener {
 public:
     Listener(const Workplace& place, JobBoard::Run& run) : place_(place), run_(run) {}
@@ -154,7 +155,7 @@ public:
             const std::uint64_t revision = place_.store.next_revision();
             place_.board.show(run_, std::move(*latest_), revision);
         } catch (const Error&) {
-            // The disk is full: progress is not what matters now.
+            // The storage fails; progress can be lost.
         }
         latest_.reset();
     }
@@ -176,31 +177,31 @@ bool has_result(const fs::path& work) {
 }
 
 Verdict judge(const Workplace& place, const StoredJob& job, const JobBoard::Run& run, const fs::path& work,
-              const ChildReport& report, const std::optional<JobFault>& said) {
+              const ChildReport& report, const std::optional<JobFault>& reported) {
     if (report.end == ChildEnd::told)
-        return place.board.is_cancelled(run) ? Verdict(Cancelled{}) : Verdict(Again{true});
+        return place.board.is_cancelled(run) ? Verdict(Cancelled{}) : Verdict(Requeue{true});
     if (report.end == ChildEnd::exited) {
         const bool finished = report.code == 0 || report.code == promise_broken;
         if (finished && has_result(work)) return Success{report.code == 0};
-        return said.value_or(fault_of_end(report, place.limits));
+        return reported.value_or(fault_of_end(report, place.limits, place.hidden));
     }
-    // Nobody asked for it, and it may not come again.
-    if (report.end == ChildEnd::signalled && job.attempts < place.limits.attempts) return Again{false};
-    return fault_of_end(report, place.limits);
+    // Another run may not be killed.
+    if (report.end == ChildEnd::signalled && job.attempts < place.limits.attempts) return Requeue{false};
+    return fault_of_end(report, place.limits, place.hidden);
 }
 
-// What a job's process cannot do on a disk that takes nothing is not its fault, whatever it says.
+// A failure of a job's process on a disk that cannot be written is not the job's fault, whatever it reports.
 std::optional<Waits> storage_fault(const Workplace& place, const Verdict& verdict, const ChildReport& report,
                                    const Listener& listener, const fs::path& work) {
-    const auto* again = std::get_if<Again>(&verdict);
-    const bool by_itself = report.end == ChildEnd::exited || report.end == ChildEnd::signalled;
-    if (!by_itself || !(std::holds_alternative<JobFault>(verdict) || (again && !again->uncounted))) return std::nullopt;
+    const auto* requeue = std::get_if<Requeue>(&verdict);
+    const bool died = report.end == ChildEnd::exited || report.end == ChildEnd::signalled;
+    if (!died || !(std::holds_alternative<JobFault>(verdict) || (requeue && !requeue->uncounted))) return std::nullopt;
     if (const auto& fault = listener.storage_fault()) return Waits{fault->message, bytes_in(work) + fault->bytes};
     if (has_room(place.folders.work, least_room)) return std::nullopt;
     return Waits{"nothing can be written to " + place.folders.work.string(), bytes_in(work)};
 }
 
-// All that makes the row of a job anew, beside its results, before these get their place.
+// Writes the record of the job into its results before they move to their place.
 void keep_record(const Workplace& place, const StoredJob& job, bool kept, const std::string& scenario,
                  const fs::path& work) {
     KeptJob record{job, scenario, "", ""};
@@ -215,7 +216,7 @@ void keep_record(const Workplace& place, const StoredJob& job, bool kept, const 
 
 Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run, const fs::path& work) {
     const std::optional<std::string> scenario = place.store.scenario(job.id);
-    if (!scenario) return Cancelled{};  // and removed
+    if (!scenario) return Cancelled{};  // the job was removed
     write_scenario(work, *scenario);
     Listener listener(place, run);
     const ChildLimits limits{place.limits.seconds, place.limits.memory};
@@ -228,16 +229,16 @@ Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run
     Verdict verdict = judge(place, job, run, work, report, listener.fault());
     if (auto waits = storage_fault(place, verdict, report, listener, work)) return std::move(*waits);
     if (const auto* success = std::get_if<Success>(&verdict)) {
-        remove_folder(work / "scenario.json");  // it is in the record
-        // Hours of work are not done again for want of a few bytes.
+        remove_folder(work / "scenario.json");  // the record has it
+        // Waits for the storage rather than repeat hours of work.
         const auto state = persist(place, [&] {
             keep_record(place, job, success->kept, *scenario, work);
             const std::optional<StoredJob> now = place.store.find(job.id);
             return now ? now->state : std::string();
         });
-        if (!state) return Again{true};
+        if (!state) return Requeue{true};
         if (*state != job_states::running) return Cancelled{};
-        // From here on whoever finds the folder in its place knows all that is to know of the job.
+        // From here on the published folder says everything about the job.
         publish(place.folders, work, job.id);
     }
     return verdict;
@@ -246,7 +247,8 @@ Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run
 std::optional<std::uint64_t> settle(const Workplace& place, const StoredJob& job, const Verdict& verdict) {
     if (const auto* success = std::get_if<Success>(&verdict))
         return place.store.end_running(job.id, {job_states::succeeded, now_utc(), success->kept, {}});
-    if (const auto* again = std::get_if<Again>(&verdict)) return place.store.requeue_running(job.id, again->uncounted);
+    if (const auto* requeue = std::get_if<Requeue>(&verdict))
+        return place.store.requeue_running(job.id, requeue->uncounted);
     if (std::holds_alternative<Waits>(verdict)) return place.store.requeue_running(job.id, true);
     if (const auto* fault = std::get_if<JobFault>(&verdict))
         return place.store.end_running(
@@ -254,7 +256,7 @@ std::optional<std::uint64_t> settle(const Workplace& place, const StoredJob& job
     return std::nullopt;
 }
 
-// Results that got their place in a run whose last step failed.
+// The results of an earlier run, if they were published and only the last step failed.
 std::optional<Verdict> finished_before(const Workplace& place, const StoredJob& job) {
     if (!is_published(place.folders, job.id)) return std::nullopt;
     const auto kept = read_record(place.folders.jobs / job.id, job.id);
@@ -263,7 +265,7 @@ std::optional<Verdict> finished_before(const Workplace& place, const StoredJob& 
 
 Verdict attempt(const Workplace& place, const StoredJob& job, JobBoard::Run& run, const fs::path& work) {
     try {
-        // A cancellation between the claim and the begin found nobody to tell.
+        // The job may have been cancelled between claim() and begin().
         const std::optional<StoredJob> now = place.store.find(job.id);
         if (!now || now->state != job_states::running) return Cancelled{};
         if (auto done = finished_before(place, job)) return std::move(*done);
@@ -277,16 +279,16 @@ Verdict attempt(const Workplace& place, const StoredJob& job, JobBoard::Run& run
     }
 }
 
-// What the job waits for, where it does.
+// Runs a job. Returns what it waits for, if it does.
 std::optional<Waits> run_one(const Workplace& place, const StoredJob& job) {
     const auto run = place.board.begin(job.id);
     place.board.announce(job.revision, true);
     const fs::path work = attempt_folder(place.folders, job.id, job.attempts);
     const Verdict verdict = attempt(place, job, *run, work);
-    remove_folder(work);  // first, for it may be what fills the disk
+    remove_folder(work);  // first, since it may have filled the disk
     const auto revision = persist(place, [&] { return settle(place, job, verdict); });
     const auto* waits = std::get_if<Waits>(&verdict);
-    // Cancelled at the last moment.
+    // The job was cancelled at the last moment.
     if (revision && !*revision) discard_results(place.folders, job.id);
     place.board.end(run);
     if (revision && *revision) place.board.announce(**revision, true);

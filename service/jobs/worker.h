@@ -1,3 +1,4 @@
+// The threads that run jobs.
 #pragma once
 
 #include <string>
@@ -8,10 +9,12 @@
 #include "service/jobs/folders.h"
 #include "service/jobs/jobs.h"
 #include "service/jobs/state_folder.h"
+#include "service/privacy/hidden_folders.h"
 #include "service/store/job_store.h"
 
 namespace shadowbench::service {
 
+// The store, folders and limits that the workers share.
 struct Workplace {
     JobStore& store;
     JobBoard& board;
@@ -23,9 +26,9 @@ struct Workplace {
     Say say;
 };
 
-// Takes the jobs from the queue, one after the other, and runs each to its end; returns once the board stops. Throws
-// nothing: where the server's own storage fails, be it the store or the folders, the job keeps its place in the queue
-// and that run is not counted; it is tried again, less and less often, until there is room.
+// Takes jobs from the queue, one after the other, and runs each to its end. Returns once the board stops. Throws
+// nothing: when the server's storage fails, the job keeps its place in the queue, the run does not count, and the
+// worker tries again, with growing pauses, until the storage works.
 void run_jobs(const Workplace& place);
 
 }  // namespace shadowbench::service

@@ -8,7 +8,7 @@
 namespace shadowbench::service::sqlite {
 namespace {
 
-constexpr int busy_milliseconds = 5000;  // for who else looks into the file, as sqlite3's shell
+constexpr int busy_milliseconds = 5000;  // waits for other readers of the file, such as sqlite3's shell
 
 std::int64_t pragma(Database& database, const std::string& name) {
     Rows rows(database, "PRAGMA " + name);
@@ -83,7 +83,7 @@ void Database::check(int code) const {
         case SQLITE_DONE:
             return;
         case SQLITE_NOTADB:
-            fail_damaged("this is no database");
+            fail_damaged("not a database");
         case SQLITE_CORRUPT:
             fail_damaged("the database is damaged");
         default:
@@ -156,7 +156,7 @@ Transaction::~Transaction() {
     try {
         run(database_, "ROLLBACK");
     } catch (const base::Error&) {
-        // SQLite has rolled back already after some faults, as a full disk.
+        // After some faults, such as a full disk, SQLite has already rolled back.
     }
 }
 

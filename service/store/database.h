@@ -1,4 +1,4 @@
-// SQLite behind two small classes. database.cpp alone knows its header.
+// SQLite behind small classes. Only database.cpp includes its header.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@ struct sqlite3_stmt;
 
 namespace shadowbench::service::sqlite {
 
-// One connection; whoever shares it between threads locks. Every fault is a base::Error{io} whose place is the file; of
-// a broken file a DamagedStore.
+// One connection. Threads that share it must lock. Every fault is a base::Error{io} whose place is the file, or a
+// DamagedStore for a damaged file.
 class Database {
 public:
     enum class Access { write, read };
 
-    // Opened for writing, the file is made where there is none, put into write-ahead mode, and every commit waits until
-    // it is on the disk. The file must be empty or carry `application` (SQLite's application_id).
+    // Access::write creates a missing file and turns write-ahead mode on; every commit then waits until it is on the
+    // disk. The file must be empty or have this application_id.
     Database(const std::filesystem::path& file, Access access, std::int32_t application);
     ~Database();
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
 
-    void execute(const std::string& sql);  // several statements, without values
+    void execute(const std::string& sql);  // one or more statements, without values
     std::int64_t changes() const;          // rows that the last statement changed
     [[noreturn]] void fail(const std::string& message) const;
     [[noreturn]] void fail_damaged(const std::string& what) const;
@@ -40,12 +40,12 @@ private:
 
     std::string place_;
     sqlite3* handle_ = nullptr;
-    std::map<std::string, sqlite3_stmt*, std::less<>> statements_;  // each prepared once
+    std::map<std::string, sqlite3_stmt*, std::less<>> statements_;  // prepared statements by their text
 };
 
 using Value = std::variant<std::monostate, std::int64_t, std::string_view>;  // monostate: NULL
 
-// One execution of a statement: while (rows.next()) rows.text(0) ... Its locks end with it.
+// One execution of a statement: while (rows.next()) rows.text(0) ... Its destructor ends its locks.
 class Rows {
 public:
     Rows(Database& database, std::string_view sql, std::initializer_list<Value> values = {});
@@ -63,10 +63,10 @@ private:
     sqlite3_stmt* statement_;
 };
 
-// Runs a statement that gives no rows; the number of rows it changed.
+// Runs a statement that gives no rows. Returns the number of rows that it changed.
 std::int64_t run(Database& database, std::string_view sql, std::initializer_list<Value> values = {});
 
-// Everything until commit() happens, or nothing of it.
+// A transaction, rolled back unless commit() is called.
 class Transaction {
 public:
     explicit Transaction(Database& database);

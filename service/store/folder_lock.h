@@ -1,14 +1,16 @@
+// Locks a folder for one process.
 #pragma once
 
 #include <filesystem>
 
 namespace shadowbench::service {
 
-// Holds a folder for one server at a time, by a lock on its file "lock" that ends with the process, however it ends.
+// Holds a folder for one server at a time, by a lock on its file "lock". The lock ends with the process, however that
+// ends.
 class FolderLock {
 public:
-    // A server that is just ending has a second to do so. Throws Error{io}, place the folder: it cannot be written, or
-    // another server holds it.
+    // Waits a second for a server that is stopping. Throws Error{io}, place the folder, when the folder cannot be
+    // written or another server holds it.
     explicit FolderLock(const std::filesystem::path& folder);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;

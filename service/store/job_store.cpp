@@ -14,7 +14,7 @@ using sqlite::Database, sqlite::Rows, sqlite::Transaction, sqlite::Value, sqlite
 
 constexpr std::int64_t schema_version = 1;
 
-// Sequence numbers are never used again: cursors and the queue rely on their order.
+// AUTOINCREMENT never reuses sequence numbers: cursors and the queue rely on their order.
 constexpr const char* schema = R"(
 CREATE TABLE jobs (
   sequence INTEGER PRIMARY KEY AUTOINCREMENT, id TEXT NOT NULL UNIQUE, state TEXT NOT NULL, name TEXT NOT NULL,
@@ -37,10 +37,11 @@ constexpr const char* job_columns =
     "sequence, id, state, name, hash, seed, program, pictures, cached, created, started, ended, attempts, kept, "
     "fault_code, fault_where, fault_message, revision, scenario";
 
-// Revisions are taken from the file so many at a time: those of progress, which no disk keeps, cost no write each.
+// Revisions are reserved in the file this many at a time, so that a revision of progress, which is not stored, costs no
+// write.
 constexpr std::uint64_t revisions_at_once = 1000;
 
-// Of a whole row, in the order of the schema; the scenario, which may be long, is left where it is.
+// Reads a complete row, in the order of the schema, but not the scenario, which may be long.
 StoredJob read_job(const Rows& rows) {
     StoredJob job;
     job.sequence = rows.integer(0);
@@ -73,11 +74,11 @@ std::uint64_t count_in(Database& database, const std::string& state) {
     return static_cast<std::uint64_t>(rows.integer(0));
 }
 
-std::optional<StoredJob> one(Rows& rows) {
+std::optional<StoredJob> read_first(Rows& rows) {
     return rows.next() ? std::optional(read_job(rows)) : std::nullopt;
 }
 
-// Of jobs newest first: those that are queued follow each other in the queue too.
+// `jobs` are sorted newest first; the queued ones among them are neighbours in the queue.
 void count_ahead(Database& database, std::vector<StoredJob>& jobs) {
     std::optional<std::uint64_t> ahead;
     for (StoredJob& job : jobs) {
@@ -129,13 +130,13 @@ constexpr std::string_view adopt_sql =
     "WHERE state IN (?16, ?17)";
 
 std::optional<std::uint64_t> end_job(Database& database, const std::string& id, const Ending& ending,
-                                     std::uint64_t revision, const char* also) {
+                                     std::uint64_t revision, const char* other_state) {
     const auto& fault = ending.fault;
     const std::int64_t changed =
         run(database, end_sql,
             {ending.state, ending.ended, value(ending.kept), fault ? Value(std::int64_t{fault->code}) : Value(),
              fault ? Value(fault->where) : Value(), fault ? Value(fault->message) : Value(), value(revision), id,
-             job_states::running, also});
+             job_states::running, other_state});
     return changed == 1 ? std::optional(revision) : std::nullopt;
 }
 
@@ -171,11 +172,11 @@ struct JobStore::State {
     explicit State(const std::filesystem::path& file) : writer(file, Database::Access::write, store_application) {
         make_schema(writer);
         Rows rows(writer, "SELECT revision FROM counter");
-        if (!rows.next()) writer.fail_damaged("the database is damaged: it counts no revisions");
+        if (!rows.next()) writer.fail_damaged("the database is damaged: it has no counter of revisions");
         last = reserved = static_cast<std::uint64_t>(rows.integer(0));
     }
 
-    // Inside of a transaction.
+    // Called within a transaction.
     std::uint64_t take_revision() {
         if (last >= reserved) {
             run(writer, "UPDATE counter SET revision = revision + ?", {value(revisions_at_once)});
@@ -193,7 +194,7 @@ struct JobStore::State {
             all.commit();
             return result;
         } catch (...) {
-            reserved = last;  // nothing was reserved, perhaps
+            reserved = last;  // the reservation may have been rolled back
             throw;
         }
     }
@@ -201,7 +202,7 @@ struct JobStore::State {
     std::mutex write_mutex, read_mutex;
     Database writer;
     std::optional<Database> reader;        // opened once the file has its tables
-    std::uint64_t last = 0, reserved = 0;  // revisions given out; those that the file says are
+    std::uint64_t last = 0, reserved = 0;  // the last revision used, and the last one reserved in the file
 };
 
 JobStore::JobStore(const std::filesystem::path& file) : state_(std::make_unique<State>(file)) {
@@ -241,7 +242,7 @@ std::optional<StoredJob> JobStore::claim(const std::string& started) {
         std::optional<StoredJob> job;
         {
             Rows rows(database, "SELECT * FROM jobs WHERE state = ? ORDER BY sequence LIMIT 1", {job_states::queued});
-            job = one(rows);
+            job = read_first(rows);
         }
         if (!job) return std::nullopt;
         run(database,
@@ -322,7 +323,7 @@ std::vector<StoredJob> JobStore::list(const std::string& state, std::size_t limi
     const auto collect = [&](Rows&& rows) {
         while (rows.next()) jobs.push_back(read_job(rows));
     };
-    run(*state_->reader, "BEGIN");  // the page and the places in the queue are of one moment
+    run(*state_->reader, "BEGIN");  // the page and the places in the queue are read at the same moment
     try {
         if (state.empty())
             collect(Rows(*state_->reader, "SELECT * FROM jobs WHERE sequence < ? ORDER BY sequence DESC LIMIT ?",
@@ -351,7 +352,7 @@ std::optional<StoredJob> JobStore::find_result(const ResultKey& key) const {
               "SELECT * FROM jobs WHERE hash = ? AND seed = ? AND program = ? AND pictures = ? AND state = ? "
               "ORDER BY sequence DESC LIMIT 1",
               {key.hash, value(key.seed), key.program, std::int64_t{key.pictures}, job_states::succeeded});
-    return one(rows);
+    return read_first(rows);
 }
 
 std::uint64_t JobStore::next_revision() {

@@ -1,6 +1,6 @@
 // The jobs that a server has accepted, in one SQLite file. A call that changes something returns once the change is on
-// the disk. Every call may come from any thread: changes go one after the other, and readers do not wait for the disk.
-// Each throws base::Error{io}; DamagedStore where the file is broken.
+// the disk. Thread-safe: changes happen one after the other, and readers do not wait for the disk. Every call can throw
+// base::Error{io}, or DamagedStore for a damaged file.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace shadowbench::service {
 
-// What stands in the column "state".
+// The values of the column "state".
 namespace job_states {
 inline constexpr const char *queued = "queued", *running = "running", *succeeded = "succeeded", *failed = "failed",
                             *cancelled = "cancelled";
@@ -24,7 +24,7 @@ struct StoredFault {
     std::string where, message;
 };
 
-// What makes a result the same: a job of equal values may answer for another.
+// Two jobs with equal values have the same result: the result of one may answer the other.
 struct ResultKey {
     std::string hash;  // of the scenario
     std::uint64_t seed = 0;
@@ -33,27 +33,28 @@ struct ResultKey {
 };
 
 struct StoredJob {
-    std::int64_t sequence = 0;  // grows; the order of the queue
+    std::int64_t sequence = 0;  // grows with each job; the order of the queue
     std::string id, state, name;
     ResultKey key;
     bool cached = false;
     std::string created, started, ended;  // empty: not yet
     int attempts = 0;
-    std::optional<bool> kept;  // of its promises
+    std::optional<bool> kept;  // whether its promises were kept
     std::optional<StoredFault> fault;
     std::uint64_t revision = 0;
-    std::optional<std::uint64_t> ahead;  // jobs that are queued before it, of a queued one
+    std::optional<std::uint64_t> ahead;  // of a queued job: the number of jobs before it
 };
 
 struct NewJob {
     std::string id, name;
     ResultKey key;
     std::string scenario, created;
-    std::string idempotency_key, request;  // request: what must be equal when the key comes again; empty key: none
-    std::optional<bool> kept;              // given: it has ended already, with the result of another
+    std::string idempotency_key, request;  // request: must be equal when the key is used again; empty key: none
+    std::optional<bool> kept;              // set: the job has already ended, with the result of another
 };
 
-// A job that has succeeded, with all that the store knows of it. job: neither sequence, revision nor ahead are used.
+// A job that has succeeded, with all that the store knows about it. job.sequence, job.revision and job.ahead are
+// unused.
 struct KeptJob {
     StoredJob job;
     std::string scenario, idempotency_key, request;
@@ -67,7 +68,7 @@ struct Ending {
 
 class JobStore {
 public:
-    // Makes the file, or checks that it is whole, ours and of a known version.
+    // Creates the file, or checks that it is a complete job store of a known version.
     explicit JobStore(const std::filesystem::path& file);
     ~JobStore();
     JobStore(const JobStore&) = delete;
@@ -75,27 +76,27 @@ public:
 
     struct Added {
         enum class Outcome { added, existing, conflict, full } outcome;
-        StoredJob job;  // but for full; of a conflict: that which has the key
+        StoredJob job;  // unset for full; for conflict the job that has the key
     };
-    // full: as many as `most_queued` wait already; a job that has ended is never refused.
+    // full: `most_queued` jobs wait already. A job that has ended is never refused.
     Added add(const NewJob& job, std::size_t most_queued);
 
-    // The job that came with this key, if any, as add() would answer.
+    // The job of this key, as add() would return it; nothing for a new key.
     std::optional<Added> find_key(const std::string& key, const std::string& request) const;
 
-    // The oldest queued job, which now runs, one attempt more.
+    // Takes the oldest queued job: it is running now, and its attempts grow by one.
     std::optional<StoredJob> claim(const std::string& started);
 
-    // These change a job only in the state that they name, and give its new revision; nothing: it is in another.
+    // These change a job only if it is in the state of their name. Return its new revision; nothing for another state.
     std::optional<std::uint64_t> end_running(const std::string& id, const Ending& ending);
     std::optional<std::uint64_t> end_waiting(const std::string& id, const Ending& ending);  // queued or running
-    // uncounted: the attempt is not one of those that it may have.
+    // uncounted: the attempt does not count against the limit.
     std::optional<std::uint64_t> requeue_running(const std::string& id, bool uncounted);
 
-    bool remove(const std::string& id);  // one that does not run
+    bool remove(const std::string& id);  // only a job that is not running
 
-    // Takes jobs in whose results lie in their place, all of them or none: those that the store does not have, and
-    // those that it has as queued or running. A key that another job has stays with that one.
+    // Adds jobs whose results are complete, all or none: jobs that the store does not have, and jobs that it has as
+    // queued or running. A key that another job has stays with that job.
     void adopt(const std::vector<KeptJob>& jobs);
 
     std::optional<StoredJob> find(const std::string& id) const;
@@ -103,14 +104,14 @@ public:
     struct Key {
         std::string key, request;
     };
-    std::optional<Key> key_of(const std::string& id) const;  // that the job came with, if any
+    std::optional<Key> key_of(const std::string& id) const;  // nothing for a job without a key
     // Newest first, older than `before` (0: from the newest); state empty: any.
     std::vector<StoredJob> list(const std::string& state, std::size_t limit, std::int64_t before) const;
     std::size_t count(const std::string& state) const;
-    // The newest that has succeeded.
+    // The newest job of this key that has succeeded.
     std::optional<StoredJob> find_result(const ResultKey& key) const;
 
-    // Above all that were given out before, in earlier servers too.
+    // Larger than all earlier revisions, also those of earlier servers.
     std::uint64_t next_revision();
 
 private:

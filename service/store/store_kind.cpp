@@ -9,8 +9,8 @@
 
 namespace shadowbench::service {
 
-// The header of an SQLite file: its first 16 bytes, and application_id, big endian, at 68 (sqlite.org/fileformat2.html,
-// 1.3).
+// The header of an SQLite file: its first 16 bytes are fixed, and application_id stands at 68, big endian
+// (sqlite.org/fileformat2.html, 1.3).
 StoreKind kind_of_store(const std::filesystem::path& file) {
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(file, failed);

@@ -1,4 +1,4 @@
-// Whether a file is a job store, found out without opening it as one.
+// Finds out whether a file is a job store, without opening it as a database.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,11 @@ namespace shadowbench::service {
 
 inline constexpr std::int32_t store_application = 0x73626a31;  // "sbj1": SQLite's application_id of our files
 
-// What lies in the place of a store, as its first bytes tell.
+// The kind of a file by its first bytes.
 enum class StoreKind { none, ours, another_programs, no_database };  // none: no file, or an empty one
 
-// Nothing is written or made, as SQLite does beside a file that it opens. Throws Error{io} where it cannot be read.
+// Writes nothing, whereas SQLite creates files beside a database that it opens. Throws Error{io} for a file that cannot
+// be read.
 StoreKind kind_of_store(const std::filesystem::path& file);
 
 }  // namespace shadowbench::service

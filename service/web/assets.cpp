@@ -46,9 +46,9 @@ const Asset* find_asset(std::string_view path) {
 
 std::string text_of(const Asset& asset) {
     if (!asset.gzip) return std::string(asset.content);
-    constexpr int gzip_alone = 16;  // zlib's way to ask for it
+    constexpr int only_gzip = 16;  // added to the window bits: zlib then expects gzip
     z_stream stream{};
-    if (inflateInit2(&stream, MAX_WBITS + gzip_alone) != Z_OK)
+    if (inflateInit2(&stream, MAX_WBITS + only_gzip) != Z_OK)
         throw base::Error(base::ErrorCode::internal, asset.path, "cannot be decompressed");
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(asset.content.data()));
     stream.avail_in = static_cast<uInt>(asset.content.size());

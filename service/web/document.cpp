@@ -8,14 +8,14 @@
 namespace shadowbench::service {
 namespace {
 
-// Nothing is loaded from anywhere, whatever the data says.
+// The page loads nothing, whatever the data contains.
 constexpr const char* policy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
     "form-action 'none'";
 
 std::string text_of_path(std::string_view path) {
     const Asset* asset = find_asset(path);
-    if (!asset) throw base::Error(base::ErrorCode::internal, path, "the program holds no such file");
+    if (!asset) throw base::Error(base::ErrorCode::internal, path, "the program has no such file");
     return text_of(*asset);
 }
 
@@ -36,7 +36,7 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-// JSON that no parser of HTML sees an end, a comment or a script in.
+// JSON in which an HTML parser finds no tag, comment or script.
 std::string escaped_json(const nlohmann::json& data) {
     const std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     std::string result;
@@ -63,7 +63,7 @@ std::string document(std::string_view title, std::string_view script, const nloh
     page += "<meta name=\"color-scheme\" content=\"light dark\">\n";
     page +=
         "<title>" + escaped(title) + "</title>\n<style>" + text_of_path("/assets/style.css") + "</style>\n</head>\n";
-    page += "<body>\n<main id=\"main\"><noscript>This page is made by a script.</noscript></main>\n";
+    page += "<body>\n<main id=\"main\"><noscript>This page needs JavaScript.</noscript></main>\n";
     page += "<div id=\"status\" class=\"hidden\" role=\"status\" aria-live=\"polite\"></div>\n";
     page += "<script type=\"application/json\" id=\"data\">" + escaped_json(data) + "</script>\n";
     page +=

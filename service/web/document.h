@@ -1,4 +1,4 @@
-// A page that is one file: its scripts, styles and data stand in it, and it loads nothing. Internal to service/web.
+// Writes a page as one file that contains its scripts, styles and data and loads nothing. Internal to service/web.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace shadowbench::service {
 
-// `script` is the path of an asset; it finds `data` as JSON in the element with the id "data".
+// The HTML. `script` is the path of an asset; it finds `data` as JSON in the element with the id "data".
 std::string document(std::string_view title, std::string_view script, const nlohmann::json& data);
 
 }  // namespace shadowbench::service

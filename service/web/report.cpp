@@ -29,7 +29,7 @@ std::string base64(const std::string& bytes) {
 
 void add_picture(json& pictures, const fs::path& folder, const std::string& name) {
     const fs::path file = folder / name;
-    // A name, not a path; and no link, which could lead to any file.
+    // Only file names, no paths; and no links, which could lead to any file.
     if (fs::path(name).filename() != name || fs::symlink_status(file).type() != fs::file_type::regular) return;
     if (file.extension() == ".png") pictures[name] = "data:image/png;base64," + base64(base::read_bytes(file));
 }

@@ -1,4 +1,4 @@
-// A result as an offline page.
+// Writes a result as an offline page.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace shadowbench::service {
 
-// A self-contained page of a result (result.json of `run`), with the pictures that images.json in `images` names, if
-// that is there (what `render` writes). A picture that is missing is left out. Throws Error{bad_input}: images.json is
-// no such file; io.
+// A self-contained page of a result (result.json of `run`), with the pictures that images.json in the folder `images`
+// lists, if `render` wrote one. Missing pictures are left out. Throws Error{bad_input} for an images.json that `render`
+// did not write; io.
 std::string report_html(const nlohmann::json& result, const std::filesystem::path& images);
 
 }  // namespace shadowbench::service

@@ -145,7 +145,7 @@ TEST_F(FilesApi, ComparesOnlyWhatIsThere) {
     refused(post("/v1/compare", "["), 400, "");
 }
 
-// Of the corpus of the fuzz targets: a small result as `run` writes it.
+// A small result as `run` writes it, from the corpus of the fuzz targets.
 TEST_F(FilesApi, CompareJudgesEveryMeasure) {
     std::ifstream file(std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "tests/fuzz/corpus/result/tiny.json");
     nlohmann::json result = nlohmann::json::parse(file);

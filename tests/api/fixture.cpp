@@ -100,10 +100,10 @@ ServiceOptions ApiTest::standard_options() const {
     return options;
 }
 
-void ApiTest::start(const ServiceOptions& told, const JobLimits& limits) {
-    ServiceOptions options = told;
+void ApiTest::start(const ServiceOptions& given, const JobLimits& limits) {
+    ServiceOptions options = given;
     if (!options.start_helper)
-        options.start_helper = [this, data = told.data](const std::vector<std::string>& arguments) {
+        options.start_helper = [this, data = given.data](const std::vector<std::string>& arguments) {
             ++helpers_;
             return std::make_unique<LocalHelper>(arguments, data);
         };

@@ -37,11 +37,35 @@ TEST_F(JobsApi, TakesAScenarioWithOptions) {
     EXPECT_EQ(json::parse(fake::last_request(*jobs_).scenario), tiny_scenario());
     for (const nlohmann::json& wrong : {nlohmann::json{{"cache", "old"}}, nlohmann::json{{"pictures", 1}},
                                         nlohmann::json{{"colour", true}}, nlohmann::json(3)}) {
-        const nlohmann::json told = {{"scenario", tiny_scenario()}, {"options", wrong}};
-        const nlohmann::json problem = refused(post("/v1/jobs", told.dump()), 422, "");
+        const nlohmann::json body_with_options = {{"scenario", tiny_scenario()}, {"options", wrong}};
+        const nlohmann::json problem = refused(post("/v1/jobs", body_with_options.dump()), 422, "");
         EXPECT_TRUE(problem["errors"][0]["pointer"].get<std::string>().starts_with("/options"));
     }
     refused(post("/v1/jobs", R"({"scenario": {}, "more": 1})"), 422, "options");
+}
+
+// RFC 6901, section 3: "~" is written as "~0" and "/" as "~1", wherever the key stands.
+TEST_F(JobsApi, EscapesTheKeysInItsPointers) {
+    const auto pointer_of = [&](const char* target, const std::string& body) {
+        return refused(post(target, body), 422, "")["errors"][0]["pointer"].get<std::string>();
+    };
+    const std::string tiny = tiny_scenario().dump();
+    for (const char* target : {"/v1/jobs", "/v1/validate"}) {
+        EXPECT_EQ(pointer_of(target, R"({"scenario":{},"a/b":1})"), "/a~1b");
+        EXPECT_EQ(pointer_of(target, R"({"scenario":)" + tiny + R"(,"options":{"m~n":1}})"), "/options/m~0n");
+        nlohmann::json scenario = tiny_scenario();
+        scenario["rays"]["a/b"] = 1;
+        EXPECT_EQ(pointer_of(target, scenario.dump()), "/rays/a~1b");
+        scenario = tiny_scenario();
+        scenario["techniques"][0]["a/b~c"] = 1;
+        EXPECT_EQ(pointer_of(target, scenario.dump()), "/techniques/0/a~1b~0c");
+        scenario["techniques"][0] = {{"type", "*"}, {"a/b", 1}};
+        EXPECT_EQ(pointer_of(target, scenario.dump()), "/techniques/0/a~1b");
+        scenario = tiny_scenario();
+        scenario["sweeps"] = {{"/rays/nothing", {1, 2}}};
+        EXPECT_EQ(pointer_of(target, scenario.dump()), "/sweeps/~1rays~1nothing");
+    }
+    EXPECT_EQ(pointer_of("/v1/compare", R"({"baseline":{},"current":{},"a/b":1})"), "/a~1b");
 }
 
 TEST_F(JobsApi, PointsAtWhatIsWrongInAScenario) {
@@ -58,7 +82,7 @@ TEST_F(JobsApi, PointsAtWhatIsWrongInAScenario) {
     EXPECT_EQ(jobs_->count(JobState::queued), 0u);
 }
 
-TEST_F(JobsApi, TellsAllFaultsAtOnce) {
+TEST_F(JobsApi, ReportsAllFaultsAtOnce) {
     nlohmann::json scenario = tiny_scenario();
     scenario["rays"]["resolution"] = "large";
     scenario["lights"][0]["color"] = 1;
@@ -75,14 +99,14 @@ TEST_F(JobsApi, TellsAllFaultsAtOnce) {
     EXPECT_EQ(refused(post("/v1/validate", scenario.dump()), 422, "")["errors"].size(), 32u);
 }
 
-TEST_F(JobsApi, RefusesWhatIsNoJson) {
+TEST_F(JobsApi, RefusesBodiesThatAreNotJson) {
     refused(post("/v1/jobs", "{"), 400, "body:1:2");
     refused(post("/v1/jobs", R"({"a": 1, "a": 2})"), 400, "twice");
     refused(post("/v1/jobs", std::string(1000, '[')), 400, "nested");
     refused(post("/v1/jobs", "\"\xff\""), 400, "body");
 }
 
-TEST_F(JobsApi, ReadsFilesOfTheDataFoldersAlone) {
+TEST_F(JobsApi, ReadsOnlyFilesOfTheDataFolders) {
     std::ofstream(folder_ / "secret.obj") << "v 0 0 0\n";
     std::filesystem::create_symlink(folder_ / "secret.obj", folder_ / "data/link.obj");
     nlohmann::json scenario = tiny_scenario();
@@ -98,7 +122,7 @@ TEST_F(JobsApi, ReadsFilesOfTheDataFoldersAlone) {
     }
 }
 
-TEST_F(JobsApi, DoesNotTellWhereBrokenFilesAre) {
+TEST_F(JobsApi, HidesTheFoldersOfBrokenFiles) {
     std::ofstream(folder_ / "data/broken.ply") << "ply\nformat ascii 1.0\nelement vertex 3\n";
     nlohmann::json scenario = tiny_scenario();
     scenario["scene"]["objects"] = json::array({{{"type", "mesh"}, {"file", "broken.ply"}}});
@@ -107,7 +131,22 @@ TEST_F(JobsApi, DoesNotTellWhereBrokenFilesAre) {
     EXPECT_EQ(problem.dump().find(folder_.string()), std::string::npos) << problem;
 }
 
-TEST_F(JobsApi, RefusesWhatCostsTooMuchAndTellsTheEstimate) {
+// By the rule of hidden_folders.h, however the folder is given to the server.
+TEST_F(JobsApi, HidesADataFolderBehindALink) {
+    std::ofstream(folder_ / "data/broken.ply") << "ply\nformat ascii 1.0\nelement vertex 3\n";
+    std::filesystem::create_directory_symlink("data", folder_ / "link");
+    nlohmann::json scenario = tiny_scenario();
+    scenario["scene"]["objects"] = json::array({{{"type", "mesh"}, {"file", "broken.ply"}}});
+    for (const std::filesystem::path& data : {folder_ / "link", folder_ / "data/../link", folder_ / "data/"}) {
+        ServiceOptions options = standard_options();
+        options.data = {data};
+        start(options);
+        const std::string problem = refused(post("/v1/validate", scenario.dump()), 422, "broken.ply").dump();
+        EXPECT_EQ(problem.find(folder_.filename().string()), std::string::npos) << problem;
+    }
+}
+
+TEST_F(JobsApi, RefusesWhatCostsTooMuchAndGivesTheEstimate) {
     ServiceOptions options = standard_options();
     options.limits.resolution = 7;
     start(options);

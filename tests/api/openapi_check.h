@@ -8,7 +8,7 @@
 namespace shadowbench::service {
 
 // Fails the test when the status of the answer is not documented for its route, or its JSON is not of the documented
-// form. An answer to what is no route must be a problem.
+// form. The answer to an unknown route must be a problem.
 void check_documented(const ApiRequest& request, const ApiResponse& response, const std::string& body);
 
 }  // namespace shadowbench::service

@@ -106,7 +106,7 @@ TEST_F(RoutesApi, RefuseParametersThatTheyDoNotKnow) {
             if (const std::size_t at = target.find(name); at != std::string::npos)
                 target.replace(at, std::string(name).size(), "a");
         refused(request(route.method, target + "?lite=1"), 400, "no parameter \"lite\"");
-        EXPECT_TRUE(service_->refuse(request(route.method, target + "?lite=1"))) << "known from its head alone";
+        EXPECT_TRUE(service_->refuse(request(route.method, target + "?lite=1"))) << "known from its head";
     }
     refused(request("GET", "/v1/jobs?limit=1&status=queued"), 400, "there are: state, limit, cursor");
     refused(request("GET", "/v1/techniques?x=1"), 400, "takes none");
@@ -133,7 +133,7 @@ TEST_F(RoutesApi, LookAtTheTypesBeforeTheBody) {
          {"text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x", ""}) {
         const ApiRequest form = post("/v1/jobs", scenario, {{"content-type", type}});
         EXPECT_EQ(answer(form).status, 415) << type;
-        EXPECT_EQ(service_->refuse(form)->status, 415) << "known from its head alone";
+        EXPECT_EQ(service_->refuse(form)->status, 415) << "known from its head";
     }
     for (const char* type : {"application/json; charset=utf-8", "Application/JSON", "application/ld+json"})
         EXPECT_EQ(answer(post("/v1/jobs", scenario, {{"content-type", type}})).status, 202) << type;
@@ -150,7 +150,7 @@ TEST_F(RoutesApi, HoldBodiesToTheLimit) {
     options.limits.body = 100;
     start(options);
     EXPECT_EQ(answer(post("/v1/jobs", std::string(101, ' '))).status, 413);
-    EXPECT_EQ(answer(post("/v1/jobs", std::string(100, ' '))).status, 400) << "taken, but no JSON";
+    EXPECT_EQ(answer(post("/v1/jobs", std::string(100, ' '))).status, 400) << "accepted, but not JSON";
 }
 
 TEST_F(RoutesApi, DescribeEveryTechnique) {

@@ -191,6 +191,14 @@ TEST(Expand, refuses_pointers_to_nothing) {
     }
 }
 
+TEST(Expand, escapes_the_names_of_unknown_parameters_in_their_places) {
+    json document = small_document();
+    document["techniques"][0]["a/b~c"] = 1;
+    test::error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/0/a~1b~0c");
+    document["techniques"] = {{{"type", "*"}, {"a/b", 1}}};
+    test::error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/0/a~1b");
+}
+
 TEST(Expand, refuses_too_many_variants) {
     json document = small_document(), many = json::array();
     for (int i = 0; i < 100; ++i) many.push_back(i);

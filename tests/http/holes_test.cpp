@@ -171,7 +171,7 @@ TEST_F(Holes, HeadsWithoutEndAreCutOff) {
         EXPECT_EQ(raw.receive().status, 431) << start;
     }
     EXPECT_EQ(ask(get("/healthz", "X: " + std::string(20'000, 'x') + "\r\n")).status, 200);
-    EXPECT_EQ(ask(get("/" + std::string(20'000, 'a'))).status, 404) << "a long path is no deep recursion";
+    EXPECT_EQ(ask(get("/" + std::string(20'000, 'a'))).status, 404) << "a long path causes no deep recursion";
 }
 
 TEST_F(Holes, SlowClientsDoNotKeepOthersOut) {

@@ -1,4 +1,4 @@
-// A client that sends what it is told, byte for byte.
+// A client that sends given bytes unchanged.
 #pragma once
 
 #include <string>

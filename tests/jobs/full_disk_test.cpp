@@ -92,7 +92,7 @@ TEST_F(FullDisk, LetsJobsWaitAndGoOn) {
     for (const std::string& id : ids) {
         const JobInfo job = wait_for_end(id);
         EXPECT_EQ(job.state, JobState::succeeded);
-        EXPECT_EQ(job.attempts, 1) << "it is no fault of the job";
+        EXPECT_EQ(job.attempts, 1) << "it is not a fault of the job";
         EXPECT_EQ(text_of(id, "result.json"), "{}\n");
     }
     wait_for_fault(false);

@@ -314,7 +314,7 @@ TEST_F(JobQueue, HoldsAThousandJobs) {
         std::nth_element(times.begin(), times.begin() + 100, times.end());
         return std::to_string(times[100]);
     };
-    // For whoever reads the report of this test: a time is no pass or fail.
+    // For the report of this test; a time does not decide whether it passes.
     RecordProperty("find_ms", median_ms([&](int i) { EXPECT_TRUE(jobs->find(ids[static_cast<std::size_t>(i * 4)])); }));
     RecordProperty("list_of_50_ms", median_ms([&](int) { EXPECT_EQ(jobs->list({}, 50, "").jobs.size(), 50u); }));
     RecordProperty("list_of_1000_ms", median_ms([&](int) { EXPECT_EQ(jobs->list({}, 1000, "").jobs.size(), 1000u); }));

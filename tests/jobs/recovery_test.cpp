@@ -99,7 +99,7 @@ TEST_F(Recovery, TakesResultsBackWhenTheDatabaseIsLostEmptyOrDamaged) {
         EXPECT_EQ(jobs->scenario(broken.id), request.scenario);
         EXPECT_EQ(jobs->submit(request).job.id, broken.id) << "the key of its request is known";
         EXPECT_TRUE(jobs->submit(same).job.cached) << "and its result answers";
-        EXPECT_THAT(said(), HasSubstr("not known any more"));
+        EXPECT_THAT(said(), HasSubstr("are lost"));
         if (what != "missing" && what != "empty") {
             EXPECT_EQ(lost()["jobs.db"], before) << what << ": it is not deleted";
             EXPECT_THAT(said(), HasSubstr("lost+found"));

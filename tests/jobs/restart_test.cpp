@@ -196,7 +196,7 @@ TEST_F(JobRestart, FinishesASuccessWhereItWasCut) {
     EXPECT_TRUE(work_is_empty());
 }
 
-// An earlier version noted whether the promises were kept in the database alone.
+// An earlier version noted only in the database whether the promises were kept.
 TEST_F(JobRestart, FinishesASuccessOfAnEarlierVersion) {
     fs::create_directories(state());
     const JobFolders folders = make_job_folders(state());
@@ -240,7 +240,7 @@ class JobKill : public JobHost {
 protected:
     static constexpr int kills = 50;
 
-    // Each job writes result.json in two parts, so that half of one would show, and tells which job it is.
+    // Each job writes result.json in two parts, so that an incomplete one would show, and names its job.
     static std::string script(int number) {
         return "printf 'first %s ' " + std::to_string(number) +
                " >part; sleep 0.01; mkdir images; echo p >images/p.png; "
@@ -306,7 +306,7 @@ TEST_F(JobKill, LosesAndDoublesNothing) {
     ASSERT_GT(accepted.size(), static_cast<std::size_t>(kills));
 
     start();
-    // A job that was stored while nobody was told belongs to its key all the same.
+    // A job belongs to its key even if the answer never reached the client.
     JobRequest request = request_of(script(next));
     request.idempotency_key = "job " + std::to_string(next);
     accepted[next] = jobs->submit(request).job.id;

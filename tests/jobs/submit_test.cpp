@@ -1,4 +1,4 @@
-// Requests that are answered by a job that is there already.
+// Requests that an existing job answers.
 #include <thread>
 
 #include "jobs/job_host.h"

@@ -100,7 +100,7 @@ TEST_F(Gate, CompareTellsByItsExitCode) {
     EXPECT_EQ(cli({"compare", path("base"), path("larger"), "--tolerance", "bytes=1"}).code, 0);
 }
 
-// The command that stands beside a line runs that cell alone, and gives the same numbers.
+// The command beside a line runs only that cell, and gives the same numbers.
 TEST_F(Gate, TheCommandOfACellRunsItAlone) {
     const Outcome report = cli({"compare", path("base"), path("base"), "--json", "-"});
     ASSERT_EQ(report.code, 0);
@@ -167,7 +167,7 @@ TEST_F(Gate, AbRunsInTurnsAndJudgesThePairs) {
                 HasSubstr(path("b") + " run " + path("tiny.json") + " --set rays.seed=1 --set 'techniques=["));
     // What is kept compares in the same way.
     EXPECT_EQ(cli({"compare", path("kept/a"), path("kept/b")}).code, 1);
-    fails({"ab", path("a"), path("b"), path("tiny.json"), "--out", path("kept")}, 64, "is there already");
+    fails({"ab", path("a"), path("b"), path("tiny.json"), "--out", path("kept")}, 64, "already exists");
 }
 
 // A B, B A, A B: neither always runs on what the other left behind.

@@ -1,4 +1,4 @@
-// A command that is told to end while its child runs leaves nothing behind: no process, no file.
+// A command that gets a signal while its child runs leaves no process and no file behind.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -54,8 +54,8 @@ protected:
     std::vector<json> lines;
 };
 
-// Of which there is more on another disk, where a name that is too long stays too long.
-TEST_F(JobCommand, TellsAFaultOfItsStorageFromItsOwn) {
+// A full disk is a fault of the storage; a name that is too long would fail on any disk.
+TEST_F(JobCommand, DistinguishesFaultsOfItsStorageFromItsOwn) {
     fs::create_directory(folder.path() / "result.json");
     EXPECT_EQ(run(), 74);
     EXPECT_EQ(lines.back()["error"]["code"], 74);
@@ -70,7 +70,7 @@ TEST_F(JobCommand, TellsAFaultOfItsStorageFromItsOwn) {
     EXPECT_TRUE(lines.back().contains("storage")) << "the server put its scenario there";
 }
 
-TEST_F(JobCommand, TellsHowFarItIs) {
+TEST_F(JobCommand, ReportsItsProgress) {
     EXPECT_EQ(run(), 0);
     ASSERT_GT(lines.size(), 10u);
     double last = 0.0;
@@ -89,7 +89,7 @@ TEST_F(JobCommand, TellsHowFarItIs) {
     EXPECT_TRUE(exists("images/uncompressed.shaded.png"));
 }
 
-TEST_F(JobCommand, DrawsNothingWhereItIsToldNotTo) {
+TEST_F(JobCommand, DrawsNothingWithNoPictures) {
     EXPECT_EQ(run({"--no-pictures"}), 0);
     EXPECT_TRUE(exists("result.json"));
     EXPECT_FALSE(exists("images"));
@@ -114,10 +114,10 @@ TEST_F(JobCommand, SaysWhatIsWrongInALine) {
     EXPECT_FALSE(exists("result.json"));
 }
 
-TEST_F(JobCommand, LooksForDataInTheFoldersThatItIsGivenAlone) {
+TEST_F(JobCommand, LooksForDataOnlyInTheGivenFolders) {
     scenario["scene"]["objects"][0] = {{"type", "mesh"}, {"file", "one.obj"}};
     std::ofstream(folder.path() / "one.obj") << "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n";
-    EXPECT_EQ(run(), 66) << "the job's own folder is none of them";
+    EXPECT_EQ(run(), 66) << "the job's own folder is not one of them";
     EXPECT_EQ(lines.back()["error"]["where"], "/scene/objects/0/file");
     EXPECT_EQ(run({"--no-pictures", "--data", folder.path().string()}), 0);
 }

@@ -181,7 +181,7 @@ TEST_F(ServerCommands, SubmitWaitsForAServerThatIsNotThereYet) {
     EXPECT_EQ(jobs.at("jobs").size(), 1u);
 }
 
-TEST_F(ServerCommands, SubmitTellsTheJobAndDoesNotWait) {
+TEST_F(ServerCommands, SubmitPrintsTheJobAndDoesNotWait) {
     serve();
     const Outcome submitted = cli({"submit", path("tiny.json"), "--server", url_ + "/", "--set", "rays.seed=9"});
     EXPECT_EQ(submitted.code, 0) << submitted.err;
@@ -225,7 +225,7 @@ TEST_F(ServerCommands, TokensAreOneLongWordForOneReader) {
                       "0123456789abcde\n",
                       mine),
               65)
-        << "a byte-order mark is no part of the token";
+        << "a byte-order mark is not part of the token";
     EXPECT_EQ(code_of("0123456789 abcdef\n", mine), 65);
     EXPECT_EQ(code_of("", mine), 65);
     EXPECT_EQ(code_of("0123456789abcdef\n", mine | fs::perms::group_read), 65);
@@ -300,7 +300,7 @@ TEST_F(ServerCommands, AServerThatIsKilledTakesItsProcessesAlong) {
     for (const pid_t child : children) EXPECT_TRUE(soon([&] { return !lives(child); })) << child;
 }
 
-TEST_F(ServerCommands, HelpersAreNotForPeople) {
+TEST_F(ServerCommands, HelpersAreNotInTheHelp) {
     const std::string help = cli({"--help"}).out;
     EXPECT_NE(help.find("serve"), std::string::npos);
     EXPECT_EQ(help.find("examine"), std::string::npos);

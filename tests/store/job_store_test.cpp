@@ -237,7 +237,7 @@ TEST_F(JobStores, ServeManyThreads) {
 TEST_F(JobStores, RefuseWhatIsNoDatabase) {
     const fs::path other = folder.path() / "other.db";
     std::ofstream(other) << std::string(5000, 'x');
-    EXPECT_NE(error_of(other).find("no database"), std::string::npos) << error_of(other);
+    EXPECT_NE(error_of(other).find("not a database"), std::string::npos) << error_of(other);
     EXPECT_NE(error_of(folder.path() / "nowhere" / "jobs.db"), "");
 }
 

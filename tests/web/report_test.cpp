@@ -68,7 +68,7 @@ TEST_F(Report, HoldsTheWholeResultAndLoadsNothing) {
     const std::string page = report_html(result, images());
     EXPECT_EQ(data_of(page)["result"], result);
     EXPECT_TRUE(data_of(page)["images"].is_null());
-    // The licences tell the homes of the packages; they are text, not loaded.
+    // The licences contain the addresses of the packages as text; nothing is loaded from them.
     const std::string loaded = std::regex_replace(page, std::regex("<script type=\"text/plain\"[^<]*</script>"), "");
     EXPECT_THAT(external_addresses(loaded), ::testing::IsEmpty());
     EXPECT_FALSE(std::regex_search(without_scripts(page), std::regex("<script[^>]* src=|<link|<img|url\\(|@import")));

@@ -1,10 +1,10 @@
-// The server's answers. A token, where one is asked for, stays in this tab.
+// Sends requests to the server. A token, if the server requires one, is kept in this tab.
 
 const tokenKey = 'shadowbench-token';
 let asking = null;
 let askToken = null;
 
-// ask() shows a form and gives a promise of the token.
+// ask() shows a form and returns a promise of the token.
 export function onTokenNeeded(ask) {
   askToken = ask;
 }
@@ -13,7 +13,7 @@ export function hasToken() {
   return sessionStorage.getItem(tokenKey) !== null;
 }
 
-// What went wrong, as RFC 9457 tells it. `status` 0: no answer at all.
+// A problem of RFC 9457. `status` 0: the server did not answer.
 export class Problem extends Error {
   constructor(status, body, retryAfter) {
     super(body.detail || body.title || `The server answered ${status}.`);
@@ -52,7 +52,7 @@ export async function get(path, signal) {
   return (await answer(path, {signal})).json();
 }
 
-// `json` is text (parsed and written again, long numbers would lose digits), or null: no body.
+// `json` is text, since parsing and writing it would lose digits of long numbers; null: no body.
 export async function post(path, json, headers = {}, signal) {
   const type = json !== null && {'Content-Type': 'application/json'};
   return (await answer(path, {method: 'POST', headers: {...type, ...headers}, body: json, signal})).json();
@@ -62,12 +62,12 @@ export async function remove(path) {
   await answer(path, {method: 'DELETE'});
 }
 
-// A link cannot carry the token, so what it leads to is fetched when there is one.
+// A link cannot carry the token, so its target is fetched.
 export async function objectUrl(path, signal) {
   return URL.createObjectURL(await (await answer(path, {signal})).blob());
 }
 
-// The messages of a stream of events, as {id, event, data}; by fetch, since EventSource cannot carry the token.
+// The messages of a stream of events, as {id, event, data}. Uses fetch, since EventSource cannot carry the token.
 export async function* events(path, lastId, signal) {
   const response = await answer(path, {
     signal, headers: {Accept: 'text/event-stream', ...(lastId && {'Last-Event-ID': lastId})},

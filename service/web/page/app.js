@@ -1,4 +1,4 @@
-// Which page the address names: #/ to submit, #/jobs, #/jobs/<id>, #/compare/<id>/<id>.
+// Shows the page that the address names: #/ to submit, #/jobs, #/jobs/<id>, #/compare/<id>/<id>.
 import {onTokenNeeded} from './api.js';
 import {comparisonView} from './comparison.js';
 import {h} from './dom.js';
@@ -20,7 +20,7 @@ function edit(scenario) {
   go('#/');
 }
 
-// An address typed by hand may hold a % that begins nothing.
+// A typed address may contain a % that begins no escape.
 function decoded(part) {
   try {
     return decodeURIComponent(part);
@@ -41,22 +41,22 @@ function route(event) {
   main.replaceChildren(view);
   for (const link of document.querySelectorAll('nav a'))
     link.toggleAttribute('aria-current', link.getAttribute('href') === (page === 'jobs' || page === 'compare' ? `#/${page}` : '#/'));
-  if (event) {  // not when the page is first opened
+  if (event) {  // not for the first page
     scrollTo(0, 0);
     view.querySelector('h1')?.focus();
   }
 }
 
-// A form for the token of a server that asks for one. `refused`: one was sent.
+// A form for the token of the server. `refused`: the server refused an earlier token.
 onTokenNeeded((refused) => new Promise((resolve) => {
   const field = h('input', {type: 'password', autocomplete: 'off', required: true, id: 'token'});
   const dialog = h('dialog', {'aria-labelledby': 'token-title'}, h('form', {method: 'dialog', onsubmit: (event) => {
     event.preventDefault();
     dialog.remove();
     resolve(field.value.trim());
-  }}, h('h2', {id: 'token-title'}, 'This server asks for a token'),
+  }}, h('h2', {id: 'token-title'}, 'This server requires a token'),
   refused && h('p', {class: 'problem', role: 'alert'}, 'The server refused that token.'),
-  h('p', {class: 'note'}, 'It is kept in this tab alone.'), h('label', {for: 'token'}, 'Token'), field,
+  h('p', {class: 'note'}, 'The token is kept only in this tab.'), h('label', {for: 'token'}, 'Token'), field,
   h('button', {type: 'submit', class: 'primary'}, 'Use it')));
   dialog.addEventListener('cancel', (event) => event.preventDefault());
   document.body.append(dialog);

@@ -1,11 +1,11 @@
-// One result held against another: two are chosen, of jobs or of files, and every measure gets a verdict.
+// Compares two results, each of a job or a file: every measure gets a verdict.
 import {get, post} from './api.js';
 import {announce, choice, h, setText} from './dom.js';
 import {moment, significant} from './format.js';
 import {verdictMark} from './result/table.js';
 
 const sides = [['baseline', 'Baseline'], ['current', 'Current']];
-const settled = new Set(['same', 'inconclusive']);  // verdicts that ask for no look
+const settled = new Set(['same', 'inconclusive']);  // verdicts that need no attention
 
 async function finishedJobs(ids, signal) {
   const {jobs} = await get('/v1/jobs?state=succeeded&limit=100', signal);
@@ -24,13 +24,13 @@ function lineTable(lines) {
   const heads = [['Cell'], ['Measure'], ['Verdict'], ['Baseline', 'number'], ['Current', 'number'], ['Change']];
   const number = (value, unit) => h('td', {class: 'number'}, significant(value, 5), value !== null && unit && h('small', {}, ` ${unit}`));
   return h('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Table of verdicts'},
-    h('table', {class: 'cells lines'}, h('caption', {class: 'hidden'}, 'Every measure of every technique, what needs a look first'),
+    h('table', {class: 'cells lines'}, h('caption', {class: 'hidden'}, 'Every measure of every technique, those that need attention first'),
       h('thead', {}, h('tr', {}, heads.map(([text, kind]) => h('th', {scope: 'col', class: kind}, text)))),
       h('tbody', {}, lines.map((line) => h('tr', {}, h('th', {scope: 'row'}, line.title), h('td', {}, line.measure || 'all'), h('td', {}, verdictMark(line)),
         number(line.baseline, line.unit), number(line.current, line.unit), h('td', {class: 'change'}, changeOf(line)))))));
 }
 
-// Without the exit code of the command line.
+// The outcome without the exit code of the command line.
 function outcomeOf(answer) {
   return answer.outcome.replace(/^exit code \d+: /, '');
 }
@@ -55,7 +55,7 @@ function answerView(answer) {
     place);
 }
 
-// One of the two: a job, or a file that is chosen or dropped. changed({job}) or changed({name, text}).
+// Picks one of the two results: a job, or a file that is chosen or dropped. Calls changed({job}) or changed({name, text}).
 function sidePicker(label, jobs, id, changed, failed) {
   const said = h('p', {class: 'note'});
   const take = async (file) => {
@@ -63,7 +63,7 @@ function sidePicker(label, jobs, id, changed, failed) {
     try {
       JSON.parse(text);
     } catch {
-      return failed(`${file.name} is no JSON.`);
+      return failed(`${file.name} is not JSON.`);
     }
     setText(said, `From the file ${file.name}.`);
     select.value = '';
@@ -82,7 +82,7 @@ function sidePicker(label, jobs, id, changed, failed) {
   }}, h('legend', {}, label), job, h('label', {class: 'choice'}, h('span', {}, 'or a result.json'), file), said);
 }
 
-// ids: of the jobs to begin with, [baseline, current]; either may be absent.
+// ids: the jobs that are chosen first, [baseline, current]; both are optional.
 export function comparisonView({ids, signal}) {
   const problem = h('p', {class: 'problem', role: 'alert'}), place = h('div'), pickers = h('div', {class: 'pair'});
   const chosen = {baseline: ids[0] ? {job: ids[0]} : null, current: ids[1] ? {job: ids[1]} : null};
@@ -92,8 +92,8 @@ export function comparisonView({ids, signal}) {
   async function draw() {
     const mine = ++turn;
     setText(problem, '');
-    if (!chosen.baseline || !chosen.current) return place.replaceChildren(h('p', {class: 'empty'}, 'Choose two results: jobs that have succeeded, or files that are dropped here.'));
-    // The text of a file goes as it is: parsed and written again, long numbers would lose digits.
+    if (!chosen.baseline || !chosen.current) return place.replaceChildren(h('p', {class: 'empty'}, 'Choose two results: jobs that have succeeded, or files. Files can be dropped here.'));
+    // The text of a file is sent unchanged: parsing and writing it would lose digits of long numbers.
     const parts = sides.map(([side]) => `"${side}": ${chosen[side].job ? JSON.stringify({job: chosen[side].job}) : `{"result": ${chosen[side].text}}`}`);
     try {
       const answer = await post('/v1/compare', `{${parts.join(', ')}}`, {}, signal);
@@ -113,6 +113,6 @@ export function comparisonView({ids, signal}) {
     (error) => { if (!signal.aborted) setText(problem, error.message); });
   draw();
   return h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Compare two results')),
-    h('p', {class: 'purpose'}, 'Bytes, nodes, errors and promises are judged by tolerance on any machine. Times of two single runs decide nothing: shadowbench ab judges those.'),
+    h('p', {class: 'purpose'}, 'Bytes, nodes, errors and promises are the same on every machine and are judged by tolerance. Times of two single runs decide nothing; shadowbench ab judges times.'),
     h('section', {class: 'panel', 'aria-label': 'The two results'}, pickers), problem, place);
 }

@@ -1,4 +1,4 @@
-// Elements without markup: what comes from outside is only ever text.
+// Makes elements without parsing markup: data always becomes text.
 
 const svgSpace = 'http://www.w3.org/2000/svg';
 
@@ -12,7 +12,7 @@ function build(element, attributes, children) {
   return element;
 }
 
-// h('a', {href: '#/'}, 'text', otherElement): null, undefined and false children are left out.
+// h('a', {href: '#/'}, 'text', otherElement): skips children that are null, undefined or false.
 export function h(tag, attributes, ...children) {
   return build(document.createElement(tag), attributes, children);
 }
@@ -21,19 +21,19 @@ export function svg(tag, attributes, ...children) {
   return build(document.createElementNS(svgSpace, tag), attributes, children);
 }
 
-// Only when it differs, so that screen readers and selections are left alone.
+// Sets a text only if it changes, so that it does not disturb screen readers and selections.
 export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-// A labelled choice. options: [{value, text}]; change is told the value.
+// A labelled choice. options: [{value, text}]; change(value) is called for each choice.
 export function choice(label, options, value, change) {
   const select = h('select', {onchange: () => change(select.value)},
     options.map((o) => h('option', {value: o.value, selected: String(o.value) === String(value)}, o.text)));
   return h('label', {class: 'choice'}, h('span', {}, label), select);
 }
 
-// Says it to screen readers, once they have finished what they say.
+// Announces a text to screen readers, after what they are reading.
 export function announce(text) {
   const status = document.getElementById('status');
   if (status) setText(status, text);

@@ -1,8 +1,8 @@
-// Numbers and times as text.
+// Formats numbers and times.
 
 const none = '–';
 
-// Significant digits, thin separators, no exponent where it can be read without.
+// A number with significant digits and thin separators; without an exponent where it is readable.
 export function significant(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return none;
   if (value === 0) return '0';
@@ -54,7 +54,7 @@ const lineLength = 100;
 
 const nested = (value) => value !== null && typeof value === 'object' && Object.keys(value).length > 0;
 
-// JSON as people write it: what fits a line and holds at most one more level of brackets stands on one.
+// JSON as people write it: a value that fits a line and has at most one more level of brackets is on one line.
 export function written(value) {
   return `${lines(value, '')}\n`;
 }

@@ -1,4 +1,4 @@
-// Every cell's measures over many results, as `shadowbench history` gathers them.
+// The measures of every cell over many results, from `shadowbench history`.
 import {choice, h} from './dom.js';
 import {moment, plural, significant} from './format.js';
 import {linearAxis} from './plots/axes.js';
@@ -36,7 +36,7 @@ function drawTrend(measure, place) {
   place.append(drawing.element);
 }
 
-// Drawn once it comes into view: there may be thousands.
+// Draws a plot once it comes into view, since there may be thousands.
 const seen = new IntersectionObserver((entries) => {
   for (const {target, isIntersecting} of entries) {
     if (!isIntersecting) continue;
@@ -68,7 +68,7 @@ function draw() {
   const shown = cells.map((cell) => ({cell, measures: cell.measures.filter(fits)})).filter((c) => c.measures.length);
   list.replaceChildren(...shown.map(({cell, measures}) => h('section', {class: 'panel', 'aria-label': cell.title}, h('h2', {}, cell.title),
     h('div', {class: 'trends'}, measures.map(measureView)))));
-  if (!shown.length) list.append(h('p', {class: 'empty'}, 'Nothing fits these choices.'));
+  if (!shown.length) list.append(h('p', {class: 'empty'}, 'No measure fits these choices.'));
 }
 draw();
 const drifting = cells.reduce((sum, c) => sum + c.measures.filter((m) => m.drift).length, 0);
@@ -78,5 +78,5 @@ document.getElementById('main').append(h('div', {class: 'stack'},
     h('label', {class: 'check'}, h('input', {type: 'checkbox', onchange: (e) => { only = e.target.checked; draw(); }}), ' only what drifts'))),
   h('p', {class: 'purpose'}, `${plural(cells.length, 'cell')} over ${plural(runs.length, 'run')}` +
     (runs.length ? `, from ${moment(runs[0].started)} to ${moment(runs.at(-1).started)}` : '') + `. ${drifting ? plural(drifting, 'measure drifts', 'measures drift') : 'Nothing drifts'}.`),
-  h('p', {class: 'note'}, 'Across: runs, #1 is the first. Bars: 95 % intervals. A dashed line: the run from which on a measure drifts.'),
+  h('p', {class: 'note'}, 'The horizontal axis shows the runs; #1 is the first. Bars are 95 % intervals. A dashed line marks the run where a drift begins.'),
   list));

@@ -21,7 +21,7 @@ function sourceOf(job) {
   };
 }
 
-// A file of the job; with a token it cannot be a plain link.
+// A link to a file of the job. A plain link could not carry the token.
 function fileLink(text, address, name) {
   return h('a', {href: address, download: name, onclick: async (event) => {
     if (!hasToken() || event.currentTarget.href.startsWith('blob:')) return;
@@ -48,7 +48,7 @@ function progressPanel(stop) {
 
 function faultPanel(job) {
   const {where, message} = job.error ?? {};
-  return h('section', {class: 'panel fault', role: 'alert'}, h('h2', {}, job.state === 'failed' ? 'It failed' : 'It was cancelled'),
+  return h('section', {class: 'panel fault', role: 'alert'}, h('h2', {}, job.state === 'failed' ? 'The job failed' : 'The job was cancelled'),
     job.error && h('p', {}, where && h('code', {}, where), ` ${message}`),
     job.attempts > 1 && h('p', {class: 'note'}, `After ${job.attempts} attempts.`));
 }

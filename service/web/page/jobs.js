@@ -1,4 +1,4 @@
-// The list of jobs, as they change.
+// The list of jobs, kept up to date.
 import {get, post, remove} from './api.js';
 import {announce, choice, h, setText} from './dom.js';
 import {moment, percent, seconds} from './format.js';
@@ -93,7 +93,7 @@ export function jobsView({signal}) {
       if (job.state === 'running') watch(job);
     });
     empty.hidden = jobs.length > 0;
-    setText(empty, state ? `No job is ${state}.` : 'Nothing has been run yet.');
+    setText(empty, state ? `No job is ${state}.` : 'There are no jobs yet.');
     table.hidden = jobs.length === 0;
     more.hidden = !next;
   }
@@ -117,7 +117,7 @@ export function jobsView({signal}) {
       setText(problem, error.message);
     }
   }
-  const more = h('button', {type: 'button', class: 'quiet', hidden: true, onclick: () => { cursors = [...cursors, next]; refresh(); }}, 'Show older ones');
+  const more = h('button', {type: 'button', class: 'quiet', hidden: true, onclick: () => { cursors = [...cursors, next]; refresh(); }}, 'Show older jobs');
   const table = h('table', {class: 'jobs', hidden: true}, h('caption', {class: 'hidden'}, 'Jobs, the newest first'),
     h('thead', {}, h('tr', {}, ['Scenario', 'State', 'Progress', 'Sent'].map((t) => h('th', {scope: 'col'}, t)), h('th', {scope: 'col'}, h('span', {class: 'hidden'}, 'Action')))), body);
   (async () => {

@@ -1,6 +1,6 @@
-// Where the values of a JSON text stand, by their JSON pointers (RFC 6901).
+// Finds the values of a JSON text by their JSON pointers (RFC 6901).
 
-// Thrown for text that is no JSON; `offset` is where.
+// Thrown for text that is not JSON; `offset` is the place of the fault.
 export class JsonFault extends Error {
   constructor(message, offset) {
     super(message);
@@ -44,11 +44,11 @@ class Scanner {
   value(pointer, start, depth) {
     this.match(space);
     this.places.set(pointer, start ?? this.at);
-    if (depth > deepest) this.fail('Fewer levels of brackets are expected');
+    if (depth > deepest) this.fail('Expected fewer levels of brackets');
     if (this.take('{')) this.members(pointer, depth);
     else if (this.take('[')) this.elements(pointer, depth);
     else if (this.match(string) === null && this.match(number) === null && this.match(word) === null)
-      this.fail('A value is expected');
+      this.fail('Expected a value');
   }
 
   members(pointer, depth) {
@@ -57,11 +57,11 @@ class Scanner {
       this.match(space);
       const start = this.at;
       const name = this.match(string);
-      if (name === null) this.fail('A name in double quotes is expected');
-      if (!this.take(':')) this.fail('":" is expected');
+      if (name === null) this.fail('Expected a name in double quotes');
+      if (!this.take(':')) this.fail('Expected ":"');
       this.value(`${pointer}/${JSON.parse(name).replaceAll('~', '~0').replaceAll('/', '~1')}`, start, depth + 1);
     } while (this.take(','));
-    if (!this.take('}')) this.fail('"," or "}" is expected');
+    if (!this.take('}')) this.fail('Expected "," or "}"');
   }
 
   elements(pointer, depth) {
@@ -69,20 +69,20 @@ class Scanner {
     let index = 0;
     do this.value(`${pointer}/${index++}`, null, depth + 1);
     while (this.take(','));
-    if (!this.take(']')) this.fail('"," or "]" is expected');
+    if (!this.take(']')) this.fail('Expected "," or "]"');
   }
 }
 
-// Map of pointer -> offset; a member of an object stands where its name begins. Throws JsonFault.
+// Returns a map of pointer -> offset. The offset of a member of an object is that of its name. Throws JsonFault.
 export function places(text) {
   const scanner = new Scanner(text);
   scanner.value('', null, 0);
   scanner.match(space);
-  if (scanner.at < text.length) scanner.fail('The end is expected');
+  if (scanner.at < text.length) scanner.fail('Expected the end');
   return scanner.places;
 }
 
-// Offset of the pointer, or of the nearest value around it that is there.
+// The offset of the pointer, or of the innermost value around it that exists.
 export function offsetOf(map, pointer) {
   for (let p = pointer; ; p = p.slice(0, p.lastIndexOf('/'))) {
     if (map.has(p)) return map.get(p);
@@ -90,7 +90,7 @@ export function offsetOf(map, pointer) {
   }
 }
 
-// Line of an offset, from 0 on.
+// The line of an offset, from 0.
 export function lineOf(text, offset) {
   let line = 0;
   for (let i = text.indexOf('\n'); i !== -1 && i < offset; i = text.indexOf('\n', i + 1)) ++line;

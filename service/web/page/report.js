@@ -1,4 +1,4 @@
-// A result as a file of its own: the data stands in the page, and nobody can be asked for more.
+// A result as one file. The page contains all its data and has no server.
 import {h} from './dom.js';
 import {resultView, summaryOf} from './result/view.js';
 

@@ -1,4 +1,4 @@
-// The page on which a scenario is written and sent.
+// The page on which the user edits and submits a scenario.
 import {get, post} from './api.js';
 import {choice, h, setText} from './dom.js';
 import {bytes, plural, seconds, written} from './format.js';
@@ -7,7 +7,7 @@ import {JsonFault, lineOf, offsetOf, places} from './pointer.js';
 const checkPause = 400;  // milliseconds after the last key
 const draftKey = 'shadowbench-draft';
 
-// A text area whose lines have numbers and can be marked. typed() is told before changed() what came from the keyboard.
+// A text area whose lines have numbers and can be marked. changed() is called for every change; for input by the user typed() is called before it.
 function editor(changed, typed) {
   const area = h('textarea', {id: 'scenario', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', wrap: 'off', 'aria-describedby': 'verdict'});
   const numbers = h('div', {class: 'numbers', 'aria-hidden': 'true'});
@@ -42,7 +42,7 @@ function editor(changed, typed) {
 // The faults of a problem as {offset, line, pointer, detail}.
 function faultsOf(problem, text) {
   let map = new Map();
-  try { map = places(text); } catch { /* a server that is stricter than the scanner */ }
+  try { map = places(text); } catch { /* the server accepts what the scanner does not */ }
   const errors = problem.errors.length ? problem.errors : [{pointer: '', detail: problem.message}];
   return errors.map(({pointer = '', detail}) => {
     const offset = offsetOf(map, pointer);
@@ -101,10 +101,10 @@ export function submitView({draft, signal, go}) {
   }
   const edit = editor(() => {
     setText(problem, '');
-    key = newKey();  // another text is another request
+    key = newKey();  // a new text is a new request
     clearTimeout(timer);
     timer = setTimeout(check, checkPause);
-  }, () => {  // it is no example any more
+  }, () => {  // the text is no longer an example
     setText(purpose, '');
     const select = examples.querySelector('select');
     if (select) select.value = '';
@@ -158,6 +158,6 @@ export function submitView({draft, signal, go}) {
     h('label', {class: 'hidden', for: 'scenario'}, 'Scenario, as JSON'), edit.element, verdict,
     h('div', {class: 'actions'}, button,
       h('label', {class: 'check'}, pictures, ' with pictures'),
-      choice('Known results', [{value: 'reuse', text: 'answer with them'}, {value: 'fresh', text: 'measure again'}], cache, (v) => { cache = v; key = newKey(); })),
+      choice('Known results', [{value: 'reuse', text: 'reuse them'}, {value: 'fresh', text: 'measure again'}], cache, (v) => { cache = v; key = newKey(); })),
     problem);
 }

@@ -1,4 +1,4 @@
-// A job as it changes: by events while the server sends them, else by asking again and again.
+// Follows the changes of a job: by events if the server sends them, otherwise by polling.
 import {events, get} from './api.js';
 
 export function ended(job) {

@@ -81,7 +81,7 @@ async function measures(page) {
   const first = page.locator('.trade').first();
   await page.selectOption('.panel:has(#trade-title) select >> nth=0', 'curve.max');
   assert.match(await text(first.locator('figcaption')), /curve error, largest/);
-  assert.match(await text(first), /Zeros stand at the edge/);
+  assert.match(await text(first), /Zeros are drawn at the edge/);
   await page.selectOption('.panel:has(#trade-title) select >> nth=1', 'image_floor');
   assert.match(await text(first), /image order, × floor →/);
   await page.selectOption('.panel:has(#trade-title) select >> nth=0', 'lookup.rms');
@@ -152,7 +152,7 @@ async function variants(page, mock) {
     await page.waitForFunction((before) => document.querySelector('#curves .mark-line path').getAttribute('d') !== before, red);
   }
   await select.selectOption({label: 'rays.samples_per_pixel = 16'});
-  await page.waitForFunction(() => document.querySelector('main').textContent.includes('Pictures were made of another variant'));
+  await page.waitForFunction(() => document.querySelector('main').textContent.includes('The pictures show another variant'));
   assert.match(await text(page.locator('#cell .command code')), /--set \/rays\/samples_per_pixel=16/);
   // Nor of its map: it is painted by what was asked for.
   assert.equal(await page.locator('#curves .grid img').isVisible(), false);
@@ -183,7 +183,7 @@ async function comparison(page, mock) {
   await page.selectOption('.panel:has(#verdicts-title) select', 'differ');
   await looks(page, 'flow-compare');
   await current.locator('input').setInputFiles({name: 'no.json', mimeType: 'application/json', buffer: Buffer.from('{')});
-  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'no.json is no JSON.');
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'no.json is not JSON.');
 }
 
 // In both colour schemes, wide and narrow.

@@ -114,7 +114,7 @@ export class Mock {
   }
 
   file(response, path) {
-    if (!existsSync(path)) return this.problem(response, 404, 'There is nothing here.');
+    if (!existsSync(path)) return this.problem(response, 404, 'There is no such file.');
     response.writeHead(200, {'Content-Type': types[path.split('.').pop()] ?? 'application/octet-stream', 'Content-Security-Policy': policy});
     createReadStream(path).pipe(response);
   }
@@ -128,7 +128,7 @@ export class Mock {
     let text = '';
     for await (const part of request) text += part;
     const handler = {scenarios: this.getScenarios, validate: this.validate, jobs: path[2] ? this.oneJob : this.allJobs, compare: this.compare}[path[1]];
-    if (!handler) return this.problem(response, 404, 'There is nothing here.');
+    if (!handler) return this.problem(response, 404, 'There is no such file.');
     return handler.call(this, {request, response, url, path, text, body: text ? JSON.parse(text) : null});
   }
 
@@ -166,7 +166,7 @@ export class Mock {
   compare({response, text, body}) {
     this.compared = body;
     this.comparedText = text;
-    if (body.current.result && !body.current.result.variants) return this.problem(response, 422, 'this is no result', {errors: [{pointer: '/current', detail: 'this is no result'}]});
+    if (body.current.result && !body.current.result.variants) return this.problem(response, 422, '/current: not a result of run', {errors: [{pointer: '/current', detail: 'not a result of run'}]});
     return this.json(response, 200, comparison());
   }
 
@@ -191,7 +191,7 @@ export class Mock {
     if (part === 'curves') return this.json(response, 200, curvesOf(url.searchParams.get('light'), Number(url.searchParams.get('x')), Number(url.searchParams.get('y'))));
     const name = path.slice(4).join('/');
     if (part === 'artifacts' && this.files[name]) return this.json(response, 200, this.files[name]);
-    return part === 'artifacts' ? this.file(response, join(this.fixture, normalize(name))) : this.problem(response, 404, 'There is nothing here.');
+    return part === 'artifacts' ? this.file(response, join(this.fixture, normalize(name))) : this.problem(response, 404, 'There is no such file.');
   }
 
   events(request, response, job) {

@@ -83,7 +83,7 @@ async function history(options, folder) {
     await page.check('.check input');
     assert.equal(await page.locator('.trend').count(), 1);
     await page.selectOption('.choices select', 'bytes');
-    assert.match(await page.locator('.empty').innerText(), /Nothing fits/);
+    assert.match(await page.locator('.empty').innerText(), /No measure fits/);
   });
 }
 

@@ -11,7 +11,7 @@ const states = {};
 states['no jobs'] = async ({page, url}) => {
   await page.goto(`${url}#/jobs`);
   await page.waitForSelector('.empty:not([hidden])');
-  assert.match(await text(page, '.empty'), /Nothing has been run yet/);
+  assert.match(await text(page, '.empty'), /There are no jobs yet/);
   assert.equal(await page.locator('table').isVisible(), false);
 };
 
@@ -52,7 +52,7 @@ states['older jobs and a state'] = async ({page, url, mock}) => {
   for (let i = 0; i < 60; ++i) mock.job(i % 2 ? 'cancelled' : 'failed', {name: `job ${i}`});
   await page.goto(`${url}#/jobs`);
   await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 50);
-  await page.click('button:has-text("Show older ones")');
+  await page.click('button:has-text("Show older jobs")');
   await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 60);
   await page.selectOption('.page-head select', 'failed');
   await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 30);
@@ -74,7 +74,7 @@ states['a job in the queue is cancelled'] = async ({page, url, mock}) => {
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForFunction(() => document.querySelector('.stage-text')?.textContent === 'Queued: 2 before it');
   await page.click('.progress button');
-  await page.waitForFunction(() => document.querySelector('.fault')?.textContent.includes('It was cancelled'));
+  await page.waitForFunction(() => document.querySelector('.fault')?.textContent.includes('The job was cancelled'));
 };
 
 states['pictures that could not be made'] = async ({page, url, mock}) => {
@@ -117,7 +117,7 @@ states['two results that differ'] = async ({page, url, mock}) => {
   assert.match(await text(page, '.fronts'), /avsm nodes=4 left the front/);
 };
 
-states['a file that is no result'] = async ({page, url, mock}) => {
+states['a file that is not a result'] = async ({page, url, mock}) => {
   const job = mock.job('succeeded');
   await page.goto(`${url}#/compare/${job.id}`);
   await page.waitForSelector('.side select');
@@ -127,7 +127,7 @@ states['a file that is no result'] = async ({page, url, mock}) => {
     data.items.add(new File(['{"seed": 12345678901234567891}'], 'mine.json'));
     side.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
   });
-  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'this is no result');
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === '/current: not a result of run');
   assert.equal(mock.comparedText, `{"baseline": {"job":"${job.id}"}, "current": {"result": {"seed": 12345678901234567891}}}`);
 };
 
@@ -136,13 +136,13 @@ states['no such job'] = async ({page, url}) => {
   await page.waitForFunction(() => document.querySelector('.problem').textContent === 'There is no such job.');
 };
 
-states['text that is no JSON'] = async ({page, url}) => {
+states['text that is not JSON'] = async ({page, url}) => {
   await page.goto(url);
   await page.waitForSelector('.verdict-box .good');
   await page.locator('#scenario').fill('{\n  "name": "x",\n  "lights": [1, 2,, 3]\n}');
   await page.waitForSelector('.faults');
   assert.equal(await text(page, '.numbers .bad'), '3');
-  assert.match(await text(page, '.faults'), /line 3\s*A value is expected instead of ","/);
+  assert.match(await text(page, '.faults'), /line 3\s*Expected a value instead of ","/);
   await page.click('button.primary');  // says it again, and sends nothing
   assert.ok(await page.evaluate(() => document.activeElement.id === 'scenario'));
 };
@@ -189,7 +189,7 @@ states['options reach the server'] = async ({page, url, mock}) => {
   assert.match(mock.bodies[0], /"seed": 12345678901234567891,/, 'with all digits');
 };
 
-states['a server that asks for a token'] = async ({page, url, mock}) => {
+states['a server that requires a token'] = async ({page, url, mock}) => {
   mock.token = 'let me in';
   const job = mock.job('succeeded');
   await page.goto(`${url}#/jobs/${job.id}`);

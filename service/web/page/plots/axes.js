@@ -1,4 +1,4 @@
-// Domains and ticks.
+// Computes the domains and ticks of axes.
 import {bytes, nanoseconds, significant} from '../format.js';
 
 const writers = {
@@ -31,9 +31,9 @@ function logTicks(low, high, kind) {
   return candidates.find((t) => t.length <= 9) ?? most.filter((_, i) => i % each === 0);
 }
 
-const least = 1e-250;  // far enough from where numbers end
+const least = 1e-250;  // well above the smallest double
 
-// A log axis that holds all values. Zero has no place on it: it gets one at the lower end (`zero`), marked as 0.
+// A log axis that covers all values. Zeros go to its lower end (`zero`), which is marked as 0.
 export function logAxis(name, values, kind) {
   const positive = values.filter((v) => v > 0);
   let low = positive.length ? Math.min(...positive) : 0.1;
@@ -54,7 +54,7 @@ export function logAxis(name, values, kind) {
   return {zero, signals: {[`${name}_low`]: low, [`${name}_high`]: high, [`${name}_ticks`]: ticks, [`${name}_labels`]: labels}};
 }
 
-// Where a value stands on a log axis: 0 at its lower end, 1 at its upper one.
+// The position of a value on a log axis: 0 at its lower end, 1 at its upper end.
 export function logPlace(name, signals, value) {
   const low = signals[`${name}_low`], high = signals[`${name}_high`];
   return Math.max(0, Math.min(1, Math.log(value / low) / Math.log(high / low)));

@@ -1,4 +1,4 @@
-// Where the labels of points go, so that they cover neither marks nor each other as long as there is room.
+// Places the labels of points so that they cover neither marks nor each other, as far as there is room.
 
 const letter = 7, line = 13;  // pixels of a label's text
 const reaches = [0, 6, 13, 22];
@@ -11,8 +11,8 @@ function overlap(a, b) {
   return across > 0 && down > 0 ? across * down : 0;
 }
 
-// points: {x, y, text, radius}, in pixels; lines: [x0, y0, x1, y1], level or upright. Gives {dx, dy} of the middle of each
-// point's text. Marks and other labels are kept clear of before lines are.
+// points: {x, y, text, radius}, in pixels; lines: [x0, y0, x1, y1], horizontal or vertical. Returns for each point {dx, dy},
+// the offset of the middle of its text. Avoiding marks and other labels comes before avoiding lines.
 export function placeLabels({points, lines, width, height}) {
   const marks = points.map((p) => boxOf(p.x, p.y, p.radius, p.radius));
   const strokes = lines.map(([x0, y0, x1, y1]) => ({left: Math.min(x0, x1) - 1, right: Math.max(x0, x1) + 1, top: Math.min(y0, y1) - 1, bottom: Math.max(y0, y1) + 1}));

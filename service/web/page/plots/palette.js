@@ -1,5 +1,5 @@
-// Colours and shapes of techniques: after Okabe and Ito, Color Universal Design (2008), moved until each has a contrast
-// of 3 to 1 with its background. Shape and colour change together, so that neither is needed alone.
+// Colours and shapes of techniques: after Okabe and Ito, Color Universal Design (2008), adjusted to a contrast of at least
+// 3 to 1 with the background. Each technique has its own colour and its own shape, so that either identifies it.
 import {svg} from '../dom.js';
 
 const colours = {
@@ -30,7 +30,7 @@ export function lookOf(index) {
   return {colour: palette[index % palette.length], shape: shapes[index % shapes.length]};
 }
 
-// A stretch of the line of a function, in the colour of its technique and with a dash of its own.
+// A stretch of the line of a function, in the colour of its technique and with its own dash.
 export function lineSample(index, number) {
   return svg('svg', {viewBox: '0 0 30 8', class: `line-sample series-${index % colours.light.length}`, 'aria-hidden': 'true'},
     svg('path', {d: 'M0,4H30', 'stroke-dasharray': dashOf(number).join(' ')}));

@@ -1,5 +1,5 @@
-// A compiled plot on the page. The parts of Vega that these plots need, without its compiler of expressions, which
-// would evaluate strings: the page's Content-Security-Policy forbids that.
+// Shows a compiled plot on the page, with the parts of Vega that the plots need. Vega's compiler of expressions is left out:
+// it evaluates strings, which the page's Content-Security-Policy forbids.
 import {changeset, transforms} from 'vega-dataflow';
 import * as encoders from 'vega-encode';
 import {expressionInterpreter} from 'vega-interpreter';
@@ -42,8 +42,8 @@ function tooltipOver(box) {
   };
 }
 
-// name: a key of specs.js. update({signals, data, description}) draws it anew; data may be a function of the width and
-// height in pixels. theme() is asked for signals that are colours whenever the theme changes. onPick(datum) is told of clicks on marks named "points".
+// name: a key of specs.js. update({signals, data, description}) draws it again; data may be a function of the width and
+// height in pixels. theme() gives the signals that are colours; it is called whenever the theme changes. onPick(datum) is called for clicks on marks named "points".
 export function plot(name, {onPick, theme = () => ({}), label, signal}) {
   const canvas = h('div', {class: 'plot-canvas'});
   const box = h('div', {class: 'tooltip', hidden: true});
@@ -71,7 +71,7 @@ export function plot(name, {onPick, theme = () => ({}), label, signal}) {
   }
 
   const watcher = new ResizeObserver(() => {
-    // What the axis labels take stays beside the plot.
+    // The axis labels take space beside the plot.
     const room = Math.floor(element.clientWidth) - 76;
     if (room < 80 || room === width) return;
     width = room;

@@ -1,5 +1,5 @@
-// The plots in Vega-Lite. They are compiled to Vega when the page is built (build.mjs), so that the page carries no
-// compiler; what changes comes as data and as params, which are signals there.
+// The plots in Vega-Lite. build.mjs compiles them to Vega, so that the page needs no compiler. The page passes data, and
+// params, which become signals.
 
 const ticks = (axis) => ({
   values: {expr: `${axis}_ticks`},
@@ -21,7 +21,7 @@ const range = (name, low, high) => ({[`${name}_low`]: low, [`${name}_high`]: hig
 const ink = {expr: 'ink'}, muted = {expr: 'muted'}, paper = {expr: 'paper'};
 
 // Cost against error. points: {n, key, x, low, high, y, colour, shape, chosen, tip}, and dx and dy of the number's middle;
-// front: {x, y}, from left to right; levels: {y, dash}, explained below the plot.
+// front: {x, y}, from left to right; levels: {y, dash}, explained in the text below the plot.
 const trade = {
   width: 520, height: 320,
   params: params({...range('x', 1, 10), ...range('y', 0.01, 1), ink: '#000', muted: '#666', paper: '#fff'}),
@@ -62,7 +62,7 @@ const trade = {
   ],
 };
 
-// bars: {from, to, count, tip}; counts on a symmetric log axis, so that one pixel among thousands is still seen.
+// bars: {from, to, count, tip}; counts on a symmetric log axis, so that one pixel among thousands is visible.
 const histogram = {
   width: 420, height: 150,
   params: params({...range('x', 0, 1), ...range('y', 0, 1), bar: '#00619e'}),
@@ -89,7 +89,7 @@ const curves = {
   },
 };
 
-// A measure over runs. points: {i, value, low, high, tip}; since: {i, text}, where a drift was first seen.
+// A measure over runs. points: {i, value, low, high, tip}; since: {i, text}, where a drift begins.
 const trend = {
   width: 300, height: 110,
   params: params({...range('x', 0, 1), ...range('y', 0, 1), line: '#00619e', muted: '#666', alarm: '#b3261e'}),

@@ -12,10 +12,10 @@ const kinds = [['shaded', 'Shaded'], ['shadow', 'Shadow: average visibility'], [
 
 function pictureStrip(source, images, cell, signal) {
   const pictures = picturesOf(images, cell);
-  if (!pictures) return h('p', {class: 'note'}, 'There are no pictures of this technique here.');
+  if (!pictures) return h('p', {class: 'note'}, 'There are no pictures of this technique.');
   return h('div', {class: 'strip'}, kinds.filter(([kind]) => fileOf(pictures, kind)).map(([kind, text]) => {
     const image = h('img', {alt: `${titleOf(cell)}: ${text.toLowerCase()}`, 'data-kind': kind});
-    // The legend below a heat map is left out: its range stands in the words.
+    // A heat map's legend is left out: the text gives its range.
     image.style.aspectRatio = images.resolution.join(' / ');
     source.picture(fileOf(pictures, kind), signal).then((url) => { image.src = url; }, () => { image.alt += ' (not available)'; });
     const error = pictures[kind === 'heat' ? 'shadow' : kind];
@@ -40,7 +40,7 @@ function barsOf(histogram) {
 
 function histogramOf(cell, series, signal) {
   const nodes = cell.nodes;
-  if (!nodes?.histogram?.length || !nodes.cells) return h('p', {class: 'note'}, 'It stores no nodes.');
+  if (!nodes?.histogram?.length || !nodes.cells) return h('p', {class: 'note'}, 'This technique stores no nodes.');
   const bars = barsOf(nodes.histogram);
   const most = Math.max(...bars.map((b) => b.count));
   const across = linearAxis('x', -0.5, bars.at(-1).to, 10);
@@ -48,7 +48,7 @@ function histogramOf(cell, series, signal) {
   const powers = [0];
   for (let p = 1; p <= most; p *= 10) powers.push(p);
   const drawing = plot('histogram', {
-    signal, label: `Histogram of nodes a cell: mean ${significant(nodes.mean)}, largest ${nodes.max}`,
+    signal, label: `Histogram of nodes per cell: mean ${significant(nodes.mean)}, largest ${nodes.max}`,
     theme: () => ({bar: drawing.colour(`series-${series % 8}`)}),
   });
   drawing.update({
@@ -78,7 +78,7 @@ function facts(cell, map) {
   ];
 }
 
-// source: see view.js. The signal ends when another cell is shown.
+// source: see view.js. The signal aborts when another cell is shown.
 export function cellView({source, result, images, group, cell, index, series, signal}) {
   const scenario = () => download(`${result.name}.json`, 'application/json', `${JSON.stringify(result.scenario, null, 2)}\n`);
   return h('section', {class: 'panel', id: 'cell', 'aria-labelledby': 'cell-title', tabindex: '-1'},
@@ -90,7 +90,7 @@ export function cellView({source, result, images, group, cell, index, series, si
     h('div', {class: 'pair'},
       h('div', {}, h('h4', {}, 'Nodes'), histogramOf(cell, series, signal)),
       h('div', {}, facts(cell, group.light.map))),
-    h('h4', {}, 'Run it again, alone'),
+    h('h4', {}, 'Run only this cell again'),
     command(rerunOf(result, group, cell)),
     h('p', {class: 'note'}, 'with the scenario as ', h('button', {type: 'button', class: 'link', onclick: scenario}, `${result.name}.json`), '.'));
 }

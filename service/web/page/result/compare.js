@@ -1,4 +1,4 @@
-// Reference and technique under one slider, beside a map of their difference, with zoom and pan shared by all.
+// Shows the reference and a technique under one slider, beside a map of their difference. All pictures share zoom and pan.
 import 'img-comparison-slider';
 import {choice, h, setText, svg} from '../dom.js';
 import {significant} from '../format.js';
@@ -24,7 +24,7 @@ function sharedView(frames) {
     }
     changed(scale);
   };
-  // px, py: what stays in place, as a share of the frame.
+  // px, py: the point that stays in place, as a fraction of the frame.
   const zoom = (factor, px = 0.5, py = 0.5) => {
     const next = Math.min(furthest, Math.max(1, scale * factor));
     x = px - (px - x) * next / scale;
@@ -51,7 +51,7 @@ function dragAndWheel(element, view) {
   element.addEventListener('dblclick', (event) => { const [x, y] = share(event); view.zoom(2, x, y); });
   let held = null;
   element.addEventListener('pointerdown', (event) => {
-    held = event.target.closest('.knob') ? null : [event.clientX, event.clientY];  // the handle moves the divider alone
+    held = event.target.closest('.knob') ? null : [event.clientX, event.clientY];  // the handle moves only the divider
   });
   addEventListener('pointermove', (event) => {
     if (!held || !(event.buttons & 1)) return;
@@ -125,7 +125,7 @@ export function compareView({source, images, cells, signal}) {
     h('div', {class: 'pair'},
       h('figure', {}, stage, h('figcaption', {class: 'sides'}, leftName, rightName)),
       h('figure', {}, mapFrame, h('figcaption', {}, mapName), legendPlace)),
-    h('p', {class: 'note'}, 'Drag the handle, or use the arrow keys on it. Double-click or Ctrl + wheel zooms, dragging moves; both hold for all pictures.'));
+    h('p', {class: 'note'}, 'Drag the handle, or use the arrow keys on it. Double-click or Ctrl + wheel to zoom, and drag to move, all pictures.'));
   return {
     element,
     update(next) {

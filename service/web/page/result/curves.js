@@ -1,4 +1,4 @@
-// One pixel of the light's map: its exact visibility function and what every technique stores for it.
+// One pixel of the light's map: its exact visibility function, and the function that every technique stores.
 import {choice, h, announce} from '../dom.js';
 import {plural, significant} from '../format.js';
 import {linearAxis} from '../plots/axes.js';
@@ -9,7 +9,7 @@ import {lightMapOf, titleOf, worstPixelOf} from './model.js';
 import {pixelGrid} from './pixels.js';
 
 const hoverPause = 60;  // milliseconds
-const surveySide = 24;  // pixels across that a survey asks for
+const surveySide = 24;  // pixels per side that a survey requests
 
 // The vertices of one function over the whole depth range: its first value before, its last value after.
 function verticesOf(curve, {z, v}, low, high, look) {
@@ -18,22 +18,22 @@ function verticesOf(curve, {z, v}, low, high, look) {
     .map(([depth, value], order) => ({curve, order, z: depth, v: value, ...look}));
 }
 
-// One channel of a function; of a coloured map they may have depths of their own.
+// One channel of a function. In a coloured map each channel may have its own depths.
 function channelOf(curve, channel) {
   return {z: curve.channels_z?.[channel] ?? curve.z, v: curve.channels?.[channel] ?? curve.v};
 }
 
-// The light that all of the pixel lets through, a value a channel.
+// The transmittance of the whole pixel, one value per channel.
 function through({exact}) {
   return (exact.channels ?? [exact.v]).map((v) => (v.length ? v.at(-1) : 1));
 }
 
 function spoken(answer) {
   const mean = through(answer).reduce((sum, v, _, all) => sum + v / all.length, 0);
-  return `Pixel ${answer.x}, ${answer.y}: ${significant(100 * mean, 2)} % of the light gets through`;
+  return `Pixel ${answer.x}, ${answer.y}: ${significant(100 * mean, 2)} % of the light passes`;
 }
 
-// The newest question wins: one is under way at a time.
+// Sends one request at a time; of those that wait only the newest is sent.
 function questions(source, group, signal) {
   const known = new Map();
   let next = null, busy = false;
@@ -72,7 +72,7 @@ function legendTable(answer, series, hidden, toggle) {
           h('input', {type: 'checkbox', checked: !hidden.has(c.title), 'aria-label': `Show ${c.title}`, onchange: () => toggle(c.title)})))));
 }
 
-// For a source that can be asked for curves (a running server). images: of this variant, or nothing.
+// For a source with curves (a running server). images: of this variant, or nothing.
 export function curvesView({source, result, images, group, series, signal}) {
   const {width, height} = group.light.map;
   const picture = lightMapOf(images, group);
@@ -128,7 +128,7 @@ export function curvesView({source, result, images, group, series, signal}) {
   const channels = choice('Channel', ['red', 'green', 'blue'].map((text, value) => ({value, text})), 0, (v) => { channel = Number(v); draw(); });
   channels.hidden = true;
   const hover = (x, y) => { clearTimeout(timer); timer = setTimeout(() => show(x, y, false), hoverPause); };
-  const up = !result.scenario?.scene?.deep_image;  // whose rows are the image's
+  const up = !result.scenario?.scene?.deep_image;  // the rows of a deep image go downwards
   const grid = pixelGrid({name: `Map of light ${group.light.light}`, width, height, up, ask: hover, choose: (x, y) => show(x, y, true)});
   const field = (label, most) => h('input', {type: 'number', min: '0', max: String(most - 1), step: '1', value: String(Math.floor(most / 2)), 'aria-label': label});
   const xInput = field('x', width), yInput = field('y', height);
@@ -156,14 +156,14 @@ export function curvesView({source, result, images, group, series, signal}) {
     surveying = false;
     surveyButton.textContent = 'Survey';
   }
-  const surveyButton = h('button', {type: 'button', class: 'quiet', title: 'Asks for pixels all over the map', onclick: survey}, 'Survey');
+  const surveyButton = h('button', {type: 'button', class: 'quiet', title: 'Reads pixels all over the map', onclick: survey}, 'Survey');
 
   surveyButton.hidden = picture !== null;
   if (picture) source.picture(picture, signal).then(grid.show, () => { surveyButton.hidden = false; });
 
   onThemeChange(() => { if (shown) draw(); }, signal);
   signal.addEventListener('abort', () => clearTimeout(timer), {once: true});
-  // Where a function a pixel is off, more than one ray of it tells why.
+  // The rays of a pixel explain the error of a function per pixel.
   const start = worst.find((w) => w.cell.nodes?.cells === width * height) ?? worst[0];
   show(...start?.at ?? [Math.floor(width / 2), Math.floor(height / 2)], false);
 
@@ -177,6 +177,6 @@ export function curvesView({source, result, images, group, series, signal}) {
         h('form', {class: 'pixel-entry', onsubmit: entered},
           h('label', {}, 'x ', xInput), h('label', {}, 'y ', yInput), h('button', {type: 'submit', class: 'quiet'}, 'Show'), surveyButton),
         h('p', {class: 'note'}, picture ? 'Point at a pixel, move to it with the arrow keys, or enter it.'
-          : 'There is no picture of this map: pixels are painted as they are asked for. Point at one, move to it with the arrow keys, or enter it; Survey asks all over the map.'), problem),
+          : 'There is no picture of this map: pixels are painted as they are read. Point at one, move to it with the arrow keys, or enter it. Survey reads pixels all over the map.'), problem),
       h('figure', {}, heading, drawing.element, h('p', {class: 'axis-title'}, 'depth from the light, as the scene measures length →'), legend)));
 }

@@ -1,8 +1,8 @@
-// What the colours of a picture stand for: the ramp with its numbers, and the quantity below.
+// The legend of a picture: the colour ramp with its numbers, and the quantity below.
 import {h} from '../dom.js';
 import {significant} from '../format.js';
 
-// The maps of errors; each says what its top is from what the pictures' own file (images.json) tells.
+// The maps of errors. Each computes the value of its top colour from images.json.
 export const maps = {
   heat: {
     text: '|error| of the shadow', top: (images) => images.heat_top,
@@ -15,7 +15,7 @@ export const maps = {
 };
 
 export function factorOf(images) {
-  return images.difference_factor ?? 4;  // what pictures were made with before they told
+  return images.difference_factor ?? 4;  // pictures of earlier versions, which do not state it, used 4
 }
 
 function ramp(kind, numbers, quantity) {

@@ -1,4 +1,5 @@
-// A result (result.json of `run`) as what the page shows: groups of cells, measures, the front, the command of a cell.
+// Derives what the page shows from a result (result.json of `run`): groups of cells, measures, the front, the command of a
+// cell.
 
 export function titleOf(cell) {
   return cell.label ? `${cell.technique} ${cell.label}` : cell.technique;
@@ -26,7 +27,7 @@ export const errors = [['lookup', 'lookup error'], ['curve', 'curve error']].fla
     id: `${kind}.${id}`, text: `${name}, ${text}`, kind: 'error', of: (c) => plain(c[`${kind}_error`]?.[id]),
   })));
 
-// One for each variant and light.
+// A group for each variant and light.
 export function groupsOf(result) {
   return (result.variants ?? []).flatMap((variant, v) => (variant.lights ?? []).map((light, l) => {
     const settings = Object.entries(variant.settings ?? {});
@@ -39,12 +40,12 @@ export function groupsOf(result) {
   }));
 }
 
-// Why the times of a group cannot be relied on: what the floors say of the machine. Nothing where it was quiet.
+// Why the times of a group are unreliable, judged by the floors, which were measured beside them. Nothing on a quiet machine.
 export function unsettledOf(result, group) {
   return result.times?.unsettled?.find((u) => u.variant === group.variant && u.light === group.light.light)?.why ?? null;
 }
 
-// The points that no other beats in both: from left to right, ever lower. Equal ones are all on it.
+// The Pareto front: the points that no other point beats in both measures, from left to right. Equal points are all on it.
 export function frontOf(points) {
   const sorted = [...points].sort((a, b) => a.x - b.x || a.y - b.y);
   const front = [];
@@ -55,7 +56,7 @@ export function frontOf(points) {
   return front;
 }
 
-// A number for each technique of the result in order of appearance: its colour and shape wherever it is shown.
+// Numbers the techniques of a result in order of appearance. The number selects the colour and shape.
 export function seriesOf(result) {
   const series = new Map();
   for (const group of groupsOf(result))
@@ -68,10 +69,10 @@ function valueAt(document, pointer) {
   return pointer.split('/').slice(1).reduce((value, key) => value?.[key.replaceAll('~1', '/').replaceAll('~0', '~')], document);
 }
 
-// The technique as the scenario would say it: what was written, and what sweeps set.
+// The technique in the form of a scenario: the values that were written, and those that sweeps set.
 function techniqueOf(result, cell) {
   const written = valueAt(result.scenario, cell.where ?? '') ?? {type: cell.technique};
-  if (written.type === '*') return {type: cell.technique};  // one of many, with its defaults
+  if (written.type === '*') return {type: cell.technique};  // "*" stands for techniques with their defaults
   const swept = Object.keys(result.scenario?.sweeps ?? {}).filter((p) => p.startsWith(`${cell.where}/`))
     .map((p) => p.slice(cell.where.length + 1)).filter((key) => key in (cell.parameters ?? {}));
   return {...written, ...Object.fromEntries(swept.map((key) => [key, cell.parameters[key]]))};
@@ -81,7 +82,7 @@ export function quoted(text) {
   return /^[\w\-./=:,+@%]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
 }
 
-// The command that runs this cell alone, from the scenario saved as a file.
+// The command that runs only this cell, from the scenario saved as a file.
 export function rerunOf(result, group, cell) {
   const sets = [];
   if (Object.keys(result.scenario?.sweeps ?? {}).length) sets.push('sweeps={}');
@@ -105,7 +106,7 @@ export function lightMapOf(images, group) {
   return light?.light === group.light.light ? fileOf(light, 'through') : null;
 }
 
-// The pixel of the largest curve error, which is told as a cell: where each sample has a function, cells are samples.
+// The pixel of the largest curve error. The result names a cell; for a function per sample, cells are samples.
 export function worstPixelOf(cell, map) {
   const at = cell.curve_error?.worst_cell;
   if (!at) return null;
@@ -113,7 +114,7 @@ export function worstPixelOf(cell, map) {
   return samples ? [Math.floor(at[0] / map.samples_x), Math.floor(at[1] / map.samples_y)] : at;
 }
 
-// Pictures are of one variant alone.
+// Whether the pictures show this variant: they exist only for one.
 export function imagesAreOf(images, group) {
   const settings = images?.settings ?? {};
   return Boolean(images) && group.settings.length === Object.keys(settings).length &&

@@ -1,11 +1,11 @@
-// The map of a light, in which a pixel is chosen: over a picture of what gets through it, or, where there is none, over
-// what has been asked for.
+// The map of a light, in which a pixel can be chosen. It shows a picture of the transmittance or, without one, the pixels that
+// have been read.
 import {h} from '../dom.js';
 
-const stride = 8;  // pixels that an arrow key moves by with Shift
-const largestCanvas = 1024;  // pixels a side
+const stride = 8;  // pixels that Shift + arrow key moves
+const largestCanvas = 1024;  // pixels per side
 
-// sRGB's transfer function, as the pictures have it.
+// The transfer function of sRGB, which the pictures use.
 function toDisplay(linear) {
   const v = Math.max(0, Math.min(1, linear));
   return v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055;
@@ -16,7 +16,7 @@ function moveOf(event, up) {
   return {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -down], ArrowDown: [0, down]}[event.key];
 }
 
-// up: y grows upwards, as the light sees it. ask(x, y) is told where the pointer is, choose(x, y) what was chosen.
+// up: y grows upwards, as the light sees it. ask(x, y) is called for the pixel under the pointer, choose(x, y) for the chosen pixel.
 export function pixelGrid({name, width, height, up, ask, choose}) {
   const scale = Math.min(1, largestCanvas / Math.max(width, height));
   const canvas = h('canvas', {width: Math.ceil(scale * width), height: Math.ceil(scale * height), 'aria-hidden': 'true'});
@@ -57,12 +57,12 @@ export function pixelGrid({name, width, height, up, ask, choose}) {
   };
   return {
     element, mark,
-    // A picture of the whole map, instead of what is painted.
+    // Shows a picture of the whole map in place of the painted pixels.
     show(url) {
       picture.src = url;
       picture.hidden = false;
     },
-    // Paints a block of pixels whose lowest are x and y; colour: linear, a value a channel.
+    // Paints a block of pixels with its lowest coordinates x and y; colour: linear, one value per channel.
     fill(x, y, w, h_, colour) {
       const [r, g, b] = [0, 1, 2].map((c) => Math.round(255 * toDisplay(colour[colour.length === 1 ? 0 : c])));
       paint.fillStyle = `rgb(${r} ${g} ${b})`;

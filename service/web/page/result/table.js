@@ -1,4 +1,4 @@
-// The cells of a group as a table: the legend of the plots, and the same in text.
+// The cells of a group as a table, which is the legend of the plots and has the same numbers as text.
 import {h} from '../dom.js';
 import {bytes, significant} from '../format.js';
 import {glyph} from '../plots/palette.js';
@@ -7,21 +7,21 @@ import {titleOf} from './model.js';
 const columns = [
   {text: 'build', unit: 'ms', of: (c) => significant(c.times?.build_ms?.median), title: 'One thread, median'},
   {text: 'image', unit: 'ns', of: (c) => significant(c.times?.lookup_image_order?.ns?.median), title: 'One lookup, in image order'},
-  {text: '× floor', of: (c) => significant(c.times?.lookup_image_order?.ratio_to_floor?.median), title: 'Against reading the same cache lines'},
+  {text: '× floor', of: (c) => significant(c.times?.lookup_image_order?.ratio_to_floor?.median), title: 'Relative to reading the same cache lines'},
   {text: 'random', unit: 'ns', of: (c) => significant(c.times?.lookup_random_order?.ns?.median), title: 'One lookup, in random order'},
-  {text: '× floor', of: (c) => significant(c.times?.lookup_random_order?.ratio_to_floor?.median), title: 'Against reading the same cache lines'},
+  {text: '× floor', of: (c) => significant(c.times?.lookup_random_order?.ratio_to_floor?.median), title: 'Relative to reading the same cache lines'},
   {text: 'bytes', of: (c) => bytes(c.bytes)},
   {text: 'nodes', unit: 'mean', of: (c) => significant(c.nodes?.mean), title: 'Nodes a cell'},
   {text: 'nodes', unit: 'max', of: (c) => significant(c.nodes?.max)},
   {text: 'curve error', unit: 'max', of: (c) => significant(c.curve_error?.max, 2), title: 'Largest |stored − uncompressed|'},
-  {text: 'lookup error', unit: 'RMS', of: (c) => significant(c.lookup_error?.rms, 2), title: 'Against the truth'},
+  {text: 'lookup error', unit: 'RMS', of: (c) => significant(c.lookup_error?.rms, 2), title: 'Relative to the reference'},
   {text: 'lookup', unit: '99 %', of: (c) => significant(c.lookup_error?.p99, 2)},
   {text: 'lookup', unit: 'max', of: (c) => significant(c.lookup_error?.max, 2)},
 ];
 
 const verdicts = {
   kept: '✓', degraded: '△', failed: '✕',
-  faster: '✓', smaller: '✓', more_accurate: '✓', slower: '✕', larger: '✕', less_accurate: '✕', missing: '✕', not_comparable: '△',  // of two results
+  faster: '✓', smaller: '✓', more_accurate: '✓', slower: '✕', larger: '✕', less_accurate: '✕', missing: '✕', not_comparable: '△',  // verdicts on two results
 };
 
 export function verdictMark(cell) {
@@ -35,7 +35,7 @@ function fronts(cell) {
   return on.filter(([is]) => is).map(([, letter, text]) => h('abbr', {class: 'front', title: text}, letter));
 }
 
-// pick(index) is told of the chosen cell.
+// pick(index) is called for the chosen cell.
 export function cellTable({cells, series, chosen, pick}) {
   const head = h('tr', {}, h('th', {scope: 'col'}, 'Technique'),
     columns.map((c) => h('th', {scope: 'col', class: 'number', title: c.title}, c.text, c.unit && h('small', {}, ` ${c.unit}`))),

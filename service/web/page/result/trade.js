@@ -12,7 +12,7 @@ function interval(measure, m) {
     ? ` (95 %: ${write(measure.kind, m.low)} to ${write(measure.kind, m.high)})` : '';
 }
 
-// What can be drawn of the cells, and why the others cannot.
+// The cells that can be drawn, and why the others cannot.
 function pointsOf(cells, series, cost, error, chosen) {
   const points = [], missing = [];
   cells.forEach((cell, index) => {
@@ -33,7 +33,7 @@ function pointsOf(cells, series, cost, error, chosen) {
   return {points, missing};
 }
 
-// Errors that mean little are told by lines, where they apply to the measure.
+// Lines mark the errors below which differences mean little, if they apply to the measure.
 function levelsOf(light, error, low, high) {
   const reference = light.reference ?? {};
   const all = error.id === 'lookup.rms'
@@ -42,9 +42,9 @@ function levelsOf(light, error, low, high) {
   return all.filter(([y]) => y > low && y < high).map(([y, text, dash]) => ({y, dash, text: `${text}: ${significant(y, 2)}`}));
 }
 
-const radius = {chosen: 13, other: 8};  // pixels that a point takes
+const radius = {chosen: 13, other: 8};  // pixels
 
-// The points with the places of their numbers, for a plot of that size.
+// The points with the positions of their numbers, for a plot of this size.
 function withLabels({points, front, levels}, x, y, width, height) {
   const across = (v) => width * logPlace('x', x.signals, v), down = (v) => height * (1 - logPlace('y', y.signals, v));
   const lines = [
@@ -81,7 +81,7 @@ function tradePlot(title, pick, signal) {
     const names = frontOf(points).map((p) => `${p.n} ${titleOf(cells[p.key])}`).join(', ');
     setText(note, [
       points.length ? `On the front: ${names}.` : 'Nothing can be drawn for these measures.',
-      x.zero || y.zero ? 'Zeros stand at the edge marked 0.' : '', missing.length ? `Not drawn: ${missing.join(', ')}.` : '',
+      x.zero || y.zero ? 'Zeros are drawn at the edge marked 0.' : '', missing.length ? `Not drawn: ${missing.join(', ')}.` : '',
     ].filter(Boolean).join(' '));
     const levels = levelsOf(light, error, y.signals.y_low, y.signals.y_high);
     levelKey.replaceChildren(...levels.map((l) => h('li', {}, levelSample(l.dash), ` ${l.text}`)));
@@ -105,12 +105,12 @@ export function tradeView(context) {
   };
   const find = (list, id) => list.find((m) => m.id === id);
   const element = h('section', {class: 'panel', 'aria-labelledby': 'trade-title'},
-    h('div', {class: 'panel-head'}, h('h2', {id: 'trade-title'}, 'What accuracy costs'),
+    h('div', {class: 'panel-head'}, h('h2', {id: 'trade-title'}, 'The cost of accuracy'),
       h('div', {class: 'choices'},
         choice('Error', errors.map((m) => ({value: m.id, text: m.text})), error.id, (id) => { error = find(errors, id); draw(); }),
         choice('Speed', speeds.map((m) => ({value: m.id, text: m.text})), cost.id, (id) => { cost = find(speeds, id); draw(); }))),
     h('div', {class: 'pair'}, speed.element, bytes.element),
-    h('p', {class: 'note'}, 'Down and left is better. Bars: 95 % intervals of the median. The line joins what nothing else beats in both. ' +
-      'Click a point, or its name in the table, for its pictures.'));
+    h('p', {class: 'note'}, 'Down and left is better. Bars: 95 % intervals of the median. The line joins the Pareto front: points that no other point beats in both measures. ' +
+      'Click a point, or its name in the table, to see its pictures.'));
   return {element, update(next) { last = next; draw(); }};
 }

@@ -1,6 +1,6 @@
-// A whole result: summary, plots, table, one technique, pictures, visibility functions. A source says where it is from:
+// A whole result: summary, plots, table, one technique, pictures, visibility functions. A source gives access to its data:
 //   picture(file, signal)            a promise of the URL of a picture named in images.json
-//   curves(group, x, y, signal)      a promise of the functions of a pixel; absent: nobody can be asked
+//   curves(group, x, y, signal)      a promise of the functions of a pixel; absent without a server
 import {choice, h} from '../dom.js';
 import {bytes, count, moment, plural, seconds, significant} from '../format.js';
 import {onThemeChange} from '../plots/palette.js';
@@ -43,13 +43,13 @@ function captureOf(light) {
   ]);
 }
 
-// The one to begin with: it kept its promises, and little beats it.
+// The cell that is shown first: it kept its promises, and few others beat it.
 function bestOf(cells) {
   const score = (cell) => 4 * (cell.verdict === 'kept') + 2 * Boolean(cell.on_bytes_error_front) + Boolean(cell.times?.on_time_error_front);
   return cells.reduce((best, cell, i) => (score(cell) > score(cells[best]) ? i : best), 0);
 }
 
-// What of a result belongs to one variant and light; `chosen` is told of the cell that is shown.
+// The part of a result for one variant and light; chosen() is called with the cell that is shown.
 function groupView({source, result, images, imagesFault, group, series, signal}) {
   const theseImages = imagesAreOf(images, group) ? images : null;
   const drawn = theseImages && group.cells.findIndex((cell) => picturesOf(theseImages, cell));
@@ -90,12 +90,12 @@ function groupView({source, result, images, imagesFault, group, series, signal})
     h('section', {class: 'panel', 'aria-labelledby': 'table-title'}, h('h2', {id: 'table-title'}, 'All figures'), tablePlace),
     cellPlace,
     compare?.element ?? h('section', {class: 'panel quiet-panel'}, h('p', {class: 'note'},
-      images ? 'Pictures were made of another variant.'
+      images ? 'The pictures show another variant.'
         : imagesFault ? ['Pictures could not be made: ', imagesFault.where && h('code', {}, imagesFault.where), ` ${imagesFault.message}.`] : 'There are no pictures of this result.')),
     source.curves ? curvesView({source, result, images: theseImages, group, series, signal}) : null);
 }
 
-// imagesFault: why there are no pictures, as {where, message}, where that is known.
+// imagesFault: why there are no pictures, as {where, message}, if it is known.
 export function resultView({source, result, images, imagesFault, signal}) {
   const groups = groupsOf(result), series = seriesOf(result);
   const place = h('div');
@@ -108,7 +108,7 @@ export function resultView({source, result, images, imagesFault, signal}) {
     place.replaceChildren(groupView({source, result, images, imagesFault, group, series, signal: shown.signal}));
   }
   signal.addEventListener('abort', () => shown?.abort(), {once: true});
-  if (!groups.length) return h('p', {class: 'note'}, 'This result holds no lights.');
+  if (!groups.length) return h('p', {class: 'note'}, 'This result has no lights.');
 
   const variants = [...new Map(groups.map((g) => [g.variant, g])).values()];
   const lightsOf = (variant) => groups.filter((g) => g.variant === variant);
