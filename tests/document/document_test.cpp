@@ -272,15 +272,15 @@ TEST(Expand, leaves_tracing_techniques_out_of_the_star_without_a_scene) {
 TEST(Expand, refuses_a_star_with_parameters_or_twice) {
     json document = small_document();
     document["techniques"] = {{{"type", "avsm"}}, {{"type", "*"}, {"nodes", 4}}};
-    const std::string message = error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
+    const std::string message = test::error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
     EXPECT_NE(message.find("takes no parameters"), std::string::npos) << message;
-    error_of([&] { check_document(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
+    test::error_of([&] { check_document(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
     EXPECT_EQ(all_faults(document, {ErrorCode::bad_input, "/rays", "x"}).at(1).where(), "/techniques/1/nodes");
     document["techniques"] = {{{"type", "*"}}, {{"type", "avsm"}}, {{"type", "*"}}};
-    error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/2/type");
+    test::error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/2/type");
     document["techniques"] = {{{"type", "avsm"}}, {{"type", "*"}}};
     document["sweeps"] = {{"/techniques/1/nodes", {4, 8}}};
-    error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
+    test::error_of([&] { expand(document); }, ErrorCode::bad_input, "/techniques/1/nodes");
 }
 
 TEST(CheckDocument, takes_the_star) {
