@@ -57,14 +57,14 @@ TexelCurves busiest_texel(const nlohmann::json& document, const scene::SearchPat
     for (int t = 0; t < layout.tiles(); ++t) tiles.push_back(capture.tile(t));
 
     const Place place = busiest(tiles, layout);
-    const rays::LightRays& tile = tiles[place.tile];
+    const rays::LightRays& chosen = tiles[place.tile];
     TexelCurves result;
     result.segments = place.segments;
-    result.x = tile.x0 + static_cast<int>(place.ray) % tile.width;
-    result.y = tile.y0 + static_cast<int>(place.ray) / tile.width;
+    result.x = chosen.x0 + static_cast<int>(place.ray) % chosen.width;
+    result.y = chosen.y0 + static_cast<int>(place.ray) / chosen.width;
     curves::SweepScratch scratch;
     curves::Curve exact, stored;
-    curves::visibility(tile, place.ray, 1, 1e-5, scratch, exact);
+    curves::visibility(chosen, place.ray, 1, 1e-5, scratch, exact);
     std::vector<float> depths;
     for (int i = 0; i <= 400; ++i)
         depths.push_back(layout.z_min + (layout.z_max - layout.z_min) * static_cast<float>(i) / 400.0f);

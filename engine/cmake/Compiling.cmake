@@ -19,9 +19,9 @@ if(SHADOWBENCH_QUICK_BUILD)
   set(precompiled_options)
   set(as_one_options)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # ccache needs the first option. Without the second, GCC 12 repeats its false alarms on std::string (bug 105329) for
+    # ccache needs the first option. Without the others, GCC 12 repeats its false alarms on std::string (bug 105329) for
     # precompiled headers.
-    set(precompiled_options -fpch-preprocess -Wno-array-bounds)
+    set(precompiled_options -fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
     # The compiler takes all files of the layer for headers, and warns of unnamed namespaces in headers.
     set(as_one_options -Wno-subobject-linkage)
   endif()
