@@ -168,7 +168,7 @@ TEST(FileValues, DeepSamplesOfALayer) {
                 HasSubstr("that have them: rgba"));
     EXPECT_THAT(test::error_of([&] { validate(deep_document("layered.exr", R"(, "part": "right")"), options()); },
                                base::ErrorCode::bad_input, "/scene/deep_image/file"),
-                HasSubstr("not there"));
+                HasSubstr("no such \"part\""));
 }
 
 TEST(FileValues, DeepSamplesWithZBack0) {

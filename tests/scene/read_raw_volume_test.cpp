@@ -35,7 +35,7 @@ TEST(ReadRawVolume, RefusesASizeThatIsNotTheFiles) {
          {Vec3i(2, 3, 3), Vec3i(2, 3, 5), Vec3i(24, 24, 24), Vec3i(2147483647, 2147483647, 2147483647)})
         EXPECT_THAT(error_of([&] { read_raw_volume(file, size, "uint8"); }).message(), HasSubstr("24 bytes"));
     EXPECT_EQ(error_of([&] { read_raw_volume(file, {0, 1, 1}, "uint8"); }).code(), base::ErrorCode::bad_input);
-    EXPECT_THAT(error_of([&] { read_raw_volume(file, {2, 3, 4}, "int16"); }).message(), HasSubstr("uint8 and float32"));
+    EXPECT_THAT(error_of([&] { read_raw_volume(file, {2, 3, 4}, "int16"); }).message(), HasSubstr("uint8 or float32"));
 }
 
 TEST(ReadRawVolume, PointsAtTheByteOfABadDensity) {
