@@ -37,9 +37,24 @@ if(SHADOWBENCH_QUICK_BUILD)
   target_link_libraries(shadowbench_text_headers PRIVATE fmt::fmt)
 endif()
 
-# How a layer is compiled: cold; or standard or text (with fmt), the headers that are precompiled for it.
+# For the programs of the tests; once, where they are defined.
+function(shadowbench_precompile_test_headers)
+  if(NOT SHADOWBENCH_QUICK_BUILD)
+    return()
+  endif()
+  set(empty "${CMAKE_BINARY_DIR}/generated/test_headers.cpp")
+  file(CONFIGURE OUTPUT "${empty}" CONTENT "// For the headers that are precompiled with it.\n")
+  add_library(shadowbench_test_headers OBJECT "${empty}")
+  target_compile_options(shadowbench_test_headers PRIVATE ${precompiled_options} $<$<CONFIG:Release>:-O1>)
+  target_precompile_headers(shadowbench_test_headers PRIVATE ${headers} <gmock/gmock.h> <gtest/gtest.h>
+                            <nlohmann/json.hpp>)
+  target_link_libraries(shadowbench_test_headers PRIVATE GTest::gtest GTest::gmock nlohmann_json::nlohmann_json)
+endfunction()
+
+# How a target is compiled: cold; or standard, text (with fmt) or test (with GoogleTest and JSON), the headers that are
+# precompiled for it. Cold layers and tests have -O1.
 function(shadowbench_compiled target how)
-  if(how STREQUAL "cold")
+  if(how MATCHES "^(cold|test)$")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   if(NOT SHADOWBENCH_QUICK_BUILD)

@@ -60,8 +60,8 @@ std::string method(const Comparison& comparison) {
                                      effect, 100.0 * block_noise, 100.0 * plain_block_noise);
     std::string text = fmt::format(
         "{} times judged: {}. A time is slower or faster if its whole 95 % bootstrap interval is beyond that effect "
-        "and "
-        "the test against it holds after Holm's correction over all times. At most 5 % of comparisons then raise any "
+        "and the test against it holds after Holm's correction over all times. At most 5 % of comparisons then raise "
+        "any "
         "false alarm{}",
         comparison.judged_times, of,
         comparison.interleaved ? "" : ", if the machine was in the same state for both blocks");

@@ -15,12 +15,10 @@ using base::bytes_text;
 using base::error_text;
 
 constexpr const char* legend =
-    "ns/seg: build time per segment of the light rays. image ns, random ns: time of one lookup, in image and in "
-    "random\n"
-    "order. x floor: that time over the time to read the same cache lines. curve max: largest |stored - "
-    "uncompressed|.\n"
-    "lookup: error against the truth. front: T no other technique is both faster (random order) and more accurate,\n"
-    "B no other is both smaller and more accurate.\n";
+    "ns/seg: build time per segment of the light rays. image ns, random ns: time of a lookup in image and in random\n"
+    "order. x floor: its ratio to reading the same cache lines. curve max: largest |stored - uncompressed|. lookup:\n"
+    "error against the truth. front: T no other technique is both faster (random order) and more accurate, B no other\n"
+    "is both smaller and more accurate.\n";
 
 std::string count(std::uint64_t n) {
     std::string digits = fmt::format("{}", n);
