@@ -6,8 +6,8 @@
 
 namespace shadowbench::base {
 
-// `pointer` with one more reference token, in which "~" becomes "~0" and "/" becomes "~1" (section 3): ("/techniques/0",
-// "a/b") -> "/techniques/0/a~1b". Every key that comes from a document goes through here.
+// `pointer` with one more reference token, in which "~" becomes "~0" and "/" becomes "~1" (section 3):
+// ("/techniques/0", "a/b") -> "/techniques/0/a~1b". Every key that comes from a document goes through here.
 std::string append_token(std::string pointer, std::string_view token);
 
 }  // namespace shadowbench::base

@@ -13,8 +13,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds heartbeat{15};
-constexpr double slice =
-    1.0;  // longest wait of one call, in seconds; the server looks for closed connections between them
+// Longest wait of one call, in seconds. The server looks for closed connections between calls.
+constexpr double slice = 1.0;
 
 // Counts one client that follows events, from take() on for as long as it lives.
 class Place {

@@ -11,8 +11,8 @@ namespace shadowbench::service {
 namespace {
 
 constexpr const char* verdicts =
-    R"(Bytes, nodes, errors and promises are the same on every machine: a change beyond the tolerance is a verdict. Times
-have noise: each process counts as one observation, and fewer than 4 processes per side decide nothing.
+    R"(Bytes, nodes, errors and promises are the same on every machine: a change beyond the tolerance is a verdict.
+Times have noise: each process counts as one observation, and fewer than 4 processes per side decide nothing.
 Exit codes: 0; 1 slower; 2 larger, less accurate, missing, or of another scenario, seed or version.)";
 
 void add_verdict_options(CLI::App& command, VerdictArguments& arguments) {

@@ -7,9 +7,9 @@
 
 namespace shadowbench::service {
 
-// A self-contained page of {"cells": [{"title", "measures": [{"name", "unit", "points": [{"run", "commit", "value", "low",
-// "high"}], "drift": null | {"from", "to", "ratio", "since"}}]}], "runs": [{"started", "commit", "file"}]}. "run" and
-// "since" are the times at which runs started.
+// A self-contained page of {"cells": [{"title", "measures": [{"name", "unit", "points": [{"run", "commit", "value",
+// "low", "high"}], "drift": null | {"from", "to", "ratio", "since"}}]}], "runs": [{"started", "commit", "file"}]}.
+// "run" and "since" are the times at which runs started.
 std::string history_html(const nlohmann::json& history);
 
 }  // namespace shadowbench::service
