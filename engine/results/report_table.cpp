@@ -118,9 +118,16 @@ std::string share_line(const LightResult& light) {
     return names.empty() ? "" : "    curve max covers a share of the cells: " + names + "\n";
 }
 
-// Empty if the machine was quiet, or nothing is known of it.
+// Empty if the machine was quiet, or nothing was timed.
 std::string unsettled_line(const LightResult& light) {
-    const std::string why = unsettled_text(settling(light));
+    const Settling floors = settling(light);
+    if (floors.floors == 0 && floors.unjudged > 0)
+        return fmt::format(
+            "    Fewer than {} repetitions cannot show whether the machine was quiet: do not rank by these times or "
+            "front "
+            "T.\n",
+            least_repetitions);
+    const std::string why = unsettled_text(floors);
     if (why.empty()) return "";
     return "    UNSETTLED: " + why +
            ". The machine was busy or changed its speed: times, rankings by time and front T\n"

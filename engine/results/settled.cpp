@@ -25,7 +25,7 @@ double spread_of(std::vector<double> values) {
     return (quantile(values, 0.75) - quantile(values, 0.25)) / quantile(values, 0.5);
 }
 
-bool is_usable(const std::vector<double>& raw) {
+bool is_judged(const std::vector<double>& raw) {
     return raw.size() >= least_repetitions &&
            std::all_of(raw.begin(), raw.end(), [](double ns) { return std::isfinite(ns) && ns > 0.0; });
 }
@@ -52,7 +52,11 @@ Settling settling(const LightResult& light) {
         if (!cell.times) continue;
         for (const auto& [order, times] :
              {std::pair("image", &cell.times->image_order), std::pair("random", &cell.times->random_order)}) {
-            if (!times->floor || !is_usable(times->floor->raw)) continue;
+            if (!times->floor) continue;
+            if (!is_judged(times->floor->raw)) {
+                ++result.unjudged;
+                continue;
+            }
             floors.push_back(&times->floor->raw);
             const double spread = spread_of(times->floor->raw);
             if (spread > floor_limit) result.unsteady.push_back({title(cell), order, spread});

@@ -37,6 +37,7 @@ struct FloorSpread {
 
 struct Settling {
     std::size_t floors = 0;             // number of floors judged; 0: nothing is known
+    std::size_t unjudged = 0;           // number of floors with too few repetitions
     std::vector<FloorSpread> unsteady;  // those beyond the limit, the widest first
     std::optional<double> pace;         // its spread; absent if it was not judged
 

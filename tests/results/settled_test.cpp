@@ -135,6 +135,7 @@ TEST(Settled, ALateInterruptDoesNotCount) {
 TEST(Settled, FewRepetitionsOrNoFloorsAreNotJudged) {
     const Settling few = settling(light_of(7, 4, [](int, int, int r) { return 5.0 + 5.0 * r; }));
     EXPECT_EQ(few.floors, 0u);
+    EXPECT_EQ(few.unjudged, 14u);
     EXPECT_EQ(unsettled_text(few), "");
     Result result;
     result.variants.resize(1);
@@ -177,6 +178,9 @@ TEST(Settled, EveryReportSaysThatARunIsUnsettled) {
     EXPECT_TRUE(json["times"]["unsettled"].empty());
     result.variants[0].lights = {light_of(7, 1, [](int, int, int) { return 5.0; })};
     EXPECT_TRUE(to_json(result)["times"]["settled"].is_null());
+    EXPECT_NE(to_table(result).find("Fewer than 5 repetitions cannot show whether the machine was quiet"),
+              std::string::npos)
+        << "front T must not stand there without a word";
     strip_times(json);
     EXPECT_EQ(json.dump().find("settled"), std::string::npos) << "baselines hold nothing that depends on the clock";
 }
