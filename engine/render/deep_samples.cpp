@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "curves/sweep.h"
-#include "techniques/store/cells.h"
+#include "techniques/cell_grid.h"
 
 namespace shadowbench::render {
 namespace {
