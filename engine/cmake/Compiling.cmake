@@ -7,8 +7,9 @@
 # Every file still includes what it uses: debug and sanitizer builds, which do without both, find what is missing.
 option(SHADOWBENCH_QUICK_BUILD "Precompile headers, compile cold layers as one file each" ON)
 
-set(headers <algorithm> <array> <chrono> <cmath> <cstddef> <cstdint> <filesystem> <functional> <limits> <map> <memory>
-            <optional> <ostream> <set> <span> <string> <string_view> <utility> <variant> <vector>)
+set(shadowbench_precompiled
+    <algorithm> <array> <chrono> <cmath> <cstddef> <cstdint> <filesystem> <functional> <limits> <map> <memory> <optional>
+    <ostream> <set> <span> <string> <string_view> <utility> <variant> <vector>)
 
 if(SHADOWBENCH_QUICK_BUILD)
   # By default ccache does not cache files that use precompiled headers.
@@ -31,7 +32,7 @@ if(SHADOWBENCH_QUICK_BUILD)
     file(CONFIGURE OUTPUT "${empty}" CONTENT "// For the headers that are precompiled with it.\n")
     add_library(shadowbench_${kind}_headers OBJECT "${empty}")
     target_compile_options(shadowbench_${kind}_headers PRIVATE ${precompiled_options})
-    target_precompile_headers(shadowbench_${kind}_headers PRIVATE ${headers})
+    target_precompile_headers(shadowbench_${kind}_headers PRIVATE ${shadowbench_precompiled})
   endforeach()
   target_precompile_headers(shadowbench_text_headers PRIVATE <fmt/format.h>)
   target_link_libraries(shadowbench_text_headers PRIVATE fmt::fmt)
@@ -46,7 +47,7 @@ function(shadowbench_precompile_test_headers)
   file(CONFIGURE OUTPUT "${empty}" CONTENT "// For the headers that are precompiled with it.\n")
   add_library(shadowbench_test_headers OBJECT "${empty}")
   target_compile_options(shadowbench_test_headers PRIVATE ${precompiled_options} $<$<CONFIG:Release>:-O1>)
-  target_precompile_headers(shadowbench_test_headers PRIVATE ${headers} <gmock/gmock.h> <gtest/gtest.h>
+  target_precompile_headers(shadowbench_test_headers PRIVATE ${shadowbench_precompiled} <gmock/gmock.h> <gtest/gtest.h>
                             <nlohmann/json.hpp>)
   target_link_libraries(shadowbench_test_headers PRIVATE GTest::gtest GTest::gmock nlohmann_json::nlohmann_json)
 endfunction()
