@@ -113,21 +113,34 @@ fs::path attempt_folder(const JobFolders& folders, const std::string& id, int at
 }
 
 bool is_published(const JobFolders& folders, const std::string& id) {
-    std::error_code ignored;
-    return fs::is_directory(fs::symlink_status(folders.jobs / id, ignored));
+    return type_of(folders.jobs / id) == fs::file_type::directory;
 }
 
 void remove_folder(const fs::path& folder) {
+    empty_folder(folder);
     std::error_code ignored;
-    fs::remove_all(folder, ignored);
+    fs::remove(folder, ignored);
 }
 
 void empty_folder(const fs::path& folder) {
     std::error_code failed;
+    if (!fs::is_directory(fs::symlink_status(folder, failed))) return;
     std::vector<fs::path> entries;
     for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
-        entries.push_back(entry->path());
-    for (const fs::path& entry : entries) remove_folder(entry);
+        if (entry->path().filename() != record_name) entries.push_back(entry->path());
+    bool all = !failed;
+    for (const fs::path& entry : entries) {
+        fs::remove_all(entry, failed);
+        all = all && !failed;
+    }
+    if (all) fs::remove_all(folder / record_name, failed);
+}
+
+fs::file_type type_of(const fs::path& place) {
+    std::error_code failed;
+    const fs::file_type type = fs::symlink_status(place, failed).type();
+    if (type == fs::file_type::none) check(failed, place, "cannot be read");
+    return type;
 }
 
 std::vector<fs::path> entries_of(const fs::path& folder) {

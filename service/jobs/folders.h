@@ -13,6 +13,8 @@
 
 namespace shadowbench::service {
 
+inline constexpr const char* record_name = ".job.json";
+
 struct JobFolders {
     std::filesystem::path jobs, work;
 };
@@ -31,9 +33,11 @@ void publish(const JobFolders& folders, const std::filesystem::path& work, const
 // folders can be removed without the other.
 void link_files(const std::filesystem::path& from, const std::filesystem::path& work);
 
-bool is_published(const JobFolders& folders, const std::string& id);
-void remove_folder(const std::filesystem::path& folder);  // ignores faults
-void empty_folder(const std::filesystem::path& folder);   // likewise
+bool is_published(const JobFolders& folders, const std::string& id);  // throws like type_of()
+// Both ignore faults. They remove the record of a job last, and only when nothing else is left: until then a start can
+// tell whose folder it is.
+void remove_folder(const std::filesystem::path& folder);
+void empty_folder(const std::filesystem::path& folder);
 
 // Moves the results of a job to removed_folder(); if the server dies then, the next start removes them. Returns false
 // for a job without results.
@@ -43,6 +47,8 @@ std::filesystem::path removed_folder(const JobFolders& folders, const std::strin
 std::filesystem::path copy_folder(const JobFolders& folders, const std::string& id);
 std::filesystem::path attempt_folder(const JobFolders& folders, const std::string& id, int attempt);
 
+// The type of a place, without following a link; not_found where there is nothing. Throws Error{io}, place the path.
+std::filesystem::file_type type_of(const std::filesystem::path& place);
 // Everything in a folder, sorted, with hidden files and links. Throws Error{io}, place the folder.
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
 // The files at any depth of a folder by their relative names, sorted; without hidden files.

@@ -2,11 +2,17 @@
 
 #include <sys/stat.h>
 
+#include <cstdint>
+#include <limits>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/read_text.h"
 #include "base/write_files.h"
+#include "results/fields.h"
+#include "results/report.h"
 #include "service/jobs/folders.h"
 #include "service/jobs/utc.h"
 
@@ -14,45 +20,73 @@ namespace shadowbench::service {
 namespace {
 
 namespace fs = std::filesystem;
+using base::Error;
+using base::ErrorCode;
 using nlohmann::json;
+using results::Field;
 
-constexpr const char* record_name = ".job.json";
 constexpr int record_version = 1;
+constexpr int deepest = 200;  // levels of a JSON text; results have fewer, and json::dump() recurses
 
-json parse_file(const fs::path& file) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(fs::symlink_status(file, ignored))) return {};
-    return json::parse(base::read_text(file), nullptr, false);
+// Nothing where there is no file, or a folder or a link. Throws Error{io} when it cannot be read.
+std::optional<std::string> read_file(const fs::path& file) {
+    if (type_of(file) != fs::file_type::regular) return std::nullopt;
+    return base::read_bytes(file);
 }
 
-KeptJob from_record(const json& record, const std::string& id) {
+// Nothing for text that is not JSON.
+std::optional<json> parse(const std::string& text) {
+    bool too_deep = false;
+    json read = json::parse(
+        text, [&](int depth, json::parse_event_t, const json&) { return !(too_deep = too_deep || depth > deepest); },
+        false);
+    return read.is_discarded() || too_deep ? std::nullopt : std::optional(std::move(read));
+}
+
+// Reads contents of a file, which throws Error{bad_input} where they are damaged; `damaged` then makes the answer.
+template <class Read, class Damaged>
+auto read_unless_damaged(const Read& read, const Damaged& damaged) {
+    try {
+        return read();
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::bad_input) throw;
+        return damaged(error);
+    }
+}
+
+KeptJob from_record(const Field& record, const std::string& id) {
     KeptJob kept;
     kept.job.id = id;
-    record.at("name").get_to(kept.job.name);
-    record.at("scenario_hash").get_to(kept.job.key.hash);
-    record.at("seed").get_to(kept.job.key.seed);
-    record.at("program").get_to(kept.job.key.program);
-    record.at("pictures").get_to(kept.job.key.pictures);
-    record.at("cached").get_to(kept.job.cached);
-    record.at("created").get_to(kept.job.created);
-    record.at("started").get_to(kept.job.started);
-    record.at("ended").get_to(kept.job.ended);
-    record.at("attempts").get_to(kept.job.attempts);
-    kept.job.kept = record.at("promises_kept").get<bool>();
-    record.at("scenario").get_to(kept.scenario);
-    if (record.at("id") == id) {
-        record.at("idempotency_key").get_to(kept.idempotency_key);
-        record.at("request").get_to(kept.request);
+    kept.job.name = record.at("name").text();
+    kept.job.key.hash = record.at("scenario_hash").text();
+    kept.job.key.seed = record.at("seed").count();
+    kept.job.key.program = record.at("program").text();
+    kept.job.key.pictures = record.at("pictures").truth();
+    kept.job.cached = record.at("cached").truth();
+    kept.job.created = record.at("created").text();
+    kept.job.started = record.at("started").text();
+    kept.job.ended = record.at("ended").text();
+    const Field attempts = record.at("attempts");
+    if (attempts.count() > std::numeric_limits<int>::max()) results::refuse(attempts.where, "must be below 2^31");
+    kept.job.attempts = static_cast<int>(attempts.count());
+    kept.job.kept = record.at("promises_kept").truth();
+    kept.scenario = record.at("scenario").text();
+    if (record.at("id").text() == id) {
+        kept.idempotency_key = record.at("idempotency_key").text();
+        kept.request = record.at("request").text();
     }
     return kept;
 }
 
-bool any_failed(const json& result) {
-    for (const json& variant : result.at("variants"))
-        for (const json& light : variant.at("lights"))
-            for (const json& cell : light.at("cells"))
-                if (cell.at("status") == "failed") return true;
-    return false;
+// Nothing without a record, or when it is damaged.
+std::optional<KeptJob> read_record(const fs::path& folder, const std::string& id) {
+    const fs::path file = folder / record_name;
+    const std::optional<std::string> text = read_file(file);
+    const std::optional<json> record = text ? parse(*text) : std::nullopt;
+    if (!record) return std::nullopt;
+    return read_unless_damaged(
+        [&] { return std::optional(from_record(results::top(*record, file.string()), id)); },
+        [](const Error&) { return std::optional<KeptJob>(); });
 }
 
 std::string time_of(const fs::path& file) {
@@ -60,23 +94,23 @@ std::string time_of(const fs::path& file) {
     return ::stat(file.c_str(), &status) == 0 ? utc_text(status.st_mtim) : now_utc();
 }
 
-KeptJob from_result(const json& result, const fs::path& folder, const std::string& id) {
+KeptJob from_result(const results::Result& result, const Field& scenario, const fs::path& folder,
+                    const std::string& id) {
     KeptJob kept;
     kept.job.id = id;
-    result.at("name").get_to(kept.job.name);
-    result.at("scenario_hash").get_to(kept.job.key.hash);
-    const json& scenario = result.at("scenario");
-    kept.job.key.seed = scenario.value(json::json_pointer("/rays/seed"), std::uint64_t{1});
-    const json& program = result.at("program");
-    kept.job.key.program = program.at("version").get<std::string>() + " " + program.at("commit").get<std::string>();
+    kept.job.name = result.name;
+    kept.job.key.hash = result.hash;
+    const bool has_seed = scenario.has("rays") && scenario.at("rays").has("seed");
+    kept.job.key.seed = has_seed ? scenario.at("rays").at("seed").count() : std::uint64_t{1};
+    kept.job.key.program = result.program.version + " " + result.program.commit;
     // A scene without objects has no pictures, whether they were wanted or not.
-    kept.job.key.pictures = fs::exists(folder / "images") || !scenario.at("scene").contains("objects");
+    kept.job.key.pictures =
+        type_of(folder / "images") != fs::file_type::not_found || !scenario.at("scene").has("objects");
     kept.job.ended = time_of(folder / "result.json");
-    const std::string started = result.at("times").value("started", "");
-    kept.job.created = kept.job.started = started.empty() ? kept.job.ended : started;
+    kept.job.created = kept.job.started = result.times.started.empty() ? kept.job.ended : result.times.started;
     kept.job.attempts = 1;
-    kept.job.kept = !any_failed(result);
-    kept.scenario = scenario.dump();
+    kept.job.kept = !results::any_failed(result);
+    kept.scenario = result.document;
     return kept;
 }
 
@@ -109,27 +143,28 @@ void write_record(const fs::path& folder, const KeptJob& kept) {
         {{folder / record_name, record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"}});
 }
 
-std::optional<KeptJob> read_record(const fs::path& folder, const std::string& id) {
-    std::error_code ignored;
-    if (!fs::is_directory(fs::symlink_status(folder, ignored)) || !find_file_in(folder, "result.json"))
-        return std::nullopt;
-    try {
-        if (const json record = parse_file(folder / record_name); record.is_object()) return from_record(record, id);
-    } catch (const json::exception&) {
-        // Read from result.json instead.
-    }
-    try {
-        return from_result(parse_file(folder / "result.json"), folder, id);
-    } catch (const json::exception&) {
-        return std::nullopt;
-    }
+FoundResults read_results(const fs::path& folder, const std::string& id) {
+    if (type_of(folder) != fs::file_type::directory) return {{}, "not a folder of results"};
+    const std::optional<std::string> text = read_file(folder / "result.json");
+    if (!text) return {{}, "it has no result.json"};
+    const std::optional<json> document = parse(*text);
+    if (!document) return {{}, "its result.json is damaged: it is not JSON"};
+    return read_unless_damaged(
+        [&]() -> FoundResults {
+            const results::Result result = results::from_json(*document, "");
+            if (auto kept = read_record(folder, id)) return {std::move(kept), ""};
+            return {from_result(result, results::top(*document, "").at("scenario"), folder, id), ""};
+        },
+        [](const Error& error) -> FoundResults {
+            return {{}, fmt::format("its result.json is not a result that this program reads: {}", error.what())};
+        });
 }
 
 bool has_record_of(const fs::path& folder, const std::string& id) {
-    std::error_code ignored;
-    if (!fs::is_directory(fs::symlink_status(folder, ignored))) return false;
-    const json record = parse_file(folder / record_name);
-    return record.is_object() && record.value("id", json()) == id;
+    if (type_of(folder) != fs::file_type::directory) return false;
+    const std::optional<std::string> text = read_file(folder / record_name);
+    const std::optional<json> record = text ? parse(*text) : std::nullopt;
+    return record && record->is_object() && record->value("id", json()) == id;
 }
 
 }  // namespace shadowbench::service

@@ -15,12 +15,19 @@ bool is_job_id(const std::string& text);
 // Writes the job to the hidden file ".job.json" of the folder. Throws Error{io}.
 void write_record(const std::filesystem::path& folder, const KeptJob& job);
 
-// The job of a folder with a result.json, from its record. A folder of an earlier version has no record: the job is
-// then read from result.json, without an idempotency key, with the times of the run. The job's id is `id`; a folder
-// that was copied by hand is a new job, without a key. Nothing for a folder without results.
-std::optional<KeptJob> read_record(const std::filesystem::path& folder, const std::string& id);
+// The job of a folder of results, or why the folder has none.
+struct FoundResults {
+    std::optional<KeptJob> job;
+    std::string why_none;
+};
 
-// Whether the folder has a record of this job, with or without a result.json.
+// Reads the job of a folder whose result.json is complete (results::from_json), from its record. Without a record, as
+// in results of earlier versions, or with a damaged one, the job is read from result.json: without an idempotency key,
+// with the times of the run. The job's id is `id`; a folder that was copied by hand is a new job, without a key. Throws
+// Error when the storage cannot be read, never for damaged contents.
+FoundResults read_results(const std::filesystem::path& folder, const std::string& id);
+
+// Whether the folder has a record of this job, with or without a result.json. Throws like read_results().
 bool has_record_of(const std::filesystem::path& folder, const std::string& id);
 
 }  // namespace shadowbench::service

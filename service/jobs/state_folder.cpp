@@ -54,13 +54,6 @@ constexpr Part parts[] = {{mark_name, fs::file_type::regular},
     throw Error(ErrorCode::io, place.string(), std::string(what) + ": " + why.message());
 }
 
-fs::file_type type_of(const fs::path& place) {
-    std::error_code failed;
-    const fs::file_type type = fs::symlink_status(place, failed).type();
-    if (type == fs::file_type::none) fail(place, "the state folder cannot be read", failed);
-    return type;
-}
-
 // Whether the folder is empty, but for files that a start makes before the mark, and for the lost+found of a new file
 // system.
 bool holds_nothing(const fs::path& folder) {
@@ -77,7 +70,7 @@ bool holds_nothing(const fs::path& folder) {
 
 bool has_results(const fs::path& jobs) {
     for (const fs::path& entry : entries_of(jobs))
-        if (const std::string name = entry.filename().string(); is_job_id(name) && read_record(entry, name))
+        if (const std::string name = entry.filename().string(); is_job_id(name) && read_results(entry, name).job)
             return true;
     return false;
 }
@@ -96,7 +89,7 @@ bool is_of_earlier_version(const fs::path& folder) {
 }
 
 void check_mark(const fs::path& mark) {
-    const json read = json::parse(base::read_text(mark), nullptr, false);
+    const json read = json::parse(base::read_bytes(mark), nullptr, false);
     const auto found = read.is_object() ? read.find("layout") : read.end();
     if (!read.is_object() || read.value("program", json()) != "shadowbench" || found == read.end() ||
         !found->is_number_integer())

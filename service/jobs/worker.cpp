@@ -259,8 +259,8 @@ std::optional<std::uint64_t> settle(const Workplace& place, const StoredJob& job
 // The results of an earlier run, if they were published and only the last step failed.
 std::optional<Verdict> finished_before(const Workplace& place, const StoredJob& job) {
     if (!is_published(place.folders, job.id)) return std::nullopt;
-    const auto kept = read_record(place.folders.jobs / job.id, job.id);
-    return kept ? std::optional<Verdict>(Success{kept->job.kept.value_or(true)}) : std::nullopt;
+    const auto found = read_results(place.folders.jobs / job.id, job.id).job;
+    return found ? std::optional<Verdict>(Success{found->job.kept.value_or(true)}) : std::nullopt;
 }
 
 Verdict attempt(const Workplace& place, const StoredJob& job, JobBoard::Run& run, const fs::path& work) {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "jobs/unprivileged.h"
 #include "temporary_folder.h"
 
 namespace shadowbench::service {
@@ -102,6 +103,29 @@ TEST_F(JobFolder, LeavesItsPlaceAsAWhole) {
     discard_results(folders, "j-2");
     EXPECT_FALSE(is_published(folders, "j-2"));
     EXPECT_FALSE(fs::exists(removed_folder(folders, "j-2")));
+}
+
+TEST_F(JobFolder, KeepsItsRecordUntilTheRestIsGone) {
+    publish_one("j-1");
+    const fs::path folder = folders.jobs / "j-1", images = folder / "images";
+    write(folder / ".job.json", "record");
+    fs::permissions(images, fs::perms(0555));
+    {
+        const Unprivileged unprivileged;
+        remove_folder(folder);
+    }
+    EXPECT_TRUE(fs::exists(folder / ".job.json"));
+    fs::permissions(images, fs::perms(0755));
+    remove_folder(folder);
+    EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST_F(JobFolder, EmptiesNoFolderBehindALink) {
+    publish_one("j-1");
+    fs::create_directory_symlink(folders.jobs / "j-1", folders.work / "link");
+    remove_folder(folders.work / "link");
+    EXPECT_FALSE(fs::is_symlink(folders.work / "link"));
+    EXPECT_EQ(list_files(folders.jobs / "j-1").size(), 2u);
 }
 
 TEST_F(JobFolder, CannotBeMadeInAFile) {

@@ -62,7 +62,7 @@ protected:
     // Does what it should, or says as the program does that its folder takes nothing.
     std::string writes(std::size_t bytes) const {
         return "echo x >>" + path("runs") + "; head -c " + std::to_string(bytes) +
-               " /dev/zero >big && echo {} >result.json || " +
+               " /dev/zero >big && echo '" + fake_result + "' >result.json || " +
                "{ echo '{\"storage\":{\"message\":\"full\"}}'; exit 74; }";
     }
     std::size_t runs() const { return fs::exists(path("runs")) ? count(base::read_text(path("runs")), "x") : 0; }
@@ -93,7 +93,7 @@ TEST_F(FullDisk, LetsJobsWaitAndGoOn) {
         const JobInfo job = wait_for_end(id);
         EXPECT_EQ(job.state, JobState::succeeded);
         EXPECT_EQ(job.attempts, 1) << "it is not a fault of the job";
-        EXPECT_EQ(text_of(id, "result.json"), "{}\n");
+        EXPECT_EQ(text_of(id, "result.json"), fake_result + "\n");
     }
     wait_for_fault(false);
     EXPECT_THAT(said(), HasSubstr("written again"));
@@ -172,7 +172,7 @@ TEST_F(FullDisk, LosesNothingWhereAServerCannotStart) {
     empty();
     start();
     EXPECT_EQ(jobs->find(done.id)->state, JobState::succeeded);
-    EXPECT_EQ(text_of(done.id, "result.json"), "{}\n");
+    EXPECT_EQ(text_of(done.id, "result.json"), fake_result + "\n");
     EXPECT_TRUE(jobs->find(blocks));
     EXPECT_EQ(jobs->find(waits)->state, JobState::queued);
     EXPECT_FALSE(fs::exists(state() / "work" / "unknown"));

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/read_text.h"
+#include "jobs/made_result.h"
 #include "service/jobs/jobs.h"
 #include "temporary_folder.h"
 
@@ -34,7 +35,8 @@ inline JobRequest request_of(const std::string& script) {
     return request;
 }
 
-inline const std::string success = "echo {} >result.json\n";
+inline const std::string fake_result = text_of(made_result("fake"));
+inline const std::string success = "echo '" + fake_result + "' >result.json\n";
 
 inline bool has_ended(const JobInfo& job) {
     return job.state != JobState::queued && job.state != JobState::running;

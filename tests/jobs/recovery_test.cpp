@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "jobs/job_host.h"
+#include "jobs/unprivileged.h"
 #include "service/jobs/folders.h"
 #include "service/jobs/record.h"
 #include "service/store/database.h"
@@ -61,7 +62,7 @@ protected:
     }
 };
 
-const std::string long_success = "echo \"{}\" >result.json; mkdir images; echo p >images/p.png; echo t >result.csv\n";
+const std::string long_success = "echo '" + fake_result + "' >result.json; mkdir images; echo p >images/p.png; echo t >result.csv\n";
 
 TEST_F(Recovery, TakesResultsBackWhenTheDatabaseIsLostEmptyOrDamaged) {
     for (const std::string& what : {std::string("missing"), std::string("empty"), std::string("garbage"),
@@ -144,28 +145,23 @@ TEST_F(Recovery, TakesResultsOfAnEarlierVersionBack) {
     stop();
     remove_database();
     const std::string id = "j-0123456789abcdef", failed = "j-0123456789abcdee";
-    const auto result = [](const char* status) {
-        return std::string(
-                   R"({"name": "n", "scenario_hash": "h", "scenario": {"rays": {"seed": 7}, "scene": {"objects": []}},
-            "program": {"version": "1.0", "commit": "abc"}, "times": {"started": "2026-01-02T03:04:05Z", "seconds": 1},
-            "variants": [{"lights": [{"cells": [{"status": "ok"}, {"status": ")") +
-               status + R"("}]}]}]})";
-    };
-    write(state() / "jobs" / id / "result.json", result("ok"));
+    const std::string result = service::text_of(made_result("n", results::CellStatus::ok));
+    write(state() / "jobs" / id / "result.json", result);
     write(state() / "jobs" / id / "images" / "a.png", "x");
-    write(state() / "jobs" / failed / "result.json", result("failed"));
+    write(state() / "jobs" / failed / "result.json",
+          service::text_of(made_result("n", results::CellStatus::failed)));
     start();
     const auto job = jobs->find(id);
     ASSERT_TRUE(job);
     EXPECT_EQ(job->state, JobState::succeeded);
     EXPECT_EQ(job->name, "n");
-    EXPECT_EQ(job->scenario_hash, "h");
+    EXPECT_EQ(job->scenario_hash, "hash of n");
     EXPECT_EQ(job->seed, 7u);
     EXPECT_EQ(job->created, "2026-01-02T03:04:05Z");
     EXPECT_EQ(job->ended.size(), 24u);
     EXPECT_EQ(job->promises_kept, true);
     EXPECT_TRUE(job->pictures);
-    EXPECT_EQ(nlohmann::json::parse(*jobs->scenario(id)), nlohmann::json::parse(result("ok")).at("scenario"));
+    EXPECT_EQ(nlohmann::json::parse(*jobs->scenario(id)), nlohmann::json::parse(result).at("scenario"));
     EXPECT_EQ(jobs->find(failed)->promises_kept, false);
     EXPECT_FALSE(jobs->find(failed)->pictures);
 }
@@ -182,6 +178,16 @@ TEST_F(Recovery, MovesAwayWhatItDoesNotKnow) {
                                            "work/" + unborn + "-copy/result.json",
                                            "work/" + good.id + "-x/c",
                                            "work/" + good.id,
+                                           "work/" + good.id + "-1/result.json",
+                                           "work/" + good.id + "-2/half",
+                                           "work/" + bad.id + "-0/x",
+                                           "work/" + bad.id + "-01/x",
+                                           "work/" + bad.id + "-7/x",
+                                           "work/" + bad.id + "-99999999999/x",
+                                           "work/" + bad.id + "-copy/x",
+                                           "work/" + bad.id + "-removed/x",
+                                           "work/" + good.id + "-removed/x",
+                                           "work/" + unborn + "-removed/x",
                                            "work/.room-file/x",
                                            "jobs/d",
                                            "jobs/mine/result.json",
@@ -191,7 +197,7 @@ TEST_F(Recovery, MovesAwayWhatItDoesNotKnow) {
                                            "jobs/.hidden"};
     for (const std::string& name : unknown) write(state() / name, name);
     fs::create_symlink(folder.path(), state() / "jobs" / "j-0123456789abcdea");
-    write(state() / "work" / (good.id + "-2") / "half", "x");  // ours
+    write(state() / "work" / (bad.id + "-1") / "half", "x");   // ours
     write(state() / "work" / ".room-abcdef", "x");             // ours
     write(state() / "notes", "mine");
     said_lines.clear();
@@ -207,12 +213,159 @@ TEST_F(Recovery, MovesAwayWhatItDoesNotKnow) {
     EXPECT_TRUE(work_is_empty());
     EXPECT_EQ(base::read_text(state() / "notes"), "mine") << "not one of the server's places";
     EXPECT_TRUE(fs::exists(folder.path() / "state" / "jobs.db")) << "nothing was followed";
-    EXPECT_EQ(jobs->find(good.id)->state, JobState::succeeded);
+    is_as_before(good);
+    EXPECT_EQ(text_of(good.id, "result.json"), fake_result + "\n");
     EXPECT_EQ(jobs->list({}, 9, "").jobs.size(), 2u);
     said_lines.clear();
     start();
     EXPECT_EQ(said(), "");
     EXPECT_EQ(lost().size(), unknown.size());
+}
+
+std::vector<std::string> damaged_texts() {
+    const std::string nested = std::string(300000, '[') + std::string(300000, ']');
+    return {std::string("\xff\xfe\0", 3), std::string("\0\0\0", 3), "",     "{",
+            "{}",                           "null",                    "[[]]", "\x80",
+            nested,                         R"({"id": 1})",            R"({"schema_version": 1, "name": 2})",
+            fake_result.substr(0, 99)};
+}
+
+TEST_F(Recovery, ReadsResultsWhoseRecordIsDamaged) {
+    start();
+    std::vector<std::string> records = damaged_texts();
+    records.push_back(R"({"id": "j", "name": "n", "attempts": 1e300})");
+    std::vector<std::string> ids;
+    for ([[maybe_unused]] const std::string& text : records) ids.push_back(run(success).id);
+    stop();
+    for (std::size_t i = 0; i < ids.size(); ++i) write(state() / "jobs" / ids[i] / ".job.json", records[i]);
+    remove_database();
+    start();
+    for (const std::string& id : ids) {
+        const auto job = jobs->find(id);
+        ASSERT_TRUE(job);
+        EXPECT_EQ(job->state, JobState::succeeded);
+        EXPECT_EQ(job->scenario_hash, "hash of fake") << "as result.json has it";
+        EXPECT_EQ(text_of(id, "result.json"), fake_result + "\n");
+        EXPECT_THAT(said(), HasSubstr(id));
+    }
+    EXPECT_TRUE(lost().empty());
+    said_lines.clear();
+    start();
+    EXPECT_EQ(said(), "");
+}
+
+TEST_F(Recovery, MovesDamagedResultsAway) {
+    std::vector<std::string> damaged = damaged_texts();
+    const std::string scenario = R"("scenario":{)";
+    damaged.push_back(fake_result);
+    damaged.back().insert(fake_result.find(scenario) + scenario.size(),
+                          "\"a\":" + std::string(300000, '[') + std::string(300000, ']') + ",");
+    start();
+    std::map<std::string, std::string> results;
+    for (const std::string& text : damaged)
+        for ([[maybe_unused]] const bool with_record : {true, false}) results[run(success).id] = text;
+    const JobInfo good = run(success);
+    stop();
+    bool with_record = false;
+    for (const auto& [id, text] : results) {
+        write(state() / "jobs" / id / "result.json", text);
+        if (with_record = !with_record; !with_record) fs::remove(state() / "jobs" / id / ".job.json");
+    }
+    remove_database();
+    start();
+    const auto found = lost();
+    for (const auto& [id, text] : results) {
+        EXPECT_FALSE(jobs->find(id));
+        ASSERT_TRUE(found.count("jobs/" + id + "/result.json"));
+        EXPECT_EQ(found.at("jobs/" + id + "/result.json"), text);
+        EXPECT_THAT(said(), HasSubstr((state() / "jobs" / id).string() + ": its result.json "));
+    }
+    is_as_before(good);
+    said_lines.clear();
+    start();
+    EXPECT_EQ(said(), "");
+}
+
+// The texts of damaged records do not stop the sweep of work/ either.
+TEST_F(Recovery, MovesWorkWithADamagedRecordAway) {
+    start();
+    stop();
+    const std::string id = "j-0123456789abcdef";
+    for (const char* use : {"-copy", "-removed"})
+        write(state() / "work" / (id + use) / ".job.json", std::string("\xff\xfe\0", 3));
+    start();
+    for (const char* use : {"-copy", "-removed"}) {
+        EXPECT_EQ(lost().count("work/" + id + use + "/.job.json"), 1u);
+        EXPECT_THAT(said(), HasSubstr(id + use));
+    }
+}
+
+TEST_F(Recovery, LeavesWhatTheStorageCannotRead) {
+    start();
+    const JobInfo record = run(success), result = run(success), whole = run(success), copy = run(success);
+    stop();
+    fs::rename(state() / "jobs" / copy.id, state() / "work" / (copy.id + "-copy"));
+    const std::map<fs::path, fs::perms> closed{
+        {state() / "jobs" / record.id / ".job.json", fs::perms(0644)},
+        {state() / "jobs" / result.id / "result.json", fs::perms(0644)},
+        {state() / "jobs" / whole.id, fs::perms(0755)},
+        {state() / "work" / (copy.id + "-copy") / ".job.json", fs::perms(0644)}};
+    for (const auto& [place, open] : closed) fs::permissions(place, fs::perms::none);
+    remove_database();
+    {
+        const Unprivileged unprivileged;
+        start();
+    }
+    for (const auto& [place, open] : closed) {
+        EXPECT_TRUE(fs::exists(place)) << place;
+        EXPECT_THAT(said(), HasSubstr(place.string()));
+    }
+    EXPECT_TRUE(jobs->list({}, 9, "").jobs.empty());
+    EXPECT_TRUE(lost().empty());
+    stop();
+    for (const auto& [place, open] : closed) fs::permissions(place, open);
+    start();
+    for (const JobInfo& job : {record, result, whole}) is_as_before(job);
+    EXPECT_TRUE(lost().empty());
+}
+
+// A copy of results that lies in work/ is somebody's: a job in the database is not copied any more.
+TEST_F(Recovery, DeletesNoCopyOfResultsThatStand) {
+    start();
+    const JobInfo job = run(success);
+    stop();
+    for (const char* use : {"-copy", "-removed", "-1"})
+        fs::copy(state() / "jobs" / job.id, state() / "work" / (job.id + use), fs::copy_options::recursive);
+    start();
+    is_as_before(job);
+    EXPECT_EQ(text_of(job.id, "result.json"), fake_result + "\n");
+    for (const char* use : {"-copy", "-removed", "-1"})
+        EXPECT_EQ(lost()["work/" + job.id + use + "/result.json"], fake_result + "\n");
+}
+
+TEST_F(Recovery, RemovesNoJobForTheFolderOfAnother) {
+    start();
+    const std::string runs = submit(endless), waits = submit(success);
+    wait_for_run(runs);
+    const std::string cancelled = submit(success);
+    jobs->cancel(cancelled);
+    stop();
+    for (const std::string& id : {runs, waits, cancelled}) write(state() / "work" / (id + "-removed") / "x", id);
+    start();
+    for (const std::string& id : {runs, waits, cancelled}) {
+        EXPECT_TRUE(jobs->find(id));
+        EXPECT_EQ(lost()["work/" + id + "-removed/x"], id);
+    }
+    const JobInfo missing = [&] {
+        jobs->cancel(runs);
+        return wait_for_end(waits);
+    }();
+    stop();
+    fs::remove_all(state() / "jobs" / missing.id);
+    write(state() / "work" / (missing.id + "-removed") / "y", "y");
+    start();
+    EXPECT_TRUE(jobs->find(missing.id));
+    EXPECT_EQ(lost()["work/" + missing.id + "-removed/y"], "y");
 }
 
 // A job's folder in work/ is half of something only as long as somebody knows the job.

@@ -83,7 +83,7 @@ TEST_F(JobRestart, KeepsWhatHasEnded) {
     EXPECT_EQ(again->promises_kept, false);
     EXPECT_EQ(again->revision, good.revision);
     EXPECT_EQ(again->ended, good.ended);
-    EXPECT_EQ(text_of(good.id, "result.json"), "{}\n");
+    EXPECT_EQ(text_of(good.id, "result.json"), fake_result + "\n");
     EXPECT_EQ(jobs->find(bad.id)->fault->message, bad.fault->message);
     EXPECT_EQ(jobs->find(cancelled)->state, JobState::cancelled);
 }
@@ -157,10 +157,11 @@ TEST_F(JobRestart, FinishesASuccessWhereItWasCut) {
     fs::create_directories(state());
     const JobFolders folders = make_job_folders(state());
     const std::string placed = "j-000000000000000a", recorded = "j-000000000000000b", early = "j-000000000000000c",
-                      cancelled = "j-000000000000000d";
+                      cancelled = "j-000000000000000d", damaged = "j-000000000000000e";
+    const std::string first = service::text_of(made_result("first"));
     {
         JobStore store(state() / "jobs.db");
-        for (const std::string& id : {placed, recorded, early, cancelled}) {
+        for (const std::string& id : {placed, recorded, early, cancelled, damaged}) {
             NewJob job;
             job.id = id;
             job.scenario = success + "echo again >from";
@@ -171,10 +172,10 @@ TEST_F(JobRestart, FinishesASuccessWhereItWasCut) {
             kept.job.ended = "then";
             const fs::path work = attempt_folder(folders, id, 1);
             fs::create_directories(work);
-            std::ofstream(work / "result.json") << "first";
+            std::ofstream(work / "result.json") << (id == damaged ? first.substr(0, first.size() / 2) : first);
             if (id != early) write_record(work, kept);
         }
-        for (const std::string& id : {placed, cancelled}) publish(folders, attempt_folder(folders, id, 1), id);
+        for (const std::string& id : {placed, cancelled, damaged}) publish(folders, attempt_folder(folders, id, 1), id);
         store.end_waiting(cancelled, {job_states::cancelled, "then", {}, {}});
     }
     start();
@@ -183,8 +184,8 @@ TEST_F(JobRestart, FinishesASuccessWhereItWasCut) {
     EXPECT_EQ(job->promises_kept, false);
     EXPECT_EQ(job->attempts, 1);
     EXPECT_EQ(job->ended, "then");
-    EXPECT_EQ(text_of(placed, "result.json"), "first");
-    for (const std::string& id : {recorded, early}) {
+    EXPECT_EQ(text_of(placed, "result.json"), first);
+    for (const std::string& id : {recorded, early, damaged}) {
         const JobInfo again = wait_for_end(id);
         EXPECT_EQ(again.state, JobState::succeeded);
         EXPECT_EQ(again.promises_kept, true);
@@ -193,6 +194,7 @@ TEST_F(JobRestart, FinishesASuccessWhereItWasCut) {
     EXPECT_EQ(jobs->find(cancelled)->state, JobState::cancelled);
     EXPECT_FALSE(fs::exists(folders.jobs / cancelled));
     EXPECT_NE(said().find(cancelled), std::string::npos) << "its results lie in lost+found";
+    EXPECT_NE(said().find(damaged), std::string::npos) << "its damaged results, too";
     EXPECT_TRUE(work_is_empty());
 }
 
@@ -212,11 +214,12 @@ TEST_F(JobRestart, FinishesASuccessOfAnEarlierVersion) {
     sqlite::Database(state() / "jobs.db", sqlite::Database::Access::write, store_application)
         .execute("UPDATE jobs SET kept = 0");
     fs::create_directories(folders.jobs / id);
-    std::ofstream(folders.jobs / id / "result.json") << "first";
+    const std::string first = service::text_of(made_result("first"));
+    std::ofstream(folders.jobs / id / "result.json") << first;
     start();
     EXPECT_EQ(jobs->find(id)->state, JobState::succeeded);
     EXPECT_EQ(jobs->find(id)->promises_kept, false);
-    EXPECT_EQ(text_of(id, "result.json"), "first");
+    EXPECT_EQ(text_of(id, "result.json"), first);
 }
 
 // Where a removal was cut off, it has been asked for: neither the job nor its results come back.
@@ -235,6 +238,28 @@ TEST_F(JobRestart, FinishesARemovalWhereItWasCut) {
     EXPECT_EQ(said(), "");
 }
 
+// The removal of results deletes the record last. Results of an earlier version have none.
+TEST_F(JobRestart, FinishesARemovalThatHadDeletedFiles) {
+    start();
+    const std::string record_left = run(success).id, nothing_left = run(success).id, no_record = run(success).id;
+    const std::string cancelled = submit(endless);
+    jobs->cancel(cancelled);
+    jobs.reset();
+    const JobFolders folders = make_job_folders(state());
+    for (const std::string& id : {record_left, nothing_left, no_record}) ASSERT_TRUE(unpublish(folders, id));
+    fs::copy(removed_folder(folders, record_left), removed_folder(folders, cancelled));
+    std::ofstream(removed_folder(folders, cancelled) / ".job.json")
+        << nlohmann::json{{"id", cancelled}};  // it succeeded at the same moment
+    fs::remove(removed_folder(folders, record_left) / "result.json");
+    empty_folder(removed_folder(folders, nothing_left));
+    fs::remove(removed_folder(folders, no_record) / ".job.json");
+    start();
+    for (const std::string& id : {record_left, nothing_left, no_record}) EXPECT_FALSE(jobs->find(id));
+    EXPECT_EQ(jobs->find(cancelled)->state, JobState::cancelled);
+    EXPECT_TRUE(work_is_empty());
+    EXPECT_EQ(said(), "");
+}
+
 // A server under load, killed at any moment: what it had accepted is neither lost nor doubled.
 class JobKill : public JobHost {
 protected:
@@ -242,11 +267,14 @@ protected:
 
     // Each job writes result.json in two parts, so that an incomplete one would show, and names its job.
     static std::string script(int number) {
-        return "printf 'first %s ' " + std::to_string(number) +
-               " >part; sleep 0.01; mkdir images; echo p >images/p.png; "
-               "echo second >>part; mv part result.json";
+        const std::string text = result(number);
+        const std::size_t half = text.size() / 2;
+        return "printf '%s' '" + text.substr(0, half) +
+               "' >part; sleep 0.01; mkdir images; echo p >images/p.png; "
+               "printf '%s' '" +
+               text.substr(half) + "' >>part; mv part result.json";
     }
-    static std::string result(int number) { return "first " + std::to_string(number) + " second\n"; }
+    static std::string result(int number) { return service::text_of(made_result(std::to_string(number))); }
 
     // Submits `from`, `from` + 1, ... and writes each number and id to `to` once it is accepted. A few always wait.
     [[noreturn]] void serve(int from, int to) {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "jobs/made_result.h"
 #include "service/store/database.h"
 #include "service/store/job_store.h"
 #include "temporary_folder.h"
@@ -59,9 +60,7 @@ protected:
         for (const auto& entry : fs::directory_iterator(path)) fs::remove_all(entry.path());
     }
     void write_result(const std::string& id) const {
-        write(path / "jobs" / id / "result.json",
-              R"({"name": "n", "scenario_hash": "h", "scenario": {"scene": {}, "rays": {"seed": 3}},
-                  "program": {"version": "1", "commit": "c"}, "times": {"started": "s"}, "variants": []})");
+        write(path / "jobs" / id / "result.json", text_of(made_result("n")));
     }
 
     const TemporaryFolder temporary;
@@ -169,7 +168,7 @@ TEST_F(StateFolders, KnowTheirVersion) {
     fs::create_directories(path);
     write(path / "shadowbench-state", R"({"program": "shadowbench", "layout": 2})");
     is_refused("newer", base::ErrorCode::io);
-    for (const char* mark : {"", "x", "[]", "{}", R"({"program": "other", "layout": 1})",
+    for (const char* mark : {"", "\xff\xfex", "x", "[]", "{}", R"({"program": "other", "layout": 1})",
                              R"({"program": "shadowbench"})", R"({"program": "shadowbench", "layout": "1"})"}) {
         write(path / "shadowbench-state", mark);
         is_refused("not the mark");
