@@ -106,6 +106,7 @@ struct AgreementTimes {
 };
 struct Agreement {
     std::uint64_t rays = 0;                 // traced
+    // Rays through an edge do not count: see compare_with_tracer().
     std::uint64_t other_crossings = 0;      // rays whose numbers of surface crossings differ
     std::uint64_t other_transmittance = 0;  // rays whose whole transmittance differs by more than 1e-3
     AgreementTimes times;
