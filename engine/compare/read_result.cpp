@@ -84,7 +84,7 @@ std::vector<std::string> swept_of(const json& scenario, const std::string& where
 
 // Names of the parameters that the scenario's technique writes and in which cells of that technique differ.
 std::vector<std::string> differing_in(const json& scenario, const results::Cell& cell, const json& parameters,
-                                       std::span<const results::Cell> cells) {
+                                      std::span<const results::Cell> cells) {
     std::vector<std::string> names;
     const json technique = technique_of(scenario, cell);
     if (!technique.is_object()) return names;
