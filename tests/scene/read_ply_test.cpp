@@ -164,8 +164,8 @@ TEST(ReadPly, ReadsHeadersWithAnyLineEnd) {
     // The first byte of the numbers is that of a line feed.
     std::string number = strips("binary_little_endian", "int");
     number = with_ends(number, "\r");
-    const std::array<Vec3f, 5> at{Vec3f(std::bit_cast<float>(0x3f80000a), 0, 0), {0, 0, 0}, {0, 1, 0}, {0, 0, 0},
-                                  {0, 0, 0}};
+    const std::array<Vec3f, 5> at{
+        Vec3f(std::bit_cast<float>(0x3f80000a), 0, 0), {0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 0}};
     for (const Vec3f& each : at) number += bytes_of(each.x) + bytes_of(each.y) + bytes_of(each.z);
     for (const int index : {3, 0, 1, 2}) number += bytes_of(index);
     EXPECT_EQ(read(number).positions[0].x, at[0].x);
