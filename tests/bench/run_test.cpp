@@ -286,6 +286,23 @@ TEST(Run, writes_results_that_read_back_unchanged) {
     EXPECT_EQ(to_table(read), to_table(result));
 }
 
+TEST(Run, says_what_the_readers_of_files_left_out) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "a.obj") << "V 0 1 0\nv 0 1 0\nv 1 1 0\nv 1 1 -1\nv 0 1 -1\nf 1 2 3 4\nf 1 2\n";
+    json document = two_layers();
+    document["scene"]["objects"][0] = {{"type", "mesh"}, {"file", "a.obj"}};
+    document["sweeps"] = {{"/scene/objects/1/opacity", {0.5, 0.25}}};
+    const RunOptions options{{folder.path()}, {}, 0, {}};
+    const results::Result result = run(document, options, {});
+    ASSERT_EQ(result.notes.size(), 1u) << "both variants have the same";
+    EXPECT_EQ(
+        result.notes[0],
+        "/scene/objects/0: passed over: lines of the unknown keyword \"V\" (1), faces of fewer than 3 corners (1)");
+    EXPECT_EQ(result.notes, validate(document, options).notes);
+    EXPECT_NE(to_table(result).find("  note: " + result.notes[0] + "\n"), std::string::npos);
+    EXPECT_EQ(results::from_json(json::parse(to_json(result).dump()), "").notes, result.notes);
+}
+
 TEST(Validate, estimates_the_cost_of_a_run) {
     json document = two_layers();
     const Validated small = validate(document, {});
