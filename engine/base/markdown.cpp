@@ -25,4 +25,13 @@ std::string markdown_table(const std::vector<std::string>& header, const std::ve
     return out + "\n";
 }
 
+std::string markdown_escaped(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (std::string("\\`*_|<>[]").find(c) != std::string::npos) result += '\\';
+        result += c == '\n' ? ' ' : c;
+    }
+    return result;
+}
+
 }  // namespace shadowbench::base

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -31,6 +32,11 @@ std::string Table::text(const std::string& indent) const {
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
     return text;
+}
+
+std::string number_text(double value) {
+    std::string text = fmt::format("{:g}", value);
+    return std::strtod(text.c_str(), nullptr) == value ? text : fmt::format("{}", value);
 }
 
 std::string error_text(double value) {

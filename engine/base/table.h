@@ -18,6 +18,9 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
+// Six digits, or as many more as tell the number from all others: "0.02", "1e-05".
+std::string number_text(double value);
+
 // Two digits; "-" if the value is not finite.
 std::string error_text(double value);
 

@@ -19,6 +19,8 @@ using rays::LightRays;
 using rays::MapLayout;
 
 constexpr std::size_t timed_rays = std::size_t{1} << 18;  // captured at least, on one thread, if there are so many
+// How far a ray is moved, in pixels: far enough that floats can tell, and that a ray through an edge leaves it.
+constexpr double move = 1e-3;
 constexpr double same_transmittance = 1e-3;  // texture coordinates are floats: 1e-4 of a texel, and so of its alpha
 
 struct TracedRay {
@@ -83,6 +85,7 @@ std::vector<int> spread_tiles(const MapLayout& layout) {
 struct ChosenRay {
     const LightRays* tile;
     std::size_t ray;
+    rays::SamplePosition place;
     TracedRay traced;
 };
 
@@ -92,19 +95,65 @@ ChosenRay choose(const LightRays& tile, const MapLayout& layout, const rays::Lig
     const int i = (tile.x0 + pixel % tile.width) * layout.samples_x + sample % layout.samples_x;
     const int j = (tile.y0 + pixel / tile.width) * layout.samples_y + sample / layout.samples_x;
     const rays::SamplePosition place = rays::sample_position(layout, i, j);
-    return {&tile, ray, ray_at(view, place.x, place.y, rays::sample_time(layout, i, j))};
+    return {&tile, ray, place, ray_at(view, place.x, place.y, rays::sample_time(layout, i, j))};
 }
 
-void compare(const std::vector<ChosenRay>& chosen, const Check& check, results::Agreement& agreement) {
+// The least and the greatest of what some rays cross.
+struct Range {
+    Crossed least, greatest;
+
+    explicit Range(const Crossed& first) : least(first), greatest(first) {}
+    void add(const Crossed& next) {
+        least.surfaces = std::min(least.surfaces, next.surfaces);
+        greatest.surfaces = std::max(greatest.surfaces, next.surfaces);
+        for (int c = 0; c < 3; ++c) {
+            least.transmittance[c] = std::min(least.transmittance[c], next.transmittance[c]);
+            greatest.transmittance[c] = std::max(greatest.transmittance[c], next.transmittance[c]);
+        }
+    }
+    bool has_surfaces(const Crossed& of) const {
+        return least.surfaces <= of.surfaces && of.surfaces <= greatest.surfaces;
+    }
+    bool has_transmittance(const Crossed& of) const {
+        for (int c = 0; c < 3; ++c)
+            if (of.transmittance[c] < least.transmittance[c] - same_transmittance ||
+                of.transmittance[c] > greatest.transmittance[c] + same_transmittance)
+                return false;
+        return true;
+    }
+};
+
+// What Embree finds around a ray: it is moved by a small part of a pixel in four directions, none of them along the
+// axes or the diagonals, where edges often lie.
+Range around(const ChosenRay& ray, const rays::LightView& view, const Check& check,
+             std::vector<rays::TracedSegment>& segments) {
+    constexpr double far = 0.9238795325112867 * move, near = 0.3826834323650898 * move;  // cosine, sine of 22.5 degrees
+    const auto moved = [&](double x, double y) {
+        trace(check, ray_at(view, ray.place.x + x, ray.place.y + y, ray.traced.time), segments);
+        return crossed(segments);
+    };
+    Range range(moved(far, near));
+    range.add(moved(-near, far));
+    range.add(moved(-far, -near));
+    range.add(moved(near, -far));
+    return range;
+}
+
+// A ray through an edge that two triangles share crosses the surface once, but Embree reports both. A ray through an
+// outer edge may hit it or not. Neither is a disagreement: where a captured ray differs from the traced one, it must
+// lie among those that Embree finds around it. The captured ray is not moved, so a surface that the capture counts
+// twice, or not at all, still shows.
+void compare(const std::vector<ChosenRay>& chosen, const rays::LightView& view, const Check& check,
+             results::Agreement& agreement) {
     std::vector<rays::TracedSegment> segments;
     for (const ChosenRay& ray : chosen) {
         trace(check, ray.traced, segments);
-        const Crossed ours = crossed(*ray.tile, ray.ray), theirs = crossed(segments);
-        bool differs = false;
-        for (int c = 0; c < 3; ++c)
-            differs = differs || std::abs(ours.transmittance[c] - theirs.transmittance[c]) > same_transmittance;
-        agreement.other_crossings += ours.surfaces != theirs.surfaces;
-        agreement.other_transmittance += differs;
+        const Crossed ours = crossed(*ray.tile, ray.ray);
+        const Range same(crossed(segments));
+        if (same.has_surfaces(ours) && same.has_transmittance(ours)) continue;
+        const Range near = around(ray, view, check, segments);
+        agreement.other_crossings += !same.has_surfaces(ours) && !near.has_surfaces(ours);
+        agreement.other_transmittance += !same.has_transmittance(ours) && !near.has_transmittance(ours);
     }
     agreement.rays = chosen.size();
 }
@@ -142,7 +191,7 @@ results::Agreement compare_with_tracer(const rays::Capture& capture, const MapLa
 
     results::Agreement agreement;
     const Check check{tracer, layout.cells ? rays::Tracer::Grids::cells : rays::Tracer::Grids::steps};
-    compare(chosen, check, agreement);
+    compare(chosen, view, check, agreement);
     agreement.times.capture_rays_per_second = static_cast<double>(rays) / seconds;
     agreement.times.tracer_rays_per_second = rate_of_tracer(chosen, check);  // after compare() has warmed it up
     agreement.times.ratio = agreement.times.capture_rays_per_second / agreement.times.tracer_rays_per_second;

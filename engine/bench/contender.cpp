@@ -98,8 +98,7 @@ void judge(Contender& contender, const Asked& judged, const Truth& truth) {
 
 }  // namespace
 
-Contender make_contender(const scene::TechniqueRequest& request, const std::string& where,
-                         std::span<const std::string> swept) {
+Contender make_contender(const scene::TechniqueRequest& request, const std::string& where) {
     Contender contender;
     contender.row = &techniques::find(request.type, where + "/type");
     contender.values =
@@ -108,11 +107,28 @@ Contender make_contender(const scene::TechniqueRequest& request, const std::stri
     results::Cell& cell = contender.cell;
     cell.technique = contender.row->id;
     cell.version = contender.row->version;
-    cell.parameters = techniques::to_string(contender.values, contender.row->parameters, swept);
+    cell.parameters = techniques::to_string(contender.values, contender.row->parameters, false);
     cell.parameters_json = techniques::to_json(contender.values).dump();
-    cell.defaults = techniques::to_string(contender.values, contender.row->parameters, false).empty();
+    cell.defaults = cell.parameters.empty();
     cell.where = where;
     return contender;
+}
+
+void label(std::span<Contender> contenders, std::span<const scene::TechniqueRequest> requests,
+           std::span<const std::vector<std::string>> swept) {
+    const auto differs = [&](const Contender& contender, const std::string& name) {
+        return std::any_of(contenders.begin(), contenders.end(), [&](const Contender& other) {
+            return other.row == contender.row && other.values.at(name) != contender.values.at(name);
+        });
+    };
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+        techniques::Named named{swept[i], {}};
+        const nlohmann::json written = nlohmann::json::parse(requests[i].parameters);
+        for (const auto& [name, value] : written.items())
+            if (differs(contenders[i], name)) named.also.push_back(name);
+        contenders[i].cell.parameters =
+            techniques::to_string(contenders[i].values, contenders[i].row->parameters, named);
+    }
 }
 
 Contender unbuilt(const Contender& contender) {

@@ -25,10 +25,15 @@ struct Contender {
     bool ok() const { return cell.status == results::CellStatus::ok; }
 };
 
-// Makes a contender from the request of a scenario. The cell's label names the `swept` parameters, whatever their
-// values. Throws what read_parameters() throws, with `where` as its place.
-Contender make_contender(const scene::TechniqueRequest& request, const std::string& where,
-                         std::span<const std::string> swept = {});
+// Makes a contender from the request of a scenario. The cell's label names the parameters that differ from their
+// defaults. Throws what read_parameters() throws, with `where` as its place.
+Contender make_contender(const scene::TechniqueRequest& request, const std::string& where);
+
+// Labels the contenders of these requests so that each label tells which one it is. A label names the parameters that
+// differ from their defaults, those that sweeps set (`swept`, one list a contender), and those that the request writes
+// and in which contenders of the same technique differ.
+void label(std::span<Contender> contenders, std::span<const scene::TechniqueRequest> requests,
+           std::span<const std::vector<std::string>> swept);
 
 // The same technique for another light, with nothing built.
 Contender unbuilt(const Contender& contender);

@@ -47,7 +47,8 @@ const scene::Scenario& ScenarioLoader::load(const document::Variant& variant) {
 std::vector<Contender> make_contenders(const scene::Scenario& scenario, const document::Variant& variant) {
     std::vector<Contender> contenders;
     for (std::size_t i = 0; i < scenario.techniques.size(); ++i)
-        contenders.push_back(make_contender(scenario.techniques[i], variant.technique_where[i], variant.swept[i]));
+        contenders.push_back(make_contender(scenario.techniques[i], variant.technique_where[i]));
+    label(contenders, scenario.techniques, variant.swept);
     return contenders;
 }
 

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -60,6 +61,12 @@ Shared prepare(const scene::Scenario& scenario) {
     return shared;
 }
 
+// Adds the notes of the file readers that are not there yet: variants may share a scene.
+void add_notes(const scene::Scene& scene, std::vector<std::string>& notes) {
+    for (std::string& note : scene::read_notes(scene))
+        if (std::count(notes.begin(), notes.end(), note) == 0) notes.push_back(std::move(note));
+}
+
 void add_cost(const scene::Scenario& scenario, const PreparedLight& light, std::size_t techniques,
               Validated& validated) {
     const rays::MapLayout& layout = light.layout;
@@ -89,6 +96,7 @@ results::Result run(const nlohmann::json& document, const RunOptions& options, c
     ScenarioLoader loader(options.data);
     for (std::size_t v = 0; v < variants.size(); ++v) {
         const scene::Scenario& scenario = loader.load(variants[v]);
+        add_notes(scenario.scene, result.notes);
         const std::vector<Contender> contenders = make_contenders(scenario, variants[v]);
         const Shared shared = prepare(scenario);
         results::VariantResult& out = result.variants.emplace_back();
@@ -117,8 +125,7 @@ Validated validate(const nlohmann::json& document, const RunOptions& options) {
     for (const document::Variant& variant : variants_of(document, options)) {
         const scene::Scenario& scenario = loader.load(variant);
         const std::vector<Contender> contenders = make_contenders(scenario, variant);
-        for (const std::string& note : scene::read_notes(scenario.scene))
-            if (std::count(validated.notes.begin(), validated.notes.end(), note) == 0) validated.notes.push_back(note);
+        add_notes(scenario.scene, validated.notes);
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
             const PreparedLight light = prepare_light(scenario, l, contenders, options.limits);
             const std::string& name = scenario.lights[l].name;

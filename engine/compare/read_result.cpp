@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/table.h"
 #include "results/report.h"
 
 namespace shadowbench::compare {
@@ -80,34 +82,60 @@ std::vector<std::string> swept_of(const json& scenario, const std::string& where
     return names;
 }
 
-// A label names the swept parameters first, then those that differ from the defaults. Labels of older results left out
-// swept values equal to the default, and had the others in their own places. They are brought into today's form, so
-// that a cell has the same name whichever program wrote it.
-std::string name_of(const results::Cell& cell, const json& scenario) {
-    const json parameters = json::parse(cell.parameters_json);
-    const std::vector<std::string> swept = swept_of(scenario, cell.where, parameters);
-    std::string name = cell.technique, rest;
-    const auto is_swept = [&](const std::string& word) {
-        return std::any_of(swept.begin(), swept.end(), [&](const std::string& s) { return word.starts_with(s + "="); });
-    };
-    for (const std::string& parameter : swept) {
-        const json& value = parameters.at(parameter);
-        name += fmt::format(" {}={}", parameter,
-                            value.is_number() ? fmt::format("{:g}", value.get<double>()) : value_text(value.dump()));
+// Names of the parameters that the scenario's technique writes and in which cells of that technique differ.
+std::vector<std::string> differing_in(const json& scenario, const results::Cell& cell, const json& parameters,
+                                      std::span<const results::Cell> cells) {
+    std::vector<std::string> names;
+    const json technique = technique_of(scenario, cell);
+    if (!technique.is_object()) return names;
+    for (const auto& [name, value] : technique.items()) {
+        if (name == "type" || !parameters.contains(name)) continue;
+        const bool differs = std::any_of(cells.begin(), cells.end(), [&, &key = name](const results::Cell& other) {
+            if (other.technique != cell.technique) return false;
+            const json others = json::parse(other.parameters_json);
+            return !others.contains(key) || others.at(key) != parameters.at(key);
+        });
+        if (differs) names.push_back(name);
     }
+    return names;
+}
+
+// "nodes=8": a parameter and its value.
+std::string word_of(const std::string& name, const json& value) {
+    return fmt::format("{}={}", name,
+                       value.is_number() ? base::number_text(value.get<double>()) : value_text(value.dump()));
+}
+
+// A label names the parameters that sweeps set, those that differ from the defaults, and those that tell the rows of a
+// technique apart. Labels of older results left out some that equal the default, wrote fewer digits, and had another
+// order. The name holds the swept parameters, then those that tell rows apart, then the others of the label, so that a
+// cell has the same name whichever program wrote it.
+std::string name_of(const results::Cell& cell, const json& scenario, std::span<const results::Cell> cells) {
+    const json parameters = json::parse(cell.parameters_json);
+    std::vector<std::string> named = swept_of(scenario, cell.where, parameters);
+    const auto add = [&](const std::string& name) {
+        if (std::find(named.begin(), named.end(), name) == named.end()) named.push_back(name);
+    };
+    for (const std::string& name : differing_in(scenario, cell, parameters, cells)) add(name);
     const std::string& label = cell.parameters;
+    std::string others;
     for (std::size_t first = 0; first < label.size();) {
         const std::size_t space = std::min(label.find(' ', first), label.size());
-        if (const std::string word = label.substr(first, space - first); !is_swept(word)) rest += " " + word;
+        const std::string word = label.substr(first, space - first), name = word.substr(0, word.find('='));
+        if (parameters.contains(name))
+            add(name);
+        else
+            others += " " + word;
         first = space + 1;
     }
-    return name + rest;
+    std::string text = cell.technique;
+    for (const std::string& name : named) text += " " + word_of(name, parameters.at(name));
+    return text + others;
 }
 
 Cell make_cell(const results::Cell& from, const json& scenario, const std::vector<document::Setting>& settings,
                const std::string& source) {
     Cell cell;
-    cell.name = name_of(from, scenario);
     cell.version = fmt::format("{}", from.version);
     cell.failed = from.status == results::CellStatus::failed;
     cell.degraded = from.verdict == results::Verdict::degraded;
@@ -143,6 +171,7 @@ void add_light(Suite& suite, const results::LightResult& light, const results::V
     std::map<std::string, int> seen;
     for (const results::Cell& from : light.cells) {
         Cell cell = make_cell(from, scenario, variant.settings, source);
+        cell.name = name_of(from, scenario, light.cells);
         cell.group = group;
         // Equal techniques of one scenario are numbered.
         const int earlier = seen[cell.name]++;

@@ -1,20 +1,13 @@
 #include <fmt/format.h>
 
+#include "base/markdown.h"
 #include "compare/report.h"
 #include "compare/words.h"
 
 namespace shadowbench::compare {
 namespace {
 
-// Escapes bars, which would end the cell, and markup characters in names.
-std::string markdown_escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (std::string("\\`*_|<>[]").find(c) != std::string::npos) result += '\\';
-        result += c == '\n' ? ' ' : c;
-    }
-    return result;
-}
+using base::markdown_escaped;
 
 // A bar ends a cell even inside code, so it is written as an entity.
 std::string code(const std::string& text) {

@@ -39,6 +39,7 @@ struct Rendering {
     std::string name;
     std::string hash;                         // of the scenario document as rendered
     std::vector<document::Setting> settings;  // the first values of the sweeps
+    std::vector<std::string> notes;           // of the file readers: see scene::read_notes
     scene::Camera camera;
     bool default_camera = false;
     base::Vec2i size{0, 0};

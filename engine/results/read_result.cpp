@@ -217,6 +217,9 @@ Result from_json(const nlohmann::json& document, const std::string& origin) {
     Result result;
     result.name = whole.at("name").text();
     if (whole.has("purpose")) result.purpose = whole.at("purpose").text();
+    if (whole.has("notes"))
+        for (std::size_t i = 0; i < whole.at("notes").array().size(); ++i)
+            result.notes.push_back(whole.at("notes").item(i).text());
     result.hash = whole.at("scenario_hash").text();
     const nlohmann::json& scenario = whole.at("scenario").object();
     result.document = scenario.dump();

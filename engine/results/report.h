@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -12,8 +13,12 @@ namespace shadowbench::results {
 // Increased when a key of result.json changes its name or meaning.
 inline constexpr int result_schema_version = 1;
 
+// One line for each note of the file readers, indented: at most 5, then how many more there are and where to see them.
+std::string notes_text(const std::vector<std::string>& notes, const std::string& indent);
+
 // All measurements, as result.json. Values that depend on the clock are in objects under the key "times"; without
 // these, two results of one scenario on one machine are equal. Numbers that do not exist or are not finite are null.
+// "notes" is there only if there are some.
 nlohmann::ordered_json to_json(const Result& result);
 
 // The inverse of to_json(), and the only place that reads measurements from a result.json: to_json(from_json(j)) == j
@@ -29,8 +34,8 @@ void strip_times(nlohmann::ordered_json& result);
 // an empty field.
 std::string to_csv(const Result& result);
 
-// A table for people: for each variant and light, what was captured and how accurate the truth is, then one line per
-// cell.
+// A table for people: the notes of the file readers, then for each variant and light, what was captured and how
+// accurate the truth is, then one line per cell.
 std::string to_table(const Result& result);
 
 }  // namespace shadowbench::results

@@ -179,20 +179,19 @@ json to_json(const VariantResult& variant) {
 nlohmann::ordered_json to_json(const Result& result) {
     json variants = json::array();
     for (const VariantResult& variant : result.variants) variants.push_back(to_json(variant));
-    return {{"schema_version", result_schema_version},
-            {"name", result.name},
-            {"purpose", result.purpose},
-            {"scenario_hash", result.hash},
-            {"scenario", json::parse(result.document)},
-            {"only", result.only},
-            {"program",
-             {{"version", result.program.version},
-              {"commit", result.program.commit},
-              {"compiler", result.program.compiler},
-              {"build_type", result.program.build_type}}},
-            {"machine", {{"cpu", result.machine.cpu}, {"logical_cores", result.machine.logical_cores}}},
-            {"times", to_json(result.times, result)},
-            {"variants", std::move(variants)}};
+    json out = {{"schema_version", result_schema_version}, {"name", result.name}, {"purpose", result.purpose}};
+    if (!result.notes.empty()) out["notes"] = result.notes;
+    out["scenario_hash"] = result.hash;
+    out["scenario"] = json::parse(result.document);
+    out["only"] = result.only;
+    out["program"] = {{"version", result.program.version},
+                      {"commit", result.program.commit},
+                      {"compiler", result.program.compiler},
+                      {"build_type", result.program.build_type}};
+    out["machine"] = {{"cpu", result.machine.cpu}, {"logical_cores", result.machine.logical_cores}};
+    out["times"] = to_json(result.times, result);
+    out["variants"] = std::move(variants);
+    return out;
 }
 
 void strip_times(nlohmann::ordered_json& result) {

@@ -148,8 +148,18 @@ std::string reference_line(const LightResult& light) {
 
 }  // namespace
 
+std::string notes_text(const std::vector<std::string>& notes, const std::string& indent) {
+    constexpr std::size_t shown = 5;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(shown, notes.size()); ++i) text += indent + "note: " + notes[i] + "\n";
+    if (notes.size() > shown)
+        text += fmt::format("{}and {} more: shadowbench validate shows them\n", indent, notes.size() - shown);
+    return text;
+}
+
 std::string to_table(const Result& result) {
-    std::string text = result.name + (result.purpose.empty() ? "" : ": " + result.purpose) + "\n";
+    std::string text =
+        result.name + (result.purpose.empty() ? "" : ": " + result.purpose) + "\n" + notes_text(result.notes, "  ");
     for (const VariantResult& variant : result.variants) {
         for (const document::Setting& setting : variant.settings)
             text += fmt::format("{} = {}\n", setting.pointer, setting.value);

@@ -154,6 +154,8 @@ std::string verdicts_markdown(std::span<const ScenarioOutcome> outcomes, std::sp
         text += fmt::format("## {}\n\n", result.name);
         if (!result.purpose.empty()) text += result.purpose + "\n\n";
         if (!outcome.error.empty()) text += "Could not be run: " + outcome.error + "\n\n";
+        for (const std::string& note : result.notes) text += "- note: " + base::markdown_escaped(note) + "\n";
+        if (!result.notes.empty()) text += "\n";
         for (const VariantResult& variant : result.variants)
             for (const LightResult& light : variant.lights) text += light_section(result, variant, light);
     }

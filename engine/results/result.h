@@ -98,7 +98,8 @@ struct CaptureTimes {
     double rays_per_second = 0.0;  // all tiles, on all threads
 };
 
-// Captured rays compared with the same rays traced by Embree.
+// Captured rays compared with the same rays traced by Embree. Rays through an edge do not count as different: see
+// compare_with_tracer().
 struct AgreementTimes {
     double capture_rays_per_second = 0.0;  // one thread, without the setup
     double tracer_rays_per_second = 0.0;   // one thread, Embree's all-hits query, without building its tree
@@ -171,9 +172,10 @@ struct RunTimes {
 
 struct Result {
     std::string name, purpose;
-    std::string document;           // JSON text of the scenario as run
-    std::string hash;               // of that text
-    std::vector<std::string> only;  // ids of the techniques that the run was limited to; empty: all
+    std::vector<std::string> notes;  // of the file readers, each once: what they left out or changed
+    std::string document;            // JSON text of the scenario as run
+    std::string hash;                // of that text
+    std::vector<std::string> only;   // ids of the techniques that the run was limited to; empty: all
     Program program;
     Machine machine;
     RunTimes times;

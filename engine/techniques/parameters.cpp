@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/json_pointer.h"
+#include "base/table.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -147,7 +148,7 @@ namespace {
 void append(std::string& text, std::string_view name, const ParameterValues::Value& value) {
     text += text.empty() ? "" : " ";
     if (const auto* number = std::get_if<double>(&value))
-        text += fmt::format("{}={:g}", name, *number);
+        text += fmt::format("{}={}", name, base::number_text(*number));
     else
         text += fmt::format("{}={}", name, std::get<std::string>(value));
 }
@@ -161,13 +162,16 @@ std::string to_string(const ParameterValues& values, std::span<const Parameter> 
     return text;
 }
 
-std::string to_string(const ParameterValues& values, std::span<const Parameter> declared,
-                      std::span<const std::string> named) {
+std::string to_string(const ParameterValues& values, std::span<const Parameter> declared, const Named& named) {
+    const auto among = [](const std::vector<std::string>& names, const Parameter& p) {
+        return std::find(names.begin(), names.end(), p.name) != names.end();
+    };
     std::string text;
-    for (const std::string& name : named) append(text, name, values.at(name));
+    for (const std::string& name : named.first) append(text, name, values.at(name));
     for (const Parameter& p : declared) {
-        if (std::find(named.begin(), named.end(), p.name) != named.end()) continue;
-        if (const auto& value = values.at(p.name); value != standard(p)) append(text, p.name, value);
+        if (among(named.first, p)) continue;
+        if (const auto& value = values.at(p.name); value != standard(p) || among(named.also, p))
+            append(text, p.name, value);
     }
     return text;
 }

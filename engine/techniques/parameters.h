@@ -51,8 +51,12 @@ nlohmann::json parameter_schema(const char* id, std::span<const Parameter> decla
 
 // "tolerance=0.02 filter=point": the values that differ from the defaults, or all.
 std::string to_string(const ParameterValues& values, std::span<const Parameter> declared, bool all);
-// The same with the `named` ones first, whatever their values. Throws Error{internal} for an unknown name.
-std::string to_string(const ParameterValues& values, std::span<const Parameter> declared,
-                      std::span<const std::string> named);
+
+// Parameters that a text names whatever their values: some before all others, some in their places.
+struct Named {
+    std::vector<std::string> first, also;
+};
+// The values that differ from the defaults, and the named ones. Throws Error{internal} for an unknown name in `first`.
+std::string to_string(const ParameterValues& values, std::span<const Parameter> declared, const Named& named);
 
 }  // namespace shadowbench::techniques

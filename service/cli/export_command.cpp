@@ -10,6 +10,7 @@
 #include "bench/one_light.h"
 #include "document/technique_choice.h"
 #include "render/deep_exr.h"
+#include "results/report.h"
 #include "service/cli/commands.h"
 #include "service/cli/deep_file_text.h"
 #include "service/cli/job.h"
@@ -107,6 +108,7 @@ void export_command(const ExportArguments& arguments, std::ostream& out, std::os
     const std::string text = arguments.rays ? export_rays(arguments, light, progress)
                                             : export_map(arguments, tiled, light, technique, progress);
     bar.end();
+    err << results::notes_text(scene::read_notes(light.scenario().scene), "");
     out << text;
 }
 

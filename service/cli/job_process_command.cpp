@@ -119,18 +119,20 @@ bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
     const std::vector<document::Variant> variants = document::expand(document);
     const bool pictures = arguments.pictures && has_objects(variants.front());
     JobFraction fraction = make_fraction(variants, pictures);
+    const std::vector<HiddenFolder> hidden = hidden_folders(arguments.folder, arguments.data);
     Reporter reporter(out);
     bool kept = true;
     {
-        const results::Result result = bench::run(document, options, [&](const bench::Progress& progress) {
+        results::Result result = bench::run(document, options, [&](const bench::Progress& progress) {
             reporter.report(progress, fraction.measuring(progress));
         });
+        for (std::string& note : result.notes) note = hide(note, hidden);
         base::write_files({{folder / "table.txt", results::to_table(result)}});
         results::write_result(folder, result);
         kept = !results::any_failed(result);
     }
     if (pictures)
-        draw(document, options, folder / "images", hidden_folders(arguments.folder, arguments.data),
+        draw(document, options, folder / "images", hidden,
              [&](const bench::Progress& progress) { reporter.report(progress, fraction.picturing(progress)); });
     return kept;
 }

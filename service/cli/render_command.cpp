@@ -8,7 +8,7 @@
 #include "base/write_files.h"
 #include "render/render.h"
 #include "render/write_pictures.h"
-#include "results/write_result.h"
+#include "results/report.h"
 #include "scene/limits.h"
 #include "service/cli/commands.h"
 #include "service/cli/job.h"
@@ -60,6 +60,7 @@ bool render_command(const RenderArguments& arguments, std::ostream& out, std::os
     const render::Rendering rendering =
         render::render(*job.document, options, [&](const bench::Progress& progress) { bar.show(progress); });
     bar.end();
+    err << results::notes_text(rendering.notes, "");
     render::write_pictures(folder, rendering);
     made.keep();
     out << render::to_table(rendering)

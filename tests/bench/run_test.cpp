@@ -78,6 +78,32 @@ TEST(Run, names_every_value_of_a_sweep_even_the_default) {
     EXPECT_EQ(results::title(run(document, only, {}).variants[0].lights[0].cells[0]), expected[3]);
 }
 
+// Those of the rows that write the parameter in which they differ say so, even if the value is the default.
+TEST(Run, tells_rows_of_one_technique_apart) {
+    json document = two_layers();
+    const auto labels = [&](const json& techniques) {
+        document["techniques"] = techniques;
+        const document::Variant variant = document::expand(document).front();
+        ScenarioLoader loader({});
+        std::vector<std::string> titles;
+        for (const Contender& each : make_contenders(loader.load(variant), variant))
+            titles.push_back(results::title(each.cell));
+        return titles;
+    };
+    using Titles = std::vector<std::string>;
+    const json avsm{{"type", "avsm"}};
+    const auto nodes = [](int count) { return json{{"type", "avsm"}, {"nodes", count}}; };
+    EXPECT_EQ(labels({nodes(4), nodes(8), nodes(16)}), (Titles{"avsm nodes=4", "avsm nodes=8", "avsm nodes=16"}));
+    EXPECT_EQ(labels({avsm, nodes(8), nodes(16)}), (Titles{"avsm", "avsm nodes=8", "avsm nodes=16"}));
+    EXPECT_EQ(labels({nodes(8)}), Titles{"avsm"});
+    EXPECT_EQ(labels({nodes(8), nodes(8)}), (Titles{"avsm", "avsm"})) << "they are equal";
+    EXPECT_EQ(labels({avsm, nodes(4)}), (Titles{"avsm", "avsm nodes=4"}));
+    EXPECT_EQ(labels({{{"type", "avsm"}, {"nodes", 8}, {"cells", "centre"}}, nodes(4), {{"type", "deep"}}}),
+              (Titles{"avsm nodes=8 cells=centre", "avsm nodes=4", "deep"}));
+    EXPECT_EQ(labels({{{"type", "deep"}, {"tolerance", 0.02}}, {{"type", "deep"}, {"tolerance", 0.0200001}}}),
+              (Titles{"deep tolerance=0.02", "deep tolerance=0.0200001"}));
+}
+
 TEST(Run, gives_the_same_numbers_on_one_thread_and_on_two) {
     RunOptions one, two;
     one.threads = 1;
@@ -258,6 +284,23 @@ TEST(Run, writes_results_that_read_back_unchanged) {
     const results::Result read = results::from_json(json::parse(to_json(result).dump()), "");
     EXPECT_EQ(to_json(read), to_json(result));
     EXPECT_EQ(to_table(read), to_table(result));
+}
+
+TEST(Run, says_what_the_readers_of_files_left_out) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "a.obj") << "V 0 1 0\nv 0 1 0\nv 1 1 0\nv 1 1 -1\nv 0 1 -1\nf 1 2 3 4\nf 1 2\n";
+    json document = two_layers();
+    document["scene"]["objects"][0] = {{"type", "mesh"}, {"file", "a.obj"}};
+    document["sweeps"] = {{"/scene/objects/1/opacity", {0.5, 0.25}}};
+    const RunOptions options{{folder.path()}, {}, 0, {}};
+    const results::Result result = run(document, options, {});
+    ASSERT_EQ(result.notes.size(), 1u) << "both variants have the same";
+    EXPECT_EQ(
+        result.notes[0],
+        "/scene/objects/0: passed over: lines of the unknown keyword \"V\" (1), faces of fewer than 3 corners (1)");
+    EXPECT_EQ(result.notes, validate(document, options).notes);
+    EXPECT_NE(to_table(result).find("  note: " + result.notes[0] + "\n"), std::string::npos);
+    EXPECT_EQ(results::from_json(json::parse(to_json(result).dump()), "").notes, result.notes);
 }
 
 TEST(Validate, estimates_the_cost_of_a_run) {

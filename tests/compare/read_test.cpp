@@ -110,6 +110,29 @@ TEST_F(Read, ACellHasOneNameWhicheverProgramLabelledIt) {
     EXPECT_EQ(name("kernel=tent", "noise"), "deep kernel=tent");
 }
 
+// Older programs left the default out of the labels of rows that differ in a parameter and write it.
+TEST_F(Read, CellsOfRowsThatDifferMatchThoseOfOlderPrograms) {
+    json result = made_result();
+    result["scenario"]["techniques"] = {{{"type", "deep"}, {"tolerance", "noise"}, {"kernel", "tent"}},
+                                        {{"type", "deep"}, {"tolerance", 0.0200001}}};
+    const auto names = [&](const char* first, const char* second) {
+        json& one = cell_of(result, 0);
+        json& two = cell_of(result, 1);
+        two = one;
+        one["label"] = first;
+        one["parameters"] = {{"tolerance", "noise"}, {"kernel", "tent"}, {"search", "binary"}};
+        two["label"] = second;
+        two["parameters"] = {{"tolerance", 0.0200001}, {"kernel", "box"}, {"search", "binary"}};
+        two["where"] = "/techniques/1";
+        Measured measured;
+        EXPECT_TRUE(add(measured, result, ""));
+        return std::vector{measured.suites[0].cells[0].name, measured.suites[0].cells[1].name};
+    };
+    const std::vector<std::string> expected{"deep kernel=tent tolerance=noise", "deep tolerance=0.0200001"};
+    EXPECT_EQ(names("kernel=tent", "tolerance=0.02"), expected);
+    EXPECT_EQ(names("tolerance=noise kernel=tent", "tolerance=0.0200001"), expected);
+}
+
 TEST_F(Read, KernelsAreCells) {
     const Measured measured = read(write("kernels.json", made_kernels().dump()));
     ASSERT_EQ(measured.suites.size(), 1u);

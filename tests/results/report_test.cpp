@@ -100,6 +100,17 @@ TEST(ResultJson, comes_back_as_the_same_result) {
     EXPECT_EQ(to_csv(read), to_csv(small_result()));
 }
 
+TEST(ResultJson, has_notes_of_the_file_readers_only_if_there_are_some) {
+    Result result = small_result();
+    EXPECT_FALSE(to_json(result).contains("notes"));
+    result.notes = {"/scene/objects/0: passed over: lines (2)", "/scene/objects/1: \"b\""};
+    const nlohmann::ordered_json written = to_json(result);
+    EXPECT_EQ(written["notes"], result.notes);
+    const Result read = from_json(nlohmann::json::parse(written.dump()), "");
+    EXPECT_EQ(read.notes, result.notes);
+    EXPECT_EQ(to_json(read), written);
+}
+
 TEST(ResultJson, of_the_wrong_form_is_refused_at_its_place) {
     const auto refused = [](const char* pointer, const nlohmann::json& value, const std::string& where) {
         nlohmann::json json = to_json(small_result());
@@ -111,6 +122,7 @@ TEST(ResultJson, of_the_wrong_form_is_refused_at_its_place) {
     refused("/variants/0/lights/0/map", 3, light + "/map");
     refused("/variants", "none", "/variants");
     refused("/schema_version", 2, "/schema_version");
+    refused("/notes", {"one", 2}, "/notes/1");
     test::error_of([] { from_json(nlohmann::json::array(), ""); }, base::ErrorCode::bad_input, "");
 }
 
@@ -140,6 +152,20 @@ TEST(ResultTable, shows_dashes_for_the_times_of_a_failed_cell) {
     ASSERT_NE(line, lines.end()) << table;
     EXPECT_NE(line->find(" -  "), std::string::npos) << *line;
     EXPECT_EQ(line->find("7.50"), std::string::npos) << *line;
+}
+
+TEST(ResultTable, shows_at_most_five_notes_under_the_heading) {
+    Result result = small_result();
+    for (int i = 0; i < 5; ++i) result.notes.push_back("note " + std::to_string(i));
+    std::vector<std::string> lines = lines_of(to_table(result));
+    EXPECT_EQ(lines[1], "  note: note 0");
+    EXPECT_EQ(lines[5], "  note: note 4");
+    EXPECT_EQ(lines[6], "/rays/seed = [1,2]");
+    result.notes.insert(result.notes.end(), {"note 5", "note 6"});
+    lines = lines_of(to_table(result));
+    EXPECT_EQ(lines[5], "  note: note 4");
+    EXPECT_EQ(lines[6], "  and 2 more: shadowbench validate shows them");
+    EXPECT_EQ(lines[7], "/rays/seed = [1,2]");
 }
 
 TEST(ResultTable, warns_where_the_capture_and_embree_disagree) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -66,6 +67,27 @@ TEST(ReadObj, ReadsGroupsMaterialsAndWindowsLineEnds) {
     EXPECT_EQ(mesh.positions[1], Vec3f(1, 0, 0));
 }
 
+TEST(ReadObj, ReadsLinesThatEndWithACarriageReturn) {
+    std::string text = "# made by hand\r" + corners + "f 1 2 \\\n3 # three\nf 1 3 4\n";
+    std::replace(text.begin(), text.end(), '\n', '\r');
+    EXPECT_THAT(read(text).triangles, ElementsAre(Vec3i(0, 1, 2), Vec3i(0, 2, 3)));
+    EXPECT_THAT(error_of([&] { read(text + "f 1 2 99\r"); }).where(), testing::EndsWith(":9"));
+    // Where files of both kinds were joined, no line is lost.
+    EXPECT_THAT(error_of([] { read(corners + "f 1 2 3\n\ng a\rf 1 2 99\n"); }).where(), testing::EndsWith(":8"));
+}
+
+TEST(ReadObj, LinesMayEndWithAComment) {
+    const std::string text =
+        "v 0 0 0 # first\nv 1 0 0 #second\nv 1 1 0# third \\\nv 0 1 0 #\nvt 0 0 # uv\nf 1/1 2/1 3/1 # 4/1\n"
+        "f 1/1 3/1 \\\n4/1 # v 9 9 9\ng a # b\nl 1 2 # line\n";
+    const MeshFile file = read_file(text);
+    EXPECT_EQ(file.mesh.positions.size(), 4u);
+    EXPECT_THAT(file.mesh.triangles, ElementsAre(Vec3i(0, 1, 2), Vec3i(0, 2, 3)));
+    EXPECT_EQ(file.mesh.corner_uv.size(), 6u);
+    EXPECT_THAT(passed_over(text), UnorderedElementsAre(Pair("lines", 1)));
+    EXPECT_THAT(error_of([] { read("v 0 0 # 0\n"); }).message(), HasSubstr("2 numbers"));
+}
+
 TEST(ReadObj, TellsTheLineOfWhatIsWrong) {
     const auto where = [](const std::string& text) {
         const base::Error error = error_of([&] { read(text); });
@@ -88,11 +110,11 @@ TEST(ReadObj, RefusesIndicesThatAreNotThere) {
         EXPECT_EQ(error_of([&] { read(corners + face); }).code(), base::ErrorCode::bad_input) << face;
 }
 
-// tinyobjloader takes memory for the counts of a "t" line, and ends lines at a lone carriage return.
+// tinyobjloader takes memory for the counts of a "t" line.
 TEST(ReadObj, TakesNothingFromOtherLines) {
     const std::string face = "f 1 2 3\n";
     for (const char* line : {"t x 2000000000/2000000000/2000000000\n", "t x -1/0/0\n", "l 1 99\np 7\n", "vw 0 nan\n",
-                             "# \rt x -1/0/0\r\n", "g a\rf 1 2 99\n", "vn nan x\n"}) {
+                             "# \rt x -1/0/0\r\n", "# f 1 2 99\r\n", "vn nan x\n"}) {
         const Mesh mesh = read(corners + line + face);
         EXPECT_THAT(mesh.triangles, ElementsAre(Vec3i(0, 1, 2))) << line;
     }

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
 #include <utility>
 
@@ -54,6 +56,15 @@ std::vector<std::pair<std::string, std::uint64_t>> passed_over(const std::string
         list.emplace_back(each.what, each.count);
     return list;
 }
+
+// Two strips: four vertices, then five of which the first three repeat one.
+std::string strips(const std::string& format, const std::string& type) {
+    return "ply\nformat " + format +
+           " 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+           "element tristrips 1\nproperty list int " +
+           type + " vertex_indices\nend_header\n";
+}
+const std::vector<int> strip_list{0, 1, 3, 2, -1, 2, 2, 1, 4, 3, -1, 0, 1, -1};
 
 TEST(ReadPly, ReadsAllThreeEncodingsAlike) {
     for (const std::string& bytes : {ascii, binary(false), binary(true)}) {
@@ -120,6 +131,46 @@ TEST(ReadPly, RefusesValuesThatMakeNoMesh) {
     EXPECT_THAT(message("element vertex", "element point"), HasSubstr("before the vertices"));
 }
 
+TEST(ReadPly, NamesTheLineOfTextAndTheByteOfBinaryNumbers) {
+    const auto place = [](std::string bytes, const std::string& from, const std::string& to) {
+        bytes.replace(bytes.find(from), from.size(), to);
+        const std::string where = error_of([&] { read(bytes); }).where();
+        return where.substr(where.rfind(':') + 1);
+    };
+    EXPECT_EQ(place(ascii, "4 0 1 2 3", "4 0 2 1 3"), "15");
+    EXPECT_EQ(place(ascii, "1 1 0 9", "1 x 0 9"), "13");
+    EXPECT_EQ(place(ascii, "1 1 0 9", "1 nan 0 9"), "13");
+    EXPECT_EQ(place(ascii, "property uchar red", "property colour red"), "8");
+    EXPECT_EQ(place(binary(false), "property uchar red", "property colour red"), "8");
+    const std::string bytes = binary(false);
+    EXPECT_EQ(place(bytes, bytes_of(3), bytes_of(9)), fmt::format(" byte {}", bytes.size()));
+}
+
+TEST(ReadPly, ReadsHeadersWithAnyLineEnd) {
+    const auto with_ends = [](const std::string& bytes, const std::string& end) {
+        const std::size_t header = bytes.find("end_header\n") + 11;
+        std::string result;
+        for (std::size_t i = 0; i < bytes.size(); ++i)
+            result += i < header && bytes[i] == '\n' ? end : bytes.substr(i, 1);
+        return result;
+    };
+    for (const std::string end : {"\r", "\r\n"}) {
+        for (const std::string& bytes : {ascii, binary(false), binary(true)})
+            EXPECT_EQ(test::area(read(with_ends(bytes, end))), 1.0);
+        std::string bad = with_ends(ascii, end);
+        bad.replace(bad.find("uchar red"), 5, "colour");
+        EXPECT_THAT(error_of([&] { read(bad); }).where(), testing::EndsWith(":8"));
+    }
+    // The first byte of the numbers is that of a line feed.
+    std::string number = strips("binary_little_endian", "int");
+    number = with_ends(number, "\r");
+    const std::array<Vec3f, 5> at{
+        Vec3f(std::bit_cast<float>(0x3f80000a), 0, 0), {0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 0}};
+    for (const Vec3f& each : at) number += bytes_of(each.x) + bytes_of(each.y) + bytes_of(each.z);
+    for (const int index : {3, 0, 1, 2}) number += bytes_of(index);
+    EXPECT_EQ(read(number).positions[0].x, at[0].x);
+}
+
 // The triangles of the first one would index the vertices of the second.
 TEST(ReadPly, RefusesVerticesTwice) {
     std::string twice = ascii;
@@ -147,15 +198,6 @@ TEST(ReadPly, PassesOverDegenerateFacesAndUnknownElements) {
                                                 Pair("elements \"edge\"", 1)));
     EXPECT_THAT(passed_over(ascii), IsEmpty());
 }
-
-// Two strips: four vertices, then five of which the first three repeat one.
-std::string strips(const std::string& format, const std::string& type) {
-    return "ply\nformat " + format +
-           " 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
-           "element tristrips 1\nproperty list int " +
-           type + " vertex_indices\nend_header\n";
-}
-const std::vector<int> strip_list{0, 1, 3, 2, -1, 2, 2, 1, 4, 3, -1, 0, 1, -1};
 
 TEST(ReadPly, TakesTriangleStripsOfAllEncodings) {
     const std::vector<Vec3f> positions{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}};

@@ -42,11 +42,11 @@ TEST(ReadRawVolume, PointsAtTheByteOfABadDensity) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), infinity, -infinity}) {
         const auto file = test::write_file("a.raw", bytes_of(0.0f, 1.0f, bad));
-        EXPECT_EQ(error_of([&] { read_raw_volume(file, {3, 1, 1}, "float32"); }).where(), file.string() + ":8");
+        EXPECT_EQ(error_of([&] { read_raw_volume(file, {3, 1, 1}, "float32"); }).where(), file.string() + ": byte 8");
     }
     const auto file = test::write_file("a.raw", bytes_of(0.0f, 1.0f, -1e-6f));
     const base::Error error = error_of([&] { read_raw_volume(file, {3, 1, 1}, "float32", Negative::refuse); });
-    EXPECT_EQ(error.where(), file.string() + ":8");
+    EXPECT_EQ(error.where(), file.string() + ": byte 8");
     EXPECT_THAT(error.message(), HasSubstr("below 0"));
 }
 

@@ -55,7 +55,7 @@ TEST(ReadTressfx, PointsAtTheByteOfAPositionThatIsNoNumber) {
         const std::filesystem::path file = test::write_file("a.tfx", version_3(bad));
         const base::Error error = error_of([&] { read_tressfx(file, 1.0f); });
         EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
-        EXPECT_EQ(error.where(), file.string() + ":340");
+        EXPECT_EQ(error.where(), file.string() + ": byte 340");
     }
 }
 

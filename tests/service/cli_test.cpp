@@ -207,6 +207,23 @@ TEST_F(Cli, validate_reports_which_lines_of_a_file_are_skipped) {
         << outcome.out;
 }
 
+TEST_F(Cli, everything_that_measures_or_draws_shows_what_readers_skipped) {
+    write("edge.obj", "V -1 -1 0\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    const std::string mesh = R"(scene.objects=[{"type": "mesh", "file": "edge.obj"}])";
+    const std::string note = "note: /scene/objects/0: passed over: lines of the unknown keyword \"V\" (1)\n";
+    const Outcome run = cli({"run", path("tiny.json"), "--set", mesh, "--out", path("measured")});
+    EXPECT_NE(run.out.find("\n  " + note), std::string::npos) << run.out << run.err;
+    EXPECT_EQ(nlohmann::json::parse(read(path("measured/result.json"))).at("notes").size(), 1u);
+    const Outcome render =
+        cli({"render", path("tiny.json"), "--set", mesh, "--size", "8x8", "--out", path("pictures")});
+    EXPECT_NE(render.err.find(note), std::string::npos) << render.out << render.err;
+    const Outcome out = cli({"export", path("tiny.json"), "--set", mesh, "--rays", "--out", path("rays.exr")});
+    EXPECT_NE(out.err.find(note), std::string::npos) << out.out << out.err;
+    ASSERT_EQ(cli({"run", path("tiny.json"), "--set", mesh, "--out", path("again"), "--verdicts", path("v.md")}).code,
+              0);
+    EXPECT_NE(read(path("v.md")).find("- note: /scene/objects/0: passed over"), std::string::npos);
+}
+
 // As Windows' editor writes it.
 TEST_F(Cli, takes_a_scenario_with_a_byte_order_mark) {
     write("marked.json", "\xef\xbb\xbf" + read(path("tiny.json")));

@@ -55,8 +55,8 @@ void expect_refused(const std::filesystem::path& file, std::size_t length, const
     const base::Error error = fault(file);
     ASSERT_EQ(error.code(), base::ErrorCode::bad_input) << error.what();
     EXPECT_THAT(error.message(), HasSubstr(says));
-    ASSERT_THAT(error.where(), StartsWith(file.string() + ":"));
-    EXPECT_LE(std::stoull(error.where().substr(file.string().size() + 1)), length) << error.what();
+    ASSERT_THAT(error.where(), StartsWith(file.string() + ": byte "));
+    EXPECT_LE(std::stoull(error.where().substr(file.string().size() + 7)), length) << error.what();
 }
 
 // Sets 32 bits of a file.
@@ -130,7 +130,7 @@ TEST(DeepFile, RefusesNodesThatAreNoVisibility) {
         const std::uint64_t place = write(index, value);
         const base::Error error = fault(file.path);
         EXPECT_EQ(error.code(), base::ErrorCode::bad_input) << index << " " << value;
-        EXPECT_EQ(error.where(), file.path.string() + ":" + std::to_string(place));
+        EXPECT_EQ(error.where(), file.path.string() + ": byte " + std::to_string(place));
     }
 }
 

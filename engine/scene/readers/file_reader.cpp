@@ -39,7 +39,7 @@ void FileReader::need(std::uint64_t count, std::uint64_t bytes, const char* what
 }
 
 void FileReader::fail(std::uint64_t offset, const std::string& message) const {
-    throw Error(ErrorCode::bad_input, fmt::format("{}:{}", file_.string(), offset), message);
+    throw Error(ErrorCode::bad_input, fmt::format("{}: byte {}", file_.string(), offset), message);
 }
 
 void FileReader::check_finite(const std::vector<float>& values, std::uint64_t offset, const char* what) const {
@@ -52,7 +52,7 @@ void FileReader::check_finite(const std::vector<float>& values, std::uint64_t of
 void FileReader::read(void* to, std::size_t bytes, const char* what) {
     need(bytes, 1, what);
     stream_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes));
-    if (!stream_) throw Error(ErrorCode::io, fmt::format("{}:{}", file_.string(), position_), "reading failed");
+    if (!stream_) throw Error(ErrorCode::io, fmt::format("{}: byte {}", file_.string(), position_), "reading failed");
     position_ += bytes;
 }
 

@@ -1,5 +1,5 @@
-// Reads a binary file front to back. The place of every Error is "file:offset". Nothing is allocated before the file is
-// known to be long enough for it.
+// Reads a binary file front to back. The place of every Error is "file: byte 17", counted from 0. Nothing is allocated
+// before the file is known to be long enough for it.
 #pragma once
 
 #include <cstddef>

@@ -75,22 +75,27 @@ constexpr std::array keywords{
 
 // Takes the next word of a line; empty at its end.
 std::string_view next_word(std::string_view& line) {
-    const std::size_t from = line.find_first_not_of(" \t\r");
+    const std::size_t from = line.find_first_not_of(" \t");
     if (from == std::string_view::npos) return {};
-    const std::size_t to = std::min(line.find_first_of(" \t\r", from), line.size());
+    const std::size_t to = std::min(line.find_first_of(" \t", from), line.size());
     const std::string_view word = line.substr(from, to - from);
     line.remove_prefix(to);
     return word;
 }
 
-// Whether the line continues in the next one; removes the mark of continuation. Comments do not continue.
+// Takes the next line of a text, without its comment. Lines end with LF, CR LF or CR.
+std::string_view next_line(std::string_view& text) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + (text.substr(end).starts_with("\r\n") ? 2 : 1), text.size()));
+    return line.substr(0, line.find('#'));
+}
+
+// Whether the line continues in the next one; removes the mark of continuation. The comment has been removed, so
+// comments do not continue.
 bool take_continuation(std::string_view& line) {
-    std::string_view words = line;
-    if (next_word(words).starts_with('#')) return false;
-    std::string_view text = line;
-    if (text.ends_with('\r')) text.remove_suffix(1);
-    if (!text.ends_with('\\')) return false;
-    line = text.substr(0, text.size() - 1);
+    if (!line.ends_with('\\')) return false;
+    line.remove_suffix(1);
     return true;
 }
 
@@ -101,7 +106,7 @@ public:
     void check(std::string_view line, std::size_t number) {
         number_ = number;
         const std::string_view keyword = next_word(line);
-        if (keyword.empty() || keyword.front() == '#') return;
+        if (keyword.empty()) return;
         if (keyword == "v") {
             numbers(keyword, line, 3);
             ++vertices_;
@@ -234,15 +239,13 @@ ObjLines check_obj(const std::string& text, const std::filesystem::path& name, M
     LineCheck check(name, file);
     std::string joined;
     std::size_t number = 0, first = 0;
-    for (std::size_t from = 0; from < text.size();) {
-        const std::size_t to = std::min(text.find('\n', from), text.size());
-        std::string_view line = std::string_view(text).substr(from, to - from);
-        from = to + 1;
+    for (std::string_view left = text; !left.empty();) {
+        std::string_view line = next_line(left);
         ++number;
         if (joined.empty()) first = number;
         const bool goes_on = take_continuation(line);
         if (goes_on || !joined.empty()) joined.append(line).append(1, ' ');
-        if (goes_on && from < text.size()) continue;
+        if (goes_on && !left.empty()) continue;
         check.check(joined.empty() ? line : std::string_view(joined), first);
         joined.clear();
     }

@@ -96,11 +96,24 @@ PlySource::PlySource(const std::filesystem::path& file) : file_(file.string()) {
 }
 
 void PlySource::fail(const std::string& message) const {
-    throw base::Error(base::ErrorCode::bad_input, fmt::format("{}:{}", file_, position_), message);
+    const bool is_text = in_header_ || encoding_ == Encoding::ascii;
+    const auto before = bytes_.begin() + static_cast<std::ptrdiff_t>(last_);
+    throw base::Error(base::ErrorCode::bad_input,
+                      is_text ? fmt::format("{}:{}", file_, 1 + std::count(bytes_.begin(), before, line_end_))
+                              : fmt::format("{}: byte {}", file_, position_),
+                      message);
+}
+
+// The first line shows how lines end. Numbers in binary may begin with the byte of an LF, so a CR ends a line without
+// a look at the byte that follows.
+void PlySource::find_line_end() {
+    const std::size_t end = bytes_.find_first_of("\r\n", position_);
+    if (end != std::string::npos && bytes_[end] == '\r' && bytes_.compare(end, 2, "\r\n") != 0) line_end_ = '\r';
 }
 
 std::string PlySource::line() {
-    const std::size_t end = bytes_.find('\n', position_);
+    last_ = position_;
+    const std::size_t end = bytes_.find(line_end_, position_);
     if (end == std::string::npos) fail("the file ends inside its header");
     std::string text = bytes_.substr(position_, end - position_);
     if (!text.empty() && text.back() == '\r') text.pop_back();
@@ -111,6 +124,7 @@ std::string PlySource::line() {
 void PlySource::read_header() {
     position_ = bytes_.size() - base::without_mark(bytes_, file_).size();
     if (bytes_.compare(position_, 3, "ply") != 0) fail("the file does not begin with ply");
+    find_line_end();
     line();
     bool has_format = false;
     for (std::string text = line(); text != "end_header"; text = line()) {
@@ -139,6 +153,7 @@ void PlySource::read_header() {
         }
     }
     if (!has_format) fail("the header states no format");
+    in_header_ = false;
 }
 
 // "property float x" or "property list uchar int vertex_indices".
@@ -182,6 +197,7 @@ void PlySource::check_length(const PlyElement& element) const {
 double PlySource::value(PlyType type) {
     if (encoding_ == Encoding::ascii) {
         while (position_ < bytes_.size() && is_space(bytes_[position_])) ++position_;
+        last_ = position_;
         const char* begin = bytes_.data() + position_;
         const char* end = std::find_if(begin, static_cast<const char*>(bytes_.data() + bytes_.size()), is_space);
         if (begin == end) fail("the file ends inside its numbers");

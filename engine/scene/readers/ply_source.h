@@ -40,13 +40,14 @@ public:
     std::uint64_t list_size(const PlyProperty& property);
     void skip(const PlyProperty& property);
 
-    // Throws Error{bad_input} at the current byte.
+    // Throws Error{bad_input} at the line of what was read last, or at the next byte of binary numbers.
     [[noreturn]] void fail(const std::string& message) const;
 
 private:
     enum class Encoding { ascii, little_endian, big_endian };
 
     std::string line();
+    void find_line_end();
     void read_header();
     void read_property(const std::string& words);
     // The least number of bytes of a value.
@@ -56,6 +57,9 @@ private:
     std::string file_;
     std::string bytes_;
     std::size_t position_ = 0;
+    std::size_t last_ = 0;  // position of the line or number that was read last
+    bool in_header_ = true;
+    char line_end_ = '\n';  // '\r' for CR; also '\n' for CR LF
     Encoding encoding_ = Encoding::ascii;
     std::vector<PlyElement> elements_;
 };

@@ -79,8 +79,8 @@ struct DeepTiling {
     std::size_t tiles() const { return static_cast<std::size_t>(tiles_x) * tiles_y; }
 };
 
-// A file that is open for reading. All faults of the file are Error{bad_input} whose place is "file:offset"; memory is
-// allocated only for what the file is long enough for. Thread-safe.
+// A file that is open for reading. All faults of the file are Error{bad_input} whose place is "file: byte 17"; memory
+// is allocated only for what the file is long enough for. Thread-safe.
 class DeepFile {
 public:
     // Reads and checks header and directory. Throws Error: no_such_file, io, bad_input.

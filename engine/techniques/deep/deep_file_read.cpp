@@ -69,7 +69,7 @@ DeepFile::~DeepFile() {
 }
 
 void DeepFile::fail(std::uint64_t offset, const std::string& message) const {
-    throw Error(ErrorCode::bad_input, fmt::format("{}:{}", name_.string(), offset), message);
+    throw Error(ErrorCode::bad_input, fmt::format("{}: byte {}", name_.string(), offset), message);
 }
 
 void DeepFile::read(std::uint64_t offset, void* to, std::size_t bytes) const {
@@ -78,7 +78,7 @@ void DeepFile::read(std::uint64_t offset, void* to, std::size_t bytes) const {
             ::pread(descriptor_, static_cast<char*>(to) + done, bytes - done, static_cast<off_t>(offset + done));
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0)
-            throw Error(ErrorCode::io, fmt::format("{}:{}", name_.string(), offset + done),
+            throw Error(ErrorCode::io, fmt::format("{}: byte {}", name_.string(), offset + done),
                         got < 0 ? "reading failed: " + std::generic_category().message(errno)
                                 : "the file ends here; it was longer when it was opened");
         done += static_cast<std::size_t>(got);

@@ -27,6 +27,7 @@ export function summaryOf(result) {
     ['Program', `${result.program?.version ?? '?'} (${result.program?.commit ?? '?'})`],
     ['Scenario', result.scenario_hash ?? '?'],
     result.only?.length && ['Only', result.only.join(', ')],
+    result.notes?.length && ['Notes on data files', result.notes.join('; ')],
   ]);
 }
 
