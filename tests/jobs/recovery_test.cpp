@@ -37,7 +37,7 @@ protected:
         for (const auto& time : fs::directory_iterator(state() / "lost+found"))
             for (const auto& entry : fs::recursive_directory_iterator(time))
                 if (entry.is_regular_file())
-                    found[entry.path().lexically_relative(time.path()).string()] = base::read_text(entry.path());
+                    found[entry.path().lexically_relative(time.path()).string()] = base::read_bytes(entry.path());
         return found;
     }
     static void write(const fs::path& file, const std::string& text) {
