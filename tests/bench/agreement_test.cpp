@@ -68,7 +68,7 @@ TEST(Agreement, a_ray_through_an_outer_edge_is_no_disagreement) {
 }
 
 TEST(Agreement, counts_the_rays_through_a_surface_that_one_side_lacks) {
-    const json both{square(0, 4, 0.5), square(1, 1, 0.5)}, one{square(0, 4, 0.5)};
+    const json both{square(0, 4, 0.5), square(1, 1, 0.5)}, one = json::array({square(0, 4, 0.5)});
     for (const auto& [captured, traced] : {std::pair{both, one}, std::pair{one, both}}) {
         const results::Agreement agreement = compare(captured, traced);
         EXPECT_EQ(agreement.other_crossings, 16u * 16u);
@@ -85,7 +85,7 @@ TEST(Agreement, counts_a_surface_that_the_capture_finds_twice) {
 }
 
 TEST(Agreement, counts_another_opacity) {
-    const results::Agreement agreement = compare({square(0, 1, 0.5)}, {square(0, 1, 0.51)});
+    const results::Agreement agreement = compare(json::array({square(0, 1, 0.5)}), json::array({square(0, 1, 0.51)}));
     EXPECT_EQ(agreement.other_crossings, 0u);
     EXPECT_EQ(agreement.other_transmittance, 16u * 16u);
 }

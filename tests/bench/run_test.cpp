@@ -95,7 +95,7 @@ TEST(Run, tells_rows_of_one_technique_apart) {
     const auto nodes = [](int count) { return json{{"type", "avsm"}, {"nodes", count}}; };
     EXPECT_EQ(labels({nodes(4), nodes(8), nodes(16)}), (Titles{"avsm nodes=4", "avsm nodes=8", "avsm nodes=16"}));
     EXPECT_EQ(labels({avsm, nodes(8), nodes(16)}), (Titles{"avsm", "avsm nodes=8", "avsm nodes=16"}));
-    EXPECT_EQ(labels({nodes(8)}), Titles{"avsm"});
+    EXPECT_EQ(labels(json::array({nodes(8)})), Titles{"avsm"});
     EXPECT_EQ(labels({nodes(8), nodes(8)}), (Titles{"avsm", "avsm"})) << "they are equal";
     EXPECT_EQ(labels({avsm, nodes(4)}), (Titles{"avsm", "avsm nodes=4"}));
     EXPECT_EQ(labels({{{"type", "avsm"}, {"nodes", 8}, {"cells", "centre"}}, nodes(4), {{"type", "deep"}}}),
