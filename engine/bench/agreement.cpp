@@ -127,15 +127,15 @@ struct Range {
 // axes or the diagonals, where edges often lie.
 Range around(const ChosenRay& ray, const rays::LightView& view, const Check& check,
              std::vector<rays::TracedSegment>& segments) {
-    constexpr double far = 0.9238795325112867 * move, near = 0.3826834323650898 * move;  // cosine, sine of 22.5 degrees
+    constexpr double cosine = 0.9238795325112867 * move, sine = 0.3826834323650898 * move;  // of 22.5 degrees
     const auto moved = [&](double x, double y) {
         trace(check, ray_at(view, ray.place.x + x, ray.place.y + y, ray.traced.time), segments);
         return crossed(segments);
     };
-    Range range(moved(far, near));
-    range.add(moved(-near, far));
-    range.add(moved(-far, -near));
-    range.add(moved(near, -far));
+    Range range(moved(cosine, sine));
+    range.add(moved(-sine, cosine));
+    range.add(moved(-cosine, -sine));
+    range.add(moved(sine, -cosine));
     return range;
 }
 
@@ -149,11 +149,11 @@ void compare(const std::vector<ChosenRay>& chosen, const rays::LightView& view, 
     for (const ChosenRay& ray : chosen) {
         trace(check, ray.traced, segments);
         const Crossed ours = crossed(*ray.tile, ray.ray);
-        const Range same(crossed(segments));
-        if (same.has_surfaces(ours) && same.has_transmittance(ours)) continue;
-        const Range near = around(ray, view, check, segments);
-        agreement.other_crossings += !same.has_surfaces(ours) && !near.has_surfaces(ours);
-        agreement.other_transmittance += !same.has_transmittance(ours) && !near.has_transmittance(ours);
+        const Range here(crossed(segments));
+        if (here.has_surfaces(ours) && here.has_transmittance(ours)) continue;
+        const Range beside = around(ray, view, check, segments);
+        agreement.other_crossings += !here.has_surfaces(ours) && !beside.has_surfaces(ours);
+        agreement.other_transmittance += !here.has_transmittance(ours) && !beside.has_transmittance(ours);
     }
     agreement.rays = chosen.size();
 }

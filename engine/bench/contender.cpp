@@ -125,7 +125,7 @@ void label(std::span<Contender> contenders, std::span<const scene::TechniqueRequ
         techniques::Named named{swept[i], {}};
         const nlohmann::json written = nlohmann::json::parse(requests[i].parameters);
         for (const auto& [name, value] : written.items())
-            if (differs(contenders[i], name)) named.also.push_back(name);
+            if (differs(contenders[i], name)) named.in_place.push_back(name);
         contenders[i].cell.parameters =
             techniques::to_string(contenders[i].values, contenders[i].row->parameters, named);
     }

@@ -170,7 +170,7 @@ std::string to_string(const ParameterValues& values, std::span<const Parameter> 
     for (const std::string& name : named.first) append(text, name, values.at(name));
     for (const Parameter& p : declared) {
         if (among(named.first, p)) continue;
-        if (const auto& value = values.at(p.name); value != standard(p) || among(named.also, p))
+        if (const auto& value = values.at(p.name); value != standard(p) || among(named.in_place, p))
             append(text, p.name, value);
     }
     return text;

@@ -54,7 +54,7 @@ std::string to_string(const ParameterValues& values, std::span<const Parameter> 
 
 // Parameters that a text names whatever their values: some before all others, some in their places.
 struct Named {
-    std::vector<std::string> first, also;
+    std::vector<std::string> first, in_place;
 };
 // The values that differ from the defaults, and the named ones. Throws Error{internal} for an unknown name in `first`.
 std::string to_string(const ParameterValues& values, std::span<const Parameter> declared, const Named& named);

@@ -137,9 +137,9 @@ TEST(ReadPly, NamesTheLineOfTextAndTheByteOfBinaryNumbers) {
         const std::string where = error_of([&] { read(bytes); }).where();
         return where.substr(where.rfind(':') + 1);
     };
-    EXPECT_EQ(place(ascii, "4 0 1 2 3", "4 0 2 1 3"), "15");
-    EXPECT_EQ(place(ascii, "1 1 0 9", "1 x 0 9"), "13");
-    EXPECT_EQ(place(ascii, "1 1 0 9", "1 nan 0 9"), "13");
+    EXPECT_EQ(place(ascii, "4 0 1 2 3", "4 0 2 1 3"), "16");
+    EXPECT_EQ(place(ascii, "1 1 0 9", "1 x 0 9"), "14");
+    EXPECT_EQ(place(ascii, "1 1 0 9", "1 nan 0 9"), "14");
     EXPECT_EQ(place(ascii, "property uchar red", "property colour red"), "8");
     EXPECT_EQ(place(binary(false), "property uchar red", "property colour red"), "8");
     const std::string bytes = binary(false);

@@ -6,8 +6,8 @@
 
 namespace shadowbench::scene {
 
-// Walks over the headers of all parts. Throws Error: no_such_file, io, or bad_input with "file:offset" of a header that
-// is damaged, cut short, over a limit or of an unsupported kind.
+// Walks over the headers of all parts. Throws Error: no_such_file, io, or bad_input with the byte of a header that is
+// damaged, cut short, over a limit or of an unsupported kind.
 void check_exr(const std::filesystem::path& file);
 
 }  // namespace shadowbench::scene

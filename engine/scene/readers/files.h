@@ -1,5 +1,6 @@
-// Readers of scene files. Each throws Error: no_such_file, io, or bad_input with "file:offset" of the fault. Bad input
-// includes a value that is not finite, a count that the file is too short for, and a box or index out of range.
+// Readers of scene files. Each throws Error: no_such_file, io, or bad_input with the line ("file:12") or the byte
+// ("file: byte 340") of the fault. Bad input includes a value that is not finite, a count that the file is too short
+// for, and a box or index out of range.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ struct VdbGrid : VdbGridName {
 };
 
 // Walks over all headers and over the nodes of the chosen grid, which it returns. Throws Error: no_such_file, io, the
-// errors of choose_grid, or bad_input with "file:offset" of data that is damaged, cut short or of an unsupported kind.
+// errors of choose_grid, or bad_input with the byte of data that is damaged, cut short or of an unsupported kind.
 VdbGrid check_vdb(const std::filesystem::path& file, const GridChoice& choice);
 
 }  // namespace shadowbench::scene
