@@ -16,9 +16,11 @@ std::string read_bytes(const std::filesystem::path& file) {
         throw Error(ErrorCode::io, file.string(), "a folder cannot be read as a file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw Error(ErrorCode::io, file.string(), "cannot open the file");
-    std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream) throw Error(ErrorCode::io, file.string(), "cannot read the file");
-    return bytes;
+    try {
+        return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    } catch (const std::ios_base::failure&) {  // from the buffer, whatever the stream's exceptions() are
+        throw Error(ErrorCode::io, file.string(), "cannot read the file");
+    }
 }
 
 std::string read_text(const std::filesystem::path& file) {

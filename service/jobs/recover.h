@@ -14,8 +14,9 @@ namespace shadowbench::service {
 std::unique_ptr<JobStore> open_store(StateFolder& state, const JobFolders& folders, const Say& say);
 
 // Called before any job runs. Complete results end their job, unless the store has it as ended. Jobs that ran are
-// requeued, and their run does not count. Incomplete folders are removed, and unknown files in jobs/ and work/ are set
-// aside. Reports unusual steps through `say`. Throws Error{io}.
+// requeued, and their run does not count. The folders of unfinished runs, copies and removals are removed. Damaged
+// results, and what the server does not know in jobs/ and work/, are set aside. A place that the storage cannot read
+// stays. Reports unusual steps through `say`. Throws Error{io}.
 void recover(StateFolder& state, JobStore& store, const JobFolders& folders, const Say& say);
 
 }  // namespace shadowbench::service

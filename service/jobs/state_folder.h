@@ -3,7 +3,7 @@
 //   lock                  see store/folder_lock.h
 //   jobs.db               see store/job_store.h, with the files that SQLite puts beside it
 //   jobs/, work/          see folders.h
-//   lost+found/<time>/    unknown files that a start found in the places above and moved there
+//   lost+found/<time>/    unknown files and damaged results that a start found in the places above and moved there
 // Other files in it are left alone.
 #pragma once
 

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "errors.h"
 #include "temporary_folder.h"
 
 namespace shadowbench::base {
@@ -46,6 +47,11 @@ TEST_F(ReadText, OtherEncodingsAreRefused) {
         EXPECT_EQ(error.where(), file.string());
         EXPECT_NE(error.message().find("UTF-8"), std::string::npos);
     }
+}
+
+TEST_F(ReadText, AFailedReadIsAFaultOfTheStorage) {
+    // Address 0 of this process cannot be read.
+    test::error_of([] { read_bytes("/proc/self/mem"); }, ErrorCode::io, "/proc/self/mem");
 }
 
 TEST_F(ReadText, FoldersAndMissingFilesGiveDifferentErrors) {

@@ -32,7 +32,7 @@ protected:
         for (const auto& entry : fs::recursive_directory_iterator(path))
             found[entry.path().lexically_relative(path).string()] =
                 entry.is_symlink()        ? "-> " + fs::read_symlink(entry.path()).string()
-                : entry.is_regular_file() ? base::read_text(entry.path())
+                : entry.is_regular_file() ? base::read_bytes(entry.path())
                                           : "";
         return found;
     }
