@@ -84,9 +84,8 @@ std::optional<KeptJob> read_record(const fs::path& folder, const std::string& id
     const std::optional<std::string> text = read_file(file);
     const std::optional<json> record = text ? parse(*text) : std::nullopt;
     if (!record) return std::nullopt;
-    return read_unless_damaged(
-        [&] { return std::optional(from_record(results::top(*record, file.string()), id)); },
-        [](const Error&) { return std::optional<KeptJob>(); });
+    return read_unless_damaged([&] { return std::optional(from_record(results::top(*record, file.string()), id)); },
+                               [](const Error&) { return std::optional<KeptJob>(); });
 }
 
 std::string time_of(const fs::path& file) {

@@ -156,8 +156,8 @@ void sweep_work(StateFolder& state, JobStore& store, const JobFolders& folders, 
         const auto left_over = read_or_say(say, [&] { return is_left_over(folders, place, *name, job); });
         if (!left_over) continue;
         if (!*left_over) {
-            state.set_aside(relative, job ? "no run or removal of this job left it"
-                                          : "of a job that the database does not have");
+            state.set_aside(relative,
+                            job ? "no run or removal of this job left it" : "of a job that the database does not have");
             continue;
         }
         if (name->use == "removed" && job && job->state == job_states::succeeded) store.remove(name->id);

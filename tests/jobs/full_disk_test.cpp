@@ -61,9 +61,8 @@ protected:
     }
     // Does what it should, or says as the program does that its folder takes nothing.
     std::string writes(std::size_t bytes) const {
-        return "echo x >>" + path("runs") + "; head -c " + std::to_string(bytes) +
-               " /dev/zero >big && echo '" + fake_result + "' >result.json || " +
-               "{ echo '{\"storage\":{\"message\":\"full\"}}'; exit 74; }";
+        return "echo x >>" + path("runs") + "; head -c " + std::to_string(bytes) + " /dev/zero >big && echo '" +
+               fake_result + "' >result.json || " + "{ echo '{\"storage\":{\"message\":\"full\"}}'; exit 74; }";
     }
     std::size_t runs() const { return fs::exists(path("runs")) ? count(base::read_text(path("runs")), "x") : 0; }
 

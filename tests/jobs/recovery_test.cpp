@@ -62,7 +62,8 @@ protected:
     }
 };
 
-const std::string long_success = "echo '" + fake_result + "' >result.json; mkdir images; echo p >images/p.png; echo t >result.csv\n";
+const std::string long_success =
+    "echo '" + fake_result + "' >result.json; mkdir images; echo p >images/p.png; echo t >result.csv\n";
 
 TEST_F(Recovery, TakesResultsBackWhenTheDatabaseIsLostEmptyOrDamaged) {
     for (const std::string& what : {std::string("missing"), std::string("empty"), std::string("garbage"),
@@ -148,8 +149,7 @@ TEST_F(Recovery, TakesResultsOfAnEarlierVersionBack) {
     const std::string result = service::text_of(made_result("n", results::CellStatus::ok));
     write(state() / "jobs" / id / "result.json", result);
     write(state() / "jobs" / id / "images" / "a.png", "x");
-    write(state() / "jobs" / failed / "result.json",
-          service::text_of(made_result("n", results::CellStatus::failed)));
+    write(state() / "jobs" / failed / "result.json", service::text_of(made_result("n", results::CellStatus::failed)));
     start();
     const auto job = jobs->find(id);
     ASSERT_TRUE(job);
@@ -197,8 +197,8 @@ TEST_F(Recovery, MovesAwayWhatItDoesNotKnow) {
                                            "jobs/.hidden"};
     for (const std::string& name : unknown) write(state() / name, name);
     fs::create_symlink(folder.path(), state() / "jobs" / "j-0123456789abcdea");
-    write(state() / "work" / (bad.id + "-1") / "half", "x");   // ours
-    write(state() / "work" / ".room-abcdef", "x");             // ours
+    write(state() / "work" / (bad.id + "-1") / "half", "x");  // ours
+    write(state() / "work" / ".room-abcdef", "x");            // ours
     write(state() / "notes", "mine");
     said_lines.clear();
     start();
@@ -224,9 +224,17 @@ TEST_F(Recovery, MovesAwayWhatItDoesNotKnow) {
 
 std::vector<std::string> damaged_texts() {
     const std::string nested = std::string(300000, '[') + std::string(300000, ']');
-    return {std::string("\xff\xfe\0", 3), std::string("\0\0\0", 3), "",     "{",
-            "{}",                           "null",                    "[[]]", "\x80",
-            nested,                         R"({"id": 1})",            R"({"schema_version": 1, "name": 2})",
+    return {std::string("\xff\xfe\0", 3),
+            std::string("\0\0\0", 3),
+            "",
+            "{",
+            "{}",
+            "null",
+            "[[]]",
+            "\x80",
+            nested,
+            R"({"id": 1})",
+            R"({"schema_version": 1, "name": 2})",
             fake_result.substr(0, 99)};
 }
 
@@ -305,11 +313,10 @@ TEST_F(Recovery, LeavesWhatTheStorageCannotRead) {
     const JobInfo record = run(success), result = run(success), whole = run(success), copy = run(success);
     stop();
     fs::rename(state() / "jobs" / copy.id, state() / "work" / (copy.id + "-copy"));
-    const std::map<fs::path, fs::perms> closed{
-        {state() / "jobs" / record.id / ".job.json", fs::perms(0644)},
-        {state() / "jobs" / result.id / "result.json", fs::perms(0644)},
-        {state() / "jobs" / whole.id, fs::perms(0755)},
-        {state() / "work" / (copy.id + "-copy") / ".job.json", fs::perms(0644)}};
+    const std::map<fs::path, fs::perms> closed{{state() / "jobs" / record.id / ".job.json", fs::perms(0644)},
+                                               {state() / "jobs" / result.id / "result.json", fs::perms(0644)},
+                                               {state() / "jobs" / whole.id, fs::perms(0755)},
+                                               {state() / "work" / (copy.id + "-copy") / ".job.json", fs::perms(0644)}};
     for (const auto& [place, open] : closed) fs::permissions(place, fs::perms::none);
     remove_database();
     {
