@@ -116,7 +116,7 @@ private:
 std::size_t SweepScratch::bytes() const {
     return (order.capacity() + sorting.capacity()) * sizeof(std::uint64_t) + drops.capacity() * sizeof(std::int64_t) +
            events.capacity() * sizeof(Event) + sums.capacity() * sizeof(Line) + nodes.capacity() * sizeof(Node) +
-           ray.capacity() * sizeof(Vertex);
+           media.bytes() + ray.capacity() * sizeof(Vertex);
 }
 
 void weighted_sum(std::span<const WeightedCurve> terms, SweepScratch& scratch, Curve& out) {
@@ -144,7 +144,7 @@ void sweep_rays(const rays::LightRays& rays, std::size_t count, const Ray& ray, 
         for (std::size_t s = rays.begin[ray(i)]; s < rays.begin[ray(i) + 1]; ++s) extent.add(rays.z_front[s]);
     Sweep sweep(count, extent.origin(), scratch);
     for (std::size_t i = 0; i < count; ++i) {
-        composite(rays, ray(i), channel, scratch.nodes);
+        composite(rays, ray(i), channel, scratch.media, scratch.nodes);
         scratch.ray.clear();
         linearise(scratch.nodes, linearisation, scratch.ray);
         sweep.add_term(i, scratch.ray, weight(i));

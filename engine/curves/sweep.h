@@ -40,6 +40,7 @@ struct SweepScratch {
     std::vector<Event> events;
     std::vector<Line> sums;  // binary tree over the terms' current lines
     std::vector<Node> nodes;
+    OpenMedia media;
     Curve ray;
 
     std::size_t bytes() const;

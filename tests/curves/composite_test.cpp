@@ -12,6 +12,11 @@ namespace {
 using cases::make_rays;
 using cases::Segment;
 
+void composite(const rays::LightRays& rays, std::size_t ray, int channel, std::vector<Node>& out) {
+    OpenMedia open;
+    curves::composite(rays, ray, channel, open, out);
+}
+
 std::vector<Node> nodes_of(std::vector<Segment> segments, bool media = true) {
     std::vector<Node> nodes;
     composite(make_rays({std::move(segments)}, media), 0, 0, nodes);

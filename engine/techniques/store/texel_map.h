@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "techniques/store/most_bytes.h"
 #include "techniques/store/texels.h"
 
 namespace shadowbench::techniques {
@@ -64,7 +65,7 @@ public:
     }
 
     std::size_t bytes() const override { return texels_.bytes(); }
-    std::size_t working_bytes() const override { return texels_.bytes(); }
+    std::size_t working_bytes() const override { return texels_.bytes() + scratch_.value(); }
     NodeStats nodes() const override {
         NodeStats stats;
         for (std::size_t cell = 0; cell < texels_.grid.count(); ++cell)
@@ -106,6 +107,7 @@ protected:
 
     Texels texels_;
     rays::MapLayout layout_;
+    MostBytes scratch_;  // a technique whose scratch memory grows with the scene adds it
 
 private:
     const Own& own() const { return static_cast<const Own&>(*this); }

@@ -44,9 +44,7 @@ void for_each_of_four(const CellGrid& grid, const Query& q, const Visit& visit) 
                   (i ? wx : 1.0f - wx) * (j ? wy : 1.0f - wy));
 }
 
-// Texels row after row, without gaps, from the start of a cache line on. They are all that a map holds, built or under
-// construction: the memory that a thread needs to fill one is small, of a fixed size and on its stack, and is not
-// counted.
+// Texels row after row, without gaps, from the start of a cache line on.
 struct Texels {
     Cells kind = Cells::sample;
     Filter filter = Filter::footprint;

@@ -5,6 +5,7 @@
 
 #include "curves/composite.h"
 #include "techniques/store/cells.h"
+#include "techniques/store/most_bytes.h"
 #include "techniques/store/texels.h"
 
 namespace shadowbench::techniques {
@@ -67,9 +68,10 @@ public:
             return;
         }
         std::vector<curves::Node> nodes;
+        curves::OpenMedia open;
         tile.begin.assign(1, 0);
         for (std::size_t r = 0; r < rays.rays(); ++r) {
-            curves::composite(rays, r, 0, nodes);
+            curves::composite(rays, r, 0, open, nodes);
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 if (i > 0) add_where_floats_end(nodes[i - 1], nodes[i], tile.nodes);
                 tile.nodes.push_back({static_cast<float>(nodes[i].z), static_cast<float>(nodes[i].value)});
@@ -77,6 +79,7 @@ public:
             tile.begin.push_back(static_cast<std::uint32_t>(tile.nodes.size()));
         }
         tile.nodes.shrink_to_fit();
+        scratch_.add(nodes.capacity() * sizeof(curves::Node) + open.bytes());
     }
 
     void finish() override {}
@@ -119,7 +122,7 @@ public:
             sum += t.begin.capacity() * sizeof(std::uint32_t) + t.nodes.capacity() * sizeof(Node);
         return sum;
     }
-    std::size_t working_bytes() const override { return bytes(); }
+    std::size_t working_bytes() const override { return bytes() + scratch_.value(); }
 
     NodeStats nodes() const override {
         NodeStats stats;
@@ -222,6 +225,7 @@ private:
     rays::MapLayout layout_;
     CellGrid cells_;
     std::vector<TileFunctions> tiles_;
+    MostBytes scratch_;
 };
 
 }  // namespace

@@ -76,12 +76,14 @@ public:
     void add(const rays::LightRays& rays) override {
         const std::size_t count = rays_a_texel(rays);
         std::vector<curves::Node> nodes;
+        curves::OpenMedia open;
         for_each_texel(rays, [&](float* texel, std::size_t, std::size_t first) {
             Moments sum;
-            for (std::size_t ray = first; ray < first + count; ++ray) add_ray(rays, ray, nodes, sum);
+            for (std::size_t ray = first; ray < first + count; ++ray) add_ray(rays, ray, open, nodes, sum);
             texel[0] = static_cast<float>(sum.first / static_cast<double>(count));
             texel[1] = static_cast<float>(sum.second / static_cast<double>(count));
         });
+        scratch_.add(nodes.capacity() * sizeof(curves::Node) + open.bytes());
     }
 
     static constexpr int filtered_floats = 2;
@@ -119,10 +121,11 @@ private:
         return (z - layout_.z_min) / (static_cast<double>(layout_.z_max) - layout_.z_min) - 1.0;
     }
 
-    void add_ray(const rays::LightRays& rays, std::size_t ray, std::vector<curves::Node>& nodes, Moments& sum) const {
+    void add_ray(const rays::LightRays& rays, std::size_t ray, curves::OpenMedia& open,
+                 std::vector<curves::Node>& nodes, Moments& sum) const {
         double left = 1.0;
         if (layout_.media) {
-            curves::composite(rays, ray, 0, nodes);
+            curves::composite(rays, ray, 0, open, nodes);
             for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
                 const curves::Node &from = nodes[i], &to = nodes[i + 1];
                 if (from.z == to.z)
