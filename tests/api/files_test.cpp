@@ -134,7 +134,7 @@ TEST_F(FilesApi, ReportsOfBrokenPicturesDoNotSayWhereTheyLie) {
 TEST_F(FilesApi, ComparesOnlyWhatIsThere) {
     const std::string result = body_of(get("/result"));
     refused(post("/v1/compare", "{}"), 422, "job");
-    EXPECT_EQ(refused(post("/v1/compare", R"({"base": {}})"), 422, "no \"base\"")["errors"][0]["pointer"], "/base");
+    EXPECT_EQ(refused(post("/v1/compare", R"({"base": {}})"), 422, "Unknown key \"base\"")["errors"][0]["pointer"], "/base");
     EXPECT_EQ(refused(post("/v1/compare", R"({"baseline": {"job": "j-9"}, "current": {"result": {}}})"), 422,
                       "no such job")["errors"][0]["pointer"],
               "/baseline");

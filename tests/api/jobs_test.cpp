@@ -62,8 +62,8 @@ TEST_F(JobsApi, EscapesTheKeysInItsPointers) {
         scenario["techniques"][0] = {{"type", "*"}, {"a/b", 1}};
         EXPECT_EQ(pointer_of(target, scenario.dump()), "/techniques/0/a~1b");
         scenario = tiny_scenario();
-        scenario["sweeps"] = {{"/rays/nothing", {1, 2}}};
-        EXPECT_EQ(pointer_of(target, scenario.dump()), "/sweeps/~1rays~1nothing");
+        scenario["sweeps"] = {{"/lights/7/name", {1, 2}}};
+        EXPECT_EQ(pointer_of(target, scenario.dump()), "/sweeps/~1lights~17~1name");
     }
     EXPECT_EQ(pointer_of("/v1/compare", R"({"baseline":{},"current":{},"a/b":1})"), "/a~1b");
 }
@@ -267,7 +267,7 @@ TEST_F(JobsApi, ShowsAJobInEveryState) {
 TEST_F(JobsApi, CancelsAndRemoves) {
     const std::string id = submit();
     fake::run(*jobs_, id);
-    refused(request("DELETE", "/v1/jobs/" + id), 409, "runs");
+    refused(request("DELETE", "/v1/jobs/" + id), 409, "running");
     EXPECT_EQ(json(post("/v1/jobs/" + id + "/cancel", ""), 202)["state"], "cancelled");
     refused(post("/v1/jobs/" + id + "/cancel", ""), 409, "ended");
     EXPECT_EQ(answer(request("DELETE", "/v1/jobs/" + id)).status, 204);

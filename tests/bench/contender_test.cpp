@@ -129,10 +129,11 @@ TEST_F(Contenders, that_may_be_dark_early_are_held_to_their_far_end) {
     const auto with = [&](techniques::Promises promises, float behind) {
         return judge({.function = {{1.0f, 0.9f}, {1.0f, 0.4f}, {3.0f, 0.4f}, {3.0f, behind}},
                       .lookup = 0.4f,
-                      .promises = promises});
+                      .promises = promises,
+                      .error_bound = std::numeric_limits<double>::infinity()});
     };
-    EXPECT_EQ(with({.localised = false, .approximate = true, .early = true, .leak = 0.1}, 0.09f).status,
-              results::CellStatus::ok);
+    const results::Cell early = with({.localised = false, .approximate = true, .early = true, .leak = 0.1}, 0.09f);
+    EXPECT_EQ(early.status, results::CellStatus::ok) << early.reason;
     EXPECT_EQ(with({.localised = false, .approximate = true, .early = true, .leak = 0.1}, 0.11f).status,
               results::CellStatus::failed);
     EXPECT_EQ(with({.approximate = true, .early = true, .leak = 0.1}, 0.11f).status, results::CellStatus::failed)

@@ -244,6 +244,7 @@ TEST(Fronts, ANewTechniqueBeatsAnOldOne) {
     json current = made_result();
     json better = cell_of(current, 0);
     better["label"] = "tolerance=0.01";
+    better["parameters"]["tolerance"] = 0.01;
     better["bytes"] = 500;
     for (json& value : better["times"]["lookup_random_order"]["ns"]["raw"]) value = 1.0;
     current["variants"][0]["lights"][0]["cells"].push_back(better);

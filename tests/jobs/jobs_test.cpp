@@ -91,7 +91,8 @@ TEST_F(JobQueue, PassesOnWhyAJobFailedWithoutPathsOfTheMachine) {
     EXPECT_EQ(job.fault->where, "/lights/0");
     EXPECT_EQ(job.fault->message, "cannot read hair.tfx");
     const JobInfo other = run("echo \"$PWD/result.json is odd\" >&2; exit 9");
-    EXPECT_EQ(other.fault->message, "the job's process ended with exit code 9: result.json is odd");
+    EXPECT_EQ(other.fault->message,
+              "the job's process ended with exit code 9: work/" + other.id + "-1/result.json is odd");
 }
 
 TEST_F(JobQueue, SaysWhyItsProgramCannotBeStarted) {

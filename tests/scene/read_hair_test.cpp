@@ -74,7 +74,7 @@ TEST(ReadHair, PointsAtTheByteOfABadValue) {
 TEST(ReadHair, RefusesCountsThatDisagree) {
     std::string bytes = full();
     bytes[128] = 7;  // the first strand's segments
-    EXPECT_THAT(error_of([&] { read(bytes); }).message(), HasSubstr("says 5 points"));
+    EXPECT_THAT(error_of([&] { read(bytes); }).message(), HasSubstr("states 5 points"));
     bytes[128] = 0;
     EXPECT_THAT(error_of([&] { read(bytes); }).message(), HasSubstr("need 4"));
     EXPECT_EQ(error_of([&] { read(header(0xffffffffu, 2, points_bit, 0) + std::string(24, '\0')); }).code(),

@@ -208,7 +208,7 @@ TEST_F(Cli, validate_reports_which_lines_of_a_file_are_skipped) {
 }
 
 TEST_F(Cli, everything_that_measures_or_draws_shows_what_readers_skipped) {
-    write("edge.obj", "V -1 -1 0\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+    write("edge.obj", "V 0 0 0\nv -1 0 -1\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nf 1 2 3 4\n");
     const std::string mesh = R"(scene.objects=[{"type": "mesh", "file": "edge.obj"}])";
     const std::string note = "note: /scene/objects/0: passed over: lines of the unknown keyword \"V\" (1)\n";
     const Outcome run = cli({"run", path("tiny.json"), "--set", mesh, "--out", path("measured")});
@@ -536,8 +536,8 @@ TEST_F(Cli, refuses_what_cannot_be_exported) {
     fails({"export", tiny_file, "--out", image, "--rays", "--technique", "deep"}, 64, "--rays");
     fails({"export", tiny_file, "--out", image, "--technique", "ray_traced"}, 64, "stores no functions");
     fails({"export", tiny_file, "--out", image, "--technique", "shallow"}, 64, "shallow");
-    fails({"export", tiny_file, "--out", image, "--light", "moon"}, 64, "there are: 0 ");
-    fails({"export", tiny_file, "--out", image, "--light", "1"}, 64, "there are: 0 ");
+    fails({"export", tiny_file, "--out", image, "--light", "moon"}, 64, "the scenario has: 0 ");
+    fails({"export", tiny_file, "--out", image, "--light", "1"}, 64, "the scenario has: 0 ");
     fails({"export", tiny_file, "--out", tiled, "--tile", "0"}, 64, "--tile");
     fails({"export", tiny_file, "--out", image, "--set", "sweeps={\"/rays/resolution\":[4,8]}"}, 64,
           "--set /rays/resolution=");

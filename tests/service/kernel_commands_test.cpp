@@ -62,8 +62,7 @@ TEST_F(KernelCommands, WithoutValgrindNothingIsCountedAndTheRemedyIsNamed) {
     const Outcome outcome = cli({"instructions", "--kernels", SHADOWBENCH_KERNELS, "--out", path("counts.json")});
     EXPECT_EQ(outcome.code, 66);
     EXPECT_EQ(outcome.err,
-              "shadowbench: valgrind: it is not installed, so no instructions are counted; install the package "
-              "valgrind\n");
+              "shadowbench: valgrind: the program is not in $PATH; install the package valgrind\n");
     EXPECT_FALSE(fs::exists(path("counts.json")));
 }
 

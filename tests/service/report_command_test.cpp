@@ -67,7 +67,7 @@ TEST_F(ReportCommand, WhatIsNoResultIsNamed) {
     }
     write("result.json", R"({"schema_version": 7, "variants": []})");
     EXPECT_EQ(report({folder_.string()}), 65);
-    EXPECT_THAT(err_.str(), HasSubstr("schema_version: 7, and this program shows 1"));
+    EXPECT_THAT(err_.str(), HasSubstr("version 7, but this program reads version 1"));
     EXPECT_FALSE(fs::exists(folder_ / "report.html"));
 }
 

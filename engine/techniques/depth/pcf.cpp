@@ -140,11 +140,12 @@ private:
         return square_region(settings_, grid(), width_ > 0.0f ? width_ : width);
     }
 
-    // Returns false if the point is lit whatever the map holds: behind the light, or outside the map.
+    // Returns false if the point is lit whatever the map holds: outside the map. The printed code also asks for depths
+    // behind the light; those are before every caster, and so lit, without a rule of their own.
     template <class Depths>
     bool find(const Depths& depths, const Region& region, const Query& q, Place& p) const {
         int cx, cy;
-        if (q.z < 0.0f || !grid().find(q.x, q.y, cx, cy)) return false;
+        if (!grid().find(q.x, q.y, cx, cy)) return false;
         p.x = q.x * grid().per_pixel_x;
         p.y = q.y * grid().per_pixel_y;
         const Extent e = extent(region, p.x, p.y);
