@@ -150,11 +150,18 @@ TEST_P(Conformance, StoredFunctionsKeepThePromises) {
             for (const curves::Vertex& v : exact) depths.push_back(v.z);
             b.map->stored(x, y, 0, depths, stored);
             worst = std::max(worst, curves::distance(stored, exact, 0, 4).max);
-            if (promised().monotone)
-                broken += !curves::is_visibility(stored);
-            else if (promised().unit_range)
-                broken += std::any_of(stored.begin(), stored.end(),
-                                      [](const curves::Vertex& v) { return !(v.value >= 0.0f && v.value <= 1.0f); });
+            const curves::Vertex* before = nullptr;
+            bool kept = true;
+            for (const curves::Vertex& v : stored) {
+                const bool rises = promised().monotone && before && v.value > before->value;
+                const bool leaves = promised().unit_range && !(v.value >= 0.0f && v.value <= 1.0f);
+                if ((rises || leaves) && kept && broken < 3)
+                    ADD_FAILURE() << "cell (" << x << ", " << y << ") at depth " << v.z << ": " << v.value
+                                  << (rises ? " rises above the value before" : " is not in [0, 1]");
+                kept = kept && !rises && !leaves;
+                before = &v;
+            }
+            broken += !kept;
             ++cells;
         });
         EXPECT_EQ(broken, 0) << "of " << cells << " functions rise or leave [0, 1]";
