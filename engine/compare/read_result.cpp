@@ -83,18 +83,19 @@ std::vector<std::string> swept_of(const json& scenario, const std::string& where
 }
 
 // Names of the parameters that the scenario's technique writes and in which cells of that technique differ.
-std::vector<std::string> differing_in(const json& scenario, const results::Cell& cell, const json& parameters,
-                                      std::span<const results::Cell> cells) {
+// `parameters` are those of all cells of its light, in their order.
+std::vector<std::string> differing_in(const json& scenario, std::span<const results::Cell> cells, std::size_t at,
+                                      std::span<const json> parameters) {
+    const results::Cell& cell = cells[at];
     std::vector<std::string> names;
     const json technique = technique_of(scenario, cell);
     if (!technique.is_object()) return names;
     for (const auto& [name, value] : technique.items()) {
-        if (name == "type" || !parameters.contains(name)) continue;
-        const bool differs = std::any_of(cells.begin(), cells.end(), [&, &key = name](const results::Cell& other) {
-            if (other.technique != cell.technique) return false;
-            const json others = json::parse(other.parameters_json);
-            return !others.contains(key) || others.at(key) != parameters.at(key);
-        });
+        if (name == "type" || !parameters[at].contains(name)) continue;
+        bool differs = false;
+        for (std::size_t i = 0; i < cells.size() && !differs; ++i)
+            differs = cells[i].technique == cell.technique &&
+                      (!parameters[i].contains(name) || parameters[i].at(name) != parameters[at].at(name));
         if (differs) names.push_back(name);
     }
     return names;
@@ -110,13 +111,15 @@ std::string word_of(const std::string& name, const json& value) {
 // technique apart. Labels of older results left out some that equal the default, wrote fewer digits, and had another
 // order. The name holds the swept parameters, then those that tell rows apart, then the others of the label, so that a
 // cell has the same name whichever program wrote it.
-std::string name_of(const results::Cell& cell, const json& scenario, std::span<const results::Cell> cells) {
-    const json parameters = json::parse(cell.parameters_json);
+std::string name_of(const json& scenario, std::span<const results::Cell> cells, std::size_t at,
+                    std::span<const json> all_parameters) {
+    const results::Cell& cell = cells[at];
+    const json& parameters = all_parameters[at];
     std::vector<std::string> named = swept_of(scenario, cell.where, parameters);
     const auto add = [&](const std::string& name) {
         if (std::find(named.begin(), named.end(), name) == named.end()) named.push_back(name);
     };
-    for (const std::string& name : differing_in(scenario, cell, parameters, cells)) add(name);
+    for (const std::string& name : differing_in(scenario, cells, at, all_parameters)) add(name);
     const std::string& label = cell.parameters;
     std::string others;
     for (std::size_t first = 0; first < label.size();) {
@@ -169,9 +172,11 @@ void add_light(Suite& suite, const results::LightResult& light, const results::V
     const std::string settings = settings_text(variant.settings);
     const std::string group = (settings.empty() ? "" : settings + " / ") + light.name;
     std::map<std::string, int> seen;
-    for (const results::Cell& from : light.cells) {
-        Cell cell = make_cell(from, scenario, variant.settings, source);
-        cell.name = name_of(from, scenario, light.cells);
+    std::vector<json> parameters;
+    for (const results::Cell& from : light.cells) parameters.push_back(json::parse(from.parameters_json));
+    for (std::size_t i = 0; i < light.cells.size(); ++i) {
+        Cell cell = make_cell(light.cells[i], scenario, variant.settings, source);
+        cell.name = name_of(scenario, light.cells, i, parameters);
         cell.group = group;
         // Equal techniques of one scenario are numbered.
         const int earlier = seen[cell.name]++;
