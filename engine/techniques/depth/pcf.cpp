@@ -242,10 +242,7 @@ Technique pcf() {
             .parameters = parameters,
             .create = create_map<PercentageCloser>,
             .error_bound = [](const ParameterValues&, const rays::MapLayout&) { return 0.0; },
-            .least_bytes =
-                [](const ParameterValues& values, const rays::MapLayout& layout) {
-                    return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)), 1);
-                },
+            .least_bytes = StoredDepths::least_bytes,
             .traits = {.draws_samples = true,
                        .beyond_footprint = true,
                        .filters = false,

@@ -61,10 +61,7 @@ Technique shadow_map() {
             .parameters = parameters,
             .create = create_map<ShadowMap>,
             .error_bound = [](const ParameterValues&, const rays::MapLayout&) { return 0.0; },
-            .least_bytes =
-                [](const ParameterValues& values, const rays::MapLayout& layout) {
-                    return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)), 1);
-                },
+            .least_bytes = StoredDepths::least_bytes,
             .traits = {.filters = false, .biases = {"bias"}}};
 }
 

@@ -24,6 +24,10 @@ StoredDepths::StoredDepths(const ParameterValues& values) : way(read_storage(val
     map.kind = read_cells(values);
 }
 
+std::size_t StoredDepths::least_bytes(const ParameterValues& values, const rays::MapLayout& layout) {
+    return least_store_bytes(read_storage(values), make_cells(layout, read_cells(values)), 1);
+}
+
 void StoredDepths::finish() {
     store.keep(way, map.grid, 1, std::move(map.depth));
 }

@@ -27,6 +27,8 @@ struct StoredDepths {
     DepthStore store;
 
     explicit StoredDepths(const ParameterValues& values);
+    // For Technique::least_bytes.
+    static std::size_t least_bytes(const ParameterValues& values, const rays::MapLayout& layout);
     void finish();
     std::size_t working_bytes() const;  // the map and the stored depths together, before the map is freed
     void stored(int x, int y, curves::Curve& out) const;
