@@ -22,7 +22,7 @@ const Parameter parameters[] = {
      .standard_word = "linear",
      .words = {"linear", "exponential"}},
     filter_parameter,
-    cells_parameter,
+    averaged_cells_parameter,
 };
 
 enum class Order { sorted, captured, shuffled };
@@ -68,7 +68,7 @@ public:
 
     RayNeeds needs() const override { return {.submission = order_ == Order::captured}; }
 
-    void add(const rays::LightRays& rays) override {
+    void fill(const rays::LightRays& rays) {
         if (order_ == Order::captured && rays.submission.size() != rays.segments())
             throw base::Error(base::ErrorCode::internal, "/techniques",
                               "avsm: the light rays do not hold the order of their segments");

@@ -18,7 +18,7 @@ const Parameter parameters[] = {
      "largest absorption of one segment, also used for opaque surfaces; ln 256 makes them black in 8 bits", 5.545, 1,
      80},
     filter_parameter,
-    cells_parameter,
+    averaged_cells_parameter,
 };
 
 constexpr float highest_raw = 1e30f;  // raw answers stay finite
@@ -35,7 +35,7 @@ public:
     }
     static int floats_a_texel(const ParameterValues& values) { return padded(values.integer("terms")); }
 
-    void add(const rays::LightRays& rays) override {
+    void fill(const rays::LightRays& rays) {
         Series series;
         for_each_texel(rays, [&](float* texel, std::size_t, std::size_t ray) {
             if (rays.begin[ray] == rays.begin[ray + 1]) {

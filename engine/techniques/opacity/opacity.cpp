@@ -20,7 +20,7 @@ const Parameter parameters[] = {
      "largest optical depth of one segment, also used for opaque surfaces; ln 256 makes them black in 8 bits", 5.545, 1,
      80},
     filter_parameter,
-    cells_parameter,
+    averaged_cells_parameter,
 };
 
 // A texel is the optical depth from the light to each slice. Slice i is at the end of interval i; before the first
@@ -43,7 +43,7 @@ public:
         slices_ = Slices(layout_.z_min, layout_.z_max, count_);
     }
 
-    void add(const rays::LightRays& rays) override {
+    void fill(const rays::LightRays& rays) {
         std::array<double, most_slices> parts;
         for_each_texel(rays, [&](float* texel, std::size_t, std::size_t ray) {
             std::fill_n(parts.begin(), count_, 0.0);

@@ -38,7 +38,8 @@ inline Cells read_cells(const ParameterValues& values) {
     return word == "sample" ? Cells::sample : word == "pixel" ? Cells::pixel : Cells::centre;
 }
 
-// Calls visit(cell index in the grid, ray number in the tile) for every cell that a tile fills, by rows.
+// Calls visit(cell index in the grid, ray number in the tile) for every cell that a tile fills, by rows. With
+// Cells::pixel the tile has the rays of MeanRays, one a pixel.
 template <class Visit>
 void for_each_cell(const rays::MapLayout& layout, const CellGrid& grid, Cells cells, const rays::LightRays& tile,
                    const Visit& visit) {
@@ -46,9 +47,9 @@ void for_each_cell(const rays::MapLayout& layout, const CellGrid& grid, Cells ce
     for (int y = 0; y < tile.height * ny; ++y)
         for (int x = 0; x < tile.width * nx; ++x) {
             const std::size_t pixel = static_cast<std::size_t>(y / ny) * tile.width + x / nx;
-            const int sample = cells == Cells::sample
-                                   ? (y % ny) * nx + x % nx
-                                   : (layout.samples_y / 2) * layout.samples_x + layout.samples_x / 2;
+            const int sample = cells == Cells::sample  ? (y % ny) * nx + x % nx
+                               : cells == Cells::pixel ? 0
+                                                       : (layout.samples_y / 2) * layout.samples_x + layout.samples_x / 2;
             visit(grid.index(tile.x0 * nx + x, tile.y0 * ny + y), pixel * tile.samples + sample);
         }
 }

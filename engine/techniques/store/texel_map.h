@@ -3,7 +3,8 @@
 //
 //   explicit Own(const ParameterValues&)                hands the values on to TexelMap
 //   static int floats_a_texel(const ParameterValues&)
-//   void add(const rays::LightRays&) override           fills the texels of a tile, with for_each_texel
+//   void fill(const rays::LightRays&)                   fills the texels of a tile, with for_each_texel; each texel is
+//                                                       of one ray, which may be the mean of a pixel's rays
 //   prepare(float z) const                              what an evaluation needs of a depth; made once a lookup
 //   float evaluate(texel, prepared) const               the visibility that a texel gives
 //   int nodes_of(const float* texel) const              0: nothing is in its way
@@ -19,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "techniques/store/mean_rays.h"
 #include "techniques/store/most_bytes.h"
 #include "techniques/store/texels.h"
 
@@ -26,7 +28,7 @@ namespace shadowbench::techniques {
 
 // The traits for the parameters filter_parameter and cells_parameter.
 inline Traits texel_traits() {
-    return {.pointwise = {{"filter", "point"}}, .whole_pixel = {{"filter", "footprint"}, {"cells", "sample"}}};
+    return {.pointwise = {{"filter", "point"}}, .whole_pixel = {{"filter", "footprint"}}};
 }
 
 template <class Own>
@@ -44,6 +46,12 @@ public:
     }
 
     void begin(const BuildInput& input) override { allocate(input.layout); }
+    void add(const rays::LightRays& tile) override {
+        if (texels_.kind != Cells::pixel) return own().fill(tile);
+        MeanRays means;
+        own().fill(means.of(tile));
+        scratch_.add(means.bytes());
+    }
     void finish() override {}
 
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
@@ -92,24 +100,19 @@ protected:
         texels_.allocate(layout_, floats_);
     }
 
-    // Calls visit(texel, cell, ray) for every texel that a tile fills. If a texel stands for a whole pixel, `ray` is
-    // the first ray of the pixel, and the others follow it.
+    // Calls visit(texel, cell, ray) for every texel that a tile fills.
     template <class Visit>
     void for_each_texel(const rays::LightRays& tile, const Visit& visit) {
-        const std::size_t each = rays_a_texel(tile);
-        for_each_cell(layout_, texels_.grid, texels_.kind, tile, [&](std::size_t cell, std::size_t ray) {
-            visit(texels_.at(cell), cell, each == 1 ? ray : ray / each * each);
-        });
-    }
-    std::size_t rays_a_texel(const rays::LightRays& tile) const {
-        return texels_.kind == Cells::pixel ? static_cast<std::size_t>(tile.samples) : 1;
+        for_each_cell(layout_, texels_.grid, texels_.kind, tile,
+                      [&](std::size_t cell, std::size_t ray) { visit(texels_.at(cell), cell, ray); });
     }
 
     Texels texels_;
     rays::MapLayout layout_;
-    MostBytes scratch_;  // a technique whose scratch memory grows with the scene adds it
+    MostBytes scratch_;  // scratch memory that grows with the scene
 
 private:
+    Own& own() { return static_cast<Own&>(*this); }
     const Own& own() const { return static_cast<const Own&>(*this); }
 
     int floats_;

@@ -73,15 +73,13 @@ public:
     explicit Variance(const ParameterValues& values) : TexelMap(values), least_(values.number("min_variance")) {}
     static int floats_a_texel(const ParameterValues&) { return 2; }
 
-    void add(const rays::LightRays& rays) override {
-        const std::size_t count = rays_a_texel(rays);
+    void fill(const rays::LightRays& rays) {
         std::vector<curves::Node> nodes;
         curves::OpenMedia open;
-        for_each_texel(rays, [&](float* texel, std::size_t, std::size_t first) {
-            Moments sum;
-            for (std::size_t ray = first; ray < first + count; ++ray) add_ray(rays, ray, open, nodes, sum);
-            texel[0] = static_cast<float>(sum.first / static_cast<double>(count));
-            texel[1] = static_cast<float>(sum.second / static_cast<double>(count));
+        for_each_texel(rays, [&](float* texel, std::size_t, std::size_t ray) {
+            const Moments moments = moments_of(rays, ray, open, nodes);
+            texel[0] = static_cast<float>(moments.first);
+            texel[1] = static_cast<float>(moments.second);
         });
         scratch_.add(nodes.capacity() * sizeof(curves::Node) + open.bytes());
     }
@@ -121,8 +119,9 @@ private:
         return (z - layout_.z_min) / (static_cast<double>(layout_.z_max) - layout_.z_min) - 1.0;
     }
 
-    void add_ray(const rays::LightRays& rays, std::size_t ray, curves::OpenMedia& open,
-                 std::vector<curves::Node>& nodes, Moments& sum) const {
+    Moments moments_of(const rays::LightRays& rays, std::size_t ray, curves::OpenMedia& open,
+                       std::vector<curves::Node>& nodes) const {
+        Moments sum;
         double left = 1.0;
         if (layout_.media) {
             curves::composite(rays, ray, 0, open, nodes);
@@ -142,6 +141,7 @@ private:
             }
         }
         sum.add(left, far_end);
+        return sum;
     }
 
     double least_;
@@ -158,8 +158,6 @@ Promises promised(const ParameterValues& values) {
 }  // namespace
 
 Technique variance() {
-    Traits traits = texel_traits();
-    traits.whole_pixel = {{"filter", "footprint"}, {"cells", "pixel"}};
     return {.id = "variance",
             .title = "variance shadow map: two moments of depth, and Chebyshev's bound",
             .paper = "Donnelly, Lauritzen 2006",
@@ -169,7 +167,7 @@ Technique variance() {
             .create = create_map<Variance>,
             .least_bytes = Variance::least_bytes,
             .promises_of = promised,
-            .traits = traits};
+            .traits = texel_traits()};
 }
 
 }  // namespace shadowbench::techniques

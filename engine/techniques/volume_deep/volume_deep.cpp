@@ -23,7 +23,7 @@ const Parameter parameters[] = {
      .standard_word = "smooth",
      .words = {"smooth", "bucket"}},
     filter_parameter,
-    cells_parameter,
+    averaged_cells_parameter,
 };
 
 constexpr int texel_floats = 4;
@@ -45,7 +45,7 @@ public:
         steps_ = Slices(layout_.z_min, layout_.z_max, count_);
     }
 
-    void add(const rays::LightRays& rays) override {
+    void fill(const rays::LightRays& rays) {
         std::array<double, most_steps> parts{};
         for_each_texel(rays, [&](float* texel, std::size_t, std::size_t ray) {
             const int last = steps_.spread_ray(rays, ray, opaque_depth, [&](int i, double part) { parts[i] += part; });
