@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/random.h"
 
@@ -30,6 +31,21 @@ void append(const std::optional<Query>& query, QuerySet& set) {
         ++set.dropped;
 }
 
+// Map pixels across a footprint at planar depth z, for units other than receiver pixels.
+double width_at(double z, const scene::FilterWidth& width, const rays::LightView& view) {
+    switch (width.unit) {
+        case scene::WidthUnit::share: return width.value * view.resolution.x;
+        case scene::WidthUnit::length: return width.value / ((view.perspective ? z : 1.0) * view.pixel.x);
+        default: return width.value;
+    }
+}
+
+// The side of a square as large as the parallelogram.
+double side_of(const Footprint& f) {
+    if (!f.known()) return std::numeric_limits<double>::infinity();
+    return std::sqrt(std::abs(static_cast<double>(f.ux) * f.vy - static_cast<double>(f.uy) * f.vx));
+}
+
 }  // namespace
 
 Footprint footprint_of(const CameraPoint& point, const rays::LightView& view) {
@@ -52,19 +68,22 @@ Footprint footprint_of(const CameraPoint& point, const rays::LightView& view) {
     return finite ? f : Footprint{};
 }
 
-std::optional<Query> query_of_point(const Vec3d& point, const scene::Receivers& receivers,
+std::optional<Query> query_of_point(const CameraPoint& point, const scene::Receivers& receivers,
                                     const rays::LightView& view) {
-    Vec3d place = rays::to_light(view, point);
+    Vec3d place = rays::to_light(view, point.position);
     if (view.perspective && !(place.z > view.z_near)) return std::nullopt;
+    const double width = receivers.filter_width.unit == scene::WidthUnit::receiver_pixels
+                             ? receivers.filter_width.value * side_of(footprint_of(point, view))
+                             : width_at(place.z, receivers.filter_width, view);
     if (receivers.bias > 0.0) place.z -= receivers.bias / rays::length_per_depth(view, place.x, place.y);
-    return query_if_seen(place, receivers.filter_width, view);
+    return query_if_seen(place, width, view);
 }
 
 QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Receivers& receivers,
                            const rays::LightView& view) {
     QuerySet set;
     for (const CameraPoint& point : points) {
-        const std::optional<Query> query = query_of_point(point.position, receivers, view);
+        const std::optional<Query> query = query_of_point(point, receivers, view);
         append(query, set);
         if (query) set.footprints.push_back(footprint_of(point, view));
     }
@@ -73,7 +92,7 @@ QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Rec
 
 QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView& view) {
     QuerySet set;
-    for (const Vec3d& point : receivers.points) append(query_of_point(point, receivers, view), set);
+    for (const Vec3d& point : receivers.points) append(query_of_point({point}, receivers, view), set);
     return set;
 }
 
@@ -86,7 +105,7 @@ QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView&
         place.x = random.uniform(0.0, view.resolution.x);
         place.y = random.uniform(0.0, view.resolution.y);
         place.z = random.uniform(view.z_min, view.z_max + behind * range);
-        append(query_if_seen(place, receivers.filter_width, view), set);
+        append(query_if_seen(place, width_at(place.z, receivers.filter_width, view), view), set);
     }
     return set;
 }

@@ -24,12 +24,13 @@ struct QuerySet {
     Asked asked() const { return {queries, footprints}; }
 };
 
-// A world point as a query of one light, moved towards it by the bias; absent if it is outside the light's map.
-std::optional<techniques::Query> query_of_point(const base::Vec3d& point, const scene::Receivers& receivers,
-                                                const rays::LightView& view);
-
 // The pixel of a point, projected into the light's map.
 techniques::Footprint footprint_of(const CameraPoint& point, const rays::LightView& view);
+
+// A point as a query of one light, moved towards it by the bias; absent if it is outside the light's map. Only widths in
+// receiver pixels need the point's edges; where they are unbounded, the width is infinite.
+std::optional<techniques::Query> query_of_point(const CameraPoint& point, const scene::Receivers& receivers,
+                                                const rays::LightView& view);
 
 // All points as queries, in their order, with their pixels projected into the map: the edges are mapped by the
 // derivative of the projection at the point.

@@ -60,7 +60,7 @@ LightQueries make_queries(const Work& work, const rays::LightView& view) {
     const ShadingPoints& points = work.points;
     for (std::size_t i = 0; i < points.points(); ++i) {
         const bench::CameraPoint point{points.place[i], Vec3d(points.across[i]), Vec3d(points.down[i])};
-        if (const auto query = bench::query_of_point(point.position, work.scenario.receivers, view)) {
+        if (const auto query = bench::query_of_point(point, work.scenario.receivers, view)) {
             result.queries.push_back(*query);
             result.footprints.push_back(bench::footprint_of(point, view));
             result.point.push_back(static_cast<std::uint32_t>(i));

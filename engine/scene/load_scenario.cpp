@@ -174,6 +174,24 @@ Camera load_camera(const json& from) {
     return camera;
 }
 
+FilterWidth load_filter_width(const json& from) {
+    FilterWidth width;
+    read(from, "filter_width", width.value);
+    if (!from.contains("footprint")) return width;
+    if (from.contains("filter_width"))
+        refuse("/receivers/filter_width", "the footprint is given twice: leave out filter_width or footprint");
+    const auto& [unit, value] = *from["footprint"].items().begin();
+    width.unit = unit == "share"    ? WidthUnit::share
+                 : unit == "length" ? WidthUnit::length
+                 : unit == "receiver_pixels" ? WidthUnit::receiver_pixels
+                                             : WidthUnit::map_pixels;
+    width.value = value.get<double>();
+    if (width.unit == WidthUnit::receiver_pixels && from.value("type", "probes") != "camera")
+        refuse("/receivers/footprint/receiver_pixels",
+               "only receivers of a camera have pixels: give the footprint as a length or a share of the map");
+    return width;
+}
+
 Receivers load_receivers(const json& from) {
     Receivers receivers;
     if (from.value("type", "probes") == "camera") receivers.camera = load_camera(from);
@@ -182,7 +200,7 @@ Receivers load_receivers(const json& from) {
     read(from, "media_lookups", receivers.media_lookups);
     read(from, "count", receivers.count);
     read(from, "seed", receivers.seed);
-    read(from, "filter_width", receivers.filter_width);
+    receivers.filter_width = load_filter_width(from);
     read(from, "bias", receivers.bias);
     const auto pixels =
         static_cast<std::uint64_t>(receivers.resolution.x) * static_cast<std::uint64_t>(receivers.resolution.y);

@@ -140,6 +140,20 @@ struct Camera {
     double fov = 40.0;  // vertical, degrees
 };
 
+// The width of a lookup's footprint: a square around the receiver, across the light's rays. Only map pixels change with
+// the resolution of the map; with the other units, maps of different resolutions answer the same question. Widths are
+// measured along the map's x axis, and the footprint is as wide in map pixels along y.
+enum class WidthUnit {
+    map_pixels,
+    share,            // of the map's width
+    length,           // world length, at the receiver
+    receiver_pixels,  // the side of a square as large as the camera's pixel on the receiver, projected into the map
+};
+struct FilterWidth {
+    WidthUnit unit = WidthUnit::map_pixels;
+    double value = 1.0;  // above 0
+};
+
 // The places where visibility is looked up: what a camera sees (one surface for each pixel, drawn with the probability
 // of its contribution, and points inside the media on the way), given points, or points spread evenly over the map and
 // the casters' depths.
@@ -150,7 +164,7 @@ struct Receivers {
     std::vector<Vec3d> points;   // given, world space; if empty, a camera or spread points are used
     int count = 65536;           // the number of points to spread
     std::uint64_t seed = 7;      // for the spread points, and for the draw between a pixel's surfaces
-    double filter_width = 1.0;   // map pixels
+    FilterWidth filter_width;
     double bias = 0.0;           // moves every receiver towards the light, world length, >= 0
 };
 
