@@ -34,9 +34,12 @@ void append(const std::optional<Query>& query, QuerySet& set) {
 // Map pixels across a footprint at planar depth z, for units other than receiver pixels.
 double width_at(double z, const scene::FilterWidth& width, const rays::LightView& view) {
     switch (width.unit) {
-        case scene::WidthUnit::share: return width.value * view.resolution.x;
-        case scene::WidthUnit::length: return width.value / ((view.perspective ? z : 1.0) * view.pixel.x);
-        default: return width.value;
+        case scene::WidthUnit::share:
+            return width.value * view.resolution.x;
+        case scene::WidthUnit::length:
+            return width.value / ((view.perspective ? z : 1.0) * view.pixel.x);
+        default:
+            return width.value;
     }
 }
 

@@ -239,9 +239,9 @@ void measure_salvi(const Context& context) {
     curve_figure(context, "salvi2010_hair", "salvi2010_figure6", "section 5.2, figure 6", 238);
     context.report->sheets.push_back(picture_sheet(
         context, "salvi2010_smoke",
-        {R"(techniques=[{"type":"avsm","nodes":4,"filter":"bilinear"},{"type":"avsm","filter":"bilinear"},)"
-         R"({"type":"avsm","nodes":12,"filter":"bilinear"},{"type":"opacity","filter":"bilinear"},)"
-         R"({"type":"fourier","filter":"bilinear"}])"}));
+        {R"(techniques=[{"type":"avsm","cells":"sample","nodes":4,"filter":"bilinear"},{"type":"avsm","cells":"sample","filter":"bilinear"},)"
+         R"({"type":"avsm","cells":"sample","nodes":12,"filter":"bilinear"},{"type":"opacity","cells":"sample","filter":"bilinear"},)"
+         R"({"type":"fourier","cells":"sample","filter":"bilinear"}])"}));
     curve_figure(context, "salvi2010_curves", "salvi2010_figure7", "section 5.2, figure 7", 282);
 }
 

@@ -266,7 +266,8 @@ void curve_figure(const Context& context, const DataSet& set) {
     const std::filesystem::path file = context.scenarios / (std::string(set.scenario) + ".json");
     nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
     document::set_value(document, "rays.resolution=128");
-    document::set_value(document, R"(techniques=[{"type":"volume_deep"},{"type":"avsm","nodes":4}])");
+    document::set_value(
+        document, R"(techniques=[{"type":"volume_deep","cells":"sample"},{"type":"avsm","cells":"sample","nodes":4}])");
     const TexelCurves curves = busiest_texel(document, context.data);
     context.report->plots.push_back({fmt::format("volume_{}", set.name),
                                      fmt::format("{}: light along the ray of the most segments", set.name),
@@ -285,7 +286,7 @@ void measure_volume(const Context& context) {
         "texel's width, except where one texel is named.",
         std::size(data_sets));
     const char* plane_alone = "receivers.media_lookups=0";
-    const char* plane_techniques = R"(techniques=[{"type":"volume_deep"},{"type":"uncompressed"}])";
+    const char* plane_techniques = R"(techniques=[{"type":"volume_deep","cells":"sample"},{"type":"uncompressed"}])";
     const std::vector<std::string> smaller = {"rays.resolution=128", "receivers.resolution=64", "timing.lookups=8192",
                                               "timing.repetitions=3"};
     Sets sets;
@@ -299,11 +300,11 @@ void measure_volume(const Context& context) {
     thresholds(sets, *context.report);
     memory(sets, *context.report);
     for (const DataSet& set : data_sets) curve_figure(context, set);
-    context.report->sheets.push_back(
-        picture_sheet(context, "volume_bucky",
-                      {"receivers.filter_width=1",
-                       R"(techniques=[{"type":"volume_deep"},{"type":"volume_deep","interpolation":"bucket"},)"
-                       R"({"type":"avsm","nodes":4},{"type":"avsm"}])"}));
+    context.report->sheets.push_back(picture_sheet(
+        context, "volume_bucky",
+        {"receivers.filter_width=1",
+         R"(techniques=[{"type":"volume_deep","cells":"sample"},{"type":"volume_deep","cells":"sample","interpolation":"bucket"},)"
+         R"({"type":"avsm","cells":"sample","nodes":4},{"type":"avsm","cells":"sample"}])"}));
 }
 
 }  // namespace shadowbench::claims

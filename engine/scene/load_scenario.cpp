@@ -181,8 +181,8 @@ FilterWidth load_filter_width(const json& from) {
     if (from.contains("filter_width"))
         refuse("/receivers/filter_width", "the footprint is given twice: leave out filter_width or footprint");
     const auto& [unit, value] = *from["footprint"].items().begin();
-    width.unit = unit == "share"    ? WidthUnit::share
-                 : unit == "length" ? WidthUnit::length
+    width.unit = unit == "share"             ? WidthUnit::share
+                 : unit == "length"          ? WidthUnit::length
                  : unit == "receiver_pixels" ? WidthUnit::receiver_pixels
                                              : WidthUnit::map_pixels;
     width.value = value.get<double>();

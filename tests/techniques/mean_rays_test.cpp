@@ -49,8 +49,7 @@ double worst_error(const rays::LightRays& tile, const rays::LightRays& means) {
     double worst = 0.0;
     for (std::size_t pixel = 0; pixel < means.rays(); ++pixel)
         for (double z = -0.5; z < 15.0; z += 0.00625)
-            worst = std::max(worst,
-                             std::abs(rays::transmittance(means, pixel, 0, z) - mean_at(tile, pixel, z)));
+            worst = std::max(worst, std::abs(rays::transmittance(means, pixel, 0, z) - mean_at(tile, pixel, z)));
     return worst;
 }
 
@@ -73,7 +72,10 @@ TEST(MeanRays, OfMediaErrByTheirLinearisation) {
 // What an opaque wall at different depths lets through falls by steps, and all of it ends at the last one.
 TEST(MeanRays, OfWallsAtDifferentDepthsAreStairs) {
     const rays::LightRays tile =
-        light_rays({.width = 1, .height = 1, .samples = 4, .rays = {{{1, 1, 0}}, {{2, 2, 0}}, {{2, 2, 0.5f}, {5, 5, 0}}, {{4, 4, 0}}}});
+        light_rays({.width = 1,
+                    .height = 1,
+                    .samples = 4,
+                    .rays = {{{1, 1, 0}}, {{2, 2, 0}}, {{2, 2, 0.5f}, {5, 5, 0}}, {{4, 4, 0}}}});
     MeanRays means;
     const rays::LightRays& mean = means.of(tile);
     ASSERT_EQ(mean.rays(), 1u);

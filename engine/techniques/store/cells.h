@@ -24,13 +24,14 @@ inline const Parameter cells_parameter{
     0,
     "sample",
     {"sample", "centre"}};
-// The same for functions that can be averaged over rays.
+// The same for techniques that can store the mean of a pixel's rays: it is filtered before it is stored, as in a deep
+// shadow map.
 inline const Parameter averaged_cells_parameter{
     .name = "cells",
     .kind = ParameterKind::choice,
     .doc =
-        "one stored function per pixel, of all its rays; one per sample (which makes the map that many times larger); "
-        "or one per pixel, of the ray in the middle of the pixel",
+        "one stored function per pixel, of the mean visibility of all its rays; one per sample (which makes the map "
+        "that many times larger); or one per pixel, of the ray in the middle of the pixel",
     .standard_word = "pixel",
     .words = {"pixel", "sample", "centre"}};
 inline Cells read_cells(const ParameterValues& values) {
@@ -47,9 +48,10 @@ void for_each_cell(const rays::MapLayout& layout, const CellGrid& grid, Cells ce
     for (int y = 0; y < tile.height * ny; ++y)
         for (int x = 0; x < tile.width * nx; ++x) {
             const std::size_t pixel = static_cast<std::size_t>(y / ny) * tile.width + x / nx;
-            const int sample = cells == Cells::sample  ? (y % ny) * nx + x % nx
-                               : cells == Cells::pixel ? 0
-                                                       : (layout.samples_y / 2) * layout.samples_x + layout.samples_x / 2;
+            const int sample = cells == Cells::sample ? (y % ny) * nx + x % nx
+                               : cells == Cells::pixel
+                                   ? 0
+                                   : (layout.samples_y / 2) * layout.samples_x + layout.samples_x / 2;
             visit(grid.index(tile.x0 * nx + x, tile.y0 * ny + y), pixel * tile.samples + sample);
         }
 }

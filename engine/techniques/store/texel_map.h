@@ -26,7 +26,7 @@
 
 namespace shadowbench::techniques {
 
-// The traits for the parameters filter_parameter and cells_parameter.
+// The traits for the parameters filter_parameter and averaged_cells_parameter.
 inline Traits texel_traits() {
     return {.pointwise = {{"filter", "point"}}, .whole_pixel = {{"filter", "footprint"}}};
 }
@@ -47,7 +47,7 @@ public:
 
     void begin(const BuildInput& input) override { allocate(input.layout); }
     void add(const rays::LightRays& tile) override {
-        if (texels_.kind != Cells::pixel) return own().fill(tile);
+        if (texels_.kind != Cells::pixel || tile.samples == 1) return own().fill(tile);
         MeanRays means;
         own().fill(means.of(tile));
         scratch_.add(means.bytes());
