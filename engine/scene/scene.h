@@ -152,6 +152,8 @@ enum class WidthUnit {
 struct FilterWidth {
     WidthUnit unit = WidthUnit::map_pixels;
     double value = 1.0;  // above 0
+
+    bool operator==(const FilterWidth&) const = default;
 };
 
 // The places where visibility is looked up: what a camera sees (one surface for each pixel, drawn with the probability

@@ -33,7 +33,7 @@ TEST(ProbeQueries, fill_the_map_and_reach_a_little_behind_the_casters) {
     const HalfCovered half = half_covered();
     scene::Receivers receivers;
     receivers.count = 5000;
-    receivers.filter_width = 2.0;
+    receivers.filter_width.value = 2.0;
     const QuerySet set = probe_queries(receivers, half.view);
     EXPECT_EQ(set.queries.size() + set.dropped, 5000u);
     EXPECT_EQ(set.dropped, 0u);
@@ -51,7 +51,7 @@ TEST(PointQueries, keep_their_order_and_count_what_is_outside_the_map) {
     scene::Receivers receivers;
     receivers.points = {{0.0, -2.0, 0.0}, {5.0, -2.0, 0.0}, {0.5, 3.0, -0.5}, {0.0, -2.0, 1.5}};
     receivers.bias = 0.25;
-    receivers.filter_width = 3.0;
+    receivers.filter_width.value = 3.0;
     const QuerySet set = point_queries(receivers, half.view);
     EXPECT_EQ(set.dropped, 2u);
     EXPECT_TRUE(set.footprints.empty()) << "a point has no pixel";

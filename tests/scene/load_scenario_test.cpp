@@ -42,7 +42,7 @@ void expect_same(const Receivers& a, const Receivers& b) {
     EXPECT_EQ(a.media_lookups, b.media_lookups);
     EXPECT_EQ(a.count, b.count);
     EXPECT_EQ(a.seed, b.seed);
-    EXPECT_EQ(a.filter_width, b.filter_width);
+    EXPECT_TRUE(a.filter_width == b.filter_width);
     EXPECT_EQ(a.bias, b.bias);
 }
 
@@ -127,7 +127,7 @@ TEST(LoadScenario, ReadsEverySetting) {
     EXPECT_EQ(scenario.receivers.resolution, Vec2i(100, 100));
     EXPECT_EQ(scenario.receivers.media_lookups, 3);
     EXPECT_EQ(scenario.receivers.seed, 4u);
-    EXPECT_EQ(scenario.receivers.filter_width, 2.5);
+    EXPECT_TRUE((scenario.receivers.filter_width == FilterWidth{WidthUnit::map_pixels, 2.5}));
     EXPECT_EQ(scenario.receivers.bias, 0.25);
     expect_same(scenario.reference, Reference{10, 11, 12, 13});
     expect_same(scenario.timing, Timing{14, 15});
@@ -144,12 +144,52 @@ TEST(LoadScenario, ReadsPointsThatReceiveLight) {
     EXPECT_FALSE(receivers.camera);
     EXPECT_EQ(receivers.points, (std::vector<Vec3d>{{1, 2.125, 3}, {-1e18, 0.1, 5e-324}})) << "not rounded to float";
     EXPECT_EQ(receivers.seed, 4u);
-    EXPECT_EQ(receivers.filter_width, 2.5);
+    EXPECT_TRUE((receivers.filter_width == FilterWidth{WidthUnit::map_pixels, 2.5}));
     EXPECT_EQ(receivers.bias, 0.25);
 
     document["receivers"] = defaults_of(scenario_schema()["definitions"]["points"]);
     document["receivers"].update(json{{"type", "points"}, {"positions", {{0, 0, 0}}}});
     expect_same(load_scenario(document, {}).receivers, Receivers{});
+}
+
+json camera_with(const json& more) {
+    json document = minimal();
+    document["receivers"] = {{"type", "camera"}, {"position", {1, 2, 3}}, {"target", {0, 1, 0}}};
+    document["receivers"].update(more);
+    return document;
+}
+
+TEST(LoadScenario, ReadsTheFootprintInItsUnit) {
+    const std::pair<const char*, WidthUnit> units[] = {{"map_pixels", WidthUnit::map_pixels},
+                                                       {"share", WidthUnit::share},
+                                                       {"length", WidthUnit::length},
+                                                       {"receiver_pixels", WidthUnit::receiver_pixels}};
+    for (const auto& [name, unit] : units) {
+        const Receivers receivers = load_scenario(camera_with({{"footprint", {{name, 0.5}}}}), {}).receivers;
+        EXPECT_TRUE((receivers.filter_width == FilterWidth{unit, 0.5})) << name;
+    }
+}
+
+TEST(LoadScenario, RefusesFootprintsThatAreNotOneWidth) {
+    const auto place = [](const json& document) {
+        try {
+            load_scenario(document, {});
+        } catch (const base::Error& error) {
+            return error.where() + ": " + error.message();
+        }
+        return std::string("loaded");
+    };
+    using ::testing::AllOf, ::testing::HasSubstr, ::testing::StartsWith;
+    EXPECT_THAT(place(camera_with({{"filter_width", 2}, {"footprint", {{"length", 1}}}})),
+                AllOf(StartsWith("/receivers/filter_width: "), HasSubstr("given twice")));
+    EXPECT_THAT(place(camera_with({{"footprint", {{"length", 1}, {"share", 0.5}}}})),
+                StartsWith("/receivers/footprint: "));
+    EXPECT_THAT(place(camera_with({{"footprint", json::object()}})), StartsWith("/receivers/footprint: "));
+    EXPECT_THAT(place(camera_with({{"footprint", {{"lenght", 1}}}})), HasSubstr("lenght"));
+    EXPECT_THAT(place(camera_with({{"footprint", {{"share", 1.5}}}})), StartsWith("/receivers/footprint/share: "));
+    json probes = minimal();
+    probes["receivers"] = {{"type", "probes"}, {"footprint", {{"receiver_pixels", 1}}}};
+    EXPECT_THAT(place(probes), AllOf(StartsWith("/receivers/footprint/receiver_pixels: "), HasSubstr("length")));
 }
 
 TEST(LoadScenario, RefusesPointsThatAreNone) {
