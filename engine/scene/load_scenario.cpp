@@ -180,12 +180,13 @@ FilterWidth load_filter_width(const json& from) {
     if (!from.contains("footprint")) return width;
     if (from.contains("filter_width"))
         refuse("/receivers/filter_width", "the footprint is given twice: leave out filter_width or footprint");
-    const auto& [unit, value] = *from["footprint"].items().begin();
+    const auto given = from["footprint"].begin();  // the schema asks for exactly one
+    const std::string& unit = given.key();
     width.unit = unit == "share"             ? WidthUnit::share
                  : unit == "length"          ? WidthUnit::length
                  : unit == "receiver_pixels" ? WidthUnit::receiver_pixels
                                              : WidthUnit::map_pixels;
-    width.value = value.get<double>();
+    width.value = given->get<double>();
     if (width.unit == WidthUnit::receiver_pixels && from.value("type", "probes") != "camera")
         refuse("/receivers/footprint/receiver_pixels",
                "only receivers of a camera have pixels: give the footprint as a length or a share of the map");

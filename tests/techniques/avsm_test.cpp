@@ -30,9 +30,9 @@ TEST(Avsm, MoreNodesLeaveLessError) {
     for (const bool media : {false, true}) {
         double before = std::numeric_limits<double>::infinity();
         for (const int nodes : {2, 4, 8, 16, 64}) {
-            const auto b =
-                testing::build(find("avsm", ""), testing::hairy_scene(media), rays::testing::directional(),
-                               rays::testing::rays(24, 4), ("{\"nodes\": " + std::to_string(nodes) + "}").c_str());
+            const auto b = testing::build(
+                find("avsm", ""), testing::hairy_scene(media), rays::testing::directional(), rays::testing::rays(24, 4),
+                ("{\"cells\": \"sample\", \"nodes\": " + std::to_string(nodes) + "}").c_str());
             const double error = mean_curve_error(b);
             if (nodes <= 16)
                 EXPECT_LT(error, before) << nodes;
@@ -78,8 +78,8 @@ struct Orders {
 
 private:
     std::string parameters(const char* order, int seed) const {
-        return "{\"nodes\": " + std::to_string(nodes_) + ", \"order\": \"" + order + "\", \"sampling\": \"" +
-               sampling_ + "\", \"seed\": " + std::to_string(seed) + "}";
+        return "{\"cells\": \"sample\", \"nodes\": " + std::to_string(nodes_) + ", \"order\": \"" + order +
+               "\", \"sampling\": \"" + sampling_ + "\", \"seed\": " + std::to_string(seed) + "}";
     }
     static void fill(rays::LightRays& tile, bool reversed) {
         tile.submission.resize(tile.segments());
@@ -138,8 +138,7 @@ TEST(Avsm, BuildingInAnyOrderNeedsNoMemoryButTheMap) {
     const Orders orders(8, "linear");
     for (const char* order : {"sorted", "captured", "shuffled"}) {
         const Technique& row = find("avsm", "");
-        const ParameterValues values =
-            read_parameters(row.parameters, nlohmann::json::parse(std::string("{\"order\": \"") + order + "\"}"), "");
+        const ParameterValues values = read_parameters(row.parameters, {{"order", order}, {"cells", "sample"}}, "");
         std::vector<rays::LightRays> tiles = orders.sorted.rays.tiles;
         for (rays::LightRays& tile : tiles)
             for (std::uint32_t s = 0; s < tile.segments(); ++s) tile.submission.push_back(s);
@@ -198,9 +197,9 @@ TEST(Avsm, AnExponentialFunctionIsStoredAsLookupsAnswer) {
 
 TEST(Avsm, BytesAreEightANodeWhateverTheScene) {
     for (const int nodes : {2, 4, 8, 12, 64}) {
-        const auto b =
-            testing::build(find("avsm", ""), testing::hairy_scene(false), rays::testing::directional(),
-                           rays::testing::rays(16, 4), ("{\"nodes\": " + std::to_string(nodes) + "}").c_str());
+        const auto b = testing::build(find("avsm", ""), testing::hairy_scene(false), rays::testing::directional(),
+                                      rays::testing::rays(16, 4),
+                                      ("{\"cells\": \"sample\", \"nodes\": " + std::to_string(nodes) + "}").c_str());
         EXPECT_EQ(b.map->bytes(), 16u * 16 * 4 * nodes * 8) << "table 1 counts 8 bytes a node";
     }
 }

@@ -79,9 +79,9 @@ TEST(Opacity, BoundsOfATexelFollowWhatIsThere) {
 TEST(Opacity, MoreSlicesLeaveLessError) {
     double before = 1e9;
     for (const int slices : {4, 16, 64, 256}) {
-        const auto b =
-            testing::build(find("opacity", ""), testing::hairy_scene(true), rays::testing::directional(),
-                           rays::testing::rays(24, 4), ("{\"slices\": " + std::to_string(slices) + "}").c_str());
+        const auto b = testing::build(find("opacity", ""), testing::hairy_scene(true), rays::testing::directional(),
+                                      rays::testing::rays(24, 4),
+                                      ("{\"cells\": \"sample\", \"slices\": " + std::to_string(slices) + "}").c_str());
         double error = 0.0;
         curves::SweepScratch scratch;
         curves::Curve exact, stored;

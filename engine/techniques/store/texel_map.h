@@ -4,7 +4,8 @@
 //   explicit Own(const ParameterValues&)                hands the values on to TexelMap
 //   static int floats_a_texel(const ParameterValues&)
 //   void fill(const rays::LightRays&)                   fills the texels of a tile, with for_each_texel; each texel is
-//                                                       of one ray, which may be the mean of a pixel's rays
+//                                                       of one ray, which may be the mean of a pixel's rays: see
+//                                                       sums_rays
 //   prepare(float z) const                              what an evaluation needs of a depth; made once a lookup
 //   float evaluate(texel, prepared) const               the visibility that a texel gives
 //   int nodes_of(const float* texel) const              0: nothing is in its way
@@ -28,7 +29,7 @@ namespace shadowbench::techniques {
 
 // The traits for the parameters filter_parameter and averaged_cells_parameter.
 inline Traits texel_traits() {
-    return {.pointwise = {{"filter", "point"}}, .whole_pixel = {{"filter", "footprint"}}};
+    return {.pointwise = {{"filter", "point"}}, .whole_pixel = {{"filter", "footprint"}, {"cells", "pixel"}}};
 }
 
 template <class Own>
@@ -37,6 +38,10 @@ public:
     // If not 0: lookups filter this many floats of the texels, and call `evaluate` once, with their means as doubles.
     // If 0: lookups call `evaluate` for each texel and filter its answers.
     static constexpr int filtered_floats = 0;
+
+    // If false: with cells=pixel, `fill` gets one ray a pixel, of the mean visibility of the pixel's rays. If true: it
+    // gets all of them, and a texel is the sum over rays_a_texel() rays, from the one that for_each_texel gives on.
+    static constexpr bool sums_rays = false;
 
     static constexpr int most_own_depths = 0;
     int own_depths(const float*, float*) const { return 0; }
@@ -47,7 +52,7 @@ public:
 
     void begin(const BuildInput& input) override { allocate(input.layout); }
     void add(const rays::LightRays& tile) override {
-        if (texels_.kind != Cells::pixel || tile.samples == 1) return own().fill(tile);
+        if (Own::sums_rays || texels_.kind != Cells::pixel || tile.samples == 1) return own().fill(tile);
         MeanRays means;
         own().fill(means.of(tile));
         scratch_.add(means.bytes());
@@ -105,6 +110,9 @@ protected:
     void for_each_texel(const rays::LightRays& tile, const Visit& visit) {
         for_each_cell(layout_, texels_.grid, texels_.kind, tile,
                       [&](std::size_t cell, std::size_t ray) { visit(texels_.at(cell), cell, ray); });
+    }
+    std::size_t rays_a_texel(const rays::LightRays& tile) const {
+        return texels_.kind == Cells::pixel ? static_cast<std::size_t>(tile.samples) : 1;
     }
 
     Texels texels_;

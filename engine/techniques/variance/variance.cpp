@@ -73,13 +73,16 @@ public:
     explicit Variance(const ParameterValues& values) : TexelMap(values), least_(values.number("min_variance")) {}
     static int floats_a_texel(const ParameterValues&) { return 2; }
 
+    static constexpr bool sums_rays = true;
     void fill(const rays::LightRays& rays) {
+        const std::size_t count = rays_a_texel(rays);
         std::vector<curves::Node> nodes;
         curves::OpenMedia open;
-        for_each_texel(rays, [&](float* texel, std::size_t, std::size_t ray) {
-            const Moments moments = moments_of(rays, ray, open, nodes);
-            texel[0] = static_cast<float>(moments.first);
-            texel[1] = static_cast<float>(moments.second);
+        for_each_texel(rays, [&](float* texel, std::size_t, std::size_t first) {
+            Moments sum;
+            for (std::size_t ray = first; ray < first + count; ++ray) add_ray(rays, ray, open, nodes, sum);
+            texel[0] = static_cast<float>(sum.first / static_cast<double>(count));
+            texel[1] = static_cast<float>(sum.second / static_cast<double>(count));
         });
         scratch_.add(nodes.capacity() * sizeof(curves::Node) + open.bytes());
     }
@@ -119,9 +122,8 @@ private:
         return (z - layout_.z_min) / (static_cast<double>(layout_.z_max) - layout_.z_min) - 1.0;
     }
 
-    Moments moments_of(const rays::LightRays& rays, std::size_t ray, curves::OpenMedia& open,
-                       std::vector<curves::Node>& nodes) const {
-        Moments sum;
+    void add_ray(const rays::LightRays& rays, std::size_t ray, curves::OpenMedia& open,
+                 std::vector<curves::Node>& nodes, Moments& sum) const {
         double left = 1.0;
         if (layout_.media) {
             curves::composite(rays, ray, 0, open, nodes);
@@ -141,7 +143,6 @@ private:
             }
         }
         sum.add(left, far_end);
-        return sum;
     }
 
     double least_;
