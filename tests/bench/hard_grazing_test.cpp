@@ -58,7 +58,7 @@ struct Tested {
 };
 const Tested all_tested[] = {{"shadow_map", "", in_same_sample},
                              {"deep", "tolerance=0", in_same_pixel},
-                             {"avsm", "", around_receiver},
+                             {"avsm", "", in_same_pixel},
                              {"uncompressed", "", around_receiver},
                              {"ray_traced", "", around_receiver}};
 

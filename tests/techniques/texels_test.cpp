@@ -34,7 +34,8 @@ TEST_P(Texels, BilinearLookupsBlendFourTexels) {
 }
 
 TEST_P(Texels, AFootprintIsTheMeanOfItsTexels) {
-    const auto b = build(R"({"filter": "footprint"})", 4), point = build(R"({"filter": "point"})", 4);
+    const auto b = build(R"({"filter": "footprint", "cells": "sample"})", 4),
+               point = build(R"({"filter": "point", "cells": "sample"})", 4);
     const auto mean = [&](float x0, float x1, float y0, float y1) {  // texels are half a pixel wide
         double sum = 0.0;
         int count = 0;
@@ -52,16 +53,16 @@ TEST_P(Texels, AQuarterOfAMillionTexelsHaveTheMeanOfOne) {
     // Added up in float, each 0.3 is rounded the same way once the sum is large: to 0.297 above 65,536.
     scene::Scene scene;
     scene.objects.push_back(rays::testing::quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, 0.7f));
-    const auto b =
-        testing::build(find(GetParam(), ""), scene, rays::testing::directional(), rays::testing::rays(64, 64));
+    const auto b = testing::build(find(GetParam(), ""), scene, rays::testing::directional(),
+                                  rays::testing::rays(64, 64), R"({"cells": "sample"})");
     const float one = b.lookup(32.0f, 32.0f, 1e6f, 0.01f);
     EXPECT_NEAR(b.lookup(32.0f, 32.0f, 1e6f, 64.0f), one, 1e-7f);
 }
 
 TEST_P(Texels, TheCentreIsOneRayOfEachPixel) {
-    const auto all = build("{}", 4), one = build(R"({"cells": "centre", "filter": "point"})", 4);
+    const auto all = build(R"({"cells": "sample"})", 4), one = build(R"({"cells": "centre", "filter": "point"})", 4);
     EXPECT_EQ(one.map->bytes() * 4, all.map->bytes());
-    const auto point = build(R"({"filter": "point"})", 4);
+    const auto point = build(R"({"filter": "point", "cells": "sample"})", 4);
     for (int y = 0; y < 16; ++y)  // the sample cell right above the middle
         for (int x = 0; x < 16; ++x)
             EXPECT_EQ(one.lookup(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1.0f),
