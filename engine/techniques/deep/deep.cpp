@@ -48,8 +48,9 @@ const Parameter parameters[] = {
      {"none", "nearest", "blend"}},
     {"kernel",
      ParameterKind::choice,
-     "how a lookup weights pixels: box, by the part of each that its footprint covers; tent, twice as wide, bilinear "
-     "at one pixel's width; pixels, the paper's box: whole pixels whose centres lie within the filter radius",
+     "how a lookup weights pixels: box, by the part of each that its footprint covers, which at one pixel's width is "
+     "bilinear interpolation, the lookup of renderers; tent, twice as wide; pixels, the paper's box: whole pixels whose "
+     "centres lie within the filter radius",
      0,
      0,
      0,
