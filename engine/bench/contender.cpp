@@ -93,7 +93,7 @@ void find_interval(Contender& contender, std::span<const double> errors, const T
     const metrics::Interval interval = metrics::expected_rms(squares, noise);
     const bool random_rays = contender.maps.layout->jittered;
     result.interval = {interval.low, interval.high, all.seeds() > 1 || !random_rays};
-    result.truth_sd = noise.linear;
+    result.truth_sd = std::sqrt(noise.linear);
 }
 
 void judge(Contender& contender, const Asked& judged, const Truth& truth) {

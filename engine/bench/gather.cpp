@@ -147,7 +147,7 @@ std::vector<std::vector<Part>> parts_by_tile(const MapLayout& layout, std::span<
     return parts;
 }
 
-std::vector<Moments> sum_of_parts(const std::vector<std::vector<Part>>& parts, std::size_t queries) {
+std::vector<Moments> reduce(const std::vector<std::vector<Part>>& parts, std::size_t queries) {
     std::vector<Moments> total(queries);
     for (const std::vector<Part>& tile : parts)
         for (const Part& part : tile) {
@@ -159,17 +159,6 @@ std::vector<Moments> sum_of_parts(const std::vector<std::vector<Part>>& parts, s
             sum.count += part.moments.count;
         }
     return total;
-}
-
-NarrowQueries without_rays(std::span<const Query> queries, std::span<const Moments> moments) {
-    NarrowQueries narrow;
-    for (std::size_t q = 0; q < queries.size(); ++q)
-        if (moments[q].count == 0) {
-            narrow.indices.push_back(q);
-            narrow.queries.push_back(queries[q]);
-            narrow.queries.back().width = 0.0f;
-        }
-    return narrow;
 }
 
 void gather_footprints(const LightRays& tile, const MapLayout& layout, std::span<const Query> queries,

@@ -42,15 +42,7 @@ struct Part {
 std::vector<std::vector<Part>> parts_by_tile(const rays::MapLayout& layout, std::span<const techniques::Query> queries);
 
 // The sums of each query, tile after tile, so that they are the same for every number of threads.
-std::vector<Moments> sum_of_parts(const std::vector<std::vector<Part>>& parts, std::size_t queries);
-
-// The queries that no ray was found for: a footprint narrower than a sample cell may hold none. They are to be asked
-// again for the nearest ray, with no width.
-struct NarrowQueries {
-    std::vector<std::size_t> indices;
-    std::vector<techniques::Query> queries;
-};
-NarrowQueries without_rays(std::span<const techniques::Query> queries, std::span<const Moments> moments);
+std::vector<Moments> reduce(const std::vector<std::vector<Part>>& parts, std::size_t queries);
 
 // The grid volumes of the scene, and the light that made the rays.
 struct GridsInLight {

@@ -31,17 +31,24 @@ std::vector<Moments> gather_kept(const RaySource& source, const techniques::Buil
         });
         first += batch.size();
     });
-    return sum_of_parts(parts, queries.size());
+    return reduce(parts, queries.size());
 }
 
 // The mean of the rays inside each footprint, or the nearest ray if there is none; channel after channel.
 std::vector<double> means_of_rays(const RaySource& source, const techniques::BuildInput& input,
                                   std::span<const techniques::Query> queries) {
     std::vector<Moments> moments = gather_kept(source, input, queries, gather_footprints);
-    const NarrowQueries narrow = without_rays(queries, moments);
-    if (!narrow.queries.empty()) {
-        const std::vector<Moments> nearest = gather_kept(source, input, narrow.queries, gather_nearest);
-        for (std::size_t i = 0; i < nearest.size(); ++i) moments[narrow.indices[i]] = nearest[i];
+    std::vector<std::size_t> empty;
+    std::vector<techniques::Query> narrow;
+    for (std::size_t q = 0; q < queries.size(); ++q)
+        if (moments[q].count == 0) {
+            empty.push_back(q);
+            narrow.push_back(queries[q]);
+            narrow.back().width = 0.0f;
+        }
+    if (!empty.empty()) {
+        const std::vector<Moments> nearest = gather_kept(source, input, narrow, gather_nearest);
+        for (std::size_t i = 0; i < empty.size(); ++i) moments[empty[i]] = nearest[i];
     }
     std::vector<double> means;
     for (int c = 0; c < input.layout.channels; ++c)

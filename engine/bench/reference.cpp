@@ -48,15 +48,22 @@ std::vector<Moments> gather_all(const Casters& casters, std::span<const Query> q
         });
         if (watch) watch(std::min(first + in_flight, tiles.size()), tiles.size());
     }
-    return sum_of_parts(parts, queries.size());
+    return reduce(parts, queries.size());
 }
 
 // A footprint narrower than a sample cell may hold no ray at all.
 void fill_empty(const Casters& casters, std::span<const Query> queries, std::vector<Moments>& moments) {
-    const NarrowQueries narrow = without_rays(queries, moments);
-    if (narrow.queries.empty()) return;
-    const std::vector<Moments> nearest = gather_all(casters, narrow.queries, gather_nearest, {});
-    for (std::size_t i = 0; i < nearest.size(); ++i) moments[narrow.indices[i]] = nearest[i];
+    std::vector<std::size_t> empty;
+    std::vector<Query> asked;
+    for (std::size_t q = 0; q < queries.size(); ++q)
+        if (moments[q].count == 0) {
+            empty.push_back(q);
+            asked.push_back(queries[q]);
+            asked.back().width = 0.0f;
+        }
+    if (empty.empty()) return;
+    const std::vector<Moments> nearest = gather_all(casters, asked, gather_nearest, {});
+    for (std::size_t i = 0; i < empty.size(); ++i) moments[empty[i]] = nearest[i];
 }
 
 double standard_error(const Moments& moments, int channel) {

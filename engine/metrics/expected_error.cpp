@@ -31,14 +31,14 @@ TruthNoise ErrorsOverSeeds::truth_noise(std::span<const double> standard_error) 
         linear.add(se2 * (mean * mean - of_mean - se2));
     }
     noise.bias = variance.value() / n;
-    noise.linear = 2.0 * std::sqrt(std::max(0.0, linear.value())) / n;
-    noise.quadratic = std::sqrt(2.0 * fourth.value()) / n;
+    noise.linear = 4.0 * std::max(0.0, linear.value()) / (n * n);
+    noise.quadratic = 2.0 * fourth.value() / (n * n);
     return noise;
 }
 
 Interval expected_rms(std::span<const double> mean_squares, const TruthNoise& truth, double confidence) {
-    const double known = truth.linear * truth.linear + truth.quadratic * truth.quadratic;
-    const Interval square = mean_interval(mean_and_variance(mean_squares), known, 0.5 * (1.0 - confidence));
+    const Interval square =
+        mean_interval(mean_and_variance(mean_squares), truth.linear + truth.quadratic, 0.5 * (1.0 - confidence));
     return {std::sqrt(std::max(0.0, square.low - truth.bias)), std::sqrt(std::max(0.0, square.high - truth.bias))};
 }
 

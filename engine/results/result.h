@@ -61,9 +61,9 @@ struct RmsInterval {
 
 struct LookupErrors {
     metrics::ErrorNorms norms;
-    double signed_mean = 0.0;             // below 0: too dark
-    std::optional<RmsInterval> interval;  // absent in results of earlier programs
-    double truth_sd = 0.0;                // metrics::TruthNoise::linear
+    double signed_mean = 0.0;                  // below 0: too dark
+    std::optional<RmsInterval> interval = {};  // absent in results of earlier programs
+    double truth_sd = 0.0;                     // square root of metrics::TruthNoise::linear
 };
 
 // What another seed of the light rays gave.

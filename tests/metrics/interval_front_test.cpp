@@ -104,8 +104,8 @@ TEST(IntervalFront, of_one_or_none_needs_no_interval) {
     const Difference never = [](std::size_t, std::size_t) -> Interval { throw "asked for a pair"; };
     EXPECT_TRUE(front_of_intervals(0, never, never).empty());
     EXPECT_EQ(front_of_intervals(1, never, never), std::vector<OnFront>{OnFront::certainly});
-    EXPECT_EQ(tail_of_front(1, 0.95), 0.025);
-    EXPECT_DOUBLE_EQ(tail_of_front(7, 0.95), 0.025 / 42) << "21 pairs, two values each";
+    EXPECT_NEAR(tail_of_front(1, 0.95), 0.025, 1e-15);
+    EXPECT_NEAR(tail_of_front(7, 0.95), 0.025 / 42, 1e-15) << "21 pairs, two values each";
 }
 
 // Sampled values of known expectation, many of them tied or close: a front that says anything wrong is rare. Marks are
