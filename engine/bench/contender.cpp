@@ -81,19 +81,29 @@ void finish_all(std::span<Contender> contenders) {
     }
 }
 
+// Of the expected RMS, over the seeds and this one.
+void find_interval(Contender& contender, std::span<const double> errors, const Truth& truth) {
+    results::LookupErrors& result = *contender.cell.lookup;
+    metrics::ErrorsOverSeeds all = contender.seed_errors;
+    all.add(errors);
+    std::vector<double> squares{result.norms.rms * result.norms.rms};
+    for (const results::SeedErrors& seed : contender.cell.over_seeds)
+        squares.push_back(seed.lookup.rms * seed.lookup.rms);
+    const metrics::TruthNoise noise = all.truth_noise(truth.standard_error);
+    const metrics::Interval interval = metrics::expected_rms(squares, noise);
+    const bool random_rays = contender.maps.layout->jittered;
+    result.interval = {interval.low, interval.high, all.seeds() > 1 || !random_rays};
+    result.truth_sd = std::sqrt(noise.linear);
+}
+
 void judge(Contender& contender, const Asked& judged, const Truth& truth) {
-    const std::vector<float> visibility = lookup_all(contender.maps, judged);
-    check_answers(contender, judged, visibility);
+    const std::vector<double> errors = errors_of(contender, judged, truth);
     if (!contender.ok()) return;
-    std::vector<double> errors(visibility.size());
-    results::LookupErrors result;
-    for (std::size_t i = 0; i < visibility.size(); ++i) {
-        errors[i] = visibility[i] - truth.value[i];
-        result.signed_mean += errors[i];
-    }
+    results::LookupErrors& result = contender.cell.lookup.emplace();
     result.norms = metrics::error_norms(errors);
+    for (const double error : errors) result.signed_mean += error;
     if (!errors.empty()) result.signed_mean /= static_cast<double>(errors.size());
-    contender.cell.lookup = result;
+    find_interval(contender, errors, truth);
 }
 
 }  // namespace
@@ -132,7 +142,7 @@ void label(std::span<Contender> contenders, std::span<const scene::TechniqueRequ
 }
 
 Contender unbuilt(const Contender& contender) {
-    return {contender.row, contender.values, contender.needs, {}, contender.cell, {}};
+    return {contender.row, contender.values, contender.needs, {}, contender.cell, {}, {}};
 }
 
 void ask_for_needs(std::span<const Contender> contenders, rays::MapLayout& layout) {
@@ -211,6 +221,16 @@ void check_answers(Contender& contender, const Asked& asked, std::span<const flo
         return fail(contender, fmt::format("the lookup at ({}, {}, {}) answers {}, which is not {}", q.x, q.y, q.z, v,
                                            bounded ? "in [0, 1]" : "finite"));
     }
+}
+
+std::vector<double> errors_of(Contender& contender, const Asked& judged, const Truth& truth) {
+    if (!contender.ok()) return {};
+    const std::vector<float> visibility = lookup_all(contender.maps, judged);
+    check_answers(contender, judged, visibility);
+    if (!contender.ok()) return {};
+    std::vector<double> errors(visibility.size());
+    for (std::size_t i = 0; i < visibility.size(); ++i) errors[i] = visibility[i] - truth.value[i];
+    return errors;
 }
 
 void check_lookups(std::span<Contender> contenders, const Asked& judged, const Truth& truth) {

@@ -10,6 +10,7 @@
 #include "bench/maps.h"
 #include "bench/ray_source.h"
 #include "bench/reference.h"
+#include "metrics/expected_error.h"
 #include "results/result.h"
 
 namespace shadowbench::bench {
@@ -20,7 +21,8 @@ struct Contender {
     techniques::RayNeeds needs;
     techniques::Promises promises;  // for these values; known once built
     results::Cell cell;
-    Maps maps;  // finished by build_all(); none if the cell failed
+    Maps maps;                                  // finished by build_all(); none if the cell failed
+    metrics::ErrorsOverSeeds seed_errors = {};  // at the judged queries, with the further seeds of the rays
 
     bool ok() const { return cell.status == results::CellStatus::ok; }
 };
@@ -65,7 +67,12 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
 // after channel.
 void check_answers(Contender& contender, const Asked& asked, std::span<const float> answers);
 
-// Compares the answers to the judged queries with the truth. To be called after check_answers().
+// Looks up the judged queries and fails the contender as check_answers() does. Otherwise returns answer minus truth,
+// channel after channel.
+std::vector<double> errors_of(Contender& contender, const Asked& judged, const Truth& truth);
+
+// Compares the answers to the judged queries with the truth, and finds the interval of the RMS from these errors and
+// those over seeds, which must be known before.
 void check_lookups(std::span<Contender> contenders, const Asked& judged, const Truth& truth);
 
 // For a light that sees no caster: fails every contender with an answer other than 1. To be called after

@@ -21,8 +21,11 @@ double estimate_seconds(const scene::Scenario& scenario, const rays::MapLayout& 
     const double touched = std::min(pixels, tile * scenario.reference.queries);
     const double judged = scenario.scene.deep_image ? rays : touched * scenario.reference.samples_per_pixel;
     const double spread = rays * scenario.reference.spread_seeds;
-    return factor * (capture * (2.0 * rays + judged + spread) + build * rays * rows * (repetitions + 3.0)) +
-           lookup * rows * (2.0 * repetitions * scenario.timing.lookups + scenario.reference.queries);
+    return factor * (capture * (2.0 * rays + judged + spread) +
+                     build * rays * rows * (repetitions + 3.0 + scenario.reference.spread_seeds)) +
+           lookup * rows *
+               (2.0 * repetitions * scenario.timing.lookups +
+                (1.0 + scenario.reference.spread_seeds) * scenario.reference.queries);
 }
 
 }  // namespace shadowbench::bench

@@ -136,6 +136,31 @@ FilterBox filter_box(const Query& query, const MapLayout& layout) {
     return f;
 }
 
+std::vector<std::vector<Part>> parts_by_tile(const MapLayout& layout, std::span<const Query> queries) {
+    std::vector<std::vector<Part>> parts(static_cast<std::size_t>(layout.tiles()));
+    for (std::size_t q = 0; q < queries.size(); ++q) {
+        const FilterBox f = filter_box(queries[q], layout);
+        for (int ty = f.y0 / layout.tile_height; ty <= f.y1 / layout.tile_height; ++ty)
+            for (int tx = f.x0 / layout.tile_width; tx <= f.x1 / layout.tile_width; ++tx)
+                parts[static_cast<std::size_t>(ty) * layout.tiles_x() + tx].push_back({q, {}});
+    }
+    return parts;
+}
+
+std::vector<Moments> reduce(const std::vector<std::vector<Part>>& parts, std::size_t queries) {
+    std::vector<Moments> total(queries);
+    for (const std::vector<Part>& tile : parts)
+        for (const Part& part : tile) {
+            Moments& sum = total[part.query];
+            for (int c = 0; c < 3; ++c) {
+                sum.sum[c] += part.moments.sum[c];
+                sum.squares[c] += part.moments.squares[c];
+            }
+            sum.count += part.moments.count;
+        }
+    return total;
+}
+
 void gather_footprints(const LightRays& tile, const MapLayout& layout, std::span<const Query> queries,
                        const GridsInLight& media, std::span<Part> parts) {
     std::vector<FilterBox> footprints;

@@ -1,11 +1,12 @@
 // Sums the exact transmittance of all light rays of a tile over the footprints of queries. Segments of rays have
-// constant extinction, so grid volumes are not among them: they are integrated along the rays, up to each depth of a
-// query. Internal to reference.cpp.
+// constant extinction, so the truth keeps grid volumes out of them: it integrates those along the rays, up to each
+// depth of a query. Internal to reference.cpp and over_seeds.cpp.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "rays/grid_media.h"
 #include "rays/light_rays.h"
@@ -36,6 +37,12 @@ struct Part {
     std::size_t query;
     Moments moments;
 };
+
+// For each tile, the queries whose footprint touches it.
+std::vector<std::vector<Part>> parts_by_tile(const rays::MapLayout& layout, std::span<const techniques::Query> queries);
+
+// The sums of each query, tile after tile, so that they are the same for every number of threads.
+std::vector<Moments> reduce(const std::vector<std::vector<Part>>& parts, std::size_t queries);
 
 // The grid volumes of the scene, and the light that made the rays.
 struct GridsInLight {

@@ -12,6 +12,7 @@
 #include "bench/build_timing.h"
 #include "bench/clock.h"
 #include "bench/lookup_timing.h"
+#include "bench/over_seeds.h"
 #include "bench/prepared_light.h"
 #include "bench/queries.h"
 #include "bench/ray_source.h"
@@ -60,9 +61,8 @@ Truth find_truth(const LightJob& job, const rays::LightView& view, std::span<con
                                 stage(job, "reference"));
 }
 
-results::ReferenceReport report_reference(const LightJob& job, const rays::LightView& view,
-                                          const rays::MapLayout& layout, std::span<const Query> judged,
-                                          const Truth& truth) {
+results::ReferenceReport report_reference(const LightJob& job, const rays::MapLayout& layout,
+                                          std::span<const Query> judged, const Truth& truth) {
     results::ReferenceReport report;
     const metrics::ErrorNorms error = metrics::error_norms(truth.standard_error);
     report.judged = judged.size();
@@ -70,13 +70,18 @@ results::ReferenceReport report_reference(const LightJob& job, const rays::Light
     report.error_rms = error.rms;
     report.error_max = error.max;
     report.noise_tolerance = 0.5 / std::sqrt(static_cast<double>(layout.samples()));
+    return report;
+}
+
+// Absent values if there are too few seeds.
+void find_spread(const LightJob& job, std::span<Contender> contenders, const techniques::BuildInput& input,
+                 const Asked& judged, const Truth& truth, results::ReferenceReport& report) {
     const int seeds = job.scenario.reference.spread_seeds;
-    if (seeds < 2) return report;
-    const Spread spread =
-        spread_over_seeds(job.scenario.scene, view, job.scenario.rays, seeds, judged, stage(job, "spread over seeds"));
+    if (seeds < 2) return;
+    const Spread spread = measure_over_seeds({job.scenario.scene, input, seeds, job.limits}, contenders, judged, truth,
+                                             stage(job, "spread over seeds"));
     report.spread_rms = spread.rms;
     report.spread_max = spread.max;
-    return report;
 }
 
 struct LookupMeasurement {
@@ -167,16 +172,18 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
     const QuerySet set = make_queries(job, view);
     results::LightResult result = describe(job, layout, set);
 
+    // Other seeds come before the light's own rays and maps, so that memory holds only one of them at a time.
+    const QuerySet judged = judged_queries(job, set);
+    const Truth truth = find_truth(job, view, judged.queries);
+    result.reference = report_reference(job, layout, judged.queries, truth);
+    find_spread(job, contenders, input, judged.asked(), truth, result.reference);
+
     const Stopwatch setup;
     const rays::Capture capture(scene, view, layout);
     const double setup_seconds = setup.seconds();
     const RaySource source(capture, layout, job.limits.kept_rays, stage(job, "capture", layout));
     report_capture(source, setup_seconds, result);
     if (job.casters) result.agreement = compare_with_tracer(capture, layout, view, *job.casters, agreement_rays);
-
-    const QuerySet judged = judged_queries(job, set);
-    const Truth truth = find_truth(job, view, judged.queries);
-    result.reference = report_reference(job, view, layout, judged.queries, truth);
 
     build_all(contenders, source, input, job.limits.all, stage(job, "build", layout));
     check_functions(contenders, source, layout, stage(job, "check", layout));
@@ -188,7 +195,7 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
         judge(contender.cell, contender.promises, result.reference.noise_tolerance);
         result.cells.push_back(std::move(contender.cell));
     }
-    results::mark_fronts(result.cells);
+    results::mark_fronts(result);
     return result;
 }
 

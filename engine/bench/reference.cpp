@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "base/random.h"
 #include "bench/gather.h"
 #include "rays/capture.h"
 #include "rays/light_rays.h"
@@ -16,33 +15,6 @@ namespace {
 using rays::LightRays;
 using rays::MapLayout;
 using techniques::Query;
-
-// For each tile, the queries whose footprint touches it.
-std::vector<std::vector<Part>> parts_by_tile(const MapLayout& layout, std::span<const Query> queries) {
-    std::vector<std::vector<Part>> parts(static_cast<std::size_t>(layout.tiles()));
-    for (std::size_t q = 0; q < queries.size(); ++q) {
-        const FilterBox f = filter_box(queries[q], layout);
-        for (int ty = f.y0 / layout.tile_height; ty <= f.y1 / layout.tile_height; ++ty)
-            for (int tx = f.x0 / layout.tile_width; tx <= f.x1 / layout.tile_width; ++tx)
-                parts[static_cast<std::size_t>(ty) * layout.tiles_x() + tx].push_back({q, {}});
-    }
-    return parts;
-}
-
-// The parts are summed tile after tile, so the sums are the same for every number of threads.
-std::vector<Moments> reduce(const std::vector<std::vector<Part>>& parts, std::size_t queries) {
-    std::vector<Moments> total(queries);
-    for (const std::vector<Part>& tile : parts)
-        for (const Part& part : tile) {
-            Moments& sum = total[part.query];
-            for (int c = 0; c < 3; ++c) {
-                sum.sum[c] += part.moments.sum[c];
-                sum.squares[c] += part.moments.squares[c];
-            }
-            sum.count += part.moments.count;
-        }
-    return total;
-}
 
 using Gather = void (*)(const LightRays&, const MapLayout&, std::span<const Query>, const GridsInLight&,
                         std::span<Part>);
@@ -127,33 +99,6 @@ Truth reference_visibility(const scene::Scene& scene, const rays::LightView& vie
             truth.standard_error.push_back(scene.deep_image ? 0.0 : standard_error(m, c));
         }
     return truth;
-}
-
-Spread spread_over_seeds(const scene::Scene& scene, const rays::LightView& view, const scene::RaySettings& settings,
-                         int seeds, std::span<const Query> queries, const ReferenceWatch& watch) {
-    Spread spread;
-    if (settings.pattern == scene::Pattern::regular || scene.deep_image || seeds < 2) return spread;
-    std::vector<double> sum, squares;
-    for (int s = 0; s < seeds; ++s) {
-        scene::RaySettings other = settings;
-        other.seed = base::hash(settings.seed, static_cast<std::uint64_t>(s) + 1);
-        const Truth truth = reference_visibility(scene, view, other, queries, {});
-        sum.resize(truth.value.size());
-        squares.resize(truth.value.size());
-        for (std::size_t i = 0; i < truth.value.size(); ++i) {
-            sum[i] += truth.value[i];
-            squares[i] += truth.value[i] * truth.value[i];
-        }
-        if (watch) watch(static_cast<std::size_t>(s) + 1, static_cast<std::size_t>(seeds));
-    }
-    double total = 0.0;
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-        const double variance = std::max(0.0, (squares[i] - sum[i] * sum[i] / seeds) / (seeds - 1.0));
-        total += variance;
-        spread.max = std::max(spread.max, std::sqrt(variance));
-    }
-    if (!sum.empty()) spread.rms = std::sqrt(total / static_cast<double>(sum.size()));
-    return spread;
 }
 
 }  // namespace shadowbench::bench

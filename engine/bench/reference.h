@@ -35,13 +35,4 @@ using ReferenceWatch = std::function<void(std::size_t done, std::size_t total)>;
 Truth reference_visibility(const scene::Scene& scene, const rays::LightView& view, const scene::RaySettings& settings,
                            std::span<const techniques::Query> queries, const ReferenceWatch& watch);
 
-struct Spread {
-    double rms = 0.0, max = 0.0;
-};
-
-// Standard deviation of that mean over `seeds` (at least 2) other seeds of the same settings, over the queries. All 0
-// for a regular pattern, which is not random.
-Spread spread_over_seeds(const scene::Scene& scene, const rays::LightView& view, const scene::RaySettings& settings,
-                         int seeds, std::span<const techniques::Query> queries, const ReferenceWatch& watch);
-
 }  // namespace shadowbench::bench

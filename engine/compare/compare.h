@@ -85,6 +85,7 @@ struct FrontChange {
     std::string suite, group, cell;
     std::string front;  // "time and error" or "bytes and error"
     bool joined = false;
+    bool perhaps = false;         // the intervals of the current result leave open whether the cell is on the front
     std::vector<std::string> by;  // the cells that beat it now (if it left) or before (if it joined)
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "compare/judge.h"
 #include "metrics/pareto.h"
@@ -9,6 +10,7 @@ namespace shadowbench::compare {
 namespace {
 
 using metrics::CostAndError;
+using metrics::OnFront;
 
 constexpr double absent = std::numeric_limits<double>::infinity();
 
@@ -29,6 +31,12 @@ double time_of(const Cell* cell) {
         return metrics::median(values);
     }
     return absent;
+}
+
+// What the intervals of the cell's own result say; absent if nothing is known.
+std::optional<OnFront> mark_of(const Cell* cell, bool of_time) {
+    if (!cell) return {};
+    return of_time ? cell->on_time_front : cell->on_bytes_front;
 }
 
 using Lines = std::map<std::string, const Line*>;  // by cell and measure
@@ -111,10 +119,14 @@ std::vector<FrontChange> front_changes(const std::string& suite, const std::stri
         }
         before.front = metrics::pareto_front(before.choices);
         now.front = metrics::pareto_front(now.choices);
-        for (std::size_t i = 0; i < cells.size(); ++i)
-            if (before.front[i] != now.front[i])
-                changes.push_back({suite, group, name_of(cells[i]), of_time ? "time and error" : "bytes and error",
-                                   now.front[i], names_of_better(now.front[i] ? before : now, cells, i)});
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (before.front[i] == now.front[i]) continue;
+            const std::optional<OnFront> mark = mark_of(cells[i].current, of_time);
+            if (mark == (now.front[i] ? OnFront::no : OnFront::certainly)) continue;
+            changes.push_back({suite, group, name_of(cells[i]), of_time ? "time and error" : "bytes and error",
+                               now.front[i], mark == OnFront::perhaps,
+                               names_of_better(now.front[i] ? before : now, cells, i)});
+        }
     }
     return changes;
 }

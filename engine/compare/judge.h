@@ -25,7 +25,8 @@ std::size_t enough_processes(std::size_t times, bool interleaved, double alpha);
 void apply_holm(Comparison& comparison);
 
 // The changes of the fronts of cells of the same suite and group. A value counts as changed only if its verdict says
-// so: noise moves no front.
+// so: noise moves no front. A change is left out if the intervals of the current result contradict it: the cell is then
+// certainly on the front that it would have left, or certainly not on the one that it would have joined.
 struct FrontCell {
     const Cell* baseline = nullptr;  // null: extra
     const Cell* current = nullptr;   // null: missing

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
+
+#include "metrics/interval_front.h"
 
 namespace shadowbench::compare {
 
@@ -62,6 +65,9 @@ struct Cell {
     std::string failure;  // why it failed
     std::vector<Exact> exact;
     std::vector<Timed> timed;
+    // What the intervals of its own result say of it; absent for kernels and for results without marks. Of several
+    // results of one scenario, the first.
+    std::optional<metrics::OnFront> on_time_front, on_bytes_front;
     Rerun rerun;
 };
 

@@ -163,6 +163,20 @@ Cell make_cell(const results::Cell& from, const json& scenario, const std::vecto
     return cell;
 }
 
+// Some cell of a light is always on each front, or perhaps on it; otherwise its cells were not marked.
+bool has_marks(const results::LightResult& light, metrics::OnFront (*mark)(const results::Cell&)) {
+    return std::any_of(light.cells.begin(), light.cells.end(),
+                       [&](const results::Cell& cell) { return mark(cell) != metrics::OnFront::no; });
+}
+
+metrics::OnFront time_mark(const results::Cell& cell) {
+    return cell.times ? cell.times->on_front : metrics::OnFront::no;
+}
+
+metrics::OnFront bytes_mark(const results::Cell& cell) {
+    return cell.on_bytes_front;
+}
+
 void add_light(Suite& suite, const results::LightResult& light, const results::VariantResult& variant,
                const json& scenario, const std::string& source) {
     // Speed and seed are those of the first light.
@@ -171,6 +185,7 @@ void add_light(Suite& suite, const results::LightResult& light, const results::V
     if (suite.seed.empty()) suite.seed = fmt::format("{}", light.layout.seed);
     const std::string settings = settings_text(variant.settings);
     const std::string group = (settings.empty() ? "" : settings + " / ") + light.name;
+    const bool timed = has_marks(light, time_mark), sized = has_marks(light, bytes_mark);
     std::map<std::string, int> seen;
     std::vector<json> parameters;
     for (const results::Cell& from : light.cells) parameters.push_back(json::parse(from.parameters_json));
@@ -178,6 +193,8 @@ void add_light(Suite& suite, const results::LightResult& light, const results::V
         Cell cell = make_cell(light.cells[i], scenario, variant.settings, source);
         cell.name = name_of(scenario, light.cells, i, parameters);
         cell.group = group;
+        if (timed) cell.on_time_front = time_mark(light.cells[i]);
+        if (sized) cell.on_bytes_front = bytes_mark(light.cells[i]);
         // Equal techniques of one scenario are numbered.
         const int earlier = seen[cell.name]++;
         if (earlier > 0) cell.name += fmt::format(" #{}", earlier + 1);

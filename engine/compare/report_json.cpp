@@ -52,6 +52,7 @@ ordered_json to_json(const Comparison& comparison) {
                           {"cell", change.cell},
                           {"front", change.front},
                           {"joined", change.joined},
+                          {"perhaps", change.perhaps},
                           {"by", change.by},
                           {"text", front_text(change)}});
     return {{"schema_version", 1},

@@ -89,8 +89,8 @@ std::string front_text(const FrontChange& change) {
     line.suite = change.suite;
     line.group = change.group;
     line.cell = change.cell;
-    std::string text =
-        fmt::format("{} {} the front of {}", title_of(line), change.joined ? "joined" : "left", change.front);
+    std::string text = fmt::format("{} {}{} the front of {}", title_of(line), change.perhaps ? "perhaps " : "",
+                                   change.joined ? "joined" : "left", change.front);
     for (std::size_t i = 0; i < change.by.size(); ++i)
         text += (i > 0 ? ", " : change.joined ? "; until now beaten by " : "; now beaten by ") + change.by[i];
     return text;

@@ -24,6 +24,15 @@ bool flag_or_false(const Field& from, const char* key) {
     return from.has(key) && from.at(key).truth();
 }
 
+// Earlier programs wrote true or false, by the measured values without intervals: true is read as perhaps.
+metrics::OnFront read_front(const Field& field) {
+    using metrics::OnFront;
+    if (field.value.is_boolean()) return field.truth() ? OnFront::perhaps : OnFront::no;
+    for (const OnFront on : {OnFront::no, OnFront::perhaps, OnFront::certainly})
+        if (field.text() == to_string(on)) return on;
+    refuse(field.where, "must be no, perhaps or certainly");
+}
+
 Sample read_sample(const Field& field) {
     Sample sample;
     sample.median = field.at("median").at_least_zero();
@@ -53,7 +62,7 @@ std::optional<CellTimes> read_cell_times(const Field& field) {
     times.lookups = field.at("lookups_a_pass").count();
     times.image_order = read_lookup_times(field.at("lookup_image_order"));
     times.random_order = read_lookup_times(field.at("lookup_random_order"));
-    times.on_front = field.at("on_time_error_front").truth();
+    times.on_front = read_front(field.at("on_time_error_front"));
     return times;
 }
 
@@ -80,7 +89,24 @@ std::optional<CurveErrors> read_curve_errors(const Field& field) {
 
 std::optional<LookupErrors> read_lookup_errors(const Field& field) {
     if (field.is_null()) return {};
-    return LookupErrors{read_norms(field), field.at("signed_mean").number()};
+    LookupErrors errors;
+    errors.norms = read_norms(field);
+    errors.signed_mean = field.at("signed_mean").number();
+    if (field.has("truth_sd")) errors.truth_sd = error_value(field.at("truth_sd"));
+    if (!field.has("rms_interval95") || field.at("rms_interval95").is_null()) return errors;
+    const Field interval = field.at("rms_interval95"), covers = field.at("rms_interval_covers");
+    if (interval.array().size() != 2) refuse(interval.where, "must hold two numbers");
+    if (covers.text() != "truth" && covers.text() != "truth and rays")
+        refuse(covers.where, "must be \"truth\" or \"truth and rays\"");
+    errors.interval = {error_value(interval.item(0)), error_value(interval.item(1)), covers.text() != "truth"};
+    return errors;
+}
+
+std::vector<SeedErrors> read_seeds(const Field& field) {
+    std::vector<SeedErrors> seeds;
+    for (std::size_t i = 0; i < field.array().size(); ++i)
+        seeds.push_back({read_norms(field.item(i).at("lookup_error")), field.item(i).at("bytes").count()});
+    return seeds;
 }
 
 NodeCounts read_nodes(const Field& field) {
@@ -119,7 +145,8 @@ Cell read_cell(const Field& field) {
     cell.nodes = read_nodes(field.at("nodes"));
     cell.curve = read_curve_errors(field.at("curve_error"));
     cell.lookup = read_lookup_errors(field.at("lookup_error"));
-    cell.on_bytes_front = flag_or_false(field, "on_bytes_error_front");
+    if (field.has("over_seeds")) cell.over_seeds = read_seeds(field.at("over_seeds"));
+    if (field.has("on_bytes_error_front")) cell.on_bytes_front = read_front(field.at("on_bytes_error_front"));
     cell.times = read_cell_times(field.at("times"));
     return cell;
 }

@@ -100,9 +100,22 @@ const Column columns[] = {
      [](const Row& r) { return from_lookup(r, [](const LookupErrors& e) { return e.norms.p99; }); }},
     {"lookup_error_signed_mean",
      [](const Row& r) { return from_lookup(r, [](const LookupErrors& e) { return e.signed_mean; }); }},
+    {"lookup_error_rms_low",
+     [](const Row& r) {
+         return from_lookup(r, [](const LookupErrors& e) { return e.interval ? e.interval->low : none; });
+     }},
+    {"lookup_error_rms_high",
+     [](const Row& r) {
+         return from_lookup(r, [](const LookupErrors& e) { return e.interval ? e.interval->high : none; });
+     }},
+    {"lookup_error_rms_interval_covers",
+     [](const Row& r) {
+         if (!r.cell.lookup || !r.cell.lookup->interval) return std::string();
+         return std::string(r.cell.lookup->interval->covers_rays ? "truth and rays" : "truth");
+     }},
     {"on_time_error_front",
-     [](const Row& r) { return std::string(r.cell.times && r.cell.times->on_front ? "1" : "0"); }},
-    {"on_bytes_error_front", [](const Row& r) { return std::string(r.cell.on_bytes_front ? "1" : "0"); }},
+     [](const Row& r) { return std::string(to_string(r.cell.times ? r.cell.times->on_front : metrics::OnFront::no)); }},
+    {"on_bytes_error_front", [](const Row& r) { return std::string(to_string(r.cell.on_bytes_front)); }},
     {"verdict", [](const Row& r) { return std::string(to_string(r.cell.verdict)); }},
     {"verdict_why", [](const Row& r) { return r.cell.verdict_why; }},
     {"settled", [](const Row& r) { return std::string(r.floors.floors == 0 ? ""

@@ -34,7 +34,7 @@ json to_json(const std::optional<CellTimes>& times) {
             {"lookups_a_pass", times->lookups},
             {"lookup_image_order", to_json(times->image_order)},
             {"lookup_random_order", to_json(times->random_order)},
-            {"on_time_error_front", times->on_front}};
+            {"on_time_error_front", to_string(times->on_front)}};
 }
 
 json to_json(const metrics::ErrorNorms& norms) {
@@ -60,6 +60,18 @@ json to_json(const std::optional<LookupErrors>& errors) {
     if (!errors) return nullptr;
     json out = to_json(errors->norms);
     out["signed_mean"] = errors->signed_mean;
+    out["rms_interval95"] = nullptr;
+    if (const auto& interval = errors->interval) {
+        out["rms_interval95"] = {number(interval->low), number(interval->high)};
+        out["rms_interval_covers"] = interval->covers_rays ? "truth and rays" : "truth";
+    }
+    out["truth_sd"] = number(errors->truth_sd);
+    return out;
+}
+
+json to_json(const std::vector<SeedErrors>& seeds) {
+    json out = json::array();
+    for (const SeedErrors& seed : seeds) out.push_back({{"lookup_error", to_json(seed.lookup)}, {"bytes", seed.bytes}});
     return out;
 }
 
@@ -89,7 +101,8 @@ json to_json(const Cell& cell) {
             {"nodes", to_json(cell.nodes)},
             {"curve_error", to_json(cell.curve)},
             {"lookup_error", to_json(cell.lookup)},
-            {"on_bytes_error_front", cell.on_bytes_front},
+            {"over_seeds", to_json(cell.over_seeds)},
+            {"on_bytes_error_front", to_string(cell.on_bytes_front)},
             {"times", to_json(cell.times)}};
 }
 

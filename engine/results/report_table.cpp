@@ -17,8 +17,10 @@ using base::error_text;
 constexpr const char* legend =
     "ns/seg: build time per segment of the light rays. image ns, random ns: time of a lookup in image and in random\n"
     "order. x floor: its ratio to reading the same cache lines. curve max: largest |stored - uncompressed|. lookup:\n"
-    "error against the truth. front: T no other technique is both faster (random order) and more accurate, B no other\n"
-    "is both smaller and more accurate.\n";
+    "error against the truth. rms 95 %: interval of the RMS expected over seeds of the rays; with ?: of the truth's\n"
+    "uncertainty only. front: T certainly no other technique beats it in time (random order) and error, B in bytes "
+    "and\n"
+    "error; T? and B? perhaps none does.\n";
 
 std::string count(std::uint64_t n) {
     std::string digits = fmt::format("{}", n);
@@ -33,10 +35,19 @@ std::string time_text(double value) {
 }
 
 std::string front_text(const Cell& cell) {
-    std::string marks;
-    if (cell.times && cell.times->on_front) marks += 'T';
-    if (cell.on_bytes_front) marks += 'B';
-    return marks;
+    const auto mark = [](char letter, metrics::OnFront on) {
+        if (on == metrics::OnFront::no) return std::string();
+        return std::string(1, letter) + (on == metrics::OnFront::perhaps ? "?" : "");
+    };
+    const std::string time = mark('T', cell.times ? cell.times->on_front : metrics::OnFront::no);
+    const std::string bytes = mark('B', cell.on_bytes_front);
+    return time + (time.empty() || bytes.empty() ? "" : " ") + bytes;
+}
+
+std::string interval_text(const LookupErrors& errors) {
+    if (!errors.interval) return "-";
+    return fmt::format("{:.3g}-{:.3g}{}", errors.interval->low, errors.interval->high,
+                       errors.interval->covers_rays ? "" : "?");
 }
 
 std::string status_text(const Cell& cell) {
@@ -62,9 +73,9 @@ std::vector<std::string> row_of(const Cell& cell) {
     row.push_back(cell.curve ? error_text(cell.curve->norms.max) : "-");
     if (cell.lookup) {
         const metrics::ErrorNorms& e = cell.lookup->norms;
-        row.insert(row.end(), {error_text(e.rms), error_text(e.p99), error_text(e.max)});
+        row.insert(row.end(), {error_text(e.rms), interval_text(*cell.lookup), error_text(e.p99), error_text(e.max)});
     } else {
-        row.insert(row.end(), 3, "-");
+        row.insert(row.end(), 4, "-");
     }
     row.insert(row.end(), {front_text(cell), status_text(cell)});
     return row;
@@ -167,8 +178,8 @@ std::string to_table(const Result& result) {
             text += capture_lines(light, result.times.threads) + nothing_line(light) + warning_line(light) +
                     reference_line(light);
             base::Table table({"technique", "build ms", "ns/seg", "image ns", "x floor", "random ns", "x floor",
-                               "bytes", "nodes mean", "max", "curve max", "lookup rms", "p99", "max", "front",
-                               "status"});
+                               "bytes", "nodes mean", "max", "curve max", "lookup rms", "rms 95 %", "p99", "max",
+                               "front", "status"});
             for (const Cell& cell : light.cells) table.add(row_of(cell));
             text += table.text("    ") + share_line(light) + unsettled_line(light);
         }

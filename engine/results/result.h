@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "document/setting.h"
+#include "metrics/interval_front.h"
 #include "metrics/statistics.h"
 #include "results/program.h"
 #include "results/verdict.h"
@@ -35,8 +36,8 @@ struct CellTimes {
     Sample build_ms;        // one thread
     double ns_per_segment;  // of the median build, per segment of the light rays
     LookupTimes image_order, random_order;
-    std::size_t lookups = 0;  // in one timed pass: fewer for slow techniques
-    bool on_front = false;    // no other technique is both faster (random order) and more accurate
+    std::size_t lookups = 0;                           // in one timed pass: fewer for slow techniques
+    metrics::OnFront on_front = metrics::OnFront::no;  // of time (random order) and error: see fronts.h
 };
 
 struct CurveErrors {
@@ -49,9 +50,26 @@ struct CurveErrors {
     double lowest = 0.0;           // lowest value of a stored function, if below 0
 };
 
+// 95 % interval of the RMS that is expected over seeds of the light rays against the exact truth: see
+// metrics/expected_error.h.
+struct RmsInterval {
+    double low = 0.0, high = 0.0;
+    // False: the rays are random, but their noise was not measured; the interval then covers the truth's uncertainty
+    // for these rays only.
+    bool covers_rays = true;
+};
+
 struct LookupErrors {
     metrics::ErrorNorms norms;
-    double signed_mean = 0.0;  // below 0: too dark
+    double signed_mean = 0.0;                  // below 0: too dark
+    std::optional<RmsInterval> interval = {};  // absent in results of earlier programs
+    double truth_sd = 0.0;                     // square root of metrics::TruthNoise::linear
+};
+
+// What another seed of the light rays gave.
+struct SeedErrors {
+    metrics::ErrorNorms lookup;
+    std::size_t bytes = 0;
 };
 
 // The number of cells (stored functions) and of their nodes.
@@ -82,10 +100,11 @@ struct Cell {
     NodeCounts nodes;
     std::optional<CurveErrors> curve;
     std::optional<LookupErrors> lookup;
+    std::vector<SeedErrors> over_seeds;  // of the further seeds, equal for all cells of a light; empty: not measured
     Verdict verdict = Verdict::kept;
-    std::string verdict_why;         // the figures, and why a degraded cell has no bound
-    bool on_bytes_front = false;     // no other technique is both smaller and more accurate
-    std::optional<CellTimes> times;  // absent for a failed cell
+    std::string verdict_why;                                 // the figures, and why a degraded cell has no bound
+    metrics::OnFront on_bytes_front = metrics::OnFront::no;  // of bytes and error: see fronts.h
+    std::optional<CellTimes> times;                          // absent for a failed cell
 };
 
 // "deep tolerance=0.02": a technique and its parameters, which may be empty.

@@ -173,7 +173,7 @@ struct Receivers {
 struct Reference {
     int samples_per_pixel = 256;  // of the reference that lookups are compared with
     int queries = 4096;           // how many of the receivers are compared
-    int spread_seeds = 4;         // further seeds, which measure the noise of the rays
+    int spread_seeds = 4;         // further seeds, which measure the noise of the rays and of each technique
     std::uint64_t seed = 1234567;
 };
 

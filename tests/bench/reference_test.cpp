@@ -62,23 +62,5 @@ TEST(Reference, does_not_depend_on_the_number_of_threads) {
     EXPECT_EQ(values[0], values[1]);
 }
 
-TEST(Spread, is_that_of_a_binomial_when_each_estimate_has_one_ray) {
-    HalfCovered half = half_covered(0.125);  // the edge halves pixel 4
-    half.settings.samples_per_pixel = 1;
-    std::vector<Query> queries(200);
-    for (int i = 0; i < 200; ++i) queries[i] = {4.5f, static_cast<float>(i % 8) + 0.5f, 2.0f, 1.0f};
-    const Spread spread = spread_over_seeds(half.scene, half.view, half.settings, 64, queries, {});
-    EXPECT_NEAR(spread.rms, 0.6 * 0.5, 0.02);
-}
-
-TEST(Spread, is_0_for_a_regular_pattern) {
-    HalfCovered half = half_covered(0.1);
-    half.settings.pattern = scene::Pattern::regular;
-    const Query queries[] = {{4.5f, 4.5f, 2.0f, 1.0f}};
-    const Spread spread = spread_over_seeds(half.scene, half.view, half.settings, 4, queries, {});
-    EXPECT_EQ(spread.rms, 0.0);
-    EXPECT_EQ(spread.max, 0.0);
-}
-
 }  // namespace
 }  // namespace shadowbench::bench

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compare/made.h"
+#include "compare/report.h"
 
 namespace shadowbench::compare {
 namespace {
@@ -252,6 +253,24 @@ TEST(Fronts, ANewTechniqueBeatsAnOldOne) {
     EXPECT_EQ(comparison.fronts.size(), 4u);  // one joins and one leaves, of both fronts
     for (const FrontChange& change : comparison.fronts)
         EXPECT_EQ(change.joined, change.cell == "deep tolerance=0.01") << change.cell;
+}
+
+TEST(Fronts, AChangeThatItsIntervalsLeaveOpenIsPerhapsOne) {
+    json current = made_result();
+    cell_of(current, 1)["bytes"] = 900;  // uncompressed: smaller than deep now, and more accurate
+    cell_of(current, 1)["on_bytes_error_front"] = "certainly";
+    const auto marked = [&](const char* mark) {
+        cell_of(current, 0)["on_bytes_error_front"] = mark;
+        return compare(side({made_result()}), side({current}), {});
+    };
+    const Comparison sure = marked("no"), open = marked("perhaps");
+    ASSERT_EQ(sure.fronts.size(), 1u);
+    EXPECT_FALSE(sure.fronts[0].perhaps);
+    ASSERT_EQ(open.fronts.size(), 1u);
+    EXPECT_TRUE(open.fronts[0].perhaps);
+    EXPECT_NE(to_text(open, false).find("perhaps left the front of bytes and error"), std::string::npos);
+    EXPECT_TRUE(to_json(open)["fronts"][0]["perhaps"].get<bool>());
+    EXPECT_TRUE(marked("certainly").fronts.empty()) << "its intervals say that nothing beats it";
 }
 
 // Times that did not provably change do not move the front.

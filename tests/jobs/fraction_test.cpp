@@ -7,8 +7,8 @@
 namespace shadowbench::service {
 namespace {
 
-const std::vector<const char*> measured = {"capture", "reference",     "spread over seeds", "build",
-                                           "check",   "timing builds", "timing lookups"};
+const std::vector<const char*> measured = {"reference", "spread over seeds", "capture",       "build",
+                                           "check",     "timing builds",     "timing lookups"};
 const std::vector<const char*> pictured = {"view rays", "capture", "build", "lookup", "reference"};
 
 TEST(JobFractions, GrowFromNothingToAll) {

@@ -23,7 +23,9 @@ Result small_result() {
     good.parameters = "tolerance=0.02";
     good.parameters_json = R"({"tolerance": 0.02})";
     good.error_bound = std::numeric_limits<double>::infinity();
-    good.lookup = LookupErrors{{0.5, 0.25, 0.125, 0.4}, -0.1};
+    good.lookup = LookupErrors{{0.5, 0.25, 0.125, 0.4}, -0.1, RmsInterval{0.2, 0.3, true}, 0.0625};
+    good.over_seeds = {{{0.5, 0.26, 0.125, 0.4}, 7}, {{0.5, 0.24, 0.125, 0.4}, 9}};
+    good.on_bytes_front = metrics::OnFront::certainly;
     good.curve = CurveErrors{3, 1e-5, {0.5, 0.25, 0.125, 0.4}, 0.75, 1, 2, 0.0625, -0.03125};
     good.verdict = Verdict::degraded;
     good.verdict_why = "rises by up to 0.0625";
@@ -39,6 +41,8 @@ Result small_result() {
     bad.verdict_why = bad.reason;
     bad.times.reset();
     bad.lookup.reset();
+    bad.over_seeds.clear();
+    bad.on_bytes_front = metrics::OnFront::no;
     LightResult light;
     light.name = "key";
     light.cells = {good, bad};
@@ -83,7 +87,7 @@ TEST(ResultJson, holds_the_clock_under_times_only) {
     light.times = {1.0, 2.0, 3.0};
     light.cells[0].times->build_ms = summarise({30.0});
     light.cells[0].times->lookups = 64;
-    light.cells[0].times->on_front = true;
+    light.cells[0].times->on_front = metrics::OnFront::certainly;
     nlohmann::ordered_json a = to_json(one), b = to_json(other);
     EXPECT_NE(a, b);
     strip_times(a);
@@ -98,6 +102,46 @@ TEST(ResultJson, comes_back_as_the_same_result) {
     EXPECT_EQ(to_json(read), written);
     EXPECT_EQ(to_table(read), to_table(small_result()));
     EXPECT_EQ(to_csv(read), to_csv(small_result()));
+}
+
+TEST(ResultJson, says_how_certainly_a_cell_is_on_a_front) {
+    Result result = small_result();
+    Cell& cell = result.variants[0].lights[0].cells[0];
+    cell.times->on_front = metrics::OnFront::perhaps;
+    nlohmann::json json = to_json(result);
+    nlohmann::json& written = json["variants"][0]["lights"][0]["cells"][0];
+    EXPECT_EQ(written["times"]["on_time_error_front"], "perhaps");
+    EXPECT_EQ(written["on_bytes_error_front"], "certainly");
+    EXPECT_NE(to_table(result).find("  T? B  "), std::string::npos) << to_table(result);
+    EXPECT_NE(to_csv(result).find(",perhaps,certainly,"), std::string::npos) << to_csv(result);
+    // Earlier programs compared values without intervals.
+    written["times"]["on_time_error_front"] = true;
+    written["on_bytes_error_front"] = false;
+    const Result read = from_json(json, "");
+    EXPECT_EQ(read.variants[0].lights[0].cells[0].times->on_front, metrics::OnFront::perhaps);
+    EXPECT_EQ(read.variants[0].lights[0].cells[0].on_bytes_front, metrics::OnFront::no);
+    const nlohmann::json again = to_json(read);
+    EXPECT_EQ(again["variants"][0]["lights"][0]["cells"][0]["on_bytes_error_front"], "no");
+    EXPECT_EQ(nlohmann::json(to_json(from_json(again, ""))), again);
+}
+
+TEST(ResultJson, of_an_earlier_program_has_no_intervals) {
+    nlohmann::json json = to_json(small_result());
+    nlohmann::json& cell = json["variants"][0]["lights"][0]["cells"][0];
+    cell.erase("over_seeds");
+    for (const char* key : {"rms_interval95", "rms_interval_covers", "truth_sd"}) cell["lookup_error"].erase(key);
+    const Result read = from_json(json, "");
+    EXPECT_FALSE(read.variants[0].lights[0].cells[0].lookup->interval);
+    EXPECT_EQ(to_json(read)["variants"][0]["lights"][0]["cells"][0]["lookup_error"]["rms_interval95"], nullptr);
+}
+
+TEST(ResultTable, shows_the_interval_of_the_rms_and_what_it_covers) {
+    Result result = small_result();
+    EXPECT_NE(to_table(result).find("  0.2-0.3  "), std::string::npos) << to_table(result);
+    RmsInterval& interval = *result.variants[0].lights[0].cells[0].lookup->interval;
+    interval = {0.24, 0.26, false};
+    EXPECT_NE(to_table(result).find("  0.24-0.26?  "), std::string::npos) << to_table(result);
+    EXPECT_NE(to_csv(result).find(",0.24,0.26,truth,"), std::string::npos) << to_csv(result);
 }
 
 TEST(ResultJson, has_notes_of_the_file_readers_only_if_there_are_some) {
@@ -123,6 +167,11 @@ TEST(ResultJson, of_the_wrong_form_is_refused_at_its_place) {
     refused("/variants", "none", "/variants");
     refused("/schema_version", 2, "/schema_version");
     refused("/notes", {"one", 2}, "/notes/1");
+    refused("/variants/0/lights/0/cells/0/on_bytes_error_front", "maybe", light + "/cells/0/on_bytes_error_front");
+    refused("/variants/0/lights/0/cells/0/lookup_error/rms_interval95", {1.0},
+            light + "/cells/0/lookup_error/rms_interval95");
+    refused("/variants/0/lights/0/cells/0/lookup_error/rms_interval_covers", "all",
+            light + "/cells/0/lookup_error/rms_interval_covers");
     test::error_of([] { from_json(nlohmann::json::array(), ""); }, base::ErrorCode::bad_input, "");
 }
 

@@ -37,6 +37,7 @@ public:
         view_ = input.view;
         tracer_ = input.tracer;
         channel_ = input.channel;
+        seed_ = input.layout.seed;
         pattern_.moving = input.layout.moving;
         pattern_.jittered = true;
     }
@@ -50,9 +51,10 @@ public:
             const Query& q = queries[i];
             visibility[i] = 1.0f;
             if (!inside(q.x, view_.resolution.x) || !inside(q.y, view_.resolution.y) || !(q.z > 0.0f)) continue;
-            // The jitter depends only on the query; so do the times, which spread over the shutter.
+            // The jitter depends only on the query and the seed of the rays; so do the times, which spread over the
+            // shutter.
             const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
-            const std::uint64_t key = base::hash(bits(q.x) << 32 | bits(q.y), bits(q.z));
+            const std::uint64_t key = base::hash(bits(q.x) << 32 | bits(q.y), bits(q.z), seed_);
             base::Random random(key);
             rays::MapLayout pattern = pattern_;
             pattern.seed = key;
@@ -82,6 +84,7 @@ private:
     rays::LightView view_;
     const rays::Tracer* tracer_ = nullptr;
     int channel_ = 0;
+    std::uint64_t seed_ = 0;
 };
 
 }  // namespace
@@ -90,7 +93,7 @@ Technique ray_traced() {
     return {.id = "ray_traced",
             .title = "shadow rays through the scene, no map",
             .paper = "none: the cost of doing without",
-            .version = 3,
+            .version = 4,
             .parameters = parameters,
             .create = create_map<RayTraced>,
             .traits = {.traces = true, .draws_samples = true, .filters = false}};

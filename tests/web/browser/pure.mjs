@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {bytes, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
 import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
-import {frontOf, lightMapOf, quoted, rerunOf, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
+import {frontOf, fronts, lightMapOf, quoted, rerunOf, rmsInterval, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
 import {linearAxis, logAxis, logPlace} from '../../../service/web/page/plots/axes.js';
 import {placeLabels} from '../../../service/web/page/plots/labels.js';
 
@@ -60,6 +60,21 @@ test('the front holds what nothing beats in both', () => {
   assert.deepEqual(frontOf([p(3, 1), p(1, 3), p(2, 2), p(2, 3), p(4, 1), p(1, 4)]), [p(1, 3), p(2, 2), p(3, 1)]);
   assert.deepEqual(frontOf([p(1, 1), p(1, 1)]).length, 2);
   assert.deepEqual(frontOf([]), []);
+});
+
+test('the marks of the fronts are words, and those of older results are not certain', () => {
+  const marks = (cell) => fronts.map((front) => front.of(cell));
+  assert.deepEqual(marks({times: {on_time_error_front: 'certainly'}, on_bytes_error_front: 'perhaps'}), ['certainly', 'perhaps']);
+  assert.deepEqual(marks({times: {on_time_error_front: true}, on_bytes_error_front: false}), ['perhaps', 'no']);
+  assert.deepEqual(marks({times: null}), ['no', 'no']);
+});
+
+test('the interval of the RMS says what it covers', () => {
+  const cell = (covers) => ({lookup_error: {rms: 0.1, rms_interval95: [0.09, 0.1234], rms_interval_covers: covers}});
+  assert.equal(rmsInterval(cell('truth and rays')), 'expected over seeds (95 %): 0.09 to 0.123');
+  assert.match(rmsInterval(cell('truth')), /truth only/);
+  assert.equal(rmsInterval({lookup_error: {rms: 0.1}}), null);
+  assert.equal(rmsInterval({lookup_error: null}), null);
 });
 
 test('labels of close points cover neither points nor each other', () => {

@@ -1,6 +1,8 @@
 // Derives what the page shows from a result (result.json of `run`): groups of cells, measures, the front, the command of a
 // cell.
 
+import {significant} from '../format.js';
+
 export function titleOf(cell) {
   return cell.label ? `${cell.technique} ${cell.label}` : cell.technique;
 }
@@ -27,6 +29,22 @@ export const errors = [['lookup', 'lookup error'], ['curve', 'curve error']].fla
     id: `${kind}.${id}`, text: `${name}, ${text}`, kind: 'error', of: (c) => plain(c[`${kind}_error`]?.[id]),
   })));
 
+// The 95 % interval of the RMS that is expected over seeds of the rays, as text. Older results have none.
+export function rmsInterval(cell) {
+  const error = cell.lookup_error;
+  if (!error?.rms_interval95) return null;
+  const [low, high] = error.rms_interval95;
+  return `expected over seeds (95 %): ${significant(low)} to ${significant(high)}` +
+    (error.rms_interval_covers === 'truth' ? ', for the uncertainty of the truth only' : '');
+}
+
+// The marks of a front: 'no', 'perhaps' or 'certainly', by intervals. Older results have true or false, without intervals.
+const word = (mark) => (mark === true ? 'perhaps' : mark || 'no');
+export const fronts = [
+  {letter: 'T', cost: 'random', text: 'time and error', of: (c) => word(c.times?.on_time_error_front)},
+  {letter: 'B', cost: 'bytes', text: 'bytes and error', of: (c) => word(c.on_bytes_error_front)},
+];
+
 // A group for each variant and light.
 export function groupsOf(result) {
   return (result.variants ?? []).flatMap((variant, v) => (variant.lights ?? []).map((light, l) => {
@@ -45,7 +63,8 @@ export function unsettledOf(result, group) {
   return result.times?.unsettled?.find((u) => u.variant === group.variant && u.light === group.light.light)?.why ?? null;
 }
 
-// The Pareto front: the points that no other point beats in both measures, from left to right. Equal points are all on it.
+// The Pareto front of the values, without their intervals: the points that no other point beats in both measures, from left to
+// right. Equal points are all on it.
 export function frontOf(points) {
   const sorted = [...points].sort((a, b) => a.x - b.x || a.y - b.y);
   const front = [];

@@ -2,7 +2,7 @@
 import {h} from '../dom.js';
 import {bytes, significant} from '../format.js';
 import {glyph} from '../plots/palette.js';
-import {titleOf} from './model.js';
+import {fronts, rmsInterval, titleOf} from './model.js';
 
 const columns = [
   {text: 'build', unit: 'ms', of: (c) => significant(c.times?.build_ms?.median), title: 'One thread, median'},
@@ -14,7 +14,7 @@ const columns = [
   {text: 'nodes', unit: 'mean', of: (c) => significant(c.nodes?.mean), title: 'Nodes a cell'},
   {text: 'nodes', unit: 'max', of: (c) => significant(c.nodes?.max)},
   {text: 'curve error', unit: 'max', of: (c) => significant(c.curve_error?.max, 2), title: 'Largest |stored − uncompressed|'},
-  {text: 'lookup error', unit: 'RMS', of: (c) => significant(c.lookup_error?.rms, 2), title: 'Relative to the reference'},
+  {text: 'lookup error', unit: 'RMS', of: (c) => significant(c.lookup_error?.rms, 2), title: 'Relative to the reference', tip: rmsInterval},
   {text: 'lookup', unit: '99 %', of: (c) => significant(c.lookup_error?.p99, 2)},
   {text: 'lookup', unit: 'max', of: (c) => significant(c.lookup_error?.max, 2)},
 ];
@@ -30,9 +30,11 @@ export function verdictMark(cell) {
     h('span', {'aria-hidden': 'true'}, verdicts[verdict] ?? '·'), ` ${verdict.replaceAll('_', ' ')}`);
 }
 
-function fronts(cell) {
-  const on = [[cell.times?.on_time_error_front, 'T', 'on the front of time and error'], [cell.on_bytes_error_front, 'B', 'on the front of bytes and error']];
-  return on.filter(([is]) => is).map(([, letter, text]) => h('abbr', {class: 'front', title: text}, letter));
+function frontMarks(cell) {
+  return fronts.filter((front) => front.of(cell) !== 'no').map((front) => {
+    const open = front.of(cell) === 'perhaps';
+    return h('abbr', {class: 'front', title: `${open ? 'Perhaps' : 'Certainly'} on the front of ${front.text}`}, open ? `${front.letter}?` : front.letter);
+  });
 }
 
 // pick(index) is called for the chosen cell.
@@ -44,8 +46,8 @@ export function cellTable({cells, series, chosen, pick}) {
     h('th', {scope: 'row'}, h('button', {
       type: 'button', class: 'cell-name', 'data-cell': index, 'aria-pressed': String(index === chosen), onclick: () => pick(index),
     }, h('span', {class: 'index'}, String(index + 1)), glyph(series.get(cell.technique)), h('span', {}, titleOf(cell)))),
-    columns.map((c) => h('td', {class: 'number'}, c.of(cell))),
-    h('td', {}, fronts(cell)), h('td', {}, verdictMark(cell))));
+    columns.map((c) => h('td', {class: 'number', title: c.tip?.(cell)}, c.of(cell))),
+    h('td', {}, frontMarks(cell)), h('td', {}, verdictMark(cell))));
   return h('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Table of techniques'},
     h('table', {class: 'cells'}, h('caption', {class: 'hidden'}, 'Every technique with its times, size, errors and verdict'),
       h('thead', {}, head), h('tbody', {}, rows)));

@@ -5,7 +5,7 @@ import {plot} from '../plots/plot.js';
 import {logAxis, logPlace, write} from '../plots/axes.js';
 import {placeLabels} from '../plots/labels.js';
 import {levelSample, lookOf} from '../plots/palette.js';
-import {errors, frontOf, size, speeds, titleOf} from './model.js';
+import {errors, frontOf, fronts, rmsInterval, size, speeds, titleOf} from './model.js';
 
 function interval(measure, m) {
   return m.low !== undefined && m.low !== null && m.high !== m.low
@@ -26,7 +26,7 @@ function pointsOf(cells, series, cost, error, chosen) {
         n: String(index + 1), key: index, x: x.value, low: x.low ?? x.value, high: x.high ?? x.value, y: y.value,
         colour: look.colour, shape: look.shape, chosen: index === chosen,
         tip: `${index + 1}  ${titleOf(cell)}\n${cost.text}: ${write(cost.kind, x.value)}${interval(cost, x)}\n` +
-          `${error.text}: ${significant(y.value)}`,
+          `${error.text}: ${significant(y.value)}${error.id === 'lookup.rms' && rmsInterval(cell) ? `\n${rmsInterval(cell)}` : ''}`,
       });
     }
   });
@@ -40,6 +40,17 @@ function levelsOf(light, error, low, high) {
     ? [[reference.spread_over_seeds?.rms, 'spread of the rays over seeds', [2, 4]], [reference.standard_error?.rms, 'standard error of the truth', [8, 4]]]
     : error.id === 'curve.max' ? [[reference.noise_tolerance, 'noise of the rays, 0.5/√N', [2, 4]]] : [];
   return all.filter(([y]) => y > low && y < high).map(([y, text, dash]) => ({y, dash, text: `${text}: ${significant(y, 2)}`}));
+}
+
+// What is on the front: by the marks of the result if it marks this one, otherwise by the values as they were measured.
+function frontText(points, cells, cost, error) {
+  const names = (some) => some.map((p) => `${p.n} ${titleOf(cells[p.key])}`).join(', ');
+  const marked = error.id === 'lookup.rms' && fronts.find((front) => front.cost === cost.id);
+  if (!marked) return `On the line: ${names(frontOf(points))}. Their intervals are not compared.`;
+  return [['certainly', 'Certainly'], ['perhaps', 'Perhaps']].map(([mark, text]) => {
+    const some = points.filter((p) => marked.of(cells[p.key]) === mark).sort((a, b) => a.x - b.x);
+    return some.length ? `${text} on the front: ${names(some)}.` : '';
+  }).filter(Boolean).join(' ');
 }
 
 const radius = {chosen: 13, other: 8};  // pixels
@@ -78,9 +89,8 @@ function tradePlot(title, pick, signal) {
     }));
     setText(yTitle, `↑ ${error.text}`);
     setText(caption, `${cost.text} →`);
-    const names = frontOf(points).map((p) => `${p.n} ${titleOf(cells[p.key])}`).join(', ');
     setText(note, [
-      points.length ? `On the front: ${names}.` : 'Nothing can be drawn for these measures.',
+      points.length ? frontText(points, cells, cost, error) : 'Nothing can be drawn for these measures.',
       x.zero || y.zero ? 'Zeros are drawn at the edge marked 0.' : '', missing.length ? `Not drawn: ${missing.join(', ')}.` : '',
     ].filter(Boolean).join(' '));
     const levels = levelsOf(light, error, y.signals.y_low, y.signals.y_high);
@@ -110,7 +120,7 @@ export function tradeView(context) {
         choice('Error', errors.map((m) => ({value: m.id, text: m.text})), error.id, (id) => { error = find(errors, id); draw(); }),
         choice('Speed', speeds.map((m) => ({value: m.id, text: m.text})), cost.id, (id) => { cost = find(speeds, id); draw(); }))),
     h('div', {class: 'pair'}, speed.element, bytes.element),
-    h('p', {class: 'note'}, 'Down and left is better. Bars: 95 % intervals of the median. The line joins the Pareto front: points that no other point beats in both measures. ' +
+    h('p', {class: 'note'}, 'Down and left is better. Bars: 95 % intervals of the median. The line joins the points that no other beats in both values as measured; where their intervals are known, the text below says which are certain. ' +
       'Click a point, or its name in the table, to see its pictures.'));
   return {element, update(next) { last = next; draw(); }};
 }

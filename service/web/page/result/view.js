@@ -7,7 +7,7 @@ import {onThemeChange} from '../plots/palette.js';
 import {cellView} from './cell.js';
 import {compareView} from './compare.js';
 import {curvesView} from './curves.js';
-import {groupsOf, imagesAreOf, picturesOf, seriesOf, unsettledOf} from './model.js';
+import {fronts, groupsOf, imagesAreOf, picturesOf, seriesOf, unsettledOf} from './model.js';
 import {cellTable} from './table.js';
 import {tradeView} from './trade.js';
 
@@ -46,7 +46,9 @@ function captureOf(light) {
 
 // The cell that is shown first: it kept its promises, and few others beat it.
 function bestOf(cells) {
-  const score = (cell) => 4 * (cell.verdict === 'kept') + 2 * Boolean(cell.on_bytes_error_front) + Boolean(cell.times?.on_time_error_front);
+  const places = ['no', 'perhaps', 'certainly'];
+  const [time, bytes] = fronts.map((front) => (cell) => places.indexOf(front.of(cell)));
+  const score = (cell) => 9 * (cell.verdict === 'kept') + 3 * bytes(cell) + time(cell);
   return cells.reduce((best, cell, i) => (score(cell) > score(cells[best]) ? i : best), 0);
 }
 
