@@ -212,11 +212,13 @@ std::optional<bool> settled(const Result& result) {
 std::string unsettled_line(const std::vector<const Result*>& results) {
     std::vector<std::string> named;
     std::size_t unsettled = 0, judged = 0;
+    bool disturbed = false;
     for (const Result* result : results)
         for (std::size_t v = 0; v < result->variants.size(); ++v)
             for (const LightResult& light : result->variants[v].lights) {
                 const Settling found = settling(light);
                 judged += found.known();
+                disturbed = disturbed || found.disturbed();
                 if (found.settled() || ++unsettled > most_named) continue;
                 std::string place = result->name;
                 for (const document::Setting& setting : result->variants[v].settings)
@@ -226,7 +228,8 @@ std::string unsettled_line(const std::vector<const Result*>& results) {
     if (named.empty()) return "";
     std::string text = fmt::format("UNSETTLED times of {} of {} light{}: ", unsettled, judged, judged == 1 ? "" : "s");
     for (std::size_t i = 0; i < named.size(); ++i) text += (i ? "; " : "") + named[i];
-    return text + (unsettled > most_named ? "; ...\n" : "\n");
+    if (unsettled > most_named) text += fmt::format("; and {} more", unsettled - most_named);
+    return text + (disturbed ? ". Run again on a quiet machine.\n" : "\n");
 }
 
 }  // namespace shadowbench::results
