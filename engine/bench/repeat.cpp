@@ -21,14 +21,13 @@ bool goes_on(const RepeatRule& rule, std::size_t done, double seconds_beyond, co
     return !(is_look(done) && all_narrow());
 }
 
-double repeat(const RepeatRule& rule, const std::function<void(std::size_t round)>& round,
-              const std::function<bool()>& all_narrow) {
+void repeat(const RepeatRule& rule, const std::function<void(std::size_t round)>& round,
+            const std::function<bool()>& all_narrow) {
     std::optional<Stopwatch> beyond;
     std::size_t done = 0;
     for (;; ++done) {
         if (done == rule.least) beyond.emplace();
-        const double seconds = beyond ? beyond->seconds() : 0.0;
-        if (!goes_on(rule, done, seconds, all_narrow)) return seconds;
+        if (!goes_on(rule, done, beyond ? beyond->seconds() : 0.0, all_narrow)) return;
         round(done);
     }
 }

@@ -25,8 +25,8 @@ struct RepeatRule {
 // `all_narrow` is asked only when it matters.
 bool goes_on(const RepeatRule& rule, std::size_t done, double seconds_beyond, const std::function<bool()>& all_narrow);
 
-// Makes the rounds 0, 1, ... of the rule. Returns the seconds of those beyond the least ones.
-double repeat(const RepeatRule& rule, const std::function<void(std::size_t round)>& round,
-              const std::function<bool()>& all_narrow);
+// Makes the rounds 0, 1, ... of the rule.
+void repeat(const RepeatRule& rule, const std::function<void(std::size_t round)>& round,
+            const std::function<bool()>& all_narrow);
 
 }  // namespace shadowbench::bench

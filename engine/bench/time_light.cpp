@@ -32,57 +32,33 @@ std::vector<LookupMeasurement> plan_all(const LightJob& job, std::span<const Con
     return plans;
 }
 
-RepeatRule rule_of(const scene::Timing& timing, double seconds) {
-    return {static_cast<std::size_t>(timing.repetitions), static_cast<std::size_t>(timing.most_repetitions), seconds};
-}
+using BuildSeconds = std::vector<std::vector<double>>;  // of each contender, one value a round
 
 std::vector<double> milliseconds(std::vector<double> seconds) {
     for (double& s : seconds) s *= 1e3;
     return seconds;
 }
 
-using BuildSeconds = std::vector<std::vector<double>>;  // of each contender, one value a round
+constexpr double longest_warm_builds = 0.5;  // seconds of a round: of longer ones, a cold start is a small share
 
-// Returns the seconds of the rounds beyond the least ones.
-double time_all_builds(const LightJob& job, std::span<Contender> contenders, const RaySource& source,
-                       const techniques::BuildInput& input, BuildSeconds& seconds, results::TimedPasses& passes) {
-    const scene::Timing& timing = job.scenario.timing;
-    // The first builds do not count: they find the allocator and the caches as the checks left them.
-    BuildSeconds warming(contenders.size());
-    results::TimedPasses warming_passes;
-    time_builds(contenders, source, input, warming, warming_passes);
-    const RepeatRule rule = rule_of(timing, 0.5 * timing.seconds);
-    return repeat(
-        rule,
-        [&](std::size_t r) {
-            time_builds(contenders, source, input, seconds, passes);
-            if (job.watch) job.watch("timing builds", r + 1, rule.most);
-        },
-        [&] {
-            return std::all_of(seconds.begin(), seconds.end(), [&](const std::vector<double>& one) {
-                return one.empty() || results::is_narrow(results::summarise(milliseconds(one)), timing.goal);
-            });
-        });
+// Builds all techniques, untimed: the caches and the allocator are then as one build leaves them to the next. Returns
+// the seconds that this took.
+double warm_builds(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input) {
+    const Stopwatch stopwatch;
+    BuildSeconds seconds(contenders.size());
+    results::TimedPasses passes;
+    time_builds(contenders, source, input, seconds, passes);
+    return stopwatch.seconds();
 }
 
-void time_all_lookups(const LightJob& job, std::span<Contender> contenders, double seconds_left,
-                      std::vector<LookupMeasurement>& plans) {
-    const scene::Timing& timing = job.scenario.timing;
-    const RepeatRule rule = rule_of(timing, seconds_left);
-    repeat(
-        rule,
-        [&](std::size_t r) {
-            const base::ThreadLimit one_thread(1);
-            for (LookupMeasurement& measured : plans)
-                time_repetition(contenders[measured.contender].maps, measured.plan, r % 2 == 1);
-            if (job.watch) job.watch("timing lookups", r + 1, rule.most);
-        },
-        [&] {
-            return std::all_of(plans.begin(), plans.end(), [&](const LookupMeasurement& measured) {
-                return results::is_narrow(results::summarise(measured.plan.image.ns), timing.goal) &&
-                       results::is_narrow(results::summarise(measured.plan.random.ns), timing.goal);
-            });
-        });
+bool all_narrow(const BuildSeconds& seconds, const std::vector<LookupMeasurement>& plans, double goal) {
+    const auto narrow = [goal](std::vector<double> times) {
+        return results::is_narrow(results::summarise(std::move(times)), goal);
+    };
+    return std::all_of(plans.begin(), plans.end(), [&](const LookupMeasurement& measured) {
+        return narrow(milliseconds(seconds[measured.contender])) && narrow(measured.plan.image.ns) &&
+               narrow(measured.plan.random.ns);
+    });
 }
 
 void add(const results::TimedPasses& some, results::TimedPasses& all) {
@@ -99,10 +75,24 @@ results::TimingReport time_light(const LightJob& job, std::span<Contender> conte
     report.goal = job.scenario.timing.goal;
     const std::optional<double> steal_before = steal_seconds();
     const Stopwatch stopwatch;
+    const scene::Timing& timing = job.scenario.timing;
     BuildSeconds seconds(contenders.size());
-    const double beyond = time_all_builds(job, contenders, source, input, seconds, report.builds);
     std::vector<LookupMeasurement> plans = plan_all(job, contenders, asked);
-    time_all_lookups(job, contenders, std::max(0.0, job.scenario.timing.seconds - beyond), plans);
+    const RepeatRule rule{static_cast<std::size_t>(timing.repetitions),
+                          static_cast<std::size_t>(timing.most_repetitions), timing.seconds};
+    const bool warm = warm_builds(contenders, source, input) <= longest_warm_builds;
+    repeat(
+        rule,
+        [&](std::size_t r) {
+            if (warm && r > 0) warm_builds(contenders, source, input);
+            time_builds(contenders, source, input, seconds, report.builds);
+            if (job.watch) job.watch("timing builds", r + 1, rule.most);
+            const base::ThreadLimit one_thread(1);
+            for (LookupMeasurement& measured : plans)
+                time_repetition(contenders[measured.contender].maps, measured.plan, r % 2 == 1);
+            if (job.watch) job.watch("timing lookups", r + 1, rule.most);
+        },
+        [&] { return all_narrow(seconds, plans, timing.goal); });
     report.seconds = stopwatch.seconds();
     if (const std::optional<double> after = steal_seconds(); after && steal_before)
         report.steal_seconds = std::max(0.0, *after - *steal_before);
