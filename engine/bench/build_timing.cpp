@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "bench/clock.h"
+#include "bench/disturbance.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -12,13 +13,23 @@ struct TimedBuild {
     std::size_t contender;
     Maps maps;
     double seconds = 0.0;
+    std::uint64_t switches = 0;
 };
+
+// Adds the time of a part of a build, and how often it was interrupted.
+template <typename Part>
+void time_part(TimedBuild& build, const Part& part) {
+    const std::uint64_t before = involuntary_switches();
+    const Stopwatch stopwatch;
+    part();
+    build.seconds += stopwatch.seconds();
+    build.switches += involuntary_switches() - before;
+}
 
 TimedBuild begin_timed(std::span<const Contender> contenders, std::size_t i, const techniques::BuildInput& input) {
     const base::ThreadLimit one_thread(1);
-    const Stopwatch stopwatch;
-    TimedBuild build{i, begin_maps(*contenders[i].row, contenders[i].values, input)};
-    build.seconds = stopwatch.seconds();
+    TimedBuild build{i, {}};
+    time_part(build, [&] { build.maps = begin_maps(*contenders[i].row, contenders[i].values, input); });
     return build;
 }
 
@@ -29,24 +40,22 @@ void add_timed(TimedBuild& build, RaySource::Batch batch) {
         for (std::size_t p = 0; p < parts; ++p) {
             rays::LightRays single;
             if (parts > 1) single = rays::channel(tile, static_cast<int>(p));
-            const Stopwatch stopwatch;
-            build.maps.parts[p]->add(parts > 1 ? single : tile);
-            build.seconds += stopwatch.seconds();
+            time_part(build, [&] { build.maps.parts[p]->add(parts > 1 ? single : tile); });
         }
     }
 }
 
-void finish_timed(TimedBuild& build, std::vector<std::vector<double>>& seconds) {
+void finish_timed(TimedBuild& build, std::vector<std::vector<double>>& seconds, results::TimedPasses& passes) {
     const base::ThreadLimit one_thread(1);
-    const Stopwatch stopwatch;
-    finish(build.maps);
-    seconds[build.contender].push_back(build.seconds + stopwatch.seconds());
+    time_part(build, [&] { finish(build.maps); });
+    seconds[build.contender].push_back(build.seconds);
+    count_pass(build.switches, passes);
 }
 
 }  // namespace
 
 void time_builds(std::span<const Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
-                 std::vector<std::vector<double>>& seconds) {
+                 std::vector<std::vector<double>>& seconds, results::TimedPasses& passes) {
     for (const int apron : aprons_of(contenders)) {
         std::vector<TimedBuild> builds;  // those that grow together if each pass captures the rays again
         for (std::size_t i = 0; i < contenders.size(); ++i) {
@@ -57,13 +66,13 @@ void time_builds(std::span<const Contender> contenders, const RaySource& source,
                 continue;
             }
             source.for_each_batch(apron, [&](RaySource::Batch batch) { add_timed(build, batch); });
-            finish_timed(build, seconds);
+            finish_timed(build, seconds, passes);
         }
         if (builds.empty()) continue;
         source.for_each_batch(apron, [&](RaySource::Batch batch) {
             for (TimedBuild& build : builds) add_timed(build, batch);
         });
-        for (TimedBuild& build : builds) finish_timed(build, seconds);
+        for (TimedBuild& build : builds) finish_timed(build, seconds, passes);
     }
 }
 

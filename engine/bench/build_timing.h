@@ -6,13 +6,15 @@
 
 #include "bench/contender.h"
 #include "bench/ray_source.h"
+#include "results/result.h"
 
 namespace shadowbench::bench {
 
-// Builds every contender that is ok once, in order, and appends the seconds of each to seconds[i]. Capturing and
+// Builds every contender that is ok once, in order, appends the seconds of each to seconds[i], and counts its pass.
+// Capturing and
 // splitting colours into channels are not timed. Each map is dropped at once if the light rays are kept; otherwise all
 // maps grow together, since each pass captures the rays again.
 void time_builds(std::span<const Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
-                 std::vector<std::vector<double>>& seconds);
+                 std::vector<std::vector<double>>& seconds, results::TimedPasses& passes);
 
 }  // namespace shadowbench::bench

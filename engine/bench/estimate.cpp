@@ -21,11 +21,16 @@ double estimate_seconds(const scene::Scenario& scenario, const rays::MapLayout& 
     const double touched = std::min(pixels, tile * scenario.reference.queries);
     const double judged = scenario.scene.deep_image ? rays : touched * scenario.reference.samples_per_pixel;
     const double spread = rays * scenario.reference.spread_seeds;
+    // Repetitions beyond the least ones, at most for as long as the scenario allows.
+    const double repetition = factor * build * rays * rows + 2.0 * lookup * rows * scenario.timing.lookups;
+    const double beyond =
+        std::min(scenario.timing.seconds, (scenario.timing.most_repetitions - repetitions) * repetition);
     return factor * (capture * (2.0 * rays + judged + spread) +
                      build * rays * rows * (repetitions + 3.0 + scenario.reference.spread_seeds)) +
            lookup * rows *
                (2.0 * repetitions * scenario.timing.lookups +
-                (1.0 + scenario.reference.spread_seeds) * scenario.reference.queries);
+                (1.0 + scenario.reference.spread_seeds) * scenario.reference.queries) +
+           beyond;
 }
 
 }  // namespace shadowbench::bench

@@ -1,22 +1,19 @@
 #include "bench/light_run.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "bench/agreement.h"
-#include "bench/build_timing.h"
 #include "bench/clock.h"
-#include "bench/lookup_timing.h"
 #include "bench/over_seeds.h"
 #include "bench/prepared_light.h"
 #include "bench/queries.h"
 #include "bench/ray_source.h"
 #include "bench/reference.h"
+#include "bench/time_light.h"
 #include "bench/verdict.h"
 #include "rays/capture.h"
 #include "results/fronts.h"
@@ -84,58 +81,6 @@ void find_spread(const LightJob& job, std::span<Contender> contenders, const tec
     report.spread_max = spread.max;
 }
 
-struct LookupMeasurement {
-    std::size_t contender;
-    LookupPlan plan;
-};
-
-std::vector<LookupMeasurement> plan_all(const LightJob& job, std::span<const Contender> contenders,
-                                        const Asked& asked) {
-    const base::ThreadLimit one_thread(1);
-    std::vector<LookupMeasurement> plans;
-    for (std::size_t i = 0; i < contenders.size(); ++i)
-        if (contenders[i].ok())
-            plans.push_back(
-                {i, plan_lookups(contenders[i].maps, asked, static_cast<std::size_t>(job.scenario.timing.lookups),
-                                 job.scenario.receivers.seed)});
-    return plans;
-}
-
-// Times builds and lookups, interleaved: every technique once, then every technique again.
-void time_all(const LightJob& job, std::span<Contender> contenders, const RaySource& source,
-              const techniques::BuildInput& input, const Asked& asked) {
-    const std::size_t repetitions = static_cast<std::size_t>(job.scenario.timing.repetitions);
-    // The first builds do not count: they find the allocator and the caches as the checks left them.
-    std::vector<std::vector<double>> seconds(contenders.size()), warming(contenders.size());
-    time_builds(contenders, source, input, warming);
-    for (std::size_t r = 0; r < repetitions; ++r) {
-        time_builds(contenders, source, input, seconds);
-        if (job.watch) job.watch("timing builds", r + 1, repetitions);
-    }
-    std::vector<LookupMeasurement> plans = plan_all(job, contenders, asked);
-    for (std::size_t r = 0; r < repetitions; ++r) {
-        const base::ThreadLimit one_thread(1);
-        for (LookupMeasurement& measured : plans)
-            time_repetition(contenders[measured.contender].maps, measured.plan, r % 2 == 1);
-        if (job.watch) job.watch("timing lookups", r + 1, repetitions);
-    }
-    for (const LookupMeasurement& measured : plans) {
-        // Many more places are timed than judged; their answers must be valid too.
-        for (const LookupOrder* order : {&measured.plan.image, &measured.plan.random})
-            check_answers(contenders[measured.contender], order->asked(), order->answers);
-        if (!contenders[measured.contender].ok()) continue;
-        results::CellTimes times;
-        for (double& s : seconds[measured.contender]) s *= 1e3;
-        times.build_ms = results::summarise(std::move(seconds[measured.contender]));
-        times.ns_per_segment =
-            source.segments() ? 1e6 * times.build_ms.median / static_cast<double>(source.segments()) : 0.0;
-        times.image_order = summarise(measured.plan.image);
-        times.random_order = summarise(measured.plan.random);
-        times.lookups = measured.plan.image.queries.size();
-        contenders[measured.contender].cell.times = std::move(times);
-    }
-}
-
 QuerySet judged_queries(const LightJob& job, const QuerySet& set) {
     const scene::Reference& reference = job.scenario.reference;
     return pick(set.asked(),
@@ -189,7 +134,7 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
     check_functions(contenders, source, layout, stage(job, "check", layout));
     check_lookups(contenders, judged.asked(), truth);
     if (results::sees_nothing(result)) check_lit(contenders);
-    time_all(job, contenders, source, input, set.asked());
+    result.timing = time_light(job, contenders, source, input, set.asked());
 
     for (Contender& contender : contenders) {
         judge(contender.cell, contender.promises, result.reference.noise_tolerance);

@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "bench/clock.h"
+#include "bench/disturbance.h"
 #include "bench/floor.h"
 #include "bench/queries.h"
 
@@ -81,6 +82,15 @@ void warm_up(const Pass& pass) {
     for (int p = 0; p < least_warm_passes || (p < most_warm_passes && seconds < warm_time); ++p) seconds += pass();
 }
 
+// The seconds of a timed pass, which is counted.
+template <typename Pass>
+double counted(results::TimedPasses& passes, const Pass& pass) {
+    const std::uint64_t before = involuntary_switches();
+    const double seconds = pass();
+    count_pass(involuntary_switches() - before, passes);
+    return seconds;
+}
+
 void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bool floor_first) {
     const int rounds = order.rounds;
     const double lookups = static_cast<double>(order.queries.size()) * rounds;
@@ -91,12 +101,15 @@ void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bo
         // irrelevant.
         if (plan.warm && !order.lines.empty()) warm_up([&] { return seconds_of_floor(order.lines, 1); });
         if (plan.warm) warm_up([&] { return seconds_of_pass(maps, order.asked(), 1, order.answers); });
-        order.ns.push_back(1e9 * seconds_of_pass(maps, order.asked(), rounds, order.answers) / lookups);
+        const double seconds =
+            counted(order.passes, [&] { return seconds_of_pass(maps, order.asked(), rounds, order.answers); });
+        order.ns.push_back(1e9 * seconds / lookups);
     };
     const auto time_floor = [&] {
         if (order.lines.empty()) return;
         if (plan.warm) warm_up([&] { return seconds_of_floor(order.lines, 1); });
-        order.floor_ns.push_back(1e9 * seconds_of_floor(order.lines, rounds) / read);
+        const double seconds = counted(order.passes, [&] { return seconds_of_floor(order.lines, rounds); });
+        order.floor_ns.push_back(1e9 * seconds / read);
     };
     if (floor_first) time_floor();
     time_lookups();

@@ -21,6 +21,7 @@ struct LookupOrder {
     int rounds = 1;  // how often a pass goes over its queries: more than once if once is too short for the clock
     std::vector<float> answers;        // of the last pass, channel after channel
     std::vector<double> ns, floor_ns;  // per lookup, one value per repetition (floor_ns: none without lines)
+    results::TimedPasses passes;       // of both
 
     Asked asked() const { return {queries, footprints}; }
 };

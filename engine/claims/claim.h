@@ -17,7 +17,7 @@ enum class Verdict {
 };
 const char* to_string(Verdict verdict);  // "holds", "holds in shape", "does not hold here", "undecided"
 
-// A number with its interval: 95 % bootstrap for medians, or the number itself twice if nothing varies.
+// A number with its interval: 95 % for medians, or the number itself twice if nothing varies.
 struct Value {
     double value = 0.0, low = 0.0, high = 0.0;
 };

@@ -70,4 +70,21 @@ Interval median_interval(std::span<const double> sample, double confidence, std:
     return {medians[low], medians[kResamples - 1 - low]};
 }
 
+Interval order_interval(std::span<const double> sample, double confidence) {
+    std::vector<double> sorted(sample.begin(), sample.end());
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t n = sorted.size();
+    // The probability that at most `below` of n values are under the median: a sum of binomial terms.
+    double term = std::pow(0.5, static_cast<double>(n)), tail = term;
+    std::size_t below = 0;
+    while (2 * (below + 1) < n) {
+        const double next = term * static_cast<double>(n - below) / static_cast<double>(below + 1);
+        if (2.0 * (tail + next) > 1.0 - confidence) break;
+        term = next;
+        tail += next;
+        ++below;
+    }
+    return {sorted[below], sorted[n - 1 - below]};
+}
+
 }  // namespace shadowbench::metrics

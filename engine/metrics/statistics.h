@@ -1,4 +1,4 @@
-// Norms of errors, and the median of a sample with its bootstrap interval.
+// Norms of errors, and the median of a sample with its interval.
 #pragma once
 
 #include <cstddef>
@@ -27,5 +27,12 @@ struct Interval {
 // Bootstrap interval of the median: percentiles of the medians of 2,000 resamples drawn with `seed`
 // (Efron 1979). A sample of one gives that value twice.
 Interval median_interval(std::span<const double> sample, double confidence = 0.95, std::uint64_t seed = 1);
+
+// Interval of the median between two values of the sample that are equally far from its ends (Thompson 1936): the
+// narrowest pair that holds the median of any continuous distribution with at least this confidence, whatever the
+// number of values. If the values have different distributions, as those of a machine that slows down, it holds the
+// median of their mixture (Hoeffding 1956). Fewer than six values cannot reach 95 %; then it is the whole range, which
+// five values reach with 94 %. The sample must not be empty.
+Interval order_interval(std::span<const double> sample, double confidence = 0.95);
 
 }  // namespace shadowbench::metrics

@@ -108,7 +108,7 @@ void mark_fronts(LightResult& light) {
             choices.push_back({&cell, knows_other_rays(cell), mean_squares(cell), bytes(cell)});
     }
     mark_bytes(choices);
-    mark_times(std::move(choices), floors.floors > 0 && floors.settled());
+    mark_times(std::move(choices), floors.floors > 0 && !floors.disturbed());
 }
 
 }  // namespace shadowbench::results

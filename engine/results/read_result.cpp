@@ -200,6 +200,20 @@ ReferenceReport read_reference(const Field& field) {
     return report;
 }
 
+TimedPasses read_passes(const Field& field) {
+    return {field.at("passes").count(), field.at("interrupted").count(), field.at("involuntary_switches").count()};
+}
+
+TimingReport read_timing(const Field& field) {
+    TimingReport timing;
+    timing.goal = field.at("goal").at_least_zero();
+    timing.seconds = field.at("seconds").at_least_zero();
+    timing.builds = read_passes(field.at("builds"));
+    timing.lookups = read_passes(field.at("lookups"));
+    if (const Field steal = field.at("steal_seconds"); !steal.is_null()) timing.steal_seconds = steal.at_least_zero();
+    return timing;
+}
+
 LightResult read_light(const Field& field, bool deep_image) {
     LightResult light;
     light.deep_image = deep_image;
@@ -214,6 +228,7 @@ LightResult read_light(const Field& field, bool deep_image) {
     light.dropped = field.at("receivers_outside_map").count();
     if (field.has("capture")) read_capture(field.at("capture"), light);  // missing from portable baselines
     light.reference = read_reference(field.at("reference"));
+    if (field.has("times")) light.timing = read_timing(field.at("times"));  // missing from earlier programs' results
     const Field cells = field.at("cells");
     for (std::size_t i = 0; i < cells.array().size(); ++i) light.cells.push_back(read_cell(cells.item(i)));
     return light;

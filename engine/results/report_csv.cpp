@@ -41,6 +41,12 @@ std::string from_lookup(const Row& row, double (*read)(const LookupErrors&)) {
     return row.cell.lookup ? csv_number(read(*row.cell.lookup)) : std::string();
 }
 
+std::string settled_text(const Row& row, const Sample& (*read)(const CellTimes&)) {
+    if (!row.cell.times) return "";
+    const std::optional<bool> settled = is_settled(read(*row.cell.times), row.light);
+    return !settled ? "" : *settled ? "1" : "0";
+}
+
 struct Column {
     const char* name;
     std::string (*value)(const Row&);
@@ -118,9 +124,19 @@ const Column columns[] = {
     {"on_bytes_error_front", [](const Row& r) { return std::string(to_string(r.cell.on_bytes_front)); }},
     {"verdict", [](const Row& r) { return std::string(to_string(r.cell.verdict)); }},
     {"verdict_why", [](const Row& r) { return r.cell.verdict_why; }},
-    {"settled", [](const Row& r) { return std::string(r.floors.floors == 0 ? ""
+    {"settled", [](const Row& r) { return std::string(!r.floors.known()    ? ""
                                                       : r.floors.settled() ? "1"
                                                                            : "0"); }},
+    {"build_settled",
+     [](const Row& r) { return settled_text(r, [](const CellTimes& t) -> const Sample& { return t.build_ms; }); }},
+    {"lookup_image_settled",
+     [](const Row& r) {
+         return settled_text(r, [](const CellTimes& t) -> const Sample& { return t.image_order.ns; });
+     }},
+    {"lookup_random_settled",
+     [](const Row& r) {
+         return settled_text(r, [](const CellTimes& t) -> const Sample& { return t.random_order.ns; });
+     }},
 };
 
 // RFC 4180: a field with a comma, a quote or a line break is put in quotes, and its own quotes are doubled.

@@ -27,13 +27,21 @@ json to_json(const LookupTimes& times) {
     return {{"ns", to_json(times.ns)}, {"floor_ns", to_json(times.floor)}, {"ratio_to_floor", to_json(times.ratio)}};
 }
 
-json to_json(const std::optional<CellTimes>& times) {
+json to_json(const std::optional<bool>& truth) {
+    return truth ? json(*truth) : json(nullptr);
+}
+
+json to_json(const std::optional<CellTimes>& times, const LightResult& light) {
     if (!times) return nullptr;
     return {{"build_ms", to_json(times->build_ms)},
             {"build_ns_per_segment", times->ns_per_segment},
             {"lookups_a_pass", times->lookups},
             {"lookup_image_order", to_json(times->image_order)},
             {"lookup_random_order", to_json(times->random_order)},
+            {"settled",
+             {{"build", to_json(is_settled(times->build_ms, light))},
+              {"lookup_image_order", to_json(is_settled(times->image_order.ns, light))},
+              {"lookup_random_order", to_json(is_settled(times->random_order.ns, light))}}},
             {"on_time_error_front", to_string(times->on_front)}};
 }
 
@@ -83,7 +91,7 @@ json to_json(const NodeCounts& nodes) {
             {"histogram", nodes.histogram}};
 }
 
-json to_json(const Cell& cell) {
+json to_json(const Cell& cell, const LightResult& light) {
     return {{"technique", cell.technique},
             {"version", cell.version},
             {"parameters", json::parse(cell.parameters_json)},
@@ -103,7 +111,7 @@ json to_json(const Cell& cell) {
             {"lookup_error", to_json(cell.lookup)},
             {"over_seeds", to_json(cell.over_seeds)},
             {"on_bytes_error_front", to_string(cell.on_bytes_front)},
-            {"times", to_json(cell.times)}};
+            {"times", to_json(cell.times, light)}};
 }
 
 json to_json(const MapDescription& layout) {
@@ -142,41 +150,55 @@ json to_json(const ReferenceReport& reference) {
          reference.spread_rms ? json{{"rms", *reference.spread_rms}, {"max", *reference.spread_max}} : json(nullptr)}};
 }
 
-json to_json(const LightResult& light) {
-    json cells = json::array();
-    for (const Cell& cell : light.cells) cells.push_back(to_json(cell));
-    return {{"light", light.name},
-            {"map", to_json(light.layout)},
-            {"rays", light.rays},
-            {"segments", light.segments},
-            {"ray_bytes", light.ray_bytes},
-            {"rays_kept", light.kept},
-            {"sees_nothing", sees_nothing(light)},
-            {"translucent", light.translucent},
-            {"receivers", light.receivers},
-            {"receivers_outside_map", light.dropped},
-            {"capture",
-             {{"embree_check", to_json(light.agreement)},
-              {"times",
-               {{"seconds", light.times.seconds},
-                {"setup_seconds", light.times.setup_seconds},
-                {"rays_per_second", light.times.rays_per_second}}}}},
-            {"reference", to_json(light.reference)},
-            {"cells", std::move(cells)}};
+json to_json(const TimedPasses& passes) {
+    return {{"passes", passes.passes}, {"interrupted", passes.interrupted}, {"involuntary_switches", passes.switches}};
 }
 
-// Whether the floors show a quiet machine, and for which lights they do not.
+json to_json(const TimingReport& timing, const Settling& found) {
+    return {{"goal", timing.goal},
+            {"seconds", timing.seconds},
+            {"builds", to_json(timing.builds)},
+            {"lookups", to_json(timing.lookups)},
+            {"steal_seconds", timing.steal_seconds ? json(*timing.steal_seconds) : json(nullptr)},
+            {"settled", found.known() ? json(found.settled()) : json(nullptr)}};
+}
+
+json to_json(const LightResult& light) {
+    json cells = json::array();
+    for (const Cell& cell : light.cells) cells.push_back(to_json(cell, light));
+    json out = {{"light", light.name},
+                {"map", to_json(light.layout)},
+                {"rays", light.rays},
+                {"segments", light.segments},
+                {"ray_bytes", light.ray_bytes},
+                {"rays_kept", light.kept},
+                {"sees_nothing", sees_nothing(light)},
+                {"translucent", light.translucent},
+                {"receivers", light.receivers},
+                {"receivers_outside_map", light.dropped},
+                {"capture",
+                 {{"embree_check", to_json(light.agreement)},
+                  {"times",
+                   {{"seconds", light.times.seconds},
+                    {"setup_seconds", light.times.setup_seconds},
+                    {"rays_per_second", light.times.rays_per_second}}}}},
+                {"reference", to_json(light.reference)},
+                {"cells", std::move(cells)}};
+    if (light.timing) out["times"] = to_json(*light.timing, settling(light));
+    return out;
+}
+
+// Whether the times are settled, and for which lights they are not.
 json to_json(const RunTimes& times, const Result& result) {
     json unsettled = json::array();
     for (std::size_t v = 0; v < result.variants.size(); ++v)
         for (const LightResult& light : result.variants[v].lights)
             if (std::string why = unsettled_text(settling(light)); !why.empty())
                 unsettled.push_back({{"variant", v}, {"light", light.name}, {"why", std::move(why)}});
-    const std::optional<bool> quiet = settled(result);
     return {{"started", times.started},
             {"seconds", times.seconds},
             {"threads", times.threads},
-            {"settled", quiet ? json(*quiet) : json(nullptr)},
+            {"settled", to_json(settled(result))},
             {"unsettled", std::move(unsettled)}};
 }
 

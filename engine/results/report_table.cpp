@@ -22,6 +22,8 @@ constexpr const char* legend =
     "and\n"
     "error; T? and B? perhaps none does.\n";
 
+constexpr const char* mark_legend = "~: a time whose 95 % interval is wider than the scenario's timing.goal.\n";
+
 std::string count(std::uint64_t n) {
     std::string digits = fmt::format("{}", n);
     for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
@@ -55,7 +57,12 @@ std::string status_text(const Cell& cell) {
     return cell.outside_promise ? "ok, but promised for opaque scenes only" : "ok";
 }
 
-std::vector<std::string> row_of(const Cell& cell) {
+// The median, with a mark if it is uncertain.
+std::string time_text(const Sample& sample, const LightResult& light) {
+    return (is_settled(sample, light) == false ? "~" : "") + time_text(sample.median);
+}
+
+std::vector<std::string> row_of(const Cell& cell, const LightResult& light) {
     const auto ratio = [](const LookupTimes& times) {
         return times.ratio ? fmt::format("{:.1f}", times.ratio->median) : "-";
     };
@@ -63,8 +70,8 @@ std::vector<std::string> row_of(const Cell& cell) {
     if (cell.times) {
         const CellTimes& t = *cell.times;
         row.insert(row.end(),
-                   {time_text(t.build_ms.median), time_text(t.ns_per_segment), time_text(t.image_order.ns.median),
-                    ratio(t.image_order), time_text(t.random_order.ns.median), ratio(t.random_order)});
+                   {time_text(t.build_ms, light), time_text(t.ns_per_segment), time_text(t.image_order.ns, light),
+                    ratio(t.image_order), time_text(t.random_order.ns, light), ratio(t.random_order)});
     } else {
         row.insert(row.end(), 6, "-");
     }
@@ -130,15 +137,14 @@ std::string share_line(const LightResult& light) {
 }
 
 // Empty if the machine was quiet, or nothing was timed.
-std::string unsettled_line(const LightResult& light) {
-    const Settling floors = settling(light);
-    if (floors.floors == 0 && floors.unjudged > 0)
+std::string disturbed_line(const Settling& floors) {
+    if (!floors.known() && floors.unjudged > 0)
         return fmt::format(
             "    Fewer than {} repetitions cannot show whether the machine was quiet: do not rank by these times or "
             "front "
             "T.\n",
             least_repetitions);
-    const std::string why = unsettled_text(floors);
+    const std::string why = disturbance_text(floors);
     if (why.empty()) return "";
     return "    UNSETTLED: " + why +
            ". The machine was busy or changed its speed: times, rankings by time and front T\n"
@@ -171,6 +177,7 @@ std::string notes_text(const std::vector<std::string>& notes, const std::string&
 std::string to_table(const Result& result) {
     std::string text =
         result.name + (result.purpose.empty() ? "" : ": " + result.purpose) + "\n" + notes_text(result.notes, "  ");
+    bool marked = false;
     for (const VariantResult& variant : result.variants) {
         for (const document::Setting& setting : variant.settings)
             text += fmt::format("{} = {}\n", setting.pointer, setting.value);
@@ -180,11 +187,13 @@ std::string to_table(const Result& result) {
             base::Table table({"technique", "build ms", "ns/seg", "image ns", "x floor", "random ns", "x floor",
                                "bytes", "nodes mean", "max", "curve max", "lookup rms", "rms 95 %", "p99", "max",
                                "front", "status"});
-            for (const Cell& cell : light.cells) table.add(row_of(cell));
-            text += table.text("    ") + share_line(light) + unsettled_line(light);
+            for (const Cell& cell : light.cells) table.add(row_of(cell, light));
+            const Settling found = settling(light);
+            marked = marked || !found.uncertain.empty();
+            text += table.text("    ") + share_line(light) + disturbed_line(found);
         }
     }
-    return text + legend;
+    return text + legend + (marked ? mark_legend : "");
 }
 
 }  // namespace shadowbench::results

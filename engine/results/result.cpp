@@ -10,7 +10,7 @@ Sample summarise(std::vector<double> raw) {
     if (raw.empty()) return sample;
     sample.raw = std::move(raw);
     sample.median = metrics::median(sample.raw);
-    sample.interval = metrics::median_interval(sample.raw);
+    sample.interval = metrics::order_interval(sample.raw);
     return sample;
 }
 

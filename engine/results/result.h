@@ -16,7 +16,7 @@
 
 namespace shadowbench::results {
 
-// Raw timings of one operation, and their median with its 95 % bootstrap interval.
+// Raw timings of one operation, and their median with its 95 % interval: metrics::order_interval().
 struct Sample {
     std::vector<double> raw;
     double median = 0.0;
@@ -80,6 +80,21 @@ struct NodeCounts {
     std::vector<std::uint64_t> histogram;  // cells by number of nodes, up to max
 
     double mean() const { return cells ? static_cast<double>(total) / static_cast<double>(cells) : 0.0; }
+};
+
+// The timed passes of one kind, and what the scheduler did to them.
+struct TimedPasses {
+    std::uint64_t passes = 0;
+    std::uint64_t interrupted = 0;  // passes in which the thread had to give up its processor, once or more
+    std::uint64_t switches = 0;     // how often it had to: involuntary context switches
+};
+
+// How the builds and lookups of a light were timed.
+struct TimingReport {
+    double goal = 0.0;                    // half width, over the median, at which an interval is narrow enough
+    double seconds = 0.0;                 // of all rounds of builds and lookups, with their warm-ups
+    TimedPasses builds, lookups;          // lookups: in both orders, and their floors
+    std::optional<double> steal_seconds;  // that the host took from all processors meanwhile; absent if unknown
 };
 
 enum class CellStatus { ok, failed };
@@ -167,6 +182,7 @@ struct LightResult {
     std::optional<Agreement> agreement;
     ReferenceReport reference;
     CaptureTimes times;
+    std::optional<TimingReport> timing;  // absent from portable baselines and results of earlier programs
     std::vector<Cell> cells;
 };
 

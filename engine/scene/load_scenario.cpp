@@ -230,9 +230,18 @@ Reference load_reference(const json& from) {
     return reference;
 }
 
+constexpr int least_open_repetitions = 5;  // fewer fix the number: no interval of theirs can be judged
+
 Timing load_timing(const json& from) {
     Timing timing;
     read(from, "repetitions", timing.repetitions);
+    const bool few = timing.repetitions < least_open_repetitions;
+    timing.most_repetitions = few ? timing.repetitions : std::max(timing.repetitions, timing.most_repetitions);
+    read(from, "most_repetitions", timing.most_repetitions);
+    if (timing.most_repetitions < timing.repetitions)
+        refuse("/timing/most_repetitions", fmt::format("must be at least repetitions, {}", timing.repetitions));
+    read(from, "goal", timing.goal);
+    read(from, "seconds", timing.seconds);
     read(from, "lookups", timing.lookups);
     return timing;
 }

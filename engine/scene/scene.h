@@ -177,8 +177,12 @@ struct Reference {
     std::uint64_t seed = 1234567;
 };
 
+// Builds and lookups are repeated until the interval of every median is narrow enough, or a limit is reached.
 struct Timing {
-    int repetitions = 7;
+    int repetitions = 7;        // at least
+    int most_repetitions = 31;  // equal: their number is fixed
+    double goal = 0.05;         // half width of a 95 % interval over the median, at which it is narrow enough
+    double seconds = 20.0;      // for all repetitions of a light beyond the least ones
     int lookups = 65536;  // receivers looked up in one timed pass, at most
 };
 

@@ -14,6 +14,7 @@
 #include "document/document.h"
 #include "results/report.h"
 #include "results/report_verdicts.h"
+#include "results/settled.h"
 #include "results/write_result.h"
 #include "service/cli/commands.h"
 #include "service/cli/job.h"
@@ -166,6 +167,9 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
         made_for_verdicts.keep();
         out << fmt::format("written: {}\n", verdicts.string());
     }
+    std::vector<const results::Result*> all;
+    for (const results::ScenarioOutcome& outcome : outcomes) all.push_back(&outcome.result);
+    out << results::unsettled_line(all);
     if (first_error) throw *first_error;
     return kept;
 }

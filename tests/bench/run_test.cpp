@@ -286,6 +286,33 @@ TEST(Run, writes_results_that_read_back_unchanged) {
     EXPECT_EQ(to_table(read), to_table(result));
 }
 
+TEST(Run, repeats_between_the_least_and_the_most_repetitions) {
+    const auto repetitions = [](const json& timing) {
+        json document = two_layers();
+        document["timing"] = timing;
+        const results::LightResult light = run(document, {}, {}).variants[0].lights[0];
+        std::vector<std::size_t> counts;
+        for (const results::Cell& cell : light.cells)
+            for (const results::Sample* sample :
+                 {&cell.times->build_ms, &cell.times->image_order.ns, &cell.times->random_order.ns})
+                counts.push_back(sample->raw.size());
+        EXPECT_EQ(light.timing->goal, timing.value("goal", 0.05));
+        EXPECT_EQ(light.timing->builds.passes, counts[0] + counts[3]);
+        EXPECT_EQ(light.timing->lookups.passes, 2 * (counts[1] + counts[2] + counts[4] + counts[5])) << "with floors";
+        EXPECT_EQ(counts[0], counts[3]) << "all techniques are in all rounds";
+        EXPECT_EQ(counts[1], counts[4]);
+        EXPECT_EQ(counts[1], counts[2]);
+        return std::vector<std::size_t>{counts[0], counts[1]};
+    };
+    const std::vector<std::size_t> two{2, 2}, five{5, 5}, eight{8, 8};
+    EXPECT_EQ(repetitions({{"repetitions", 2}, {"lookups", 64}}), two) << "so few are fixed";
+    EXPECT_EQ(repetitions({{"repetitions", 5}, {"most_repetitions", 5}, {"lookups", 64}}), five);
+    EXPECT_EQ(repetitions({{"repetitions", 5}, {"seconds", 0}, {"lookups", 64}}), five);
+    // Lookups in random order vary by more than a billionth; builds may be too short to show it.
+    const json strict{{"repetitions", 5}, {"most_repetitions", 8}, {"goal", 1e-9}, {"seconds", 86400}, {"lookups", 64}};
+    EXPECT_EQ(repetitions(strict)[1], eight[1]);
+}
+
 TEST(Run, says_what_the_readers_of_files_left_out) {
     const TemporaryFolder folder;
     std::ofstream(folder.path() / "a.obj") << "V 0 1 0\nv 0 1 0\nv 1 1 0\nv 1 1 -1\nv 0 1 -1\nf 1 2 3 4\nf 1 2\n";

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -96,6 +97,54 @@ TEST(MedianInterval, CoversTheTrueMedianAboutAsOftenAsItShould) {
     }
     EXPECT_GT(covered, kRounds * 88 / 100);
     EXPECT_LT(covered, kRounds);
+}
+
+// The share of all 2^n ways in which n values fall on either side of the median with at least `least` on each side.
+double share_inside(int n, int least) {
+    int inside = 0;
+    for (unsigned ways = 0; ways < (1u << n); ++ways) {
+        const int below = std::popcount(ways);
+        inside += below >= least && n - below >= least;
+    }
+    return static_cast<double>(inside) / static_cast<double>(1u << n);
+}
+
+TEST(OrderInterval, IsTheNarrowestPairThatHoldsTheMedianOftenEnough) {
+    base::Random random(5);
+    for (int n = 1; n <= 16; ++n)
+        for (const double confidence : {0.5, 0.9, 0.95, 0.99}) {
+            std::vector<double> sample;
+            for (int i = 0; i < n; ++i) sample.push_back(random.uniform());
+            const Interval interval = order_interval(sample, confidence);
+            int low = 0, high = 0;  // ranks from either end, from 1
+            for (const double value : sample) low += value <= interval.low, high += value >= interval.high;
+            EXPECT_EQ(low, high) << n;
+            if (low > 1) {
+                EXPECT_GE(share_inside(n, low), confidence) << n;
+            }
+            if (2 * (low + 1) <= n) {
+                EXPECT_LT(share_inside(n, low + 1), confidence) << n << " " << confidence;
+            }
+            EXPECT_LE(interval.low, median(sample));
+            EXPECT_GE(interval.high, median(sample));
+        }
+}
+
+TEST(OrderInterval, KnownRanks) {
+    const auto of = [](int n) {
+        std::vector<double> sample;
+        for (int i = n; i > 0; --i) sample.push_back(i);
+        return order_interval(sample);
+    };
+    EXPECT_EQ(of(1).low, 1.0);
+    EXPECT_EQ(of(1).high, 1.0);
+    EXPECT_EQ(of(5).high, 5.0) << "the whole range: 94 %";
+    EXPECT_EQ(of(7).low, 1.0);
+    EXPECT_EQ(of(9).low, 2.0);
+    EXPECT_EQ(of(9).high, 8.0);
+    EXPECT_EQ(of(31).low, 10.0);
+    EXPECT_EQ(of(31).high, 22.0);
+    EXPECT_EQ(of(1000).low, 469.0) << "a table of the binomial distribution";
 }
 
 }  // namespace

@@ -148,6 +148,138 @@ TEST(Settled, FewRepetitionsOrNoFloorsAreNotJudged) {
     EXPECT_EQ(settling(light_of(1, 9, [](int, int, int) { return 0.0; })).floors, 0u) << "a time of 0 is not usable";
 }
 
+// A quiet light with the passes of 9 repetitions.
+LightResult timed_light() {
+    LightResult light = light_of(7, 9, [](int, int, int) { return 5.0; });
+    for (Cell& cell : light.cells) {
+        cell.times->build_ms = summarise(std::vector<double>(9, 2.0));
+        cell.times->image_order.ns = cell.times->random_order.ns = summarise(std::vector<double>(9, 10.0));
+    }
+    light.timing = TimingReport{0.05, 10.0, {63, 0, 0}, {252, 0, 0}, 0.0};
+    return light;
+}
+
+// The interval of nine times reaches from the second to the eighth.
+Sample spread_sample(double half_width) {
+    return summarise({1.0, 1.0 - half_width, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0 + half_width, 1.0 + half_width});
+}
+
+TEST(Settled, ATimeIsUncertainIfItsIntervalIsWiderThanTheGoal) {
+    EXPECT_TRUE(is_settled(timed_light()));
+    EXPECT_EQ(unsettled_text(settling(timed_light())), "");
+    EXPECT_TRUE(is_narrow(Sample{{}, 1.0, {0.96, 1.05}}, 0.05));
+    EXPECT_FALSE(is_narrow(Sample{{}, 1.0, {0.94, 1.05}}, 0.05));
+    EXPECT_TRUE(is_narrow(Sample{{}, 0.003, {0.001, 0.01}}, 0.05)) << "a table shows 0.00";
+
+    LightResult light = timed_light();
+    light.cells[2].times->random_order.ns = Sample{std::vector<double>(9, 10.0), 10.0, {8.0, 12.4}};
+    light.cells[4].times->build_ms = Sample{std::vector<double>(9, 2.0), 2.0, {1.8, 2.0}};
+    EXPECT_EQ(is_settled(light.cells[4].times->build_ms, light), true) << "5 % is still narrow";
+    EXPECT_EQ(is_settled(light.cells[2].times->random_order.ns, light), false);
+    light.cells[4].times->build_ms.interval.low = 1.7;
+    light.timing->goal = 0.06;
+    Settling found = settling(light);
+    EXPECT_EQ(found.times, 21u);
+    EXPECT_FALSE(found.disturbed());
+    EXPECT_FALSE(found.settled());
+    EXPECT_EQ(disturbance_text(found), "");
+    EXPECT_EQ(unsettled_text(found),
+              "2 of 21 times are uncertain by more than 6 % (technique2, random order: 22 %; technique4, build: 8 %), "
+              "though nothing shows that the machine was disturbed: allow more repetitions (timing.most_repetitions, "
+              "timing.seconds)");
+    light.timing->steal_seconds = 0.5;
+    EXPECT_EQ(unsettled_text(settling(light)),
+              "the host of this virtual machine took 5.0 % of the time (steal), more than 2 %, and 2 of 21 times are "
+              "uncertain by more than 6 % (technique2, random order: 22 %; technique4, build: 8 %)");
+
+    light.cells[2].times->random_order.ns.raw.resize(4);
+    EXPECT_FALSE(is_settled(light.cells[2].times->random_order.ns, light).has_value()) << "too few to judge";
+    light.timing.reset();
+    EXPECT_FALSE(is_settled(light.cells[4].times->build_ms, light).has_value()) << "the goal is not known";
+    EXPECT_TRUE(is_settled(light)) << "and an old result is judged by its floors";
+}
+
+TEST(Settled, InterruptedPassesAndStealAreNamed) {
+    LightResult light = timed_light();
+    light.timing->builds.interrupted = 12;   // 19 %
+    light.timing->lookups.interrupted = 50;  // 19.8 %
+    light.timing->steal_seconds = 0.2;       // 2 %
+    EXPECT_TRUE(is_settled(light));
+    light.timing->steal_seconds.reset();
+    EXPECT_TRUE(is_settled(light)) << "not every system tells";
+    light.timing->builds.interrupted = 13;
+    EXPECT_EQ(unsettled_text(settling(light)),
+              "other programs interrupted 21 % of the timed passes of builds, more than 20 %");
+    light.timing->builds.interrupted = 0;
+    light.timing->lookups.interrupted = 126;
+    light.timing->steal_seconds = 0.31;
+    EXPECT_EQ(unsettled_text(settling(light)),
+              "other programs interrupted 50 % of the timed passes of lookups, more than 20 %, and the host of this "
+              "virtual machine took 3.1 % of the time (steal), more than 2 %");
+    for (Cell& cell : light.cells) cell.times.reset();
+    EXPECT_EQ(unsettled_text(settling(light)), "") << "nothing is known of no times";
+}
+
+TEST(Settled, FloorsThatDriftAreNamed) {
+    const auto pace = [](double slower) {
+        return light_of(7, 11, [=](int c, int o, int r) { return (4.0 + c + o) * (1.0 + slower * r / 10.0); });
+    };
+    EXPECT_TRUE(is_settled(pace(0.14)));
+    EXPECT_EQ(unsettled_text(settling(pace(0.2))),
+              "the floors became 20 % slower from the first repetition to the last");
+    EXPECT_EQ(unsettled_text(settling(pace(-0.2))),
+              "the floors became 20 % faster from the first repetition to the last");
+}
+
+TEST(Settled, OneLineAtTheEndNamesWhatIsUnsettled) {
+    Result quiet, busy;
+    quiet.name = "quiet";
+    quiet.variants = {{{}, {timed_light()}}};
+    busy.name = "busy";
+    LightResult light = timed_light();
+    light.name = "fill";
+    light.timing->steal_seconds = 1.0;
+    busy.variants = {{{{"/rays/seed", "2"}}, {timed_light(), light}}};
+    EXPECT_EQ(unsettled_line({&quiet}), "");
+    EXPECT_EQ(unsettled_line({}), "");
+    EXPECT_EQ(unsettled_line({&quiet, &busy}),
+              "UNSETTLED times of 1 of 3 lights: busy /rays/seed=2 light fill: the host of this virtual machine took "
+              "10.0 % of the time (steal), more than 2 %. Run again on a quiet machine.\n");
+    const std::string many = unsettled_line({&busy, &busy, &busy, &busy});
+    EXPECT_EQ(many.rfind("UNSETTLED times of 4 of 8 lights: ", 0), 0u) << many;
+    EXPECT_NE(many.find("; and 1 more. Run again on a quiet machine.\n"), std::string::npos) << many;
+    EXPECT_EQ(many.find('\n'), many.size() - 1) << "one line";
+}
+
+TEST(Settled, EveryReportMarksUncertainTimes) {
+    Result result;
+    result.document = "{}";
+    LightResult light = timed_light();
+    EXPECT_EQ(spread_sample(0.25).interval.high, 1.25);
+    light.cells[1].times->image_order.ns = spread_sample(0.25);
+    light.cells[1].times->build_ms = spread_sample(0.01);
+    result.variants = {{{}, {light}}};
+    const std::string table = to_table(result), csv = to_csv(result);
+    EXPECT_NE(table.find(" ~1.00 "), std::string::npos) << table;
+    EXPECT_EQ(table.find('~'), table.find("~1.00")) << "only that time";
+    EXPECT_NE(table.find("~: a time whose 95 % interval is wider"), std::string::npos);
+    EXPECT_NE(csv.find(",0,1,0,1\n"), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",0,1,1,1\n"), std::string::npos) << "settled is of the light, the others of the cell";
+    nlohmann::ordered_json json = to_json(result);
+    EXPECT_EQ(json["times"]["settled"], false);
+    const auto& written = json["variants"][0]["lights"][0];
+    EXPECT_EQ(written["cells"][1]["times"]["settled"].dump(),
+              R"({"build":true,"lookup_image_order":false,"lookup_random_order":true})");
+    EXPECT_EQ(written["times"]["goal"], 0.05);
+    EXPECT_EQ(written["times"]["lookups"]["passes"], 252);
+    EXPECT_EQ(written["times"]["steal_seconds"], 0.0);
+    EXPECT_EQ(written["times"]["settled"], false);
+    strip_times(json);
+    EXPECT_FALSE(json["variants"][0]["lights"][0].contains("times")) << "baselines hold nothing of the clock";
+    result.variants[0].lights[0] = timed_light();
+    EXPECT_EQ(to_table(result).find('~'), std::string::npos) << "no legend for a mark that is not there";
+}
+
 TEST(Settled, EveryReportSaysThatARunIsUnsettled) {
     Result result;
     result.document = "{}";
@@ -164,8 +296,8 @@ TEST(Settled, EveryReportSaysThatARunIsUnsettled) {
                          fill),
               std::string::npos)
         << table;
-    EXPECT_NE(csv.find(",1\n"), std::string::npos);
-    EXPECT_NE(csv.find(",0\n"), std::string::npos);
+    EXPECT_NE(csv.find(",1,,,\n"), std::string::npos);
+    EXPECT_NE(csv.find(",0,,,\n"), std::string::npos);
     nlohmann::ordered_json json = to_json(result);
     EXPECT_EQ(json["times"]["settled"], false);
     ASSERT_EQ(json["times"]["unsettled"].size(), 1u);

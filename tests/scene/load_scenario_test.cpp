@@ -55,6 +55,9 @@ void expect_same(const Reference& a, const Reference& b) {
 
 void expect_same(const Timing& a, const Timing& b) {
     EXPECT_EQ(a.repetitions, b.repetitions);
+    EXPECT_EQ(a.most_repetitions, b.most_repetitions);
+    EXPECT_EQ(a.goal, b.goal);
+    EXPECT_EQ(a.seconds, b.seconds);
     EXPECT_EQ(a.lookups, b.lookups);
 }
 
@@ -115,7 +118,8 @@ TEST(LoadScenario, ReadsEverySetting) {
                              {"fov", 60},           {"resolution", 100},     {"media_lookups", 3},  {"seed", 4},
                              {"filter_width", 2.5}, {"bias", 0.25}};
     document["reference"] = {{"samples_per_pixel", 10}, {"queries", 11}, {"spread_seeds", 12}, {"seed", 13}};
-    document["timing"] = {{"repetitions", 14}, {"lookups", 15}};
+    document["timing"] = {
+        {"repetitions", 14}, {"most_repetitions", 16}, {"goal", 0.25}, {"seconds", 17.5}, {"lookups", 15}};
     const Scenario scenario = load_scenario(document, {});
     EXPECT_EQ(scenario.name, "minimal");
     EXPECT_EQ(scenario.purpose, "To see.");
@@ -130,7 +134,24 @@ TEST(LoadScenario, ReadsEverySetting) {
     EXPECT_TRUE((scenario.receivers.filter_width == FilterWidth{WidthUnit::map_pixels, 2.5}));
     EXPECT_EQ(scenario.receivers.bias, 0.25);
     expect_same(scenario.reference, Reference{10, 11, 12, 13});
-    expect_same(scenario.timing, Timing{14, 15});
+    expect_same(scenario.timing, Timing{14, 16, 0.25, 17.5, 15});
+}
+
+TEST(LoadScenario, TheMostRepetitionsFollowTheLeast) {
+    const auto most = [](int repetitions) {
+        json document = minimal();
+        document["timing"] = {{"repetitions", repetitions}};
+        return load_scenario(document, {}).timing.most_repetitions;
+    };
+    EXPECT_EQ(most(1), 1) << "a scenario that does not care for times";
+    EXPECT_EQ(most(4), 4);
+    EXPECT_EQ(most(5), 31);
+    EXPECT_EQ(most(31), 31);
+    EXPECT_EQ(most(100), 100);
+    const base::Error error = error_with("/timing", R"({"repetitions": 9, "most_repetitions": 8})");
+    EXPECT_EQ(error.where(), "/timing/most_repetitions");
+    EXPECT_THAT(error.message(), HasSubstr("at least repetitions, 9"));
+    EXPECT_EQ(error_with("/timing", R"({"goal": 0})").where(), "/timing/goal");
 }
 
 TEST(LoadScenario, ReadsPointsThatReceiveLight) {

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {bytes, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
 import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
-import {frontOf, fronts, lightMapOf, quoted, rerunOf, rmsInterval, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
+import {frontOf, fronts, lightMapOf, marked, quoted, rerunOf, rmsInterval, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
 import {linearAxis, logAxis, logPlace} from '../../../service/web/page/plots/axes.js';
 import {placeLabels} from '../../../service/web/page/plots/labels.js';
 
@@ -53,6 +53,15 @@ test('a group whose floors drifted says why, and no other does', () => {
   assert.equal(unsettledOf(result, group(0, 'key')), null);
   assert.equal(unsettledOf(result, group(1, 'fill')), null);
   assert.equal(unsettledOf({times: {started: ''}}, group(1, 'key')), null, 'older results do not tell');
+});
+
+test('a time whose interval is wider than the goal is marked', () => {
+  const cell = {times: {settled: {build: true, lookup_image_order: false, lookup_random_order: null}}};
+  assert.equal(marked(cell, 'build', '1.5'), '1.5');
+  assert.equal(marked(cell, 'lookup_image_order', '1.5'), '~1.5');
+  assert.equal(marked(cell, 'lookup_random_order', '1.5'), '1.5', 'too few repetitions to judge');
+  assert.equal(marked({times: {}}, 'build', '1.5'), '1.5', 'older results do not tell');
+  assert.equal(marked({times: null}, 'build', '–'), '–');
 });
 
 test('the front holds what nothing beats in both', () => {

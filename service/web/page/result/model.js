@@ -58,10 +58,13 @@ export function groupsOf(result) {
   }));
 }
 
-// Why the times of a group are unreliable, judged by the floors, which were measured beside them. Nothing on a quiet machine.
+// Why the times of a group are unreliable: the machine was disturbed, or some intervals are wide. Nothing if they are settled.
 export function unsettledOf(result, group) {
   return result.times?.unsettled?.find((u) => u.variant === group.variant && u.light === group.light.light)?.why ?? null;
 }
+
+// The text of a time of a cell, with a mark if its interval is wider than the goal. `order` names it in times.settled.
+export const marked = (cell, order, text) => (text && cell.times?.settled?.[order] === false ? `~${text}` : text);
 
 // The Pareto front of the values, without their intervals: the points that no other point beats in both measures, from left to
 // right. Equal points are all on it.

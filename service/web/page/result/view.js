@@ -85,8 +85,8 @@ function groupView({source, result, images, imagesFault, group, series, signal})
   const unsettled = unsettledOf(result, group);
   return h('div', {class: 'stack'},
     unsettled && h('p', {class: 'unsettled', role: 'note'}, h('strong', {}, 'Unsettled. '),
-      `${unsettled}. The machine was busy or changed its pace: times may be off by as much, and the front of time and error ` +
-      'and rankings by time with them. Run it again on a quiet machine.'),
+      `${unsettled}. Times may be off by as much, and the front of time and error and rankings by time with them. ` +
+      'Run it again on a quiet machine.'),
     h('section', {class: 'panel quiet-panel', 'aria-label': 'Capture'}, captureOf(group.light),
       group.light.sees_nothing && h('p', {class: 'note'}, 'This light sees nothing that casts a shadow.')),
     trade.element,
