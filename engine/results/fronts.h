@@ -26,7 +26,7 @@ inline constexpr double process_luck = 0.06;
 //    pace of the machine cancels in each ratio. (Bootstrap and rank intervals cannot reach the confidence that one of
 //    many pairs needs: the widest interval of nine values without a model of their distribution, from the least to the
 //    largest, holds with 99.6 %.) The interval is widened by process_luck at both ends.
-//  - If the light's floors are unsettled or unknown (settled.h), its times are not to be relied on: every cell that has
+//  - If the machine was disturbed, or nothing is known of it (settled.h), times are not to be relied on: every cell that has
 //    times is perhaps on the front of time. A cell with fewer than least_repetitions repetitions is compared with no
 //    other by time.
 void mark_fronts(LightResult& light);
