@@ -9,6 +9,14 @@
 #include "rays/shutter.h"
 
 namespace shadowbench::rays {
+namespace {
+
+// The key of the pixel that holds sample cell (i, j).
+std::uint64_t pixel_of(const MapLayout& layout, int i, int j) {
+    return static_cast<std::uint64_t>(i / layout.samples_x) << 32 | static_cast<std::uint32_t>(j / layout.samples_y);
+}
+
+}  // namespace
 
 void set_samples(MapLayout& layout, int samples) {
     int across = static_cast<int>(std::sqrt(static_cast<double>(samples)));
@@ -25,6 +33,13 @@ SamplePosition sample_position(const MapLayout& layout, int i, int j) {
         u = static_cast<double>(bits >> 32) * 0x1p-32;
         v = static_cast<double>(bits & 0xffffffffu) * 0x1p-32;
     }
+    if (layout.jittered && layout.multi_jittered) {
+        const std::uint64_t key = base::hash(layout.seed ^ 0x66696e6572u, pixel_of(layout, i, j));
+        const auto columns = static_cast<std::uint32_t>(layout.samples_x), rows = static_cast<std::uint32_t>(layout.samples_y);
+        const std::uint32_t column = static_cast<std::uint32_t>(i) % columns, row = static_cast<std::uint32_t>(j) % rows;
+        u = (scatter(row, rows, key) + u) / rows;
+        v = (scatter(column, columns, base::mix(key)) + v) / columns;
+    }
     return {(i + u) / layout.samples_x, (j + v) / layout.samples_y};
 }
 
@@ -37,9 +52,7 @@ TileCore core_of(const MapLayout& layout, int tile) {
 
 double sample_time(const MapLayout& layout, int i, int j) {
     if (!layout.moving) return 0.0;
-    const std::uint64_t pixel =
-        static_cast<std::uint64_t>(i / layout.samples_x) << 32 | static_cast<std::uint32_t>(j / layout.samples_y);
-    const std::uint64_t key = base::hash(layout.seed ^ 0x74696d65u, pixel);
+    const std::uint64_t key = base::hash(layout.seed ^ 0x74696d65u, pixel_of(layout, i, j));
     const std::uint32_t part =
         shutter_part(layout.samples_x, layout.samples_y, i % layout.samples_x, j % layout.samples_y, key);
     const double within = layout.jittered ? static_cast<double>(base::hash(key, part) >> 32) * 0x1p-32 : 0.5;

@@ -172,7 +172,9 @@ Rendering describe(const scene::Scenario& scenario, const document::Variant& var
     result.camera = result.default_camera ? default_camera(scenario.scene) : *scenario.receivers.camera;
     result.size = options.size.value_or(scenario.receivers.resolution);
     result.rays_per_side = options.rays_per_side;
-    result.reference_samples = scenario.reference.samples_per_pixel;
+    const scene::RaySettings truth = bench::reference_settings(scenario);
+    const bench::RaySets sets = bench::ray_sets(scenario.scene, truth);
+    result.reference_samples = sets.sets * sets.samples_per_pixel;
     return result;
 }
 
