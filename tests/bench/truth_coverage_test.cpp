@@ -74,13 +74,17 @@ Box box_of(const Query& q) {
     return {{inside(q.x - h), inside(q.y - h)}, {inside(q.x + h), inside(q.y + h)}};
 }
 
-// Half planes whose edge passes the middle of the map, at all angles; every fourth along an axis or a diagonal.
-HalfPlane any_half_plane(base::Random& random) {
+// Half planes whose edge passes within `off` of a place, at all angles; every fourth along an axis or a diagonal.
+HalfPlane half_plane_by(const Vec2d& place, double off, base::Random& random) {
     constexpr double eighth = 0.78539816339744831;
     const double angle =
         random.below(4) ? random.uniform(0, 8 * eighth) : static_cast<double>(random.below(8)) * eighth;
     const Vec2d n(std::cos(angle), std::sin(angle));
-    return {n, n.dot(Vec2d(6, 6)) + random.uniform(-5, 5)};
+    return {n, n.dot(place) + random.uniform(-off, off)};
+}
+
+HalfPlane any_half_plane(base::Random& random) {
+    return half_plane_by({6, 6}, 5.0, random);
 }
 
 // The surface over a half plane of the map of rays::testing::directional(), which looks along -z at [-1, 1]^2.
@@ -145,18 +149,23 @@ void edges(double overhang, std::uint64_t key) {
     for (std::uint64_t seed = 0; !coverage.enough(); ++seed) {
         ASSERT_LT(seed, 5000u);
         base::Random random(base::hash(seed, key));
-        const HalfPlane half = any_half_plane(random);
+        std::vector<Query> queries = footprints(random, 0.0f, overhang);
+        const auto at_border = [&](std::size_t q) { return q % 3 == 2 || q / 3 == 0; };
+        if (overhang > 0.0)
+            for (std::size_t q = queries.size(); q-- > 0;)
+                if (!at_border(q)) queries.erase(queries.begin() + static_cast<std::ptrdiff_t>(q));
+        const Box one = box_of(queries[random.below(queries.size())]);
+        const HalfPlane half = half_plane_by((one.low + one.high) * 0.5, 1.0, random);
         scene::Scene scene;
         scene.objects.push_back(surface(half, 0.0, Vec3f(1)));
         const rays::LightView view = view_of(rays::testing::directional(), scene);
         check_orientation(view);
-        const auto z = static_cast<float>(rays::to_light(view, {0, 0, -1}).z);
-        const std::vector<Query> queries = footprints(random, z, overhang);
+        for (Query& query : queries) query.z = static_cast<float>(rays::to_light(view, {0, 0, -1}).z);
         const Truth truth = reference_visibility(scene, view, settings_of(seed), queries, {});
         ASSERT_EQ(truth.degrees, 7);
         for (std::size_t q = 0; q < queries.size(); ++q) {
             const Box box = box_of(queries[q]);
-            if (!half.counts(box) || (overhang > 0.0 && q % 3 != 2 && q / 3 != 0)) continue;
+            if (!half.counts(box)) continue;
             coverage.add(truth.value[q], truth.standard_error[q], 1.0 - half.area_in(box) / box.area());
         }
     }
@@ -290,18 +299,19 @@ TEST(TruthCoverage, OfAMovingEdge) {
     for (std::uint64_t seed = 0; !coverage.enough(); ++seed) {
         ASSERT_LT(seed, 5000u);
         base::Random random(base::hash(seed, 105));
-        HalfPlane half = any_half_plane(random);
+        std::vector<Query> queries = footprints(random, 0.0f, 0.0);
+        const Query& one = queries[random.below(queries.size())];
+        HalfPlane half;
         const double speed = std::exp(random.uniform(std::log(0.1), std::log(8.0)));  // pixels a shutter
         const double angle = random.uniform(0.01, 1.56) + 1.5707963267948966 * static_cast<double>(random.below(4));
         half.n = {std::cos(angle), std::sin(angle)};  // the closed form divides by both parts
-        half.d = half.n.dot(Vec2d(6, 6)) + random.uniform(-5, 5) - 0.5 * speed;
+        half.d = half.n.dot(Vec2d(one.x, one.y)) + random.uniform(-1, 1) - 0.5 * speed;
         scene::Scene scene;
         scene.objects.push_back(surface(half, 0.0, Vec3f(1)));
         const Vec2d motion = half.n * (speed * 2.0 / resolution);
         scene.objects[0].motion = {static_cast<float>(motion.x), static_cast<float>(motion.y), 0.0f};
         const rays::LightView view = view_of(rays::testing::directional(), scene);
-        const std::vector<Query> queries =
-            footprints(random, static_cast<float>(rays::to_light(view, {0, 0, -1}).z), 0.0);
+        for (Query& query : queries) query.z = static_cast<float>(rays::to_light(view, {0, 0, -1}).z);
         const Truth truth = reference_visibility(scene, view, settings_of(seed), queries, {});
         for (std::size_t q = 0; q < queries.size(); ++q) {
             const Box box = box_of(queries[q]);
