@@ -172,6 +172,10 @@ Truth reference_visibility(const scene::Scene& scene, const rays::LightView& vie
     const RaySets plan = ray_sets(scene, settings);
     MapLayout layout = rays::make_layout(scene, view, settings_of_a_set(scene, settings));
     layout.multi_jittered = plan.sets > 1;
+    // Whole tiles are captured around the queries: no larger ones for fewer rays a set.
+    const MapLayout whole = rays::make_layout(scene, view, settings);
+    layout.tile_width = whole.tile_width;
+    layout.tile_height = whole.tile_height;
     const Casters casters(scene, view, layout);
 
     Truth truth;

@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "rays/extended_oracle.h"
+#include "rays/pixel_positions.h"
 
 namespace shadowbench::rays {
 namespace {
@@ -139,12 +140,17 @@ TEST(SamplePosition, OfMultiJitteredRaysIsStratifiedInXAndInY) {
             for (int pixel = 0; pixel < 64; pixel += 5) {
                 std::vector<int> columns(static_cast<std::size_t>(samples)), rows(columns);
                 const int x = pixel % 8, y = pixel / 8;
+                std::vector<SamplePosition> together;
+                pixel_positions(layout, x, y, together);
+                ASSERT_EQ(together.size(), static_cast<std::size_t>(samples));
                 for (int j = 0; j < layout.samples_y; ++j)
                     for (int i = 0; i < layout.samples_x; ++i) {
                         const SamplePosition p =
                             sample_position(layout, x * layout.samples_x + i, y * layout.samples_y + j);
                         ASSERT_EQ(std::floor((p.x - x) * layout.samples_x), i);
                         ASSERT_EQ(std::floor((p.y - y) * layout.samples_y), j);
+                        ASSERT_EQ(together[static_cast<std::size_t>(j * layout.samples_x + i)].x, p.x);
+                        ASSERT_EQ(together[static_cast<std::size_t>(j * layout.samples_x + i)].y, p.y);
                         ++columns.at(static_cast<std::size_t>((p.x - x) * samples));
                         ++rows.at(static_cast<std::size_t>((p.y - y) * samples));
                     }
