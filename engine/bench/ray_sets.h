@@ -1,5 +1,5 @@
-// The mean over the rays of a footprint, and its standard error: from one set of rays, or from several independent ones.
-// Internal to reference.cpp.
+// The mean over the rays of a footprint, and its standard error: from one set of rays, or from several independent
+// ones. Internal to reference.cpp.
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ Mean mean_of_rays(const Moments& rays, int channel);
 // many rays inside; elsewhere its bias is K times as large, since that of a ratio falls with the number of rays.)
 // The standard error is that of a ratio of means (Cochran, Sampling Techniques, 1977, section 2.11), with K - 1 degrees
 // of freedom: sqrt(K / (K - 1) sum (S_k - value C_k)^2) / sum C_k.
-// Where only m < K sets hold a ray, m replaces K; then the error is widened, up to 0.5, so that the 95 % interval of K -
-// 1 degrees of freedom is that of m - 1. For m = 1 it is 0.5: unknown.
+// Where only m < K sets hold a ray, m replaces K; then the error is widened, up to 0.5, so that the 95 % interval of K
+// - 1 degrees of freedom is that of m - 1. For m = 1 it is 0.5: unknown.
 Mean mean_of_sets(std::span<const double> sums, std::span<const std::uint64_t> counts);
 
 // The sums of all queries.

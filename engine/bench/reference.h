@@ -52,8 +52,8 @@ using ReferenceWatch = std::function<void(std::size_t done, std::size_t total)>;
 
 // V*(x, y, z; w): averages the rays with |sx - x| <= w/2 and |sy - y| <= w/2 inside the map, or takes each set's ray of
 // the sample cell of (x, y) if there are none. Captures the tiles that the footprints touch, a few at a time. The rays
-// of a set are multi-jittered (light_rays.h). Each set has a seed of its own, made from that of the settings. The result
-// does not depend on the number of threads.
+// of a set are multi-jittered (light_rays.h). Each set has a seed of its own, made from that of the settings. The
+// result does not depend on the number of threads.
 Truth reference_visibility(const scene::Scene& scene, const rays::LightView& view, const scene::RaySettings& settings,
                            std::span<const techniques::Query> queries, const ReferenceWatch& watch);
 

@@ -107,8 +107,8 @@ Capture::Capture(const scene::Scene& scene, const LightView& view, const MapLayo
 Capture::Capture(const Capture& prepared, std::uint64_t seed) {
     MapLayout layout = prepared.state_->layout;
     layout.seed = seed;
-    state_ = std::make_unique<State>(State{prepared.state_->scene, prepared.state_->view, layout,
-                                           prepared.state_->objects});
+    state_ =
+        std::make_unique<State>(State{prepared.state_->scene, prepared.state_->view, layout, prepared.state_->objects});
 }
 
 Capture::~Capture() = default;

@@ -7,7 +7,8 @@
 //  - 3,000 cases a family. Their share in the interval then has a standard deviation of 0.4 % if it is 95 % (binomial);
 //    the bounds of 2 % are five of them.
 //  - The squared errors add up to the squared standard errors, within 15 %: with 7 degrees of freedom their ratio has a
-//    standard deviation of about 3 % in 3,000 cases (sqrt((2 + 2/7) / 3000)), or twice that as the cases differ in size.
+//    standard deviation of about 3 % in 3,000 cases (sqrt((2 + 2/7) / 3000)), or twice that as the cases differ in
+//    size.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,8 +96,7 @@ scene::Object surface(const HalfPlane& half, double height, const Vec3f& opacity
         return Vec3f(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(height));
     };
     const Vec3f corner = world(half.d - 60, -60);
-    scene::Object object =
-        rays::testing::quad(corner, world(half.d, -60) - corner, world(half.d - 60, 60) - corner);
+    scene::Object object = rays::testing::quad(corner, world(half.d, -60) - corner, world(half.d - 60, 60) - corner);
     object.opacity = opacity;
     return object;
 }
@@ -276,8 +276,8 @@ TEST(TruthCoverage, OfALayerOfMediaWithASlantedBorder) {
         const double at_0 = entry(0, 0);
         const Vec2d n(entry(1, 0) - at_0, entry(0, 1) - at_0);
         const double first = border - tilt * thick - at_0, last = border - at_0;  // of n . p: all of the layer, nothing
-        const double depth = 2.0 * static_cast<double>(scene.objects[0].extinction.x) * thick *
-                             std::sqrt(1.0 + tilt * tilt);
+        const double depth =
+            2.0 * static_cast<double>(scene.objects[0].extinction.x) * thick * std::sqrt(1.0 + tilt * tilt);
         const auto through = [&](double s) {
             return std::exp(-depth * std::clamp((last - s) / (last - first), 0.0, 1.0));
         };
