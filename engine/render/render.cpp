@@ -31,7 +31,7 @@ using base::Vec3d;
 using bench::Contender;
 using techniques::Query;
 
-constexpr std::size_t reference_chunk = std::size_t{1} << 20;  // points: limits the memory for their truth
+constexpr std::size_t reference_chunk = std::size_t{1} << 19;  // points: limits the memory for their truth
 constexpr float rounding = 1e-6f;                              // by which an answer may leave [0, 1]
 
 struct Work {
