@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/compensated.h"
+#include "rays/pixel_positions.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -171,11 +172,17 @@ void gather_footprints(const LightRays& tile, const MapLayout& layout, std::span
     MediaWalk through_media(media, layout);
     std::vector<std::uint32_t> answered;  // parts whose footprint holds the ray, by depth
     std::vector<double> depths;
+    std::vector<rays::SamplePosition> positions;  // of the pixel's rays
     for (std::size_t ray = 0; ray < tile.rays(); ++ray) {
         const std::size_t pixel = ray / tile.samples;
         if (sorted.begin[pixel] == sorted.begin[pixel + 1]) continue;
-        const Cell cell = cell_of(tile, layout, ray);
-        const rays::SamplePosition place = rays::sample_position(layout, cell.i, cell.j);
+        const std::size_t sample = ray % tile.samples;
+        if (sample == 0) {
+            const auto across = static_cast<std::size_t>(tile.width);
+            rays::pixel_positions(layout, tile.x0 + static_cast<int>(pixel % across),
+                                  tile.y0 + static_cast<int>(pixel / across), positions);
+        }
+        const rays::SamplePosition place = positions[sample];
         answered.clear();
         depths.clear();
         for (std::uint32_t k = sorted.begin[pixel]; k < sorted.begin[pixel + 1]; ++k) {
@@ -186,7 +193,7 @@ void gather_footprints(const LightRays& tile, const MapLayout& layout, std::span
         }
         if (answered.empty()) continue;
         walk.start(tile, ray);
-        through_media.start(cell, depths);
+        through_media.start(cell_of(tile, layout, ray), depths);
         for (std::size_t k = 0; k < answered.size(); ++k) {
             Moments& moments = parts[answered[k]].moments;
             walk.advance(tile, depths[k]);

@@ -63,7 +63,8 @@ results::ReferenceReport report_reference(const LightJob& job, const rays::MapLa
     results::ReferenceReport report;
     const metrics::ErrorNorms error = metrics::error_norms(truth.standard_error);
     report.judged = judged.size();
-    report.samples_per_pixel = job.scenario.scene.deep_image ? 1 : job.scenario.reference.samples_per_pixel;
+    report.samples_per_pixel = truth.samples_per_pixel;
+    report.degrees = truth.degrees;
     report.error_rms = error.rms;
     report.error_max = error.max;
     report.noise_tolerance = 0.5 / std::sqrt(static_cast<double>(layout.samples()));

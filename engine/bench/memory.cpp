@@ -53,13 +53,16 @@ double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& referen
 double check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
                     const MemoryLimits& limits, const std::string& where) {
     const rays::MapLayout layout = rays::make_layout(scenario.scene, view, scenario.rays);
-    const rays::MapLayout reference = rays::make_layout(scenario.scene, view, reference_settings(scenario));
+    const scene::RaySettings judging = reference_settings(scenario);
+    const rays::MapLayout reference =
+        rays::make_layout(scenario.scene, view, settings_of_a_set(scenario.scene, judging));
     const double need = least_bytes(layout, reference, contenders, limits);
     if (need <= static_cast<double>(limits.all)) return need;
     throw base::Error(base::ErrorCode::bad_input, where,
                       fmt::format("{} x {} pixels of {} samples, and {} for the reference, need at least {:.3g} GiB; "
                                   "the memory limit is {:.3g} GiB",
-                                  layout.width, layout.height, layout.samples(), reference.samples(), need / gib,
+                                  layout.width, layout.height, layout.samples(),
+                                  reference.samples() * ray_sets(scenario.scene, judging).sets, need / gib,
                                   static_cast<double>(limits.all) / gib));
 }
 

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "base/random.h"
 #include "bench/gather.h"
+#include "bench/ray_sets.h"
 #include "rays/capture.h"
 #include "rays/light_rays.h"
 
@@ -19,20 +21,16 @@ using techniques::Query;
 using Gather = void (*)(const LightRays&, const MapLayout&, std::span<const Query>, const GridsInLight&,
                         std::span<Part>);
 
-// The casters of one light without grid volumes, whose extinction varies within a segment.
-struct Casters {
-    Casters(const scene::Scene& scene, const rays::LightView& in, const MapLayout& map)
-        : layout(map), capture(scene, in, map, rays::Capture::Grids::left_out), grids(scene, true), view(in) {}
-
+// One set of rays.
+struct RaySet {
     const MapLayout& layout;
-    rays::Capture capture;
-    rays::GridMedia grids;
-    const rays::LightView& view;
+    const rays::Capture& capture;
+    GridsInLight media;
 };
 
-std::vector<Moments> gather_all(const Casters& casters, std::span<const Query> queries, Gather gather,
+std::vector<Moments> gather_all(const RaySet& set, std::span<const Query> queries, Gather gather,
                                 const ReferenceWatch& watch) {
-    const MapLayout& layout = casters.layout;
+    const MapLayout& layout = set.layout;
     std::vector<std::vector<Part>> parts = parts_by_tile(layout, queries);
     std::vector<std::size_t> tiles;
     for (std::size_t t = 0; t < parts.size(); ++t)
@@ -43,34 +41,78 @@ std::vector<Moments> gather_all(const Casters& casters, std::span<const Query> q
         base::parallel_for(std::min(in_flight, tiles.size() - first), [&](std::size_t i) {
             std::vector<Part>& tile_parts = parts[tiles[first + i]];
             const int index = static_cast<int>(tiles[first + i]);
-            const LightRays tile = casters.capture.tile(index);
-            gather(tile, layout, queries, {casters.grids, casters.view}, tile_parts);
+            const LightRays tile = set.capture.tile(index);
+            gather(tile, layout, queries, set.media, tile_parts);
         });
         if (watch) watch(std::min(first + in_flight, tiles.size()), tiles.size());
     }
     return reduce(parts, queries.size());
 }
 
-// A footprint narrower than a sample cell may hold no ray at all.
-void fill_empty(const Casters& casters, std::span<const Query> queries, std::vector<Moments>& moments) {
-    std::vector<std::size_t> empty;
-    std::vector<Query> asked;
-    for (std::size_t q = 0; q < queries.size(); ++q)
-        if (moments[q].count == 0) {
-            empty.push_back(q);
-            asked.push_back(queries[q]);
-            asked.back().width = 0.0f;
+// Queries whose footprint holds no ray: it is narrower than a sample cell.
+struct Empty {
+    std::vector<std::size_t> place;  // in all queries
+    std::vector<Query> query;
+
+    void add(std::size_t q, const Query& asked) {
+        place.push_back(q);
+        query.push_back(asked);
+        query.back().width = 0.0f;
+    }
+};
+
+// The casters of one light without grid volumes, whose extinction varies within a segment.
+struct Casters {
+    Casters(const scene::Scene& scene, const rays::LightView& in, const MapLayout& map)
+        : layout(map), capture(scene, in, map, rays::Capture::Grids::left_out), grids(scene, true), view(in) {}
+
+    // Calls visit(index, set) for each of the sets. Each has the seed of the layout and of its index.
+    template <class Visit>
+    void for_each_set(int sets, const Visit& visit) const {
+        for (int k = 0; k < sets; ++k) {
+            MapLayout own = layout;
+            own.seed = base::hash(layout.seed, 0x73657473u, static_cast<std::uint64_t>(k));
+            const rays::Capture rays(capture, own.seed);
+            visit(k, RaySet{own, rays, {grids, view}});
         }
-    if (empty.empty()) return;
-    const std::vector<Moments> nearest = gather_all(casters, asked, gather_nearest, {});
-    for (std::size_t i = 0; i < empty.size(); ++i) moments[empty[i]] = nearest[i];
+    }
+
+    const MapLayout& layout;
+    rays::Capture capture;
+    rays::GridMedia grids;
+    const rays::LightView& view;
+};
+
+std::vector<Moments> gather_one_set(const Casters& casters, std::span<const Query> queries,
+                                    const ReferenceWatch& watch) {
+    const RaySet set{casters.layout, casters.capture, {casters.grids, casters.view}};
+    std::vector<Moments> moments = gather_all(set, queries, gather_footprints, watch);
+    Empty empty;
+    for (std::size_t q = 0; q < queries.size(); ++q)
+        if (moments[q].count == 0) empty.add(q, queries[q]);
+    if (empty.query.empty()) return moments;
+    const std::vector<Moments> nearest = gather_all(set, empty.query, gather_nearest, {});
+    for (std::size_t i = 0; i < nearest.size(); ++i) moments[empty.place[i]] = nearest[i];
+    return moments;
 }
 
-double standard_error(const Moments& moments, int channel) {
-    const double n = static_cast<double>(moments.count);
-    if (n < 2.0) return 0.5;  // unknown for one ray: the largest deviation of values in [0, 1]
-    const double variance = (moments.squares[channel] - moments.sum[channel] * moments.sum[channel] / n) / (n - 1.0);
-    return std::sqrt(std::max(variance, 0.0) / n);
+SetSums gather_sets(const Casters& casters, int sets, std::span<const Query> queries, const ReferenceWatch& watch) {
+    SetSums sums(queries.size(), static_cast<std::size_t>(sets), static_cast<std::size_t>(casters.layout.channels));
+    casters.for_each_set(sets, [&](int k, const RaySet& set) {
+        const auto of_all = [&](std::size_t done, std::size_t total) { watch(k * total + done, sets * total); };
+        const std::vector<Moments> moments =
+            gather_all(set, queries, gather_footprints, watch ? of_all : ReferenceWatch());
+        for (std::size_t q = 0; q < queries.size(); ++q) sums.set(q, k, moments[q]);
+    });
+    Empty empty;
+    for (std::size_t q = 0; q < queries.size(); ++q)
+        if (sums.empty(q)) empty.add(q, queries[q]);
+    if (empty.query.empty()) return sums;
+    casters.for_each_set(sets, [&](int k, const RaySet& set) {
+        const std::vector<Moments> nearest = gather_all(set, empty.query, gather_nearest, {});
+        for (std::size_t i = 0; i < nearest.size(); ++i) sums.set(empty.place[i], k, nearest[i]);
+    });
+    return sums;
 }
 
 }  // namespace
@@ -84,20 +126,51 @@ scene::RaySettings reference_settings(const scene::Scenario& scenario) {
     return settings;
 }
 
+RaySets ray_sets(const scene::Scene& scene, const scene::RaySettings& settings) {
+    if (scene.deep_image) return {};
+    const int samples = settings.samples_per_pixel;
+    if (settings.pattern != scene::Pattern::jittered) return {1, samples};
+    if (samples <= most_ray_sets) return {samples, 1};
+    return {8, samples / 8};
+}
+
+scene::RaySettings settings_of_a_set(const scene::Scene& scene, const scene::RaySettings& settings) {
+    scene::RaySettings own = settings;
+    own.samples_per_pixel = ray_sets(scene, settings).samples_per_pixel;
+    return own;
+}
+
 Truth reference_visibility(const scene::Scene& scene, const rays::LightView& view, const scene::RaySettings& settings,
                            std::span<const Query> queries, const ReferenceWatch& watch) {
-    const MapLayout layout = rays::make_layout(scene, view, settings);
+    const RaySets plan = ray_sets(scene, settings);
+    MapLayout layout = rays::make_layout(scene, view, settings_of_a_set(scene, settings));
+    layout.multi_jittered = plan.sets > 1;
+    // Whole tiles are captured around the queries: no larger ones for fewer rays a set.
+    const MapLayout whole = rays::make_layout(scene, view, settings);
+    layout.tile_width = whole.tile_width;
+    layout.tile_height = whole.tile_height;
     const Casters casters(scene, view, layout);
-    std::vector<Moments> moments = gather_all(casters, queries, gather_footprints, watch);
-    fill_empty(casters, queries, moments);
 
     Truth truth;
     truth.channels = layout.channels;
-    for (int c = 0; c < layout.channels; ++c)
-        for (const Moments& m : moments) {
-            truth.value.push_back(m.count ? m.sum[c] / static_cast<double>(m.count) : 1.0);
-            truth.standard_error.push_back(scene.deep_image ? 0.0 : standard_error(m, c));
-        }
+    truth.degrees = plan.sets - 1;
+    truth.samples_per_pixel = plan.sets * layout.samples();
+    truth.value.reserve(queries.size() * layout.channels);
+    truth.standard_error.reserve(queries.size() * layout.channels);
+    const auto add = [&](const Mean& mean) {
+        truth.value.push_back(mean.value);
+        truth.standard_error.push_back(scene.deep_image ? 0.0 : mean.standard_error);
+    };
+    if (plan.sets == 1) {
+        const std::vector<Moments> moments = gather_one_set(casters, queries, watch);
+        for (int c = 0; c < layout.channels; ++c)
+            for (const Moments& m : moments) add(mean_of_rays(m, c));
+    } else {
+        const SetSums sums = gather_sets(casters, plan.sets, queries, watch);
+        for (int c = 0; c < layout.channels; ++c)
+            for (std::size_t q = 0; q < queries.size(); ++q)
+                add(mean_of_sets(sums.of(q, static_cast<std::size_t>(c)), sums.counts(q)));
+    }
     return truth;
 }
 

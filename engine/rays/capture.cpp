@@ -5,7 +5,9 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "rays/hits.h"
 #include "rays/prepared.h"
@@ -75,30 +77,38 @@ struct Capture::State {
     const scene::Scene& scene;
     const LightView view;
     const MapLayout layout;
-    std::vector<Prepared> objects;
+    std::shared_ptr<const std::vector<Prepared>> objects;
 
     template <class Sink>
     void project(LightRays& rays) const {
-        const bool moving = std::any_of(objects.begin(), objects.end(), [&](const Prepared& p) {
+        const bool moving = std::any_of(objects->begin(), objects->end(), [&](const Prepared& p) {
             return p.moving && (p.marcher || !p.bins.of(rays.tile).empty());
         });
         const TileGrid grid = make_tile_grid(view, layout, rays, moving);
         thread_local Sink sink;  // keeps its memory from tile to tile
         sink.hits.clear();
         if (view.perspective)
-            TileProjection<true, Sink>(view, layout, grid, rays, sink).project(objects);
+            TileProjection<true, Sink>(view, layout, grid, rays, sink).project(*objects);
         else
-            TileProjection<false, Sink>(view, layout, grid, rays, sink).project(objects);
+            TileProjection<false, Sink>(view, layout, grid, rays, sink).project(*objects);
         sort_hits(sink, static_cast<std::size_t>(grid.nx) * grid.ny, layout.submission, rays);
     }
 };
 
-Capture::Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout, Grids grids)
-    : state_(std::make_unique<State>(State{scene, view, layout, {}})) {
+Capture::Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout, Grids grids) {
+    auto objects = std::make_shared<std::vector<Prepared>>();
     for (const scene::Object& object : scene.objects) {
         const bool left_out = grids == Grids::left_out && std::holds_alternative<scene::GridVolume>(object.shape);
-        if (object.casts_shadow && !left_out) state_->objects.push_back(prepare(object, view, layout));
+        if (object.casts_shadow && !left_out) objects->push_back(prepare(object, view, layout));
     }
+    state_ = std::make_unique<State>(State{scene, view, layout, std::move(objects)});
+}
+
+Capture::Capture(const Capture& prepared, std::uint64_t seed) {
+    MapLayout layout = prepared.state_->layout;
+    layout.seed = seed;
+    state_ =
+        std::make_unique<State>(State{prepared.state_->scene, prepared.state_->view, layout, prepared.state_->objects});
 }
 
 Capture::~Capture() = default;
@@ -125,7 +135,7 @@ LightRays Capture::tile(int index, int apron) const {
 
 std::size_t Capture::bytes() const {
     std::size_t sum = 0;
-    for (const Prepared& p : state_->objects) sum += p.bytes();
+    for (const Prepared& p : *state_->objects) sum += p.bytes();
     return sum;
 }
 

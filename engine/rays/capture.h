@@ -33,6 +33,8 @@ public:
     // Callers that integrate grids themselves (grid_media.h) leave them out.
     enum class Grids { captured, left_out };
     Capture(const scene::Scene& scene, const LightView& view, const MapLayout& layout, Grids grids = Grids::captured);
+    // The same capture with other random places of its rays. It shares what was prepared.
+    Capture(const Capture& prepared, std::uint64_t seed);
     ~Capture();
     Capture(const Capture&) = delete;
     Capture& operator=(const Capture&) = delete;

@@ -16,6 +16,7 @@ struct MapLayout {
     int channels = 1;                     // 1 or 3
     bool media = false;                   // whether any ray may hold a segment with z_front < z_back
     bool jittered = false;                // samples lie anywhere in their cells, else in the middle
+    bool multi_jittered = false;          // and those of a pixel are stratified in x and in y too: sample_position()
     std::uint64_t seed = 0;               // for the jitter
     float z_min = 0.0f, z_max = 1.0f;     // bounds of every depth that occurs
     int tile_width = 1, tile_height = 1;  // pixels; tiles at the right and top edge may be smaller
@@ -33,7 +34,10 @@ struct MapLayout {
 // The most square grid samples_x <= samples_y of exactly `samples` cells.
 void set_samples(MapLayout& layout, int samples);
 
-// Map position of the ray in sample cell (i, j), in pixels.
+// Map position of the ray in sample cell (i, j), in pixels: uniform in its cell if the layout is jittered.
+// If it is multi_jittered too, the N rays of a pixel lie one in each of N equal columns and one in each of N equal rows of the
+// pixel: correlated multi-jittered samples (Kensler, Correlated Multi-Jittered Sampling, 2013), whose permutations are
+// scatter() of shutter.h, so that neighbouring cells have their rays in distant columns and rows.
 struct SamplePosition {
     double x, y;
 };

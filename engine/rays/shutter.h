@@ -1,4 +1,4 @@
-// Chooses the time at which each ray of a pixel sees the scene. Internal to light_rays.cpp.
+// Chooses the time at which each ray of a pixel sees the scene, and permutes strata. Internal to light_rays.cpp.
 //
 // A pixel of s x n sample cells, s <= n, has N = s n rays, one in each of N equal parts of the shutter. A Latin square,
 // an orthogonal array of strength 2 (Owen, Orthogonal Arrays for Computer Experiments, Integration and Visualization,

@@ -1,5 +1,7 @@
 #include "rays/tile_grid.h"
 
+#include "rays/pixel_positions.h"
+
 namespace shadowbench::rays {
 namespace {
 
@@ -34,12 +36,17 @@ TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const Li
     const std::size_t count = static_cast<std::size_t>(grid.nx) * grid.ny;
     grid.x.resize(count);
     grid.y.resize(count);
-    std::size_t s = 0;
-    for (int j = 0; j < grid.ny; ++j)
-        for (int i = 0; i < grid.nx; ++i, ++s) {
-            const SamplePosition p = sample_position(layout, grid.i0 + i, grid.j0 + j);
-            grid.x[s] = view.lower.x + p.x * view.pixel.x;
-            grid.y[s] = view.lower.y + p.y * view.pixel.y;
+    std::vector<SamplePosition> positions;
+    for (int y = 0; y < tile.height; ++y)
+        for (int x = 0; x < tile.width; ++x) {
+            pixel_positions(layout, tile.x0 + x, tile.y0 + y, positions);
+            std::size_t ray = 0;
+            for (int j = y * layout.samples_y; j < (y + 1) * layout.samples_y; ++j)
+                for (int i = x * layout.samples_x; i < (x + 1) * layout.samples_x; ++i, ++ray) {
+                    const std::size_t s = static_cast<std::size_t>(j) * grid.nx + i;
+                    grid.x[s] = view.lower.x + positions[ray].x * view.pixel.x;
+                    grid.y[s] = view.lower.y + positions[ray].y * view.pixel.y;
+                }
         }
     grid.ray_column.resize(grid.nx);
     for (int i = 0; i < grid.nx; ++i)

@@ -31,7 +31,7 @@ using base::Vec3d;
 using bench::Contender;
 using techniques::Query;
 
-constexpr std::size_t reference_chunk = std::size_t{1} << 20;  // points: limits the memory for their truth
+constexpr std::size_t reference_chunk = std::size_t{1} << 19;  // points: limits the memory for their truth
 constexpr float rounding = 1e-6f;                              // by which an answer may leave [0, 1]
 
 struct Work {
@@ -172,7 +172,9 @@ Rendering describe(const scene::Scenario& scenario, const document::Variant& var
     result.camera = result.default_camera ? default_camera(scenario.scene) : *scenario.receivers.camera;
     result.size = options.size.value_or(scenario.receivers.resolution);
     result.rays_per_side = options.rays_per_side;
-    result.reference_samples = scenario.reference.samples_per_pixel;
+    const scene::RaySettings truth = bench::reference_settings(scenario);
+    const bench::RaySets sets = bench::ray_sets(scenario.scene, truth);
+    result.reference_samples = sets.sets * sets.samples_per_pixel;
     return result;
 }
 

@@ -192,6 +192,9 @@ ReferenceReport read_reference(const Field& field) {
     report.samples_per_pixel = read_int(field.at("samples_per_pixel"));
     report.error_rms = error_value(field.at("standard_error").at("rms"));
     report.error_max = error_value(field.at("standard_error").at("max"));
+    // Results without it state an upper bound.
+    if (const Field error = field.at("standard_error"); error.has("degrees"))
+        report.degrees = read_int(error.at("degrees"));
     report.noise_tolerance = field.at("noise_tolerance").at_least_zero();
     if (const Field spread = field.at("spread_over_seeds"); !spread.is_null()) {
         report.spread_rms = error_value(spread.at("rms"));

@@ -144,7 +144,8 @@ json to_json(const ReferenceReport& reference) {
     return {
         {"judged", reference.judged},
         {"samples_per_pixel", reference.samples_per_pixel},
-        {"standard_error", {{"rms", reference.error_rms}, {"max", reference.error_max}}},
+        {"standard_error",
+         {{"rms", reference.error_rms}, {"max", reference.error_max}, {"degrees", reference.degrees}}},
         {"noise_tolerance", reference.noise_tolerance},
         {"spread_over_seeds",
          reference.spread_rms ? json{{"rms", *reference.spread_rms}, {"max", *reference.spread_max}} : json(nullptr)}};

@@ -151,8 +151,9 @@ bool agrees(const Agreement& agreement);
 
 struct ReferenceReport {
     std::uint64_t judged = 0;  // receivers compared with the truth
-    int samples_per_pixel = 0;
+    int samples_per_pixel = 0;                     // rays used for the truth
     double error_rms = 0.0, error_max = 0.0;       // standard error of the truth, over the judged receivers
+    int degrees = 0;                               // its degrees of freedom; 0: exact, or an upper bound
     double noise_tolerance = 0.0;                  // 0.5 / sqrt(samples a pixel of the light rays)
     std::optional<double> spread_rms, spread_max;  // standard deviation over seeds; absent if not measured
 };

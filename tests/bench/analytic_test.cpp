@@ -76,13 +76,16 @@ TEST(Analytic, TheEdgeOfAnOpaqueDiscIsFilteredToItsCoverage) {
     }
     const auto settings = rays::testing::rays(resolution, 400);
     const Truth truth = truth_of(scene, rays::testing::directional(), settings, queries);
-    int partly = 0, outside = 0;
+    int partly = 0, halved = 0, outside = 0;
     for (std::size_t i = 0; i < queries.size(); ++i) {
         partly += expected[i] > 0.02 && expected[i] < 0.98;
-        outside += std::abs(truth.value[i] - expected[i]) > 3 * truth.standard_error[i] + 1e-3;
+        if (expected[i] < 0.1 || expected[i] > 0.9) continue;  // with few differing rays, intervals are unreliable
+        ++halved;
+        outside += std::abs(truth.value[i] - expected[i]) > 2.36462 * truth.standard_error[i] + 1e-5;
     }
     EXPECT_GT(partly, 100) << "the test must look at edges";
-    EXPECT_EQ(outside, 0) << "stratified rays stay well inside three standard errors";
+    EXPECT_GT(halved, 50);
+    EXPECT_LT(outside, 0.05 * halved + 4 * std::sqrt(0.05 * 0.95 * halved)) << "95 % intervals";
 
     // Shadow rays: their number gives their worst standard error.
     const auto traced = build(techniques::find("ray_traced", ""), scene, rays::testing::directional(),

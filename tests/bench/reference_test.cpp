@@ -29,7 +29,8 @@ TEST(Reference, knows_the_filtered_edge_of_a_layer) {
     const double expected[] = {0.4, 1.0, 1.0 - 0.4 * 0.6, 0.7, 1.0, 0.0};
     for (int q = 0; q < 6; ++q) EXPECT_NEAR(truth.value[q], expected[q], 4 * truth.standard_error[q] + 1e-6) << q;
     EXPECT_NEAR(truth.standard_error[0], 0.0, 1e-7);
-    EXPECT_NEAR(truth.standard_error[2], 0.6 * std::sqrt(0.4 * 0.6 / 4096), 2e-4);
+    EXPECT_GT(truth.standard_error[2], 0.0);
+    EXPECT_LT(truth.standard_error[2], 0.2 * 0.6 * std::sqrt(0.4 * 0.6 / 4096)) << "far below that of independent rays";
 }
 
 TEST(Reference, clips_the_footprint_to_the_map) {
@@ -40,12 +41,15 @@ TEST(Reference, clips_the_footprint_to_the_map) {
 }
 
 TEST(Reference, takes_the_nearest_ray_if_the_footprint_holds_none) {
-    const HalfCovered half = half_covered();
+    HalfCovered half = half_covered();
     const Query queries[] = {{1.3f, 1.3f, 2.0f, 1e-6f}, {6.3f, 1.3f, 2.0f, 1e-6f}};
     const Truth truth = reference_visibility(half.scene, half.view, half.settings, queries, {});
     EXPECT_NEAR(truth.value[0], 0.4, 1e-6);
     EXPECT_NEAR(truth.value[1], 1.0, 1e-6);
-    EXPECT_GT(truth.standard_error[0], 0.0);  // one ray is not certain
+    EXPECT_NEAR(truth.standard_error[0], 0.0, 1e-15) << "a ray of each set, and all see the same";
+    half.settings.samples_per_pixel = 1;
+    EXPECT_EQ(reference_visibility(half.scene, half.view, half.settings, queries, {}).standard_error[0], 0.5)
+        << "one ray is not certain";
 }
 
 TEST(Reference, does_not_depend_on_the_number_of_threads) {

@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "rays/extended_oracle.h"
+#include "rays/pixel_positions.h"
 
 namespace shadowbench::rays {
 namespace {
@@ -126,6 +127,55 @@ TEST(Transmittance, NeverLeavesItsRangeOnRandomRays) {
             ASSERT_TRUE(value >= 0.0 && value <= 1.0) << value;
         }
     }
+}
+
+// Each ray in its own cell, in a column of its own and in a row of its own, in every pixel.
+TEST(SamplePosition, OfMultiJitteredRaysIsStratifiedInXAndInY) {
+    for (const int samples : {1, 2, 7, 32, 50, 64, 125, 512}) {
+        MapLayout layout;
+        layout.width = layout.height = 8;
+        layout.jittered = layout.multi_jittered = true;
+        set_samples(layout, samples);
+        for (layout.seed = 0; layout.seed < 5; ++layout.seed)
+            for (int pixel = 0; pixel < 64; pixel += 5) {
+                std::vector<int> columns(static_cast<std::size_t>(samples)), rows(columns);
+                const int x = pixel % 8, y = pixel / 8;
+                std::vector<SamplePosition> together;
+                pixel_positions(layout, x, y, together);
+                ASSERT_EQ(together.size(), static_cast<std::size_t>(samples));
+                for (int j = 0; j < layout.samples_y; ++j)
+                    for (int i = 0; i < layout.samples_x; ++i) {
+                        const SamplePosition p =
+                            sample_position(layout, x * layout.samples_x + i, y * layout.samples_y + j);
+                        ASSERT_EQ(std::floor((p.x - x) * layout.samples_x), i);
+                        ASSERT_EQ(std::floor((p.y - y) * layout.samples_y), j);
+                        ASSERT_EQ(together[static_cast<std::size_t>(j * layout.samples_x + i)].x, p.x);
+                        ASSERT_EQ(together[static_cast<std::size_t>(j * layout.samples_x + i)].y, p.y);
+                        ++columns.at(static_cast<std::size_t>((p.x - x) * samples));
+                        ++rows.at(static_cast<std::size_t>((p.y - y) * samples));
+                    }
+                ASSERT_EQ(std::count(columns.begin(), columns.end(), 1), samples) << "seed " << layout.seed;
+                ASSERT_EQ(std::count(rows.begin(), rows.end(), 1), samples) << "seed " << layout.seed;
+            }
+    }
+}
+
+// Chi-squared over 20 x 20 parts of one cell, of 400,000 seeds: 399 degrees of freedom, 5 standard deviations.
+TEST(SamplePosition, OfAMultiJitteredRayIsUniformInItsCell) {
+    MapLayout layout;
+    layout.width = layout.height = 8;
+    layout.jittered = layout.multi_jittered = true;
+    set_samples(layout, 20);  // 4 x 5 cells
+    std::vector<int> count(400);
+    constexpr int seeds = 400000;
+    for (layout.seed = 0; layout.seed < seeds; ++layout.seed) {
+        const SamplePosition p = sample_position(layout, 4 * 3 + 1, 5 * 2 + 3);
+        const int x = static_cast<int>((p.x - 3.25) * 80), y = static_cast<int>((p.y - 2.6) * 100);
+        ++count.at(static_cast<std::size_t>(y * 20 + x));
+    }
+    double chi = 0.0;
+    for (const int c : count) chi += (c - seeds / 400.0) * (c - seeds / 400.0) / (seeds / 400.0);
+    EXPECT_LT(std::abs(chi - 399), 5 * std::sqrt(2.0 * 399));
 }
 
 }  // namespace

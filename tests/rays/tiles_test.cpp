@@ -243,5 +243,24 @@ TEST(Submission, SegmentsThatAreAlikeKeepTheOrderTheyCameIn) {
         EXPECT_TRUE(std::is_sorted(t.submission.begin(), t.submission.end()));
 }
 
+TEST(Tiles, OfACaptureWithAnotherSeedAreThoseOfAFreshOne) {
+    const scene::Scene scene = mixed_scene();
+    const LightView view = view_of(scene, testing::spot({0, 0, 3}, 40));
+    MapLayout layout = small_tiles(scene, view);
+    const Capture first(scene, view, layout), shared(first, 77);
+    layout.seed = 77;
+    const Capture fresh(scene, view, layout);
+    bool differ = false;
+    for (int t = 0; t < layout.tiles(); ++t) {
+        const LightRays a = shared.tile(t), b = fresh.tile(t), other = first.tile(t);
+        ASSERT_EQ(a.begin, b.begin) << t;
+        ASSERT_EQ(a.z_front, b.z_front) << t;
+        ASSERT_EQ(a.z_back, b.z_back) << t;
+        ASSERT_EQ(a.transmittance, b.transmittance) << t;
+        differ = differ || a.z_front != other.z_front;
+    }
+    EXPECT_TRUE(differ);
+}
+
 }  // namespace
 }  // namespace shadowbench::rays
