@@ -58,8 +58,8 @@ Truth find_truth(const LightJob& job, const rays::LightView& view, std::span<con
                                 stage(job, "reference"));
 }
 
-results::ReferenceReport report_reference(const LightJob& job, const rays::MapLayout& layout,
-                                          std::span<const Query> judged, const Truth& truth) {
+results::ReferenceReport report_reference(const rays::MapLayout& layout, std::span<const Query> judged,
+                                          const Truth& truth) {
     results::ReferenceReport report;
     const metrics::ErrorNorms error = metrics::error_norms(truth.standard_error);
     report.judged = judged.size();
@@ -121,7 +121,7 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
     // Other seeds come before the light's own rays and maps, so that memory holds only one of them at a time.
     const QuerySet judged = judged_queries(job, set);
     const Truth truth = find_truth(job, view, judged.queries);
-    result.reference = report_reference(job, layout, judged.queries, truth);
+    result.reference = report_reference(layout, judged.queries, truth);
     find_spread(job, contenders, input, judged.asked(), truth, result.reference);
 
     const Stopwatch setup;

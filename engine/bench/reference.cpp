@@ -130,7 +130,7 @@ RaySets ray_sets(const scene::Scene& scene, const scene::RaySettings& settings) 
     if (scene.deep_image) return {};
     const int samples = settings.samples_per_pixel;
     if (settings.pattern != scene::Pattern::jittered) return {1, samples};
-    if (samples <= most_ray_sets) return {samples, 1};
+    if (samples < 16) return {samples, 1};
     return {8, samples / 8};
 }
 

@@ -36,7 +36,6 @@ struct Truth {
 
 // How the rays of the truth are divided: at least 16 a pixel make 8 sets, and a rest that 8 does not divide is left
 // out; 2 to 15 make as many sets of one ray a pixel. A regular pattern and a deep image have one set.
-inline constexpr int most_ray_sets = 15;
 struct RaySets {
     int sets = 1;
     int samples_per_pixel = 1;  // of each set
