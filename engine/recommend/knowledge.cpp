@@ -10,6 +10,8 @@ namespace {
 constexpr std::array<Cost, costs> all_costs{Cost::lookup, Cost::bytes, Cost::build};
 constexpr double least_value = 1e-12;  // values below count as this: their logarithm is modelled
 
+constexpr double hopeless = 1e-4;       // the costs of points with a smaller chance are not modelled
+
 // Of logarithms. A coarse step is about a factor of 2 in a parameter.
 constexpr Prior error_prior{-0.3, 0.4, 0.03};
 constexpr Prior bytes_prior{0.4, 0.5, 0.01};
@@ -65,12 +67,11 @@ void Knowledge::confirm(const Point& point, const Confirmed& confirmed) {
     }
 }
 
-bool Knowledge::acceptable(const Record& record) const {
-    if (!record.failed.empty()) return false;
-    if (record.error > (record.confirmed ? wanted_.error : wanted_.trial_error)) return false;
+double Knowledge::excess(const Record& record) const {
     for (std::size_t k = 0; k < costs; ++k)
-        if (record.cost[k] > wanted_.at_most[k]) return false;
-    return true;
+        if (record.cost[k] > wanted_.at_most[k]) return std::numeric_limits<double>::infinity();
+    if (!record.failed.empty()) return std::numeric_limits<double>::infinity();
+    return record.error / (record.confirmed ? wanted_.error : wanted_.trial_error);
 }
 
 void Knowledge::update(const Wanted& wanted) {
@@ -85,7 +86,7 @@ void Knowledge::bound() {
     least_ = known_;
     std::fill(ruled_out_.begin(), ruled_out_.end(), 0);
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
-        const std::vector<int> step = lattice_.point(i).step;
+        const std::vector<int>& step = lattice_.point(i).step;
         for (const Record& record : scout_)
             if (record.failed.empty() && record.error * scout_slack > wanted_.error && step[0] <= record.step[0] &&
                 step[1] <= record.step[1])
@@ -132,7 +133,7 @@ void Knowledge::rule_out_failures() {
     }
     if (!separated) return;
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
-        const std::vector<int> step = lattice_.point(i).step;
+        const std::vector<int>& step = lattice_.point(i).step;
         if (at_most(from, step) && at_most(step, to)) ruled_out_[i] = 1;
     }
 }
@@ -144,7 +145,11 @@ void Knowledge::fit() {
     for (std::size_t i = 0; i < records_.size(); ++i) {
         if (!trials_[i].failed.empty()) continue;
         positions.push_back(position(records_[i].step));
-        errors.push_back(log_of(std::max(trials_[i].error, wanted_.error * 1e-3)));
+        // In the terms of a trial.
+        const double error = records_[i].confirmed && records_[i].failed.empty()
+                                 ? records_[i].error * wanted_.trial_error / wanted_.error
+                                 : trials_[i].error;
+        errors.push_back(log_of(std::max(error, wanted_.error * 1e-3)));
         for (std::size_t k = 0; k < costs; ++k) values[k].push_back(log_of(trials_[i].cost[k]));
     }
     if (positions.empty()) return;
@@ -168,6 +173,7 @@ void Knowledge::believe() {
         const std::vector<double> at = position(lattice_.point(i).step);
         const Estimate error = error_model_.at(at);
         chance_[i] = normal_below((std::log(wanted_.trial_error) - error.mean) / std::hypot(error.sd, error_prior.noise));
+        if (chance_[i] < hopeless) continue;
         for (std::size_t k = 0; k < costs; ++k) {
             estimates_[k][i] = cost_models_[k].at(at);
             if (std::isfinite(wanted_.at_most[k]))

@@ -56,7 +56,9 @@ public:
     void update(const Wanted& wanted);
 
     bool measured(std::size_t index) const { return measured_[index]; }
-    bool acceptable(const Record& record) const;
+    // The error over the one wanted; infinite if the point fails or costs more than allowed.
+    double excess(const Record& record) const;
+    bool acceptable(const Record& record) const { return excess(record) <= 1.0; }
     bool left_out() const { return left_out_; }
     // No measurement is needed: the point cannot be acceptable, or another acceptable one costs no more.
     bool ruled_out(std::size_t index) const { return ruled_out_[index]; }

@@ -21,7 +21,7 @@ constexpr std::array<double, costs> least_gain{0.03, 0.002, 0.03};
 constexpr double follower_gain = 0.05;
 // Two coarse steps of all axes that lower the error to more than this share of it: the family gets no better.
 constexpr double flat = 0.9;
-constexpr int confirm_rounds = 6;
+constexpr int confirm_rounds = 8;
 
 class Search {
 public:
@@ -58,22 +58,30 @@ private:
     Incumbents incumbents_;
 };
 
-// The climb of a family: all axes together, from the cheapest to the most accurate setting. As many rungs for all
-// families as the light rays' axes have coarse steps, so that all meet the same light rays.
-std::vector<Point> ladder(const Family& family, std::size_t number) {
-    int levels = 1;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        const Axis& a = family.axes[axis];
-        levels = std::max(levels, (a.steps() - 1 + a.stride - 1) / a.stride);
-    }
+// The climb of a family: all axes together, from the cheapest to the most accurate setting.
+std::vector<Point> ladder(const Family& family, std::size_t number, int levels) {
     std::vector<Point> points;
     for (int level = 0; level <= levels; ++level) {
         Point point{number, {}};
-        for (const Axis& axis : family.axes)
-            point.step.push_back((level * (axis.steps() - 1) + levels / 2) / levels);
+        for (const Axis& axis : family.axes) point.step.push_back((level * (axis.steps() - 1) + levels / 2) / levels);
         if (points.empty() || !(points.back() == point)) points.push_back(point);
     }
     return points;
+}
+
+// As many for all families as the light rays' axes have coarse steps, so that all meet the same light rays.
+int coarse_steps(const std::vector<Family>& families) {
+    int levels = 1;
+    for (const Family& family : families)
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const Axis& a = family.axes[axis];
+            levels = std::max(levels, (a.steps() - 1 + a.stride - 1) / a.stride);
+        }
+    return levels;
+}
+
+bool same_light_rays(const Family& a, const Family& b) {
+    return a.axes[0].values == b.axes[0].values && a.axes[1].values == b.axes[1].values;
 }
 
 Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
@@ -82,9 +90,10 @@ Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
     found_.families = {lab.families().begin(), lab.families().end()};
     found_.scout = lab.scout();
     wanted_ = {goal.error, goal.error, goal.at_most};
+    const int levels = coarse_steps(found_.families);
     for (std::size_t i = 0; i < found_.families.size(); ++i) {
         families_.emplace_back(found_.families[i], i, lab);
-        ladders_.push_back(ladder(found_.families[i], i));
+        ladders_.push_back(ladder(found_.families[i], i, levels));
     }
     rungs_.assign(families_.size(), 0);
 }
@@ -116,7 +125,7 @@ void Search::update(std::size_t family) {
     families_[family].update(wanted_);
     if (found_.scout == family)
         for (std::size_t i = 0; i < families_.size(); ++i)
-            if (i != family) {
+            if (i != family && same_light_rays(found_.families[i], found_.families[family])) {
                 families_[i].bound_by(families_[family].records());
                 families_[i].update(wanted_);
             }
@@ -191,7 +200,7 @@ std::optional<Point> Search::most_promising(std::size_t& open) const {
             const double gained = gain(f, i, least_chance);
             if (gained <= 0.0) continue;
             ++open;
-            const Point point = known.lattice().point(i);
+            const Point& point = known.lattice().point(i);
             const double worth = gained / std::sqrt(lab_.effort(point));
             if (worth <= most) continue;
             most = worth;
