@@ -15,10 +15,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A point is left unmeasured if its chance of a gain is below this.
-constexpr double least_chance = 0.01;
+constexpr double least_chance = 0.05;
 // Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
-constexpr std::array<double, costs> least_gain{0.03, 0.002, 0.03};
-constexpr double follower_gain = 0.05;
+constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
+constexpr double follower_gain = 0.1;
 // Two coarse steps of all axes that lower the error to more than this share of it: the family gets no better.
 constexpr double flat = 0.9;
 constexpr int confirm_rounds = 8;
@@ -201,7 +201,7 @@ std::optional<Point> Search::most_promising(std::size_t& open) const {
             if (gained <= 0.0) continue;
             ++open;
             const Point& point = known.lattice().point(i);
-            const double worth = gained / std::sqrt(lab_.effort(point));
+            const double worth = gained / lab_.effort(point);
             if (worth <= most) continue;
             most = worth;
             best = point;
