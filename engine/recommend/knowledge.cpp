@@ -52,7 +52,7 @@ std::vector<double> Knowledge::position(const std::vector<int>& step) const {
 void Knowledge::add(const Point& point, const Trial& trial) {
     const std::size_t index = lattice_.index(point.step);
     measured_[index] = 1;
-    records_.push_back({index, point.step, trial.failed, trial.error, trial.cost, false});
+    records_.push_back({index, point.step, trial.failed, trial.error, trial.cost, false, trial.cost});
     trials_.push_back(trial);
 }
 
@@ -64,12 +64,13 @@ void Knowledge::confirm(const Point& point, const Confirmed& confirmed) {
         record.failed = confirmed.failed;
         record.error = confirmed.error.high;
         record.cost = confirmed.cost;
+        for (std::size_t k = 0; k < costs; ++k) record.upper_cost[k] = confirmed.interval[k].high;
     }
 }
 
 double Knowledge::excess(const Record& record) const {
     for (std::size_t k = 0; k < costs; ++k)
-        if (record.cost[k] > wanted_.at_most[k]) return std::numeric_limits<double>::infinity();
+        if (record.upper_cost[k] > wanted_.at_most[k]) return std::numeric_limits<double>::infinity();
     if (!record.failed.empty()) return std::numeric_limits<double>::infinity();
     return record.error / (record.confirmed ? wanted_.error : wanted_.trial_error);
 }
@@ -159,7 +160,8 @@ void Knowledge::fit() {
         Record& record = records_[i];
         if (record.confirmed || !record.failed.empty()) continue;
         for (std::size_t k = 0; k < costs; ++k)
-            if (cost_noise[k] > 1.0) record.cost[k] = std::exp(cost_models_[k].at(position(record.step)).mean);
+            if (cost_noise[k] > 1.0)
+                record.cost[k] = record.upper_cost[k] = std::exp(cost_models_[k].at(position(record.step)).mean);
     }
 }
 

@@ -22,6 +22,8 @@ inline constexpr double clear_error = 1.1;
 inline constexpr double scout_slack = 0.5;
 // What a short measurement of a cost may be off by, as a factor.
 inline constexpr std::array<double, costs> cost_noise{1.15, 1.0, 1.15};
+// If two coarse steps of all axes lower the error to more than this share of it, a family gets no better.
+inline constexpr double flat_share = 0.9;
 // A family is left out if this many points fail and none succeeds.
 inline constexpr std::size_t failures_to_leave = 3;
 
@@ -32,6 +34,7 @@ struct Record {
     double error = 0.0;               // the upper end of its interval, if it is confirmed; else of the trial
     std::array<double, costs> cost{};  // short measurements are smoothed by the model
     bool confirmed = false;
+    std::array<double, costs> upper_cost{};  // for limits: the upper ends of intervals, if it is confirmed; else as cost
 };
 
 // What makes a setting acceptable.

@@ -19,8 +19,6 @@ constexpr double least_chance = 0.05;
 // Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
 constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
 constexpr double follower_gain = 0.1;
-// Two coarse steps of all axes that lower the error to more than this share of it: the family gets no better.
-constexpr double flat = 0.9;
 constexpr int confirm_rounds = 8;
 
 class Search {
@@ -140,7 +138,7 @@ std::optional<Point> Search::next_climb(std::size_t family) const {
     if (rung >= 1 && families_[family].acceptable(records[rung - 1])) return {};
     if (rung >= 3) {
         const Record &last = records[rung - 1], &before = records[rung - 3];
-        if (last.failed.empty() && before.failed.empty() && last.error > flat * before.error) return {};
+        if (last.failed.empty() && before.failed.empty() && last.error > flat_share * before.error) return {};
     }
     return ladders_[family][rung];
 }
