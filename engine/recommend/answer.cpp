@@ -6,6 +6,7 @@
 #include "metrics/pareto.h"
 #include "recommend/incumbents.h"
 #include "recommend/knowledge.h"
+#include "recommend/ladder.h"
 
 namespace shadowbench::recommend {
 namespace {
@@ -83,17 +84,17 @@ const Choice* least_error(const std::vector<const Choice*>& candidates) {
     return least == candidates.end() ? nullptr : *least;
 }
 
-// Whether two coarse steps of all axes, of some pair of the family's points, hardly lower the error.
+// Whether the error of some point that is at least two rungs of the climb coarser, on every axis, is hardly larger.
 bool flat(const Exploration& found, const std::vector<const Choice*>& candidates, const Choice& closest) {
     const std::vector<Axis>& axes = found.families[closest.point.family].axes;
+    const int rungs = ladder_rungs(found.families);
     for (const Choice* choice : candidates) {
         if (choice->point.family != closest.point.family) continue;
-        // At least two coarse steps coarser on every axis; on a short axis, all that there are.
         bool apart = false;
         bool coarser = true;
         for (std::size_t i = 0; i < axes.size(); ++i) {
             const int distance = closest.point.step[i] - choice->point.step[i];
-            const int wanted = std::min(2 * axes[i].stride, axes[i].steps() - 1);
+            const int wanted = std::min(2, rungs) * (axes[i].steps() - 1) / rungs;
             apart = apart || distance > 0;
             coarser = coarser && distance >= wanted;
         }

@@ -35,7 +35,7 @@ struct Cheapest {
 enum class Held {
     rays,            // the scout errs too much as well, or there is none and the technique's own parameters do not end
     representation,  // the scout's error is low enough, or the technique's own parameters end
-    bias,            // two coarse steps of all axes lower the error by less than a tenth
+    bias,            // two rungs of the climb (ladder.h) lower the error by less than a tenth
     budget,          // the exploration ended before that was known
     at_most,         // settings reach the error, but cost more than allowed
 };
