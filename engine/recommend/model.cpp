@@ -12,6 +12,7 @@ namespace {
 constexpr double level_sd = 2.0;
 constexpr double range = 3.0;                                // how far a bend reaches, coarse steps
 constexpr double bends[] = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};  // those tried
+constexpr double noises[] = {1.0, 0.25};                     // likewise, as shares of the most
 
 // Matern's correlation of smoothness 5/2.
 double correlation(double distance) {
@@ -45,7 +46,7 @@ double Model::factorise() {
             if (i != j) {
                 factor_[i * n + j] = sum / factor_[j * n + j];
             } else {
-                factor_[i * n + i] = std::sqrt(std::max(sum, 0.0) + prior_.noise * prior_.noise);
+                factor_[i * n + i] = std::sqrt(std::max(sum, 0.0) + noise_ * noise_);
                 likelihood -= std::log(factor_[i * n + i]);
             }
         }
@@ -74,18 +75,21 @@ void Model::fit(const std::vector<std::vector<double>>& positions, std::span<con
     covariances_.resize(n * n);
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j <= i; ++j) covariances_[i * n + j] = covariance(positions_[i], positions_[j]);
-    double best = -std::numeric_limits<double>::infinity(), chosen = bends[0];
-    for (const double bend : bends) {
-        bend_ = bend;
-        // A weak belief in bends of about 0.3, for the first few values.
-        const double belief = std::log(bend / 0.3);
-        const double likelihood = factorise() - 0.5 * belief * belief;
-        if (likelihood > best) {
+    double best = -std::numeric_limits<double>::infinity(), bend = bends[0], noise = prior_.noise;
+    for (const double share : noises)
+        for (const double tried : bends) {
+            bend_ = tried;
+            noise_ = share * prior_.noise;
+            // A weak belief in bends of about 0.3, for the first few values.
+            const double belief = std::log(bend_ / 0.3);
+            const double likelihood = factorise() - 0.5 * belief * belief;
+            if (likelihood <= best) continue;
             best = likelihood;
-            chosen = bend;
+            bend = bend_;
+            noise = noise_;
         }
-    }
-    bend_ = chosen;
+    bend_ = bend;
+    noise_ = noise;
     factorise();
 }
 

@@ -11,7 +11,7 @@ namespace shadowbench::recommend {
 struct Prior {
     double slope;     // along every axis
     double slope_sd;  // how far a slope may be off
-    double noise;     // standard deviation of one measurement
+    double noise;     // the most that the standard deviation of one measurement may be
 };
 
 struct Estimate {
@@ -23,8 +23,8 @@ class Model {
 public:
     explicit Model(Prior prior) : prior_(prior) {}
 
-    // One position and one value a measurement; at least one. How far the function bends away from its trend is chosen
-    // from the values, by their likelihood.
+    // One position and one value a measurement; at least one. How far the function bends away from its trend, and
+    // how much noise there is, are chosen from the values by their likelihood.
     void fit(const std::vector<std::vector<double>>& positions, std::span<const double> values);
     Estimate at(std::span<const double> position) const;
 
@@ -38,7 +38,7 @@ private:
     double factorise();  // logarithm of the likelihood, but for a constant
 
     Prior prior_;
-    double bend_ = 0.0;  // standard deviation
+    double bend_ = 0.0, noise_ = 0.0;  // standard deviations
     double level_ = 0.0;
     std::vector<std::vector<double>> positions_;
     std::vector<Covariance> covariances_;  // of the positions, lower, row by row

@@ -15,8 +15,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A point is left unmeasured if its chance of a gain is below this.
-constexpr double least_chance = 0.05;
+// A point is left unmeasured if its chance to be the best is below the first, and that of a better runner-up below the
+// second.
+constexpr double leader_chance = 0.03, follower_chance = 0.15;
 // Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
 constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
 constexpr double follower_gain = 0.1;
@@ -37,7 +38,7 @@ private:
     std::optional<Point> next_climb(std::size_t family) const;
     void climb();
 
-    double gain(std::size_t family, std::size_t index, double least) const;
+    double gain(std::size_t family, std::size_t index, bool likely) const;
     std::optional<Point> most_promising(std::size_t& open) const;
     std::optional<Point> open_neighbour() const;
     void refine();
@@ -144,8 +145,8 @@ void Search::climb() {
 }
 
 // The expected gain of measuring a point, summed over the costs: how much cheaper it may be than what is known, as a
-// logarithm, times the chance of that. 0 if no chance is at least `least`.
-double Search::gain(std::size_t family, std::size_t index, double least) const {
+// logarithm, times the chance of that. If it must be `likely`, chances that are too small do not count.
+double Search::gain(std::size_t family, std::size_t index, bool likely) const {
     const Knowledge& known = families_[family];
     double sum = 0.0;
     for (std::size_t k = 0; k < costs; ++k) {
@@ -153,15 +154,19 @@ double Search::gain(std::size_t family, std::size_t index, double least) const {
         const Cost cost = static_cast<Cost>(k);
         const Incumbents::Limit limit = incumbents_.limit(found_.families[family].technique, k);
         if (known.least(index, cost) >= limit.cost) continue;
-        const double wanted_gain = limit.leads ? least_gain[k] : std::max(follower_gain, least_gain[k]);
-        double chance = known.chance(index), size = 1.0;
         const Estimate& estimate = known.cost(index, cost);
-        if (std::isfinite(limit.cost) && std::isfinite(estimate.sd)) {
-            const double room = std::log(limit.cost) - estimate.mean;
-            chance *= normal_below((room - wanted_gain) / (estimate.sd + 1e-4));
-            size = std::clamp(room, wanted_gain, 1.0);
-        }
-        if (chance >= least) sum += chance * size;
+        // The chance to cost less than a limit by some share of it.
+        const auto chance_below = [&](double bound, double share) {
+            if (!std::isfinite(bound) || !std::isfinite(estimate.sd)) return known.chance(index);
+            return known.chance(index) *
+                   normal_below((std::log(bound) - estimate.mean - share) / (estimate.sd + 1e-4));
+        };
+        const double lead = chance_below(incumbents_.least[k], least_gain[k]);
+        const double share = limit.leads ? least_gain[k] : follower_gain;
+        const double chance = limit.leads ? lead : chance_below(limit.cost, share);
+        if (likely && lead < leader_chance && (limit.leads || chance < follower_chance)) continue;
+        const bool known_size = std::isfinite(limit.cost) && std::isfinite(estimate.sd);
+        sum += chance * (known_size ? std::clamp(std::log(limit.cost) - estimate.mean, share, 1.0) : 1.0);
     }
     return sum;
 }
@@ -174,7 +179,7 @@ std::optional<Point> Search::most_promising(std::size_t& open) const {
         const Knowledge& known = families_[f];
         for (std::size_t i = 0; i < known.lattice().size(); ++i) {
             if (known.measured(i) || known.ruled_out(i)) continue;
-            const double gained = gain(f, i, least_chance);
+            const double gained = gain(f, i, true);
             if (gained <= 0.0) continue;
             ++open;
             const Point& point = known.lattice().point(i);
@@ -201,7 +206,7 @@ std::optional<Point> Search::open_neighbour() const {
                 if (--point.step[down] < 0) continue;
                 if (up != down && ++point.step[up] == lattice.steps(up)) continue;
                 const std::size_t index = lattice.index(point.step);
-                if (!known.measured(index) && !known.ruled_out(index) && gain(best.family, index, 0.0) > 0.0)
+                if (!known.measured(index) && !known.ruled_out(index) && gain(best.family, index, false) > 0.0)
                     return point;
             }
     }
