@@ -1,0 +1,82 @@
+// What a search over settings asks and learns. The search sees only this; bench measures behind it, and tests put laws
+// of their own behind it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "metrics/statistics.h"
+
+namespace shadowbench::recommend {
+
+enum class Cost {
+    lookup,  // ns of one lookup, random order, one thread
+    bytes,   // of the finished map
+    build,   // ms: capturing the light rays and building the map, one thread
+};
+inline constexpr std::size_t costs = 3;
+
+// The steps of one quantity that trades cost against error, from the cheapest to the most accurate. The search takes it
+// that along an axis costs rise and errors fall, apart from noise and plateaus. It begins with every `stride`-th step,
+// and tries the steps between later.
+struct Axis {
+    std::string name;                 // as a scenario has it
+    std::vector<std::string> values;  // one a step, as a scenario has them; at least one
+    int stride = 1;
+
+    int steps() const { return static_cast<int>(values.size()); }
+};
+
+// One technique with one choice of its words (a filter, a kernel): words have no order, so each choice is a family of
+// its own. Axis 0 is the map's resolution and axis 1 the number of light rays a pixel, equal for all families: points
+// that agree in both share their light rays. The technique's own parameters follow.
+struct Family {
+    std::string technique;  // a runner-up is the best family of another technique
+    std::string name;       // the technique and its words: "deep kernel=box"
+    std::vector<Axis> axes;
+};
+
+struct Point {
+    std::size_t family = 0;
+    std::vector<int> step;  // one per axis of the family
+
+    bool operator==(const Point&) const = default;
+};
+
+// One measurement, with one seed and short times.
+struct Trial {
+    std::string failed;  // why the technique broke a promise or cannot serve this scene; empty: it did not
+    double error = 0.0;
+    std::array<double, costs> cost{};
+};
+
+// A measurement that answers: several seeds, times interleaved with those of the other points of the same call.
+struct Confirmed {
+    std::string failed;
+    metrics::Interval error{0.0, 0.0};  // 95 %
+    double mean_error = 0.0;
+    std::array<double, costs> cost{};  // medians
+    std::array<metrics::Interval, costs> interval{};
+};
+
+class Lab {
+public:
+    virtual ~Lab() = default;
+    virtual std::span<const Family> families() const = 0;
+    // The family that loses nothing of its light rays (the uncompressed map): the others err at least about as much at
+    // the same resolution and samples. Nothing if there is none.
+    virtual std::optional<std::size_t> scout() const = 0;
+    // About how many seconds measure() would take now, to order the work: the light rays, unless they are there already,
+    // and the rest. Above 0.
+    virtual double effort(const Point& point) const = 0;
+    // A lower bound of a cost that is known without measuring; 0 if nothing is known.
+    virtual double at_least(const Point& point, Cost cost) const = 0;
+    virtual Trial measure(const Point& point) = 0;
+    virtual std::vector<Confirmed> confirm(std::span<const Point> points) = 0;
+};
+
+}  // namespace shadowbench::recommend
