@@ -31,18 +31,6 @@ const scene::Light& light_of(const LightJob& job) {
     return job.scenario.lights[job.light];
 }
 
-QuerySet make_queries(const LightJob& job, const rays::LightView& view) {
-    const scene::Receivers& receivers = job.scenario.receivers;
-    QuerySet set = receivers.camera            ? queries_of_points(job.seen, receivers, view)
-                   : !receivers.points.empty() ? point_queries(receivers, view)
-                                               : probe_queries(receivers, view);
-    if (!set.queries.empty()) return set;
-    throw base::Error(base::ErrorCode::bad_input, "/receivers",
-                      set.dropped == 0 ? "there are no receivers: the camera sees no surface and no medium"
-                                       : fmt::format("none of the {} receivers is inside the map of light \"{}\"",
-                                                     set.dropped, light_of(job).name));
-}
-
 RaySource::Watch stage(const LightJob& job, const char* name, const rays::MapLayout& layout) {
     return [&job, name, total = static_cast<std::size_t>(layout.tiles())](std::size_t done) {
         if (job.watch) job.watch(name, done, total);
@@ -131,12 +119,6 @@ void time_all(const LightJob& job, std::span<Contender> contenders, const RaySou
     }
 }
 
-QuerySet judged_queries(const LightJob& job, const QuerySet& set) {
-    const scene::Reference& reference = job.scenario.reference;
-    return pick(set.asked(),
-                choose_judged(set.queries.size(), static_cast<std::size_t>(reference.queries), reference.seed));
-}
-
 results::LightResult describe(const LightJob& job, const rays::MapLayout& layout, const QuerySet& set) {
     results::LightResult result;
     result.name = light_of(job).name;
@@ -164,7 +146,7 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
     const auto [view, layout, least] = prepare_light(job.scenario, job.light, contenders, job.limits);
     const techniques::BuildInput input{layout, view, job.casters};
     if (scene.deep_image) check_served(contenders, input);
-    const QuerySet set = make_queries(job, view);
+    const QuerySet set = scenario_queries(job.scenario, light_of(job), job.seen, view);
     results::LightResult result = describe(job, layout, set);
 
     const Stopwatch setup;
@@ -174,7 +156,7 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
     report_capture(source, setup_seconds, result);
     if (job.casters) result.agreement = compare_with_tracer(capture, layout, view, *job.casters, agreement_rays);
 
-    const QuerySet judged = judged_queries(job, set);
+    const QuerySet judged = judged_queries(job.scenario, set);
     const Truth truth = find_truth(job, view, judged.queries);
     result.reference = report_reference(job, view, layout, judged.queries, truth);
 

@@ -30,7 +30,8 @@ struct Axis {
 
 // One technique with one choice of its words (a filter, a kernel): words have no order, so each choice is a family of
 // its own. Axis 0 is the map's resolution and axis 1 the number of light rays a pixel, equal for all families: points
-// that agree in both share their light rays. The technique's own parameters follow.
+// that agree in both share their light rays. The technique's own parameters follow. A family that needs no light rays
+// has one step on axes 0 and 1, and its points share none.
 struct Family {
     std::string name;
     std::vector<Axis> axes;
