@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,9 +24,11 @@ inline constexpr std::size_t costs = 3;
 // that along an axis costs rise and errors fall, apart from noise and plateaus. It begins with every `stride`-th step,
 // and tries the steps between later.
 struct Axis {
-    std::string name;
-    int steps = 1;
+    std::string name;                 // as a scenario has it
+    std::vector<std::string> values;  // one a step, as a scenario has them; at least one
     int stride = 1;
+
+    int steps() const { return static_cast<int>(values.size()); }
 };
 
 // One technique with one choice of its words (a filter, a kernel): words have no order, so each choice is a family of
@@ -33,7 +36,8 @@ struct Axis {
 // that agree in both share their light rays. The technique's own parameters follow. A family that needs no light rays
 // has one step on axes 0 and 1, and its points share none.
 struct Family {
-    std::string name;
+    std::string technique;  // a runner-up is the best family of another technique
+    std::string name;       // the technique and its words: "deep kernel=box"
     std::vector<Axis> axes;
 };
 
@@ -64,9 +68,12 @@ class Lab {
 public:
     virtual ~Lab() = default;
     virtual std::span<const Family> families() const = 0;
-    // Relative seconds that the light rays of these steps of axes 0 and 1 take, to order the work. Rays that are there
-    // already cost 0.
-    virtual double effort(int resolution, int samples) const = 0;
+    // The family that loses nothing of its light rays (the uncompressed map): the others err at least about as much at
+    // the same resolution and samples. Nothing if there is none.
+    virtual std::optional<std::size_t> scout() const = 0;
+    // About how many seconds measure() would take now, to order the work: the light rays, unless they are there already,
+    // and the rest. Above 0.
+    virtual double effort(const Point& point) const = 0;
     // A lower bound of a cost that is known without measuring; 0 if nothing is known.
     virtual double at_least(const Point& point, Cost cost) const = 0;
     virtual Trial measure(const Point& point) = 0;

@@ -91,6 +91,7 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"results", {"base", "document", "metrics", "results"}},
         {"compare", {"base", "document", "metrics", "results", "compare"}},
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "document", "results", "bench"}},
+        {"recommend", {"base", "metrics", "recommend"}},
         {"render",
          {"base", "scene", "rays", "curves", "techniques", "metrics", "document", "results", "bench", "render"}},
         {"claims",

@@ -1,0 +1,43 @@
+// What an exploration is asked, and what it found: plain values, so that they can be written and read back.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "recommend/lab.h"
+
+namespace shadowbench::recommend {
+
+struct Goal {
+    double error = 0.0;                           // above 0; a setting is wanted whose error is at most this
+    std::array<bool, costs> asked{true, true, true};  // the costs of which each is to be the least
+    std::array<double, costs> at_most{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                                      std::numeric_limits<double>::infinity()};
+    double budget = std::numeric_limits<double>::infinity();  // seconds
+};
+
+struct Measured {
+    Point point;
+    Trial trial;
+};
+
+struct Answered {
+    Point point;
+    Confirmed confirmed;
+};
+
+enum class End { complete, budget, cancelled };
+
+struct Exploration {
+    Goal goal;
+    std::vector<Family> families;
+    std::optional<std::size_t> scout;
+    std::vector<Measured> measured;   // in the order of measuring, each point once
+    std::vector<Answered> confirmed;  // each point once
+    End end = End::complete;
+};
+
+}  // namespace shadowbench::recommend

@@ -1,0 +1,44 @@
+// The best settings measured so far, and which of them to confirm.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "recommend/exploration.h"
+#include "recommend/knowledge.h"
+
+namespace shadowbench::recommend {
+
+// Per cost the least of all acceptable settings, and the least of another technique.
+struct Incumbents {
+    struct Limit {
+        double cost;  // a point must cost less to matter; infinite if nothing is acceptable yet
+        bool leads;   // the technique has the least cost, or nothing has
+    };
+
+    std::array<std::optional<Point>, costs> best;
+    std::array<std::string, costs> technique;  // of the best
+    std::array<double, costs> least;           // infinite if there is none
+    std::array<double, costs> second;          // of another technique
+
+    Limit limit(const std::string& of, std::size_t cost) const {
+        if (!best[cost]) return {std::numeric_limits<double>::infinity(), true};
+        return of == technique[cost] ? Limit{least[cost], true} : Limit{second[cost], false};
+    }
+};
+Incumbents find_incumbents(std::span<const Family> families, std::span<const Knowledge> known);
+
+// The points that an answer needs confirmed, and that are not: per cost asked the best, those within noise of it, and
+// the runner-up of another technique. If there are any and times matter, the best of the confirmed points come along,
+// so that their times are measured together. Empty if all is confirmed.
+std::vector<Point> to_confirm(std::span<const Family> families, std::span<const Knowledge> known,
+                              const std::array<bool, costs>& asked, const Incumbents& incumbents);
+
+// How much the upper ends of confirmed errors exceed the errors of the trials: the median of the ratios, at least 1.
+double growth(const Exploration& found);
+
+}  // namespace shadowbench::recommend

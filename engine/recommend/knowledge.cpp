@@ -1,0 +1,179 @@
+#include "recommend/knowledge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace shadowbench::recommend {
+namespace {
+
+constexpr std::array<Cost, costs> all_costs{Cost::lookup, Cost::bytes, Cost::build};
+constexpr double least_value = 1e-12;  // values below count as this: their logarithm is modelled
+
+// Of logarithms. A coarse step is about a factor of 2 in a parameter.
+constexpr Prior error_prior{-0.3, 0.4, 0.03};
+constexpr Prior bytes_prior{0.4, 0.5, 0.01};
+constexpr Prior time_prior{0.3, 0.4, 0.07};
+
+double log_of(double value) {
+    return std::log(std::max(value, least_value));
+}
+
+}  // namespace
+
+double normal_below(double x) {
+    return 0.5 * std::erfc(-x / std::sqrt(2.0));
+}
+
+Knowledge::Knowledge(const Family& family, std::size_t number, const Lab& lab)
+    : lattice_(family, number),
+      measured_(lattice_.size(), 0),
+      ruled_out_(lattice_.size(), 0),
+      chance_(lattice_.size(), 0.0),
+      error_model_(error_prior),
+      cost_models_{Model(time_prior), Model(bytes_prior), Model(time_prior)} {
+    for (const Axis& axis : family.axes) stride_.push_back(axis.stride);
+    for (std::size_t k = 0; k < costs; ++k) {
+        estimates_[k].resize(lattice_.size());
+        known_[k].resize(lattice_.size());
+        for (std::size_t i = 0; i < lattice_.size(); ++i) known_[k][i] = lab.at_least(lattice_.point(i), all_costs[k]);
+    }
+    least_ = known_;
+}
+
+std::vector<double> Knowledge::position(const std::vector<int>& step) const {
+    std::vector<double> result(step.size());
+    for (std::size_t i = 0; i < step.size(); ++i) result[i] = step[i] / stride_[i];
+    return result;
+}
+
+void Knowledge::add(const Point& point, const Trial& trial) {
+    const std::size_t index = lattice_.index(point.step);
+    measured_[index] = 1;
+    records_.push_back({index, point.step, trial.failed, trial.error, trial.cost, false});
+    trials_.push_back(trial);
+}
+
+void Knowledge::confirm(const Point& point, const Confirmed& confirmed) {
+    const std::size_t index = lattice_.index(point.step);
+    for (Record& record : records_) {
+        if (record.index != index) continue;
+        record.confirmed = true;
+        record.failed = confirmed.failed;
+        record.error = confirmed.error.high;
+        record.cost = confirmed.cost;
+    }
+}
+
+bool Knowledge::acceptable(const Record& record) const {
+    if (!record.failed.empty()) return false;
+    if (record.error > (record.confirmed ? wanted_.error : wanted_.trial_error)) return false;
+    for (std::size_t k = 0; k < costs; ++k)
+        if (record.cost[k] > wanted_.at_most[k]) return false;
+    return true;
+}
+
+void Knowledge::update(const Wanted& wanted) {
+    wanted_ = wanted;
+    fit();
+    bound();
+    rule_out_failures();
+    believe();
+}
+
+void Knowledge::bound() {
+    least_ = known_;
+    std::fill(ruled_out_.begin(), ruled_out_.end(), 0);
+    for (std::size_t i = 0; i < lattice_.size(); ++i) {
+        const std::vector<int> step = lattice_.point(i).step;
+        for (const Record& record : scout_)
+            if (record.failed.empty() && record.error * scout_slack > wanted_.error && step[0] <= record.step[0] &&
+                step[1] <= record.step[1])
+                ruled_out_[i] = 1;
+        for (const Record& record : records_) {
+            if (!record.failed.empty()) continue;
+            const double limit = record.confirmed ? wanted_.error : wanted_.trial_error;
+            if (record.error > limit * clear_error && at_most(step, record.step)) ruled_out_[i] = 1;
+            if (!at_most(record.step, step)) continue;
+            if (acceptable(record)) ruled_out_[i] = 1;
+            for (std::size_t k = 0; k < costs; ++k)
+                least_[k][i] = std::max(least_[k][i], record.cost[k] / cost_noise[k]);
+        }
+        for (std::size_t k = 0; k < costs; ++k)
+            if (least_[k][i] > wanted_.at_most[k]) ruled_out_[i] = 1;
+    }
+}
+
+// Where a technique fails is not known to follow from anything. If some axis separates failures from successes, the
+// points beyond all failures on every such axis are taken to fail too.
+void Knowledge::rule_out_failures() {
+    std::vector<const Record*> failures, successes;
+    for (const Record& record : records_) (record.failed.empty() ? successes : failures).push_back(&record);
+    left_out_ = successes.empty() && (failures.size() >= failures_to_leave || failures.size() == lattice_.size());
+    if (left_out_) {
+        std::fill(ruled_out_.begin(), ruled_out_.end(), 1);
+        return;
+    }
+    if (failures.size() < failures_to_leave || successes.empty()) return;
+    std::vector<int> from(lattice_.axes(), 0), to(lattice_.axes());
+    bool separated = false;
+    for (std::size_t axis = 0; axis < lattice_.axes(); ++axis) {
+        to[axis] = lattice_.steps(axis) - 1;
+        const auto by_step = [axis](const Record* a, const Record* b) { return a->step[axis] < b->step[axis]; };
+        const auto [first_failure, last_failure] = std::minmax_element(failures.begin(), failures.end(), by_step);
+        const auto [first_success, last_success] = std::minmax_element(successes.begin(), successes.end(), by_step);
+        if ((*first_failure)->step[axis] > (*last_success)->step[axis]) {
+            from[axis] = (*first_failure)->step[axis];
+            separated = true;
+        } else if ((*last_failure)->step[axis] < (*first_success)->step[axis]) {
+            to[axis] = (*last_failure)->step[axis];
+            separated = true;
+        }
+    }
+    if (!separated) return;
+    for (std::size_t i = 0; i < lattice_.size(); ++i) {
+        const std::vector<int> step = lattice_.point(i).step;
+        if (at_most(from, step) && at_most(step, to)) ruled_out_[i] = 1;
+    }
+}
+
+void Knowledge::fit() {
+    std::vector<std::vector<double>> positions;
+    std::vector<double> errors;
+    std::array<std::vector<double>, costs> values;
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        if (!trials_[i].failed.empty()) continue;
+        positions.push_back(position(records_[i].step));
+        errors.push_back(log_of(std::max(trials_[i].error, wanted_.error * 1e-3)));
+        for (std::size_t k = 0; k < costs; ++k) values[k].push_back(log_of(trials_[i].cost[k]));
+    }
+    if (positions.empty()) return;
+    error_model_.fit(positions, errors);
+    for (std::size_t k = 0; k < costs; ++k) cost_models_[k].fit(positions, values[k]);
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        Record& record = records_[i];
+        if (record.confirmed || !record.failed.empty()) continue;
+        for (std::size_t k = 0; k < costs; ++k)
+            if (cost_noise[k] > 1.0) record.cost[k] = std::exp(cost_models_[k].at(position(record.step)).mean);
+    }
+}
+
+void Knowledge::believe() {
+    const bool nothing = std::all_of(records_.begin(), records_.end(), [](const Record& r) { return !r.failed.empty(); });
+    for (std::size_t i = 0; i < lattice_.size(); ++i) {
+        if (measured_[i] || ruled_out_[i]) continue;
+        chance_[i] = 0.5;
+        for (std::size_t k = 0; k < costs; ++k) estimates_[k][i] = {0.0, std::numeric_limits<double>::infinity()};
+        if (nothing) continue;
+        const std::vector<double> at = position(lattice_.point(i).step);
+        const Estimate error = error_model_.at(at);
+        chance_[i] = normal_below((std::log(wanted_.trial_error) - error.mean) / std::hypot(error.sd, error_prior.noise));
+        for (std::size_t k = 0; k < costs; ++k) {
+            estimates_[k][i] = cost_models_[k].at(at);
+            if (std::isfinite(wanted_.at_most[k]))
+                chance_[i] *= normal_below((log_of(wanted_.at_most[k]) - estimates_[k][i].mean) / (estimates_[k][i].sd + 1e-3));
+        }
+    }
+}
+
+}  // namespace shadowbench::recommend

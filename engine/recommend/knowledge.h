@@ -1,0 +1,97 @@
+// What the measurements of one family say about its other points.
+//
+// Two kinds of statements are kept apart. Bounds follow from measured points, since costs rise and errors fall along
+// every axis; each has a margin for noise. Beliefs come from a model that is fitted to the measured points.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "recommend/exploration.h"
+#include "recommend/lattice.h"
+#include "recommend/model.h"
+
+namespace shadowbench::recommend {
+
+// A point that errs by more than this times the error asked rules out all points that are less accurate on every axis.
+inline constexpr double clear_error = 1.1;
+// The scout's error times this is a bound for all other families: their filters may remove some of the rays' noise.
+inline constexpr double scout_slack = 0.5;
+// What a short measurement of a cost may be off by, as a factor.
+inline constexpr std::array<double, costs> cost_noise{1.15, 1.0, 1.15};
+// A family is left out if this many points fail and none succeeds.
+inline constexpr std::size_t failures_to_leave = 3;
+
+struct Record {
+    std::size_t index = 0;  // in the lattice
+    std::vector<int> step;
+    std::string failed;
+    double error = 0.0;               // the upper end of its interval, if it is confirmed; else of the trial
+    std::array<double, costs> cost{};  // short measurements are smoothed by the model
+    bool confirmed = false;
+};
+
+// What makes a setting acceptable.
+struct Wanted {
+    double error = 0.0;        // of confirmed points
+    double trial_error = 0.0;  // of trials: less, if confirmed errors are found to be larger than those of trials
+    std::array<double, costs> at_most{};
+};
+
+class Knowledge {
+public:
+    Knowledge(const Family& family, std::size_t number, const Lab& lab);
+
+    const Lattice& lattice() const { return lattice_; }
+    std::span<const Record> records() const { return records_; }
+    void add(const Point& point, const Trial& trial);
+    void confirm(const Point& point, const Confirmed& confirmed);
+    // The errors of the scout's points count for this family too.
+    void bound_by(std::span<const Record> scout) { scout_ = {scout.begin(), scout.end()}; }
+
+    // Brings everything below up to date with what was added.
+    void update(const Wanted& wanted);
+
+    bool measured(std::size_t index) const { return measured_[index]; }
+    bool acceptable(const Record& record) const;
+    bool left_out() const { return left_out_; }
+    // No measurement is needed: the point cannot be acceptable, or another acceptable one costs no more.
+    bool ruled_out(std::size_t index) const { return ruled_out_[index]; }
+    // At least this, from measured points.
+    double least(std::size_t index, Cost cost) const { return least_[static_cast<std::size_t>(cost)][index]; }
+    // The chance that the point is acceptable, and what the model says about the logarithms of its costs. Of points
+    // that are neither measured nor ruled out.
+    double chance(std::size_t index) const { return chance_[index]; }
+    const Estimate& cost(std::size_t index, Cost cost) const {
+        return estimates_[static_cast<std::size_t>(cost)][index];
+    }
+
+private:
+    std::vector<double> position(const std::vector<int>& step) const;
+    void bound();
+    void rule_out_failures();
+    void fit();
+    void believe();
+
+    Lattice lattice_;
+    std::vector<double> stride_;
+    Wanted wanted_;
+    std::vector<Record> records_;
+    std::vector<Trial> trials_;  // of the records
+    std::vector<Record> scout_;
+    std::vector<char> measured_, ruled_out_;
+    bool left_out_ = false;
+    std::array<std::vector<double>, costs> known_, least_;
+    std::vector<double> chance_;
+    std::array<std::vector<Estimate>, costs> estimates_;
+    Model error_model_;
+    std::array<Model, costs> cost_models_;
+};
+
+// The chance that a normal variable is at most `x` standard deviations above its mean.
+double normal_below(double x);
+
+}  // namespace shadowbench::recommend

@@ -1,0 +1,45 @@
+// Kriging: a smooth function of a family's steps through noisy values (Gaussian process regression: Rasmussen and
+// Williams 2006, algorithm 2.1; a linear trend with uncertain slopes as in their section 2.7).
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace shadowbench::recommend {
+
+// Of a quantity's logarithm, before anything is measured. Lengths are in coarse steps.
+struct Prior {
+    double slope;     // along every axis
+    double slope_sd;  // how far a slope may be off
+    double noise;     // standard deviation of one measurement
+};
+
+struct Estimate {
+    double mean = 0.0;
+    double sd = 0.0;  // of the function, without the noise of a measurement
+};
+
+class Model {
+public:
+    explicit Model(Prior prior) : prior_(prior) {}
+
+    // One position and one value a measurement; at least one. How far the function bends away from its trend is chosen
+    // from the values, by their likelihood.
+    void fit(const std::vector<std::vector<double>>& positions, std::span<const double> values);
+    Estimate at(std::span<const double> position) const;
+
+private:
+    double covariance(std::span<const double> a, std::span<const double> b) const;
+    double trend(std::span<const double> position) const;
+    double factorise();  // logarithm of the likelihood, but for a constant
+
+    Prior prior_;
+    double bend_ = 0.0;  // standard deviation
+    double level_ = 0.0;
+    std::vector<std::vector<double>> positions_;
+    std::vector<double> residuals_;  // from the trend
+    std::vector<double> factor_;     // Cholesky factor, lower, row by row
+    std::vector<double> weights_;
+};
+
+}  // namespace shadowbench::recommend

@@ -1,0 +1,42 @@
+// Finds, for every cost asked, the cheapest setting whose error is at most the one asked, with few measurements.
+//
+// 1. Every family climbs from its cheapest to its most accurate setting, all axes together, by coarse steps, until it
+//    reaches the error or gets no better. All families meet the same light rays on the way. This gives each technique's
+//    curve of cost against error, and the first settings that are good enough.
+// 2. A model of each family (kriging of the logarithms: constrained expected improvement after Schonlau, Welch and Jones
+//    1998) says where a cheaper setting may be good enough. The point with the most expected gain for its effort is
+//    measured next, until no point is left that has a chance. Bounds from measured points rule out the rest: see
+//    knowledge.h. The neighbours of the best settings are measured in any case.
+// 3. The best settings, those within noise of them, and the runner-up of another technique are confirmed together. If
+//    one turns out to err too much, step 2 goes on with what was learned.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "recommend/exploration.h"
+#include "recommend/lab.h"
+
+namespace shadowbench::recommend {
+
+enum class Stage { climbing, refining, confirming };
+
+struct Progress {
+    Stage stage = Stage::climbing;
+    std::size_t measured = 0;
+    std::size_t open = 0;  // families that climb, points that have a chance, or points that are being confirmed
+};
+
+struct Hooks {
+    std::function<double()> seconds;                // since any moment; needed only if there is a budget
+    std::function<void(const Progress&)> progress;  // may be empty
+    std::function<bool()> cancelled;                // may be empty; asked before every measurement
+};
+
+// The share of the budget after which exploring stops, so that time is left to confirm.
+inline constexpr double exploring_share = 0.7;
+
+// Throws Error usage if no cost is asked, or if the error or the budget is not above 0.
+Exploration explore(Lab& lab, const Goal& goal, const Hooks& hooks);
+
+}  // namespace shadowbench::recommend
