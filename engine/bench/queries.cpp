@@ -41,14 +41,16 @@ void check_same_frame(const rays::LightView& a, const rays::LightView& b) {
         return !(std::abs(first - second) <= frame_rounding * size);
     };
     const double width = a.pixel.x * a.resolution.x, height = a.pixel.y * a.resolution.y;
-    if (a.perspective == b.perspective && !differ(a.lower.x, b.lower.x, width) && !differ(a.lower.y, b.lower.y, height) &&
-        !differ(width, b.pixel.x * b.resolution.x, width) && !differ(height, b.pixel.y * b.resolution.y, height) &&
+    if (a.perspective == b.perspective && !differ(a.lower.x, b.lower.x, width) &&
+        !differ(a.lower.y, b.lower.y, height) && !differ(width, b.pixel.x * b.resolution.x, width) &&
+        !differ(height, b.pixel.y * b.resolution.y, height) &&
         !differ(a.pixel.x / b.pixel.x, a.pixel.y / b.pixel.y, a.pixel.x / b.pixel.x) && a.z_min == b.z_min &&
         a.z_max == b.z_max)
         return;
-    throw base::Error(base::ErrorCode::internal, "light",
-                      fmt::format("maps of {} x {} and of {} x {} pixels do not frame the same part of the light's plane",
-                                  a.resolution.x, a.resolution.y, b.resolution.x, b.resolution.y));
+    throw base::Error(
+        base::ErrorCode::internal, "light",
+        fmt::format("maps of {} x {} and of {} x {} pixels do not frame the same part of the light's plane",
+                    a.resolution.x, a.resolution.y, b.resolution.x, b.resolution.y));
 }
 
 }  // namespace
@@ -112,8 +114,8 @@ QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView&
     return set;
 }
 
-QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& light,
-                          std::span<const CameraPoint> seen, const rays::LightView& view) {
+QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& light, std::span<const CameraPoint> seen,
+                          const rays::LightView& view) {
     const scene::Receivers& receivers = scenario.receivers;
     QuerySet set = receivers.camera            ? queries_of_points(seen, receivers, view)
                    : !receivers.points.empty() ? point_queries(receivers, view)

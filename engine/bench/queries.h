@@ -44,8 +44,8 @@ QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView&
 
 // The queries of a scenario's receivers to the light with this view; `seen`: what its camera sees, none without a
 // camera. Throws Error{bad_input} if no receiver is inside the map.
-QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& light,
-                          std::span<const CameraPoint> seen, const rays::LightView& view);
+QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& light, std::span<const CameraPoint> seen,
+                          const rays::LightView& view);
 
 // The queries that are compared with the truth.
 QuerySet judged_queries(const scene::Scenario& scenario, const QuerySet& set);

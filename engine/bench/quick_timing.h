@@ -12,9 +12,9 @@
 namespace shadowbench::bench {
 
 struct QuickTimes {
-    results::Sample image_ns, random_ns;  // per lookup, one thread
-    std::size_t lookups = 0;              // in one pass in image order
-    std::vector<float> answers;           // of the last pass in image order, channel after channel
+    results::Sample image_ns, random_ns;   // per lookup, one thread
+    std::size_t lookups = 0;               // in one pass in image order
+    std::vector<float> answers;            // of the last pass in image order, channel after channel
     std::vector<techniques::Query> asked;  // its queries
 };
 

@@ -36,9 +36,14 @@ struct Axis {
 // that agree in both share their light rays. The technique's own parameters follow. A family that needs no light rays
 // has one step on axes 0 and 1, and its points share none.
 struct Family {
+    // A parameter that is the same for all points, and its value as JSON.
+    struct Word {
+        std::string name, value;
+    };
     std::string technique;  // a runner-up is the best family of another technique
     std::string name;       // the technique and its words: "deep kernel=box"
     std::vector<Axis> axes;
+    std::vector<Word> words = {};
 };
 
 struct Point {

@@ -159,8 +159,9 @@ struct Trade {
     };
     const char* parameter = "";
     Scale scale = Scale::choice;
-    double from = 0.0, to = 0.0;                      // linear, logarithmic: the cheapest and the most accurate value
-    std::vector<ParameterValues::Value> choices = {};  // choice: at least one. A single one is set instead of the default
+    double from = 0.0, to = 0.0;  // linear, logarithmic: the cheapest and the most accurate value
+    std::vector<ParameterValues::Value> choices =
+        {};  // choice: at least one. A single one is set instead of the default
 };
 
 // What generic code must know about a technique besides its promises, so that it never checks the name. The tests of

@@ -30,9 +30,10 @@ std::vector<ParameterValues::Value> values_of(const Trade& trade, std::span<cons
     if (trade.scale == Trade::Scale::choice) return trade.choices;
     const bool logarithmic = trade.scale == Trade::Scale::logarithmic;
     const double range = std::abs(trade.to - trade.from);
-    const int steps = logarithmic ? static_cast<int>(std::ceil(steps_an_octave * std::abs(std::log2(trade.to / trade.from))))
-                      : whole     ? static_cast<int>(range)
-                                  : steps_of_a_line;
+    const int steps = logarithmic
+                          ? static_cast<int>(std::ceil(steps_an_octave * std::abs(std::log2(trade.to / trade.from))))
+                      : whole ? static_cast<int>(range)
+                              : steps_of_a_line;
     std::vector<ParameterValues::Value> values;
     for (int i = 0; i <= steps; ++i) {
         const double share = static_cast<double>(i) / steps;
@@ -50,7 +51,8 @@ int coarse_stride(const Trade& trade, std::size_t values) {
 }
 
 std::string to_string(const Trade& trade) {
-    if (trade.scale != Trade::Scale::choice) return fmt::format("{} {:g} to {:g}", trade.parameter, trade.from, trade.to);
+    if (trade.scale != Trade::Scale::choice)
+        return fmt::format("{} {:g} to {:g}", trade.parameter, trade.from, trade.to);
     std::string text = trade.parameter;
     const char* before = " ";
     for (const ParameterValues::Value& value : trade.choices) {

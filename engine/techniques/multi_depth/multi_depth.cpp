@@ -179,9 +179,9 @@ private:
     DepthStore store_;
 };
 
-// `region=cells` is a filter of a fixed number of cells: it would depend on the map's resolution. Not traded: `q`, whose
-// neighbours are cells too; `select` maximum and minimum, which make every shadow smaller or larger; `bias` and `cells`,
-// for the reasons of shadow_map.
+// `region=cells` is a filter of a fixed number of cells: it would depend on the map's resolution. Not traded: `q`,
+// whose neighbours are cells too; `select` maximum and minimum, which make every shadow smaller or larger; `bias` and
+// `cells`, for the reasons of shadow_map.
 std::vector<Trade> multi_depth_trades() {
     return {{"n", Trade::Scale::linear, 1, most_depths},
             {"kernel", Trade::Scale::linear, 1, 16},

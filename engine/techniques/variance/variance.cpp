@@ -160,7 +160,8 @@ Promises promised(const ParameterValues& values) {
 Technique variance() {
     Traits traits = texel_traits();
     traits.whole_pixel = {{"filter", "footprint"}, {"cells", "pixel"}};
-    // Not traded: `min_variance`, which costs nothing; `cells`, since one function a sample is a finer map of one sample.
+    // Not traded: `min_variance`, which costs nothing; `cells`, since one function a sample is a finer map of one
+    // sample.
     traits.trades = {filter_trade};
     return {.id = "variance",
             .title = "variance shadow map: two moments of depth, and Chebyshev's bound",
