@@ -160,8 +160,8 @@ struct Trade {
     const char* parameter = "";
     Scale scale = Scale::choice;
     double from = 0.0, to = 0.0;  // linear, logarithmic: the cheapest and the most accurate value
-    std::vector<ParameterValues::Value> choices =
-        {};  // choice: at least one. A single one is set instead of the default
+    // choice: at least one value. A single one is set instead of the default.
+    std::vector<ParameterValues::Value> choices = {};
 };
 
 // What generic code must know about a technique besides its promises, so that it never checks the name. The tests of
