@@ -17,6 +17,10 @@ struct Trials::Attempt {
     double build_ms = 0.0;                          // without capturing
 
     std::string failed() const { return contender.ok() ? "" : contender.cell.reason; }
+    double ns_per_segment(double ms) const {
+        const std::uint64_t segments = rays->source->segments();
+        return segments > 0 ? 1e6 * ms / static_cast<double>(segments) : 0.0;
+    }
     double capture_ms() const {
         return contender.row->traits.traces ? 0.0 : 1e3 * (rays->setup_seconds + rays->capture_seconds);
     }

@@ -22,7 +22,8 @@ void select(std::vector<Candidate> candidates, std::size_t k, std::size_t most, 
     if (candidates.empty()) return;
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-    const auto sure = std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.confirmed; });
+    const auto sure =
+        std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.confirmed; });
     const double limit = sure == candidates.end() ? candidates.front().cost * close[k] : sure->cost;
     std::size_t taken = 0;
     for (const Candidate& candidate : candidates) {

@@ -159,7 +159,8 @@ void Knowledge::fit() {
 }
 
 void Knowledge::believe() {
-    const bool nothing = std::all_of(records_.begin(), records_.end(), [](const Record& r) { return !r.failed.empty(); });
+    const bool nothing =
+        std::all_of(records_.begin(), records_.end(), [](const Record& r) { return !r.failed.empty(); });
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
         if (measured_[i] || ruled_out_[i]) continue;
         chance_[i] = 0.5;
@@ -167,11 +168,13 @@ void Knowledge::believe() {
         if (nothing) continue;
         const std::vector<double> at = position(lattice_.point(i).step);
         const Estimate error = error_model_.at(at);
-        chance_[i] = normal_below((std::log(wanted_.trial_error) - error.mean) / std::hypot(error.sd, error_prior.noise));
+        chance_[i] =
+            normal_below((std::log(wanted_.trial_error) - error.mean) / std::hypot(error.sd, error_prior.noise));
         for (std::size_t k = 0; k < costs; ++k) {
             estimates_[k][i] = cost_models_[k].at(at);
             if (std::isfinite(wanted_.at_most[k]))
-                chance_[i] *= normal_below((log_of(wanted_.at_most[k]) - estimates_[k][i].mean) / (estimates_[k][i].sd + 1e-3));
+                chance_[i] *=
+                    normal_below((log_of(wanted_.at_most[k]) - estimates_[k][i].mean) / (estimates_[k][i].sd + 1e-3));
         }
     }
 }

@@ -29,7 +29,7 @@ struct Record {
     std::size_t index = 0;  // in the lattice
     std::vector<int> step;
     std::string failed;
-    double error = 0.0;               // the upper end of its interval, if it is confirmed; else of the trial
+    double error = 0.0;                // the upper end of its interval, if it is confirmed; else of the trial
     std::array<double, costs> cost{};  // short measurements are smoothed by the model
     bool confirmed = false;
 };

@@ -76,8 +76,8 @@ public:
     // The family that loses nothing of its light rays (the uncompressed map): the others err at least about as much at
     // the same resolution and samples. Nothing if there is none.
     virtual std::optional<std::size_t> scout() const = 0;
-    // About how many seconds measure() would take now, to order the work: the light rays, unless they are there already,
-    // and the rest. Above 0.
+    // About how many seconds measure() would take now, to order the work: the light rays, unless they are there
+    // already, and the rest. Above 0.
     virtual double effort(const Point& point) const = 0;
     // A lower bound of a cost that is known without measuring; 0 if nothing is known.
     virtual double at_least(const Point& point, Cost cost) const = 0;

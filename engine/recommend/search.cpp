@@ -69,8 +69,7 @@ std::vector<Point> ladder(const Family& family, std::size_t number) {
     std::vector<Point> points;
     for (int level = 0; level <= levels; ++level) {
         Point point{number, {}};
-        for (const Axis& axis : family.axes)
-            point.step.push_back((level * (axis.steps() - 1) + levels / 2) / levels);
+        for (const Axis& axis : family.axes) point.step.push_back((level * (axis.steps() - 1) + levels / 2) / levels);
         if (points.empty() || !(points.back() == point)) points.push_back(point);
     }
     return points;

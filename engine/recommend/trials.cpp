@@ -202,43 +202,49 @@ double Trials::error_of(const results::Cell& cell) const {
     return measure_ == Measure::rms ? norms.rms : measure_ == Measure::max ? norms.max : norms.p99;
 }
 
+// Fails the contender if a lookup answers what it must not.
+void Trials::time_quickly(Attempt& attempt) const {
+    Contender& contender = attempt.contender;
+    const bench::QuickTimes quick =
+        bench::quick_lookup_times(contender.maps, asked(all_, attempt.rays->frame->view).asked(),
+                                  static_cast<std::size_t>(scenario_->timing.lookups), scenario_->receivers.seed);
+    bench::check_answers(contender, quick.asked, quick.answers);
+    if (!contender.ok()) return;
+    results::CellTimes& times = contender.cell.times.emplace();
+    times.build_ms = results::summarise({attempt.build_ms});
+    times.ns_per_segment = attempt.ns_per_segment(attempt.build_ms);
+    times.image_order.ns = quick.image_ns;
+    times.random_order.ns = quick.random_ns;
+    times.lookups = quick.lookups;
+}
+
+// Compares an even share of the stored functions with those of the light rays.
+void Trials::check_some(Attempt& attempt) const {
+    Contender& contender = attempt.contender;
+    const bench::CheckedMap checked{&contender.maps, contender.promises, contender.cell.error_bound,
+                                    !contender.cell.outside_promise, contender.needs.apron};
+    const std::size_t cells = measure_ == Measure::curve ? checked_cells : quickly_checked_cells;
+    bench::CurveVerdict verdict =
+        bench::check_curves(*attempt.rays->source, attempt.rays->frame->layout, std::span(&checked, 1), cells, {})[0];
+    contender.cell.curve = std::move(verdict.errors);
+    if (!verdict.broken.empty())
+        bench::fail(contender, verdict.broken);
+    else if (measure_ == Measure::curve && !contender.cell.curve)
+        bench::fail(contender, no_curve);
+}
+
 Trial Trials::measure(const Point& point) {
     const Stopwatch stopwatch;
     const Setting setting = space_->setting(point);
     Attempt attempt = this->attempt(setting, 0, true);
-    Contender& contender = attempt.contender;
-    results::CellTimes times;
-    if (contender.ok()) {
-        const bench::CheckedMap checked{&contender.maps, contender.promises, contender.cell.error_bound,
-                                        !contender.cell.outside_promise, contender.needs.apron};
-        const std::size_t cells = measure_ == Measure::curve ? checked_cells : quickly_checked_cells;
-        bench::CurveVerdict verdict = bench::check_curves(*attempt.rays->source, attempt.rays->frame->layout,
-                                                          std::span(&checked, 1), cells, {})[0];
-        contender.cell.curve = std::move(verdict.errors);
-        if (!verdict.broken.empty())
-            bench::fail(contender, verdict.broken);
-        else if (measure_ == Measure::curve && !contender.cell.curve)
-            bench::fail(contender, no_curve);
-    }
-    if (contender.ok()) {
-        const bench::QuickTimes quick =
-            bench::quick_lookup_times(contender.maps, asked(all_, attempt.rays->frame->view).asked(),
-                                      static_cast<std::size_t>(scenario_->timing.lookups), scenario_->receivers.seed);
-        bench::check_answers(contender, quick.asked, quick.answers);
-        times.build_ms = results::summarise({attempt.build_ms});
-        times.ns_per_segment = attempt.rays->source->segments() > 0
-                                   ? 1e6 * attempt.build_ms / static_cast<double>(attempt.rays->source->segments())
-                                   : 0.0;
-        times.image_order.ns = quick.image_ns;
-        times.random_order.ns = quick.random_ns;
-        times.lookups = quick.lookups;
-    }
+    const Contender& contender = attempt.contender;
+    if (contender.ok()) check_some(attempt);
+    if (contender.ok()) time_quickly(attempt);
     Trial trial{attempt.failed(), 0.0, {}};
     if (contender.ok()) {
         trial.error = error_of(contender.cell);
-        trial.cost = {times.random_order.ns.median, static_cast<double>(contender.cell.bytes),
+        trial.cost = {contender.cell.times->random_order.ns.median, static_cast<double>(contender.cell.bytes),
                       attempt.capture_ms() + attempt.build_ms};
-        contender.cell.times = std::move(times);
     }
     if (attempt.rays) keep(record(setting, *attempt.rays), contender);
     seconds_ += stopwatch.seconds();

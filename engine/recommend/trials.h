@@ -63,6 +63,8 @@ private:
     const rays::MapLayout& layout(const Setting& setting) const;
     std::string refusal(const Setting& setting, const bench::Contender& contender) const;
     Attempt attempt(const Setting& setting, int seed, bool timed);
+    void check_some(Attempt& attempt) const;
+    void time_quickly(Attempt& attempt) const;
     bench::QuerySet asked(const bench::QuerySet& set, const rays::LightView& view) const;
     double error_of(const results::Cell& cell) const;
     Confirmed judge_errors(std::span<const double> errors) const;

@@ -107,12 +107,9 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points) {
         answer = judge_errors(errors[one.index]);
         std::vector<double> whole(one.build_ms);
         for (std::size_t r = 0; r < whole.size(); ++r) whole[r] += one.capture_ms[r];
-        results::CellTimes times;
+        results::CellTimes& times = contender.cell.times.emplace();
         times.build_ms = results::summarise(one.build_ms);
-        times.ns_per_segment =
-            one.attempt.rays->source->segments() > 0
-                ? 1e6 * times.build_ms.median / static_cast<double>(one.attempt.rays->source->segments())
-                : 0.0;
+        times.ns_per_segment = one.attempt.ns_per_segment(times.build_ms.median);
         times.image_order = bench::summarise(one.plan.image);
         times.random_order = bench::summarise(one.plan.random);
         times.lookups = one.plan.image.queries.size();
@@ -120,7 +117,6 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points) {
         const results::Sample build = results::summarise(std::move(whole));
         answer.cost = {times.random_order.ns.median, bytes, build.median};
         answer.interval = {times.random_order.ns.interval, metrics::Interval{bytes, bytes}, build.interval};
-        contender.cell.times = std::move(times);
         keep(record(one.setting, *one.attempt.rays), contender);
     }
     seconds_ += stopwatch.seconds();
