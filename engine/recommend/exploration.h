@@ -12,7 +12,7 @@
 namespace shadowbench::recommend {
 
 struct Goal {
-    double error = 0.0;                               // above 0; a setting is wanted whose error is at most this
+    double error = 0.0;                           // above 0; a setting is wanted whose error is at most this
     std::array<bool, costs> asked{true, true, true};  // the costs of which each is to be the least
     std::array<double, costs> at_most{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                                       std::numeric_limits<double>::infinity()};

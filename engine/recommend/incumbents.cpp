@@ -9,30 +9,40 @@ namespace {
 
 // Points that cost at most this times the least are confirmed with it.
 constexpr std::array<double, costs> close{1.1, 1.02, 1.1};
-constexpr std::size_t most_leaders = 4, most_followers = 2;  // confirmed in one round, per cost
+// Points that err by at most this times the error wanted in a trial may turn out to err less.
+constexpr double doubtful = 1.06;
+// How many are confirmed in one round. Trials rank bytes well, and times only roughly.
+constexpr std::array<std::size_t, costs> most_leaders{3, 1, 3}, most_followers{2, 1, 2};
+constexpr std::size_t most_doubtful = 1;
 
 struct Candidate {
     Point point;
     double cost;
+    double excess;
     bool confirmed;
 };
 
-// The unconfirmed points that may be the cheapest, cheapest first; and, if there are any, the cheapest confirmed one.
-void select(std::vector<Candidate> candidates, std::size_t k, std::size_t most, std::vector<Point>& chosen) {
-    if (candidates.empty()) return;
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-    const auto sure =
-        std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.confirmed; });
-    const double limit = sure == candidates.end() ? candidates.front().cost * close[k] : sure->cost;
-    std::size_t taken = 0;
+// The unconfirmed points that may be the cheapest: those that seem acceptable, cheapest first, and those in doubt, least
+// error first. If there are any, the cheapest confirmed one comes with them.
+void select(const std::vector<Candidate>& candidates, std::size_t k, std::size_t most, std::vector<Point>& chosen) {
+    std::vector<Candidate> seem, doubt;
+    const Candidate* sure = nullptr;
     for (const Candidate& candidate : candidates) {
-        if (candidate.confirmed || taken == most) continue;
-        if (sure == candidates.end() ? candidate.cost > limit : candidate.cost >= limit) continue;
-        chosen.push_back(candidate.point);
-        ++taken;
+        if (!candidate.confirmed) (candidate.excess <= 1.0 ? seem : doubt).push_back(candidate);
+        if (candidate.confirmed && candidate.excess <= 1.0 && (!sure || candidate.cost < sure->cost)) sure = &candidate;
     }
-    if (taken > 0 && sure != candidates.end()) chosen.push_back(sure->point);
+    std::stable_sort(seem.begin(), seem.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+    std::stable_sort(doubt.begin(), doubt.end(), [](const auto& a, const auto& b) { return a.excess < b.excess; });
+    const double least = seem.empty() ? std::numeric_limits<double>::infinity() : seem.front().cost;
+    const std::size_t before = chosen.size();
+    for (const Candidate& candidate : seem)
+        if (chosen.size() - before < most && (sure ? candidate.cost < sure->cost : candidate.cost <= least * close[k]))
+            chosen.push_back(candidate.point);
+    const std::size_t between = chosen.size();
+    for (const Candidate& candidate : doubt)
+        if (chosen.size() - between < most_doubtful && candidate.cost < (sure ? std::min(sure->cost, least) : least))
+            chosen.push_back(candidate.point);
+    if (sure && chosen.size() > before) chosen.push_back(sure->point);
 }
 
 }  // namespace
@@ -62,16 +72,17 @@ std::vector<Point> to_confirm(std::span<const Family> families, std::span<const 
                               const std::array<bool, costs>& asked, const Incumbents& incumbents) {
     std::vector<Point> chosen;
     for (std::size_t k = 0; k < costs; ++k) {
-        if (!asked[k] || !incumbents.best[k]) continue;
+        if (!asked[k]) continue;
         std::vector<Candidate> leaders, followers;
         for (std::size_t f = 0; f < known.size(); ++f)
             for (const Record& record : known[f].records()) {
-                if (!known[f].acceptable(record)) continue;
+                const double excess = known[f].excess(record);
+                if (!(excess <= (record.confirmed ? 1.0 : doubtful))) continue;
                 auto& list = families[f].technique == incumbents.technique[k] ? leaders : followers;
-                list.push_back({Point{f, record.step}, record.cost[k], record.confirmed});
+                list.push_back({Point{f, record.step}, record.cost[k], excess, record.confirmed});
             }
-        select(std::move(leaders), k, most_leaders, chosen);
-        select(std::move(followers), k, most_followers, chosen);
+        select(leaders, k, most_leaders[k], chosen);
+        select(followers, k, most_followers[k], chosen);
     }
     std::vector<Point> unique;
     for (const Point& point : chosen)

@@ -10,6 +10,8 @@ namespace {
 constexpr std::array<Cost, costs> all_costs{Cost::lookup, Cost::bytes, Cost::build};
 constexpr double least_value = 1e-12;  // values below count as this: their logarithm is modelled
 
+constexpr double hopeless = 1e-4;       // the costs of points with a smaller chance are not modelled
+
 // Of logarithms. A coarse step is about a factor of 2 in a parameter.
 constexpr Prior error_prior{-0.3, 0.4, 0.03};
 constexpr Prior bytes_prior{0.4, 0.5, 0.01};
@@ -50,7 +52,7 @@ std::vector<double> Knowledge::position(const std::vector<int>& step) const {
 void Knowledge::add(const Point& point, const Trial& trial) {
     const std::size_t index = lattice_.index(point.step);
     measured_[index] = 1;
-    records_.push_back({index, point.step, trial.failed, trial.error, trial.cost, false});
+    records_.push_back({index, point.step, trial.failed, trial.error, trial.cost, false, trial.cost});
     trials_.push_back(trial);
 }
 
@@ -62,15 +64,15 @@ void Knowledge::confirm(const Point& point, const Confirmed& confirmed) {
         record.failed = confirmed.failed;
         record.error = confirmed.error.high;
         record.cost = confirmed.cost;
+        for (std::size_t k = 0; k < costs; ++k) record.upper_cost[k] = confirmed.interval[k].high;
     }
 }
 
-bool Knowledge::acceptable(const Record& record) const {
-    if (!record.failed.empty()) return false;
-    if (record.error > (record.confirmed ? wanted_.error : wanted_.trial_error)) return false;
+double Knowledge::excess(const Record& record) const {
     for (std::size_t k = 0; k < costs; ++k)
-        if (record.cost[k] > wanted_.at_most[k]) return false;
-    return true;
+        if (record.upper_cost[k] > wanted_.at_most[k]) return std::numeric_limits<double>::infinity();
+    if (!record.failed.empty()) return std::numeric_limits<double>::infinity();
+    return record.error / (record.confirmed ? wanted_.error : wanted_.trial_error);
 }
 
 void Knowledge::update(const Wanted& wanted) {
@@ -85,7 +87,7 @@ void Knowledge::bound() {
     least_ = known_;
     std::fill(ruled_out_.begin(), ruled_out_.end(), 0);
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
-        const std::vector<int> step = lattice_.point(i).step;
+        const std::vector<int>& step = lattice_.point(i).step;
         for (const Record& record : scout_)
             if (record.failed.empty() && record.error * scout_slack > wanted_.error && step[0] <= record.step[0] &&
                 step[1] <= record.step[1])
@@ -132,7 +134,7 @@ void Knowledge::rule_out_failures() {
     }
     if (!separated) return;
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
-        const std::vector<int> step = lattice_.point(i).step;
+        const std::vector<int>& step = lattice_.point(i).step;
         if (at_most(from, step) && at_most(step, to)) ruled_out_[i] = 1;
     }
 }
@@ -144,7 +146,11 @@ void Knowledge::fit() {
     for (std::size_t i = 0; i < records_.size(); ++i) {
         if (!trials_[i].failed.empty()) continue;
         positions.push_back(position(records_[i].step));
-        errors.push_back(log_of(std::max(trials_[i].error, wanted_.error * 1e-3)));
+        // In the terms of a trial.
+        const double error = records_[i].confirmed && records_[i].failed.empty()
+                                 ? records_[i].error * wanted_.trial_error / wanted_.error
+                                 : trials_[i].error;
+        errors.push_back(log_of(std::max(error, wanted_.error * 1e-3)));
         for (std::size_t k = 0; k < costs; ++k) values[k].push_back(log_of(trials_[i].cost[k]));
     }
     if (positions.empty()) return;
@@ -154,13 +160,13 @@ void Knowledge::fit() {
         Record& record = records_[i];
         if (record.confirmed || !record.failed.empty()) continue;
         for (std::size_t k = 0; k < costs; ++k)
-            if (cost_noise[k] > 1.0) record.cost[k] = std::exp(cost_models_[k].at(position(record.step)).mean);
+            if (cost_noise[k] > 1.0)
+                record.cost[k] = record.upper_cost[k] = std::exp(cost_models_[k].at(position(record.step)).mean);
     }
 }
 
 void Knowledge::believe() {
-    const bool nothing =
-        std::all_of(records_.begin(), records_.end(), [](const Record& r) { return !r.failed.empty(); });
+    const bool nothing = std::all_of(records_.begin(), records_.end(), [](const Record& r) { return !r.failed.empty(); });
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
         if (measured_[i] || ruled_out_[i]) continue;
         chance_[i] = 0.5;
@@ -168,13 +174,12 @@ void Knowledge::believe() {
         if (nothing) continue;
         const std::vector<double> at = position(lattice_.point(i).step);
         const Estimate error = error_model_.at(at);
-        chance_[i] =
-            normal_below((std::log(wanted_.trial_error) - error.mean) / std::hypot(error.sd, error_prior.noise));
+        chance_[i] = normal_below((std::log(wanted_.trial_error) - error.mean) / std::hypot(error.sd, error_prior.noise));
+        if (chance_[i] < hopeless) continue;
         for (std::size_t k = 0; k < costs; ++k) {
             estimates_[k][i] = cost_models_[k].at(at);
             if (std::isfinite(wanted_.at_most[k]))
-                chance_[i] *=
-                    normal_below((log_of(wanted_.at_most[k]) - estimates_[k][i].mean) / (estimates_[k][i].sd + 1e-3));
+                chance_[i] *= normal_below((log_of(wanted_.at_most[k]) - estimates_[k][i].mean) / (estimates_[k][i].sd + 1e-3));
         }
     }
 }

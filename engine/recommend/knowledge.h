@@ -22,6 +22,8 @@ inline constexpr double clear_error = 1.1;
 inline constexpr double scout_slack = 0.5;
 // What a short measurement of a cost may be off by, as a factor.
 inline constexpr std::array<double, costs> cost_noise{1.15, 1.0, 1.15};
+// If two coarse steps of all axes lower the error to more than this share of it, a family gets no better.
+inline constexpr double flat_share = 0.9;
 // A family is left out if this many points fail and none succeeds.
 inline constexpr std::size_t failures_to_leave = 3;
 
@@ -29,9 +31,10 @@ struct Record {
     std::size_t index = 0;  // in the lattice
     std::vector<int> step;
     std::string failed;
-    double error = 0.0;                // the upper end of its interval, if it is confirmed; else of the trial
+    double error = 0.0;               // the upper end of its interval, if it is confirmed; else of the trial
     std::array<double, costs> cost{};  // short measurements are smoothed by the model
     bool confirmed = false;
+    std::array<double, costs> upper_cost{};  // for limits: the upper ends of intervals, if it is confirmed; else as cost
 };
 
 // What makes a setting acceptable.
@@ -56,7 +59,9 @@ public:
     void update(const Wanted& wanted);
 
     bool measured(std::size_t index) const { return measured_[index]; }
-    bool acceptable(const Record& record) const;
+    // The error over the one wanted; infinite if the point fails or costs more than allowed.
+    double excess(const Record& record) const;
+    bool acceptable(const Record& record) const { return excess(record) <= 1.0; }
     bool left_out() const { return left_out_; }
     // No measurement is needed: the point cannot be acceptable, or another acceptable one costs no more.
     bool ruled_out(std::size_t index) const { return ruled_out_[index]; }

@@ -15,20 +15,14 @@ public:
             steps_.push_back(axis.steps());
             size_ *= static_cast<std::size_t>(axis.steps());
         }
+        for (std::size_t i = 0; i < size_; ++i) points_.push_back(point_of(i));
     }
 
     std::size_t size() const { return size_; }
     std::size_t axes() const { return steps_.size(); }
     int steps(std::size_t axis) const { return steps_[axis]; }
 
-    Point point(std::size_t index) const {
-        Point point{family_, std::vector<int>(steps_.size())};
-        for (std::size_t i = steps_.size(); i-- > 0;) {
-            point.step[i] = static_cast<int>(index % static_cast<std::size_t>(steps_[i]));
-            index /= static_cast<std::size_t>(steps_[i]);
-        }
-        return point;
-    }
+    const Point& point(std::size_t index) const { return points_[index]; }
     std::size_t index(const std::vector<int>& step) const {
         std::size_t index = 0;
         for (std::size_t i = 0; i < steps_.size(); ++i)
@@ -37,9 +31,19 @@ public:
     }
 
 private:
+    Point point_of(std::size_t index) const {
+        Point point{family_, std::vector<int>(steps_.size())};
+        for (std::size_t i = steps_.size(); i-- > 0;) {
+            point.step[i] = static_cast<int>(index % static_cast<std::size_t>(steps_[i]));
+            index /= static_cast<std::size_t>(steps_[i]);
+        }
+        return point;
+    }
+
     std::size_t family_;
     std::vector<int> steps_;
     std::size_t size_ = 1;
+    std::vector<Point> points_;
 };
 
 // Whether every step of `a` is at most that of `b`: b then costs at least as much, and errs at most as much.

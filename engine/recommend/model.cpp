@@ -21,14 +21,13 @@ double correlation(double distance) {
 
 }  // namespace
 
-double Model::covariance(std::span<const double> a, std::span<const double> b) const {
+Model::Covariance Model::covariance(std::span<const double> a, std::span<const double> b) const {
     double squares = 0.0, product = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         squares += (a[i] - b[i]) * (a[i] - b[i]);
         product += a[i] * b[i];
     }
-    return level_sd * level_sd + prior_.slope_sd * prior_.slope_sd * product +
-           bend_ * bend_ * correlation(std::sqrt(squares));
+    return {level_sd * level_sd + prior_.slope_sd * prior_.slope_sd * product, correlation(std::sqrt(squares))};
 }
 
 double Model::trend(std::span<const double> position) const {
@@ -41,7 +40,7 @@ double Model::factorise() {
     double likelihood = 0.0;
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j <= i; ++j) {
-            double sum = covariance(positions_[i], positions_[j]);
+            double sum = covariances_[i * n + j].with(bend_);
             for (std::size_t k = 0; k < j; ++k) sum -= factor_[i * n + k] * factor_[j * n + k];
             if (i != j) {
                 factor_[i * n + j] = sum / factor_[j * n + j];
@@ -71,6 +70,10 @@ void Model::fit(const std::vector<std::vector<double>>& positions, std::span<con
     level_ = mean / static_cast<double>(values.size());
     residuals_.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) residuals_[i] = values[i] - trend(positions_[i]);
+    const std::size_t n = positions_.size();
+    covariances_.resize(n * n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j) covariances_[i * n + j] = covariance(positions_[i], positions_[j]);
     double best = -std::numeric_limits<double>::infinity(), chosen = bends[0];
     for (const double bend : bends) {
         bend_ = bend;
@@ -90,9 +93,9 @@ Estimate Model::at(std::span<const double> position) const {
     const std::size_t n = positions_.size();
     Estimate estimate{trend(position), 0.0};
     std::vector<double> half(n);
-    double variance = covariance(position, position);
+    double variance = covariance(position, position).with(bend_);
     for (std::size_t i = 0; i < n; ++i) {
-        half[i] = covariance(position, positions_[i]);
+        half[i] = covariance(position, positions_[i]).with(bend_);
         estimate.mean += half[i] * weights_[i];
         for (std::size_t k = 0; k < i; ++k) half[i] -= factor_[i * n + k] * half[k];
         half[i] /= factor_[i * n + i];

@@ -29,7 +29,11 @@ public:
     Estimate at(std::span<const double> position) const;
 
 private:
-    double covariance(std::span<const double> a, std::span<const double> b) const;
+    struct Covariance {
+        double trend, correlation;
+        double with(double bend) const { return trend + bend * bend * correlation; }
+    };
+    Covariance covariance(std::span<const double> a, std::span<const double> b) const;
     double trend(std::span<const double> position) const;
     double factorise();  // logarithm of the likelihood, but for a constant
 
@@ -37,6 +41,7 @@ private:
     double bend_ = 0.0;  // standard deviation
     double level_ = 0.0;
     std::vector<std::vector<double>> positions_;
+    std::vector<Covariance> covariances_;  // of the positions, lower, row by row
     std::vector<double> residuals_;  // from the trend
     std::vector<double> factor_;     // Cholesky factor, lower, row by row
     std::vector<double> weights_;

@@ -15,13 +15,11 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A point is left unmeasured if its chance of a gain is below this.
-constexpr double least_chance = 0.01;
+constexpr double least_chance = 0.05;
 // Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
-constexpr std::array<double, costs> least_gain{0.03, 0.002, 0.03};
-constexpr double follower_gain = 0.05;
-// Two coarse steps of all axes that lower the error to more than this share of it: the family gets no better.
-constexpr double flat = 0.9;
-constexpr int confirm_rounds = 6;
+constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
+constexpr double follower_gain = 0.1;
+constexpr int confirm_rounds = 8;
 
 class Search {
 public:
@@ -58,14 +56,8 @@ private:
     Incumbents incumbents_;
 };
 
-// The climb of a family: all axes together, from the cheapest to the most accurate setting. As many rungs for all
-// families as the light rays' axes have coarse steps, so that all meet the same light rays.
-std::vector<Point> ladder(const Family& family, std::size_t number) {
-    int levels = 1;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-        const Axis& a = family.axes[axis];
-        levels = std::max(levels, (a.steps() - 1 + a.stride - 1) / a.stride);
-    }
+// The climb of a family: all axes together, from the cheapest to the most accurate setting.
+std::vector<Point> ladder(const Family& family, std::size_t number, int levels) {
     std::vector<Point> points;
     for (int level = 0; level <= levels; ++level) {
         Point point{number, {}};
@@ -75,15 +67,31 @@ std::vector<Point> ladder(const Family& family, std::size_t number) {
     return points;
 }
 
+// As many for all families as the light rays' axes have coarse steps, so that all meet the same light rays.
+int coarse_steps(const std::vector<Family>& families) {
+    int levels = 1;
+    for (const Family& family : families)
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const Axis& a = family.axes[axis];
+            levels = std::max(levels, (a.steps() - 1 + a.stride - 1) / a.stride);
+        }
+    return levels;
+}
+
+bool same_light_rays(const Family& a, const Family& b) {
+    return a.axes[0].values == b.axes[0].values && a.axes[1].values == b.axes[1].values;
+}
+
 Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
     : lab_(lab), hooks_(hooks), began_(hooks.seconds ? hooks.seconds() : 0.0) {
     found_.goal = goal;
     found_.families = {lab.families().begin(), lab.families().end()};
     found_.scout = lab.scout();
     wanted_ = {goal.error, goal.error, goal.at_most};
+    const int levels = coarse_steps(found_.families);
     for (std::size_t i = 0; i < found_.families.size(); ++i) {
         families_.emplace_back(found_.families[i], i, lab);
-        ladders_.push_back(ladder(found_.families[i], i));
+        ladders_.push_back(ladder(found_.families[i], i, levels));
     }
     rungs_.assign(families_.size(), 0);
 }
@@ -115,7 +123,7 @@ void Search::update(std::size_t family) {
     families_[family].update(wanted_);
     if (found_.scout == family)
         for (std::size_t i = 0; i < families_.size(); ++i)
-            if (i != family) {
+            if (i != family && same_light_rays(found_.families[i], found_.families[family])) {
                 families_[i].bound_by(families_[family].records());
                 families_[i].update(wanted_);
             }
@@ -130,7 +138,7 @@ std::optional<Point> Search::next_climb(std::size_t family) const {
     if (rung >= 1 && families_[family].acceptable(records[rung - 1])) return {};
     if (rung >= 3) {
         const Record &last = records[rung - 1], &before = records[rung - 3];
-        if (last.failed.empty() && before.failed.empty() && last.error > flat * before.error) return {};
+        if (last.failed.empty() && before.failed.empty() && last.error > flat_share * before.error) return {};
     }
     return ladders_[family][rung];
 }
@@ -190,8 +198,8 @@ std::optional<Point> Search::most_promising(std::size_t& open) const {
             const double gained = gain(f, i, least_chance);
             if (gained <= 0.0) continue;
             ++open;
-            const Point point = known.lattice().point(i);
-            const double worth = gained / std::sqrt(lab_.effort(point));
+            const Point& point = known.lattice().point(i);
+            const double worth = gained / lab_.effort(point);
             if (worth <= most) continue;
             most = worth;
             best = point;
