@@ -13,17 +13,14 @@ namespace shadowbench::recommend {
 // One map with everything that was measured on it.
 struct Trials::Attempt {
     bench::Contender contender;
-    std::shared_ptr<const bench::StoredRays> rays;  // null if the attempt was refused before they were captured
-    double build_ms = 0.0;                          // without capturing
+    std::shared_ptr<const bench::Frame> frame;      // null if the attempt was refused before rays were captured
+    std::shared_ptr<const bench::StoredRays> rays;  // the same; a confirmation drops them when they are checked
+    std::uint64_t segments = 0;
+    double capture_ms = 0.0;  // 0 for what uses no light rays
+    double build_ms = 0.0;    // without capturing
 
     std::string failed() const { return contender.ok() ? "" : contender.cell.reason; }
-    double ns_per_segment(double ms) const {
-        const std::uint64_t segments = rays->source->segments();
-        return segments > 0 ? 1e6 * ms / static_cast<double>(segments) : 0.0;
-    }
-    double capture_ms() const {
-        return contender.row->traits.traces ? 0.0 : 1e3 * (rays->setup_seconds + rays->capture_seconds);
-    }
+    double ns_per_segment(double ms) const { return segments > 0 ? 1e6 * ms / static_cast<double>(segments) : 0.0; }
 };
 
 // One point of a confirmation: the map of the scenario's own seed and its times.

@@ -156,16 +156,20 @@ std::string Trials::refusal(const Setting& setting, const Contender& contender) 
 
 // Builds one map and compares its answers with the truth; `timed`: builds it on one thread, and times that.
 Trials::Attempt Trials::attempt(const Setting& setting, int seed, bool timed) {
-    Attempt attempt{contender_of(setting), nullptr};
+    Attempt attempt{contender_of(setting), nullptr, nullptr};
     Contender& contender = attempt.contender;
     if (const std::string reason = refusal(setting, contender); !reason.empty()) {
         bench::fail(contender, reason);
         return attempt;
     }
     attempt.rays = store_->rays(choice(setting, seed), contender.needs);
+    attempt.frame = attempt.rays->frame;
+    attempt.segments = attempt.rays->source->segments();
+    if (!setting.row->traits.traces)
+        attempt.capture_ms = 1e3 * (attempt.rays->setup_seconds + attempt.rays->capture_seconds);
     const Stopwatch stopwatch;
     const bench::RaySource& source = *attempt.rays->source;
-    const bench::Frame& frame = *attempt.rays->frame;
+    const bench::Frame& frame = *attempt.frame;
     const techniques::BuildInput input{frame.layout, frame.view, casters_.get()};
     const std::span<Contender> one(&contender, 1);
     if (contender.needs.apron > 0) source.for_each_batch(contender.needs.apron, [](bench::RaySource::Batch) {});
@@ -206,7 +210,7 @@ double Trials::error_of(const results::Cell& cell) const {
 void Trials::time_quickly(Attempt& attempt) const {
     Contender& contender = attempt.contender;
     const bench::QuickTimes quick =
-        bench::quick_lookup_times(contender.maps, asked(all_, attempt.rays->frame->view).asked(),
+        bench::quick_lookup_times(contender.maps, asked(all_, attempt.frame->view).asked(),
                                   static_cast<std::size_t>(scenario_->timing.lookups), scenario_->receivers.seed);
     bench::check_answers(contender, quick.asked, quick.answers);
     if (!contender.ok()) return;
@@ -244,7 +248,7 @@ Trial Trials::measure(const Point& point) {
     if (contender.ok()) {
         trial.error = error_of(contender.cell);
         trial.cost = {contender.cell.times->random_order.ns.median, static_cast<double>(contender.cell.bytes),
-                      attempt.capture_ms() + attempt.build_ms};
+                      attempt.capture_ms + attempt.build_ms};
     }
     if (attempt.rays) keep(record(setting, *attempt.rays), contender);
     seconds_ += stopwatch.seconds();

@@ -70,6 +70,7 @@ private:
     Confirmed judge_errors(std::span<const double> errors) const;
     void time(std::vector<Timed>& timed);
     void time_builds_of(std::vector<Timed>& timed, std::uint64_t repetition);
+    results::LightResult* recorded(const Setting& setting);
     results::LightResult& record(const Setting& setting, const bench::StoredRays& rays);
     void keep(results::LightResult& light, const bench::Contender& contender) const;
 

@@ -54,7 +54,7 @@ void Trials::time_builds_of(std::vector<Timed>& timed, std::uint64_t repetition)
 void Trials::time(std::vector<Timed>& timed) {
     for (Timed& one : timed) {
         const base::ThreadLimit one_thread(1);
-        one.plan = bench::plan_lookups(one.attempt.contender.maps, asked(all_, one.attempt.rays->frame->view).asked(),
+        one.plan = bench::plan_lookups(one.attempt.contender.maps, asked(all_, one.attempt.frame->view).asked(),
                                        static_cast<std::size_t>(scenario_->timing.lookups), scenario_->receivers.seed);
     }
     const auto settled = [](const Timed& one) {
@@ -87,13 +87,16 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points) {
             const Setting setting = space_->setting(points[i]);
             Attempt attempt = this->attempt(setting, seed, false);
             if (attempt.contender.ok() && (seed == 0 || measure_ == Measure::curve))
-                bench::check_functions(std::span(&attempt.contender, 1), *attempt.rays->source,
-                                       attempt.rays->frame->layout, {});
+                bench::check_functions(std::span(&attempt.contender, 1), *attempt.rays->source, attempt.frame->layout,
+                                       {});
             if (measure_ == Measure::curve && attempt.contender.ok() && !attempt.contender.cell.curve)
                 bench::fail(attempt.contender, no_curve);
             answers[i].failed = attempt.failed();
             if (attempt.contender.ok()) errors[i].push_back(error_of(attempt.contender.cell));
-            if (seed == 0 && attempt.contender.ok()) timed.push_back({i, setting, std::move(attempt)});
+            if (seed > 0 || !attempt.contender.ok()) continue;
+            record(setting, *attempt.rays);
+            attempt.rays = nullptr;  // many points' rays may not fit into memory together
+            timed.push_back({i, setting, std::move(attempt)});
         }
     std::erase_if(timed, [&](const Timed& one) { return !answers[one.index].failed.empty(); });
     time(timed);
@@ -117,7 +120,7 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points) {
         const results::Sample build = results::summarise(std::move(whole));
         answer.cost = {times.random_order.ns.median, bytes, build.median};
         answer.interval = {times.random_order.ns.interval, metrics::Interval{bytes, bytes}, build.interval};
-        keep(record(one.setting, *one.attempt.rays), contender);
+        keep(*recorded(one.setting), contender);
     }
     seconds_ += stopwatch.seconds();
     return answers;

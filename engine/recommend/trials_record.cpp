@@ -17,11 +17,16 @@ namespace shadowbench::recommend {
 using bench::Contender;
 using bench::StoredRays;
 
+results::LightResult* Trials::recorded(const Setting& setting) {
+    const bench::RayChoice own = choice(setting, 0);
+    for (auto& [rays, light] : recorded_)
+        if (rays == own) return &light;
+    return nullptr;
+}
+
 // The light of the variant with these rays.
 results::LightResult& Trials::record(const Setting& setting, const StoredRays& rays) {
-    const bench::RayChoice own = choice(setting, 0);
-    for (auto& [rays_of, light] : recorded_)
-        if (rays_of == own) return light;
+    if (results::LightResult* there = recorded(setting)) return *there;
     const rays::MapLayout& layout = rays.frame->layout;
     results::LightResult light;
     light.name = light_->name;
@@ -42,7 +47,7 @@ results::LightResult& Trials::record(const Setting& setting, const StoredRays& r
     light.reference.error_rms = truth_rms_;
     light.reference.error_max = truth_max_;
     light.reference.noise_tolerance = 0.5 / std::sqrt(static_cast<double>(layout.samples()));
-    return recorded_.emplace_back(own, std::move(light)).second;
+    return recorded_.emplace_back(choice(setting, 0), std::move(light)).second;
 }
 
 // A later measurement of the same setting takes the place of the earlier one.
