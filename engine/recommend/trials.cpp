@@ -229,7 +229,7 @@ void Trials::check_some(Attempt& attempt) const {
                                     !contender.cell.outside_promise, contender.needs.apron};
     const std::size_t cells = measure_ == Measure::curve ? checked_cells : quickly_checked_cells;
     bench::CurveVerdict verdict =
-        bench::check_curves(*attempt.rays->source, attempt.rays->frame->layout, std::span(&checked, 1), cells, {})[0];
+        bench::check_curves(*attempt.rays->source, attempt.frame->layout, std::span(&checked, 1), cells, {})[0];
     contender.cell.curve = std::move(verdict.errors);
     if (!verdict.broken.empty())
         bench::fail(contender, verdict.broken);
