@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "recommend/incumbents.h"
 #include "recommend/knowledge.h"
+#include "recommend/ladder.h"
 
 namespace shadowbench::recommend {
 namespace {
@@ -56,28 +57,6 @@ private:
     Incumbents incumbents_;
 };
 
-// The climb of a family: all axes together, from the cheapest to the most accurate setting.
-std::vector<Point> ladder(const Family& family, std::size_t number, int levels) {
-    std::vector<Point> points;
-    for (int level = 0; level <= levels; ++level) {
-        Point point{number, {}};
-        for (const Axis& axis : family.axes) point.step.push_back((level * (axis.steps() - 1) + levels / 2) / levels);
-        if (points.empty() || !(points.back() == point)) points.push_back(point);
-    }
-    return points;
-}
-
-// As many for all families as the light rays' axes have coarse steps, so that all meet the same light rays.
-int coarse_steps(const std::vector<Family>& families) {
-    int levels = 1;
-    for (const Family& family : families)
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            const Axis& a = family.axes[axis];
-            levels = std::max(levels, (a.steps() - 1 + a.stride - 1) / a.stride);
-        }
-    return levels;
-}
-
 bool same_light_rays(const Family& a, const Family& b) {
     return a.axes[0].values == b.axes[0].values && a.axes[1].values == b.axes[1].values;
 }
@@ -88,10 +67,10 @@ Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
     found_.families = {lab.families().begin(), lab.families().end()};
     found_.scout = lab.scout();
     wanted_ = {goal.error, goal.error, goal.at_most};
-    const int levels = coarse_steps(found_.families);
+    const int rungs = ladder_rungs(found_.families);
     for (std::size_t i = 0; i < found_.families.size(); ++i) {
         families_.emplace_back(found_.families[i], i, lab);
-        ladders_.push_back(ladder(found_.families[i], i, levels));
+        ladders_.push_back(ladder(found_.families[i], i, rungs));
     }
     rungs_.assign(families_.size(), 0);
 }
