@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/read_text.h"
 #include "base/write_files.h"
+#include "recommend/answer.h"
 #include "recommend/record.h"
 #include "recommend/search.h"
 #include "recommend/trials.h"
@@ -130,24 +131,21 @@ Explored explore_scenario(const RecommendArguments& arguments, const Goal& goal,
 }  // namespace
 
 bool recommend_command(const RecommendArguments& arguments, std::ostream& out, std::ostream& err) {
-    Goal goal = read_goal(arguments);
+    const Goal goal = read_goal(arguments);
     if (arguments.from.empty() && arguments.scenario.empty())
         throw Error(ErrorCode::usage, "SCENARIO", "name a scenario, or the folder of an exploration with --from");
     fs::path folder = arguments.from;
-    Explored explored =
+    const Explored explored =
         arguments.from.empty() ? explore_scenario(arguments, goal, folder, err) : read_explored(arguments.from);
-    explored.exploration.goal = goal;
-    bool reached = false;
-    for (const recommend::Answered& a : explored.exploration.confirmed) {
-        const recommend::Family& family = explored.exploration.families[a.point.family];
-        out << fmt::format("{:<45} {:.5g} [{:.5g}, {:.5g}] {:.4g} ns {:.0f} B {:.4g} ms {} {}\n", family.name,
-                           a.confirmed.mean_error, a.confirmed.error.low, a.confirmed.error.high, a.confirmed.cost[0],
-                           a.confirmed.cost[1], a.confirmed.cost[2], recommend::scenario_part(family, a.point).dump(),
-                           a.confirmed.failed);
-        reached = reached || (a.confirmed.failed.empty() && a.confirmed.error.high <= goal.error);
-    }
+    const std::vector<recommend::Family>& families = explored.exploration.families;
+    const recommend::Answer answer = recommend::answer(explored.exploration, goal);
+    const auto paste = [&](const recommend::Point& point) {
+        return recommend::scenario_part(families[point.family], point).dump();
+    };
+    out << fmt::format("{}, light {}\n", explored.scenario, explored.light)
+        << recommend::to_text(answer, families, {measure_words[static_cast<std::size_t>(explored.measure)], paste});
     if (arguments.from.empty()) out << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
-    return reached;
+    return answer.reached;
 }
 
 }  // namespace shadowbench::service
