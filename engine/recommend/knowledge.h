@@ -22,8 +22,6 @@ inline constexpr double clear_error = 1.1;
 inline constexpr double scout_slack = 0.5;
 // What a short measurement of a cost may be off by, as a factor.
 inline constexpr std::array<double, costs> cost_noise{1.15, 1.0, 1.15};
-// If two coarse steps of all axes lower the error to more than this share of it, a family gets no better.
-inline constexpr double flat_share = 0.9;
 // A family is left out if this many points fail and none succeeds.
 inline constexpr std::size_t failures_to_leave = 3;
 
