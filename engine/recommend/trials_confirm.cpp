@@ -19,7 +19,7 @@ constexpr double capture_share = 0.1;  // seconds of capturing that one repetiti
 // A confirmation repeats its times until the interval of each lookup time is this narrow, as a share of the time.
 constexpr double narrow = 0.03;
 constexpr int least_repetitions = 7, most_repetitions = 21;
-constexpr double longest_timing = 60.0;  // seconds, after the least repetitions
+constexpr double longest_timing = 15.0;  // seconds, after the least repetitions
 
 }  // namespace
 
