@@ -4,9 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
 #include "base/parallel.h"
 #include "bench/agreement.h"
 #include "bench/build_timing.h"
