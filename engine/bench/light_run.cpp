@@ -3,8 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "bench/agreement.h"
 #include "bench/clock.h"
@@ -27,18 +25,6 @@ constexpr std::size_t agreement_rays = 20000;
 
 const scene::Light& light_of(const LightJob& job) {
     return job.scenario.lights[job.light];
-}
-
-QuerySet make_queries(const LightJob& job, const rays::LightView& view) {
-    const scene::Receivers& receivers = job.scenario.receivers;
-    QuerySet set = receivers.camera            ? queries_of_points(job.seen, receivers, view)
-                   : !receivers.points.empty() ? point_queries(receivers, view)
-                                               : probe_queries(receivers, view);
-    if (!set.queries.empty()) return set;
-    throw base::Error(base::ErrorCode::bad_input, "/receivers",
-                      set.dropped == 0 ? "there are no receivers: the camera sees no surface and no medium"
-                                       : fmt::format("none of the {} receivers is inside the map of light \"{}\"",
-                                                     set.dropped, light_of(job).name));
 }
 
 RaySource::Watch stage(const LightJob& job, const char* name, const rays::MapLayout& layout) {
@@ -82,12 +68,6 @@ void find_spread(const LightJob& job, std::span<Contender> contenders, const tec
     report.spread_max = spread.max;
 }
 
-QuerySet judged_queries(const LightJob& job, const QuerySet& set) {
-    const scene::Reference& reference = job.scenario.reference;
-    return pick(set.asked(),
-                choose_judged(set.queries.size(), static_cast<std::size_t>(reference.queries), reference.seed));
-}
-
 results::LightResult describe(const LightJob& job, const rays::MapLayout& layout, const QuerySet& set) {
     results::LightResult result;
     result.name = light_of(job).name;
@@ -115,11 +95,11 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
     const auto [view, layout, least] = prepare_light(job.scenario, job.light, contenders, job.limits);
     const techniques::BuildInput input{layout, view, job.casters};
     if (scene.deep_image) check_served(contenders, input);
-    const QuerySet set = make_queries(job, view);
+    const QuerySet set = scenario_queries(job.scenario, light_of(job), job.seen, view);
     results::LightResult result = describe(job, layout, set);
 
     // Other seeds come before the light's own rays and maps, so that memory holds only one of them at a time.
-    const QuerySet judged = judged_queries(job, set);
+    const QuerySet judged = judged_queries(job.scenario, set);
     const Truth truth = find_truth(job, view, judged.queries);
     result.reference = report_reference(layout, judged.queries, truth);
     find_spread(job, contenders, input, judged.asked(), truth, result.reference);

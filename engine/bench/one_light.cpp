@@ -17,6 +17,15 @@ namespace {
 using base::Error;
 using base::ErrorCode;
 
+RaySource::Watch stage(const ProgressCallback& progress, const char* name, const rays::MapLayout& layout) {
+    if (!progress) return {};
+    return [&progress, name, total = static_cast<std::size_t>(layout.tiles())](std::size_t done) {
+        progress({"", name, done, total});
+    };
+}
+
+}  // namespace
+
 document::Variant only_variant(const nlohmann::json& document) {
     std::vector<document::Variant> variants = document::expand(document);
     if (variants.size() == 1) return std::move(variants[0]);
@@ -27,15 +36,6 @@ document::Variant only_variant(const nlohmann::json& document) {
                 fmt::format("the scenario sweeps over {}; set one value of each, as in --set {}=...", swept,
                             variants[0].settings[0].pointer));
 }
-
-RaySource::Watch stage(const ProgressCallback& progress, const char* name, const rays::MapLayout& layout) {
-    if (!progress) return {};
-    return [&progress, name, total = static_cast<std::size_t>(layout.tiles())](std::size_t done) {
-        progress({"", name, done, total});
-    };
-}
-
-}  // namespace
 
 std::vector<std::string> names_of(const std::vector<scene::Light>& lights) {
     std::vector<std::string> names;

@@ -17,6 +17,7 @@
 #include "bench/progress.h"
 #include "bench/ray_source.h"
 #include "bench/run.h"
+#include "document/document.h"
 #include "document/technique_choice.h"
 #include "rays/tracer.h"
 
@@ -27,6 +28,9 @@ std::vector<std::string> names_of(const std::vector<scene::Light>& lights);
 // The index of a light given by its name or by its number, from 0 on; empty: the first. Throws Error{usage}, place:
 // `prefix` and the name, as in "--light moon".
 std::size_t find_light(const std::vector<std::string>& names, const std::string& name, const std::string& prefix);
+
+// The scenario of a document without choices. Throws Error{usage} for sweeps that leave a choice of scenarios.
+document::Variant only_variant(const nlohmann::json& document);
 
 class OneLight {
 public:

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "base/random.h"
 
 namespace shadowbench::bench {
@@ -47,6 +50,26 @@ double width_at(double z, const scene::FilterWidth& width, const rays::LightView
 double side_of(const Footprint& f) {
     if (!f.known()) return std::numeric_limits<double>::infinity();
     return std::sqrt(std::abs(static_cast<double>(f.ux) * f.vy - static_cast<double>(f.uy) * f.vx));
+}
+
+// Relative to the size of the map. The pixels must also keep their shape, since a query has one width.
+constexpr double frame_rounding = 1e-9;
+
+void check_same_frame(const rays::LightView& a, const rays::LightView& b) {
+    const auto differ = [](double first, double second, double size) {
+        return !(std::abs(first - second) <= frame_rounding * size);
+    };
+    const double width = a.pixel.x * a.resolution.x, height = a.pixel.y * a.resolution.y;
+    if (a.perspective == b.perspective && !differ(a.lower.x, b.lower.x, width) &&
+        !differ(a.lower.y, b.lower.y, height) && !differ(width, b.pixel.x * b.resolution.x, width) &&
+        !differ(height, b.pixel.y * b.resolution.y, height) &&
+        !differ(a.pixel.x / b.pixel.x, a.pixel.y / b.pixel.y, a.pixel.x / b.pixel.x) && a.z_min == b.z_min &&
+        a.z_max == b.z_max)
+        return;
+    throw base::Error(
+        base::ErrorCode::internal, "light",
+        fmt::format("maps of {} x {} and of {} x {} pixels do not frame the same part of the light's plane",
+                    a.resolution.x, a.resolution.y, b.resolution.x, b.resolution.y));
 }
 
 }  // namespace
@@ -110,6 +133,39 @@ QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView&
         place.z = random.uniform(view.z_min, view.z_max + behind * range);
         append(query_if_seen(place, width_at(place.z, receivers.filter_width, view), view), set);
     }
+    return set;
+}
+
+QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& light, std::span<const CameraPoint> seen,
+                          const rays::LightView& view) {
+    const scene::Receivers& receivers = scenario.receivers;
+    QuerySet set = receivers.camera            ? queries_of_points(seen, receivers, view)
+                   : !receivers.points.empty() ? point_queries(receivers, view)
+                                               : probe_queries(receivers, view);
+    if (!set.queries.empty()) return set;
+    throw base::Error(base::ErrorCode::bad_input, "/receivers",
+                      set.dropped == 0 ? "there are no receivers: the camera sees no surface and no medium"
+                                       : fmt::format("none of the {} receivers is inside the map of light \"{}\"",
+                                                     set.dropped, light.name));
+}
+
+QuerySet judged_queries(const scene::Scenario& scenario, const QuerySet& set) {
+    const scene::Reference& reference = scenario.reference;
+    return pick(set.asked(),
+                choose_judged(set.queries.size(), static_cast<std::size_t>(reference.queries), reference.seed));
+}
+
+QuerySet rescaled(const Asked& asked, const rays::LightView& from, const rays::LightView& to) {
+    check_same_frame(from, to);
+    const float x = static_cast<float>(from.pixel.x / to.pixel.x), y = static_cast<float>(from.pixel.y / to.pixel.y);
+    // A position in the map stays in it, whatever the rounding.
+    const float right = std::nextafter(static_cast<float>(to.resolution.x), 0.0f),
+                top = std::nextafter(static_cast<float>(to.resolution.y), 0.0f);
+    QuerySet set;
+    set.queries.reserve(asked.queries.size());
+    for (const Query& q : asked.queries)
+        set.queries.push_back({std::min(q.x * x, right), std::min(q.y * y, top), q.z, q.width * x});
+    for (const Footprint& f : asked.footprints) set.footprints.push_back({f.ux * x, f.uy * y, f.vx * x, f.vy * y});
     return set;
 }
 

@@ -43,6 +43,19 @@ QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView&
 // Points spread evenly over the map and over the depth range of the casters, and a little behind it.
 QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView& view);
 
+// The queries of a scenario's receivers to the light with this view; `seen`: what its camera sees, none without a
+// camera. Throws Error{bad_input} if no receiver is inside the map.
+QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& light, std::span<const CameraPoint> seen,
+                          const rays::LightView& view);
+
+// The queries that are compared with the truth.
+QuerySet judged_queries(const scene::Scenario& scenario, const QuerySet& set);
+
+// Asks the same question of another map of the same light that frames the same part of its plane: positions, widths and
+// pixels keep their places and sizes in light space. Throws Error{internal} if the maps differ in more than their
+// resolution.
+QuerySet rescaled(const Asked& asked, const rays::LightView& from, const rays::LightView& to);
+
 // Indices of `count` queries out of `total`, one from each of `count` equal stretches; all if there are fewer.
 std::vector<std::size_t> choose_judged(std::size_t total, std::size_t count, std::uint64_t seed);
 

@@ -33,11 +33,17 @@ struct Axis {
 
 // One technique with one choice of its words (a filter, a kernel): words have no order, so each choice is a family of
 // its own. Axis 0 is the map's resolution and axis 1 the number of light rays a pixel, equal for all families: points
-// that agree in both share their light rays. The technique's own parameters follow.
+// that agree in both share their light rays. The technique's own parameters follow. A family that needs no light rays
+// has one step on axes 0 and 1, and its points share none.
 struct Family {
+    // A parameter that is the same for all points, and its value as JSON.
+    struct Word {
+        std::string name, value;
+    };
     std::string technique;  // a runner-up is the best family of another technique
     std::string name;       // the technique and its words: "deep kernel=box"
     std::vector<Axis> axes;
+    std::vector<Word> words = {};
 };
 
 struct Point {
@@ -70,8 +76,8 @@ public:
     // The family that loses nothing of its light rays (the uncompressed map): the others err at least about as much at
     // the same resolution and samples. Nothing if there is none.
     virtual std::optional<std::size_t> scout() const = 0;
-    // About how many seconds measure() would take now, to order the work: the light rays, unless they are there already,
-    // and the rest. Above 0.
+    // About how many seconds measure() would take now, to order the work: the light rays, unless they are there
+    // already, and the rest. Above 0.
     virtual double effort(const Point& point) const = 0;
     // A lower bound of a cost that is known without measuring; 0 if nothing is known.
     virtual double at_least(const Point& point, Cost cost) const = 0;

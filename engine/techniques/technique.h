@@ -150,6 +150,20 @@ inline ParameterValues with(ParameterValues values, std::span<const ParameterSet
     return values;
 }
 
+// A parameter that a search over settings varies, because it trades cost against error.
+struct Trade {
+    enum class Scale {
+        linear,       // equal steps
+        logarithmic,  // equal ratios
+        choice,       // values without an order
+    };
+    const char* parameter = "";
+    Scale scale = Scale::choice;
+    double from = 0.0, to = 0.0;  // linear, logarithmic: the cheapest and the most accurate value
+    // choice: at least one value. A single one is set instead of the default.
+    std::vector<ParameterValues::Value> choices = {};
+};
+
 // What generic code must know about a technique besides its promises, so that it never checks the name. The tests of
 // every row read these traits.
 struct Traits {
@@ -169,6 +183,9 @@ struct Traits {
     std::vector<ParameterSetting> order_free = {};
     // With these a lookup as wide as a pixel, in its middle, covers exactly the rays of the pixel.
     std::vector<ParameterSetting> whole_pixel = {};
+    // What a search over settings varies besides the map's resolution and the light rays a pixel; other parameters keep
+    // their defaults.
+    std::vector<Trade> trades = {};
 };
 
 inline double no_bound(const ParameterValues&, const rays::MapLayout&) {

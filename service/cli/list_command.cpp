@@ -11,6 +11,7 @@
 #include "service/cli/commands.h"
 #include "service/cli/scenario_files.h"
 #include "techniques/technique.h"
+#include "techniques/trades.h"
 
 namespace shadowbench::service {
 namespace {
@@ -47,6 +48,13 @@ std::string promises_of(const techniques::Promises& promises) {
     return text;
 }
 
+std::string trades_of(const techniques::Traits& traits) {
+    std::string text = traits.traces ? "" : "resolution, samples_per_pixel";
+    for (const techniques::Trade& trade : traits.trades)
+        text += (text.empty() ? "" : ", ") + techniques::to_string(trade);
+    return text;
+}
+
 struct Listed {
     std::string name, purpose, file;
 };
@@ -74,6 +82,7 @@ void list_techniques(std::ostream& out) {
         for (const Parameter& parameter : row.parameters)
             out << fmt::format("{:<14}{}={}  [{}] {}\n", "", parameter.name, standard_of(parameter),
                                values_of(parameter), parameter.doc);
+        out << fmt::format("{:<14}recommend tries: {}\n", "", trades_of(row.traits));
     }
 }
 

@@ -14,6 +14,8 @@ class Option;
 
 namespace shadowbench::service {
 
+struct JobArguments;
+
 struct Command {
     CLI::App* app;                                                 // the subcommand, with its options
     std::function<int(std::ostream& out, std::ostream& err)> run;  // the exit code; throws base::Error
@@ -35,6 +37,14 @@ inline constexpr const char *measure = "Measure scenarios", *files = "Read and w
 // its --help. `notes` follow them.
 void set_help(CLI::App& command, const char* group, std::initializer_list<const char*> examples,
               const std::string& notes = "");
+
+// Options that several commands share; arguments and folder must outlive the parsing.
+void add_job_options(CLI::App& command, JobArguments& arguments);
+void add_only_option(CLI::App& command, JobArguments& arguments);
+void add_folder_option(CLI::App& command, std::string& folder, const char* text);
+
+// Adds the subcommand recommend, as the functions below do for theirs.
+void add_recommend(CLI::App& app, Commands& commands);
 
 // Each adds its subcommands to the application, and to `commands` what they run once the arguments are parsed.
 void add_measuring_commands(CLI::App& app, Commands& commands);

@@ -36,6 +36,8 @@ CLI::Validator in_range(double least, double most) {
             range.get_description()};
 }
 
+}  // namespace
+
 void add_job_options(CLI::App& command, JobArguments& arguments) {
     repeatable(command.add_option("--set", arguments.set,
                                   "path=value: change one value of the scenario, as in rays.samples_per_pixel=64 or "
@@ -56,11 +58,6 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
         ->capture_default_str();
 }
 
-void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
-    command.add_option("SCENARIO", arguments.scenario, "A scenario file, or the name of one")->required();
-    add_job_options(command, arguments);
-}
-
 void add_folder_option(CLI::App& command, std::string& folder, const char* text) {
     command.add_option("--out", folder, text)->check([](const std::string& name) {
         return std::string(name.empty() ? "the name of the folder is empty" : "");
@@ -69,6 +66,13 @@ void add_folder_option(CLI::App& command, std::string& folder, const char* text)
 
 void add_only_option(CLI::App& command, JobArguments& arguments) {
     repeatable(command.add_option("--only", arguments.only, "Measure only techniques of this type"));
+}
+
+namespace {
+
+void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
+    command.add_option("SCENARIO", arguments.scenario, "A scenario file, or the name of one")->required();
+    add_job_options(command, arguments);
 }
 
 void add_run(CLI::App& app, Commands& commands) {
@@ -240,8 +244,8 @@ void add_reproduce(CLI::App& app, Commands& commands) {
 }  // namespace
 
 void add_measuring_commands(CLI::App& app, Commands& commands) {
-    for (const auto add :
-         {add_run, add_render, add_validate, add_export, add_inspect, add_list, add_curve, add_reproduce})
+    for (const auto add : {add_run, add_recommend, add_render, add_validate, add_export, add_inspect, add_list,
+                           add_curve, add_reproduce})
         add(app, commands);
 }
 

@@ -91,7 +91,7 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"results", {"base", "document", "metrics", "results"}},
         {"compare", {"base", "document", "metrics", "results", "compare"}},
         {"bench", {"base", "scene", "rays", "curves", "techniques", "metrics", "document", "results", "bench"}},
-        {"recommend", {"base", "metrics", "recommend"}},
+        {"recommend", {"base", "scene", "rays", "techniques", "metrics", "document", "results", "bench", "recommend"}},
         {"render",
          {"base", "scene", "rays", "curves", "techniques", "metrics", "document", "results", "bench", "render"}},
         {"claims",
@@ -109,8 +109,8 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         // The command line also reads and writes deep shadow map files.
         {"service/cli",
          {"base", "scene", "curves", "techniques", "techniques/deep", "document", "results", "compare", "bench",
-          "render", "claims", "service/privacy", "service/process", "service/jobs", "service/api", "service/http",
-          "service/web", "service/cli"}},
+          "recommend", "render", "claims", "service/privacy", "service/process", "service/jobs", "service/api",
+          "service/http", "service/web", "service/cli"}},
         {"service", {"service/cli"}},
     };
     for (const Include& include : includes()) {

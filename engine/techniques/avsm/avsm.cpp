@@ -173,8 +173,13 @@ private:
 
 }  // namespace
 
+// Not traded: `order` captured and shuffled, which lose accuracy at the same size; `cells`, since one function a sample
+// is a finer map of one sample.
 Technique avsm() {
     Traits traits = texel_traits();
+    traits.trades = {{"nodes", Trade::Scale::logarithmic, 2, 64},
+                     {.parameter = "sampling", .choices = {"linear", "exponential"}},
+                     filter_trade};
     traits.segment_rounding = 0x1p-24;                           // see stream.h
     traits.order_free = {{"order", "sorted"}, {"nodes", 64.0}};  // once a node is dropped, the order counts
     return {.id = "avsm",

@@ -159,6 +159,15 @@ std::size_t least_bytes(const ParameterValues& values, const rays::MapLayout& la
     return sum;
 }
 
+// Not traded: `compression=published`, which keeps the same tolerance with other faults; `filter` and `radius`, which
+// widen every lookup beyond its footprint; `kernel=pixels`, which drops and adds whole pixels; `search`, whose cached
+// and linear ways gain only where neighbours are looked up together, or for very short functions.
+std::vector<Trade> deep_trades() {
+    return {{"tolerance", Trade::Scale::logarithmic, 0.2, 0.0005},
+            {.parameter = "kernel", .choices = {"box", "tent"}},
+            {.parameter = "mip", .choices = {"none", "nearest", "blend"}}};
+}
+
 }  // namespace
 
 std::span<const DeepLevel> levels(const Map& map) {
@@ -190,7 +199,8 @@ Technique deep() {
             // order of their sums: no two products of round numbers are twice this apart.
             .traits = {.pointwise = {{"mip", "none"}, {"kernel", "box"}},
                        .order_free = {{"tolerance", 0.0131}},
-                       .whole_pixel = {{"filter", "box"}, {"radius", 0.5}}}};
+                       .whole_pixel = {{"filter", "box"}, {"radius", 0.5}},
+                       .trades = deep_trades()}};
 }
 
 }  // namespace shadowbench::techniques

@@ -231,6 +231,18 @@ private:
     StoredDepths depths_;
 };
 
+// `min_size` is a length in cells: the filter would depend on the map's resolution instead of the query alone.
+// `min_samples` would hide the smallest numbers of samples. Not traded: the biases and `cells`, for the reasons of
+// shadow_map; `region`, as the query asks for one; `placement`, since of those that fill the query's square jittered
+// samples have the least noise.
+std::vector<Trade> pcf_trades() {
+    return {{"num_samples", Trade::Scale::logarithmic, 1, 256},
+            {.parameter = "res_factor", .choices = {1.0, 3.0}},
+            {.parameter = "min_size", .choices = {0.0}},
+            {.parameter = "min_samples", .choices = {1.0}},
+            storage_trade};
+}
+
 }  // namespace
 
 Technique pcf() {
@@ -247,7 +259,8 @@ Technique pcf() {
                        .beyond_footprint = true,
                        .filters = false,
                        .biases = {"bias0", "bias1"},
-                       .pointwise = {{"region", "query"}, {"min_size", 0.0}}}};
+                       .pointwise = {{"region", "query"}, {"min_size", 0.0}},
+                       .trades = pcf_trades()}};
 }
 
 }  // namespace shadowbench::techniques

@@ -62,7 +62,9 @@ Technique shadow_map() {
             .create = create_map<ShadowMap>,
             .error_bound = [](const ParameterValues&, const rays::MapLayout&) { return 0.0; },
             .least_bytes = StoredDepths::least_bytes,
-            .traits = {.filters = false, .biases = {"bias"}}};
+            // Not traded: `bias`, which costs nothing, and `cells`, since a cell for each sample is a finer map of
+            // one sample.
+            .traits = {.filters = false, .biases = {"bias"}, .trades = {storage_trade}}};
 }
 
 }  // namespace shadowbench::techniques

@@ -93,7 +93,10 @@ Promises promised(const ParameterValues& values) {
 
 }  // namespace
 
+// Not traded: `range=raw`, whose answers above 1 are only less accurate; `opaque_depth` and `cells`, as for opacity.
 Technique fourier() {
+    Traits traits = texel_traits();
+    traits.trades = {{"terms", Trade::Scale::logarithmic, 1, most_terms}, filter_trade};
     return {.id = "fourier",
             .title = "Fourier opacity map: a truncated series of the absorption",
             .paper = "Jansen, Bavoil 2010",
@@ -103,7 +106,7 @@ Technique fourier() {
             .create = create_map<Fourier>,
             .least_bytes = Fourier::least_bytes,
             .promises_of = promised,
-            .traits = texel_traits()};
+            .traits = traits};
 }
 
 }  // namespace shadowbench::techniques

@@ -179,6 +179,17 @@ private:
     DepthStore store_;
 };
 
+// `region=cells` is a filter of a fixed number of cells: it would depend on the map's resolution. Not traded: `q`,
+// whose neighbours are cells too; `select` maximum and minimum, which make every shadow smaller or larger; `bias` and
+// `cells`, for the reasons of shadow_map.
+std::vector<Trade> multi_depth_trades() {
+    return {{"n", Trade::Scale::linear, 1, most_depths},
+            {"kernel", Trade::Scale::linear, 1, 16},
+            {.parameter = "select", .choices = {"both", "sorted"}},
+            {.parameter = "region", .choices = {"query"}},
+            storage_trade};
+}
+
 }  // namespace
 
 Technique multi_depth() {
@@ -207,7 +218,8 @@ Technique multi_depth() {
                        .filters = false,
                        .lookup_rounding = 1e-7,
                        .biases = {"bias"},
-                       .pointwise = {{"kernel", 1.0}}}};
+                       .pointwise = {{"kernel", 1.0}},
+                       .trades = multi_depth_trades()}};
 }
 
 }  // namespace shadowbench::techniques

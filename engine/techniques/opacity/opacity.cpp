@@ -132,7 +132,12 @@ Promises promised(const ParameterValues& values) {
 
 }  // namespace
 
+// Not traded: `opaque_depth`, which costs nothing; `cells`, for the reason of avsm.
 Technique opacity() {
+    Traits traits = texel_traits();
+    traits.trades = {{"slices", Trade::Scale::logarithmic, 1, most_slices},
+                     {.parameter = "bounds", .choices = {"map", "texel"}},
+                     filter_trade};
     return {.id = "opacity",
             .title = "opacity shadow map: optical depth at uniform slices",
             .paper = "Kim, Neumann 2001",
@@ -142,7 +147,7 @@ Technique opacity() {
             .create = create_map<Opacity>,
             .least_bytes = Opacity::least_bytes,
             .promises_of = promised,
-            .traits = texel_traits()};
+            .traits = traits};
 }
 
 }  // namespace shadowbench::techniques

@@ -96,7 +96,10 @@ Technique ray_traced() {
             .version = 4,
             .parameters = parameters,
             .create = create_map<RayTraced>,
-            .traits = {.traces = true, .draws_samples = true, .filters = false}};
+            .traits = {.traces = true,
+                       .draws_samples = true,
+                       .filters = false,
+                       .trades = {{"samples", Trade::Scale::logarithmic, 1, 1024}}}};
 }
 
 }  // namespace shadowbench::techniques

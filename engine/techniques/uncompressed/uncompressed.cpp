@@ -242,7 +242,9 @@ Technique uncompressed() {
                 [](const ParameterValues&, const rays::MapLayout& layout) {
                     return make_cells(layout, Cells::sample).count() * sizeof(std::uint32_t);
                 },
-            .traits = {.pointwise = {{"filter", "point"}}, .whole_pixel = {{"filter", "footprint"}}}};
+            .traits = {.pointwise = {{"filter", "point"}},
+                       .whole_pixel = {{"filter", "footprint"}},
+                       .trades = {filter_trade}}};
 }
 
 }  // namespace shadowbench::techniques

@@ -159,6 +159,10 @@ Promises promised(const ParameterValues& values) {
 }  // namespace
 
 Technique variance() {
+    Traits traits = texel_traits();
+    // Not traded: `min_variance`, which costs nothing; `cells`, since one function a sample is a finer map of one
+    // sample.
+    traits.trades = {filter_trade};
     return {.id = "variance",
             .title = "variance shadow map: two moments of depth, and Chebyshev's bound",
             .paper = "Donnelly, Lauritzen 2006",
@@ -168,7 +172,7 @@ Technique variance() {
             .create = create_map<Variance>,
             .least_bytes = Variance::least_bytes,
             .promises_of = promised,
-            .traits = texel_traits()};
+            .traits = traits};
 }
 
 }  // namespace shadowbench::techniques

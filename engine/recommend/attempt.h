@@ -1,0 +1,37 @@
+// What Trials knows of one map. Internal to it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/lookup_timing.h"
+#include "recommend/trials.h"
+
+namespace shadowbench::recommend {
+
+// One map with everything that was measured on it.
+struct Trials::Attempt {
+    bench::Contender contender;
+    std::shared_ptr<const bench::Frame> frame;      // null if the attempt was refused before rays were captured
+    std::shared_ptr<const bench::StoredRays> rays;  // the same; a confirmation drops them when they are checked
+    std::uint64_t segments = 0;
+    double capture_ms = 0.0;  // 0 for what uses no light rays
+    double build_ms = 0.0;    // without capturing
+
+    std::string failed() const { return contender.ok() ? "" : contender.cell.reason; }
+    double ns_per_segment(double ms) const { return segments > 0 ? 1e6 * ms / static_cast<double>(segments) : 0.0; }
+};
+
+// One point of a confirmation: the map of the scenario's own seed and its times.
+struct Trials::Timed {
+    std::size_t index = 0;  // of the point
+    Setting setting;
+    Attempt attempt;
+    bench::LookupPlan plan{};
+    std::vector<double> capture_ms{}, build_ms{};
+};
+
+inline constexpr const char* no_curve = "stores no function, so it has no error of stored functions";
+
+}  // namespace shadowbench::recommend

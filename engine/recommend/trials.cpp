@@ -1,0 +1,258 @@
+#include "recommend/trials.h"
+
+#include <algorithm>
+#include <ctime>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench/build_timing.h"
+#include "bench/clock.h"
+#include "bench/curve_check.h"
+#include "bench/one_light.h"
+#include "bench/prepared_light.h"
+#include "bench/quick_timing.h"
+#include "bench/reference.h"
+#include "document/document.h"
+#include "recommend/attempt.h"
+
+namespace shadowbench::recommend {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+using bench::Contender;
+using bench::QuerySet;
+using bench::Stopwatch;
+using bench::StoredRays;
+
+constexpr double most_rays = 1 << 28;               // of one map; more take many minutes
+constexpr std::size_t quickly_checked_cells = 256;  // of a map, in a short measurement
+constexpr std::size_t checked_cells = 4096;         // the same if the error of the stored functions is asked for
+constexpr double rest_of_a_trial = 0.05;            // seconds: what every measurement takes besides rays and builds
+
+std::string now_utc() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+// The document without the sweeps over what is explored.
+nlohmann::json without_explored_sweeps(nlohmann::json document) {
+    const auto sweeps = document.is_object() ? document.find("sweeps") : document.end();
+    if (sweeps == document.end() || !sweeps->is_object()) return document;
+    for (auto sweep = sweeps->begin(); sweep != sweeps->end();) {
+        const bool explored = sweep.key() == "/rays/samples_per_pixel" || sweep.key().rfind("/techniques/", 0) == 0;
+        sweep = explored ? sweeps->erase(sweep) : std::next(sweep);
+    }
+    if (sweeps->empty()) document.erase("sweeps");
+    return document;
+}
+
+std::size_t chosen_light(const std::vector<scene::Light>& lights, const std::string& name) {
+    const std::vector<std::string> names = bench::names_of(lights);
+    if (!name.empty() || names.size() == 1) return bench::find_light(names, name, "--light ");
+    throw Error(ErrorCode::usage, "--light",
+                fmt::format("the scenario has {} lights, and each may need other settings; name one of: {}",
+                            names.size(), fmt::join(names, ", ")));
+}
+
+Contender contender_of(const Setting& setting) {
+    const std::string where = fmt::format("technique {}", setting.row->id);
+    return bench::make_contender({setting.row->id, techniques::to_json(setting.values).dump(), where}, where);
+}
+
+double least_bytes(const Setting& setting, rays::MapLayout layout) {
+    if (setting.row->coloured) return static_cast<double>(setting.row->least_bytes(setting.values, layout));
+    const int channels = std::exchange(layout.channels, 1);
+    return channels * static_cast<double>(setting.row->least_bytes(setting.values, layout));
+}
+
+}  // namespace
+
+Trials::Trials(const nlohmann::json& document, const bench::RunOptions& options, const std::string& light,
+               Measure measure, const bench::ProgressCallback& progress)
+    : options_(options),
+      threads_(options.threads),
+      started_(now_utc()),
+      loader_(options.data),
+      progress_(progress),
+      measure_(measure) {
+    const Stopwatch stopwatch;
+    const nlohmann::json single = without_explored_sweeps(document);
+    document_ = single.dump();
+    scenario_ = &loader_.load(bench::only_variant(single));
+    index_ = chosen_light(scenario_->lights, light);
+    light_ = &scenario_->lights[index_];
+    space_.emplace(*scenario_, options_.only);
+    store_.emplace(*scenario_, index_, options_.limits);
+    const bench::PreparedLight prepared = bench::prepare_light(*scenario_, index_, {}, options_.limits);
+    own_ = std::make_shared<const bench::Frame>(bench::Frame{prepared.view, prepared.layout});
+    if (rays::misses_all(own_->view, scenario_->scene))
+        throw Error(ErrorCode::bad_input, bench::pointer_of(*scenario_, index_),
+                    fmt::format("light \"{}\" sees nothing that casts a shadow", light_->name));
+    std::vector<bench::CameraPoint> seen;
+    if (!scenario_->scene.objects.empty()) {
+        casters_ = std::make_unique<rays::Tracer>(scenario_->scene, true);
+        if (scenario_->receivers.camera)
+            seen = bench::camera_points(scenario_->receivers, rays::Tracer(scenario_->scene, false));
+    }
+    all_ = bench::scenario_queries(*scenario_, *light_, seen, own_->view);
+    judged_ = bench::judged_queries(*scenario_, all_);
+    bench::ReferenceWatch watch;
+    if (progress_) watch = [&](std::size_t done, std::size_t total) { progress_({"", "reference", done, total}); };
+    truth_ = bench::reference_visibility(scenario_->scene, own_->view, bench::reference_settings(*scenario_),
+                                         judged_.queries, watch);
+    const metrics::ErrorNorms doubt = metrics::error_norms(truth_.standard_error);
+    truth_rms_ = doubt.rms;
+    truth_max_ = doubt.max;
+    seconds_ = stopwatch.seconds();
+}
+
+Trials::~Trials() = default;
+
+bench::RayChoice Trials::choice(const Setting& setting, int seed) const {
+    return {setting.resolution, setting.samples, scenario_->rays.seed + static_cast<std::uint64_t>(seed)};
+}
+
+const rays::MapLayout& Trials::layout(const Setting& setting) const {
+    const auto [place, is_new] =
+        layouts_.try_emplace({std::max(setting.resolution.x, setting.resolution.y), setting.samples});
+    if (is_new) place->second = store_->frame(choice(setting, 0))->layout;
+    return place->second;
+}
+
+double Trials::effort(const Point& point) const {
+    const Setting setting = space_->setting(point);
+    const double rays = static_cast<double>(setting.resolution.x) * setting.resolution.y * setting.samples;
+    const double build =
+        space_->uses_rays(point.family) && trial_rays_ > 0.0 ? rays * trial_seconds_ / trial_rays_ : 0.0;
+    const bool there = store_->kept(choice(setting, 0));
+    return rest_of_a_trial + build + (there ? 0.0 : store_->estimate_seconds(choice(setting, 0)));
+}
+
+double Trials::at_least(const Point& point, Cost cost) const {
+    if (cost != Cost::bytes) return 0.0;
+    const Setting setting = space_->setting(point);
+    return least_bytes(setting, layout(setting));
+}
+
+// Why a setting is not measured at all; empty: it is.
+std::string Trials::refusal(const Setting& setting, const Contender& contender) const {
+    const rays::MapLayout& layout = this->layout(setting);
+    const double rays = static_cast<double>(layout.width) * layout.height * layout.samples();
+    if (rays > most_rays)
+        return fmt::format("needs {:.3g} light rays; more than {:.3g} are not tried", rays, most_rays);
+    const double need = bench::least_bytes(layout, layout, std::span(&contender, 1), options_.limits);
+    if (need > static_cast<double>(options_.limits.all))
+        return fmt::format("needs at least {:.3g} GiB of memory: more than the limit", need / (1 << 30));
+    return "";
+}
+
+// Builds one map and compares its answers with the truth; `timed`: builds it on one thread, and times that.
+Trials::Attempt Trials::attempt(const Setting& setting, int seed, bool timed) {
+    Attempt attempt{contender_of(setting), nullptr, nullptr};
+    Contender& contender = attempt.contender;
+    if (const std::string reason = refusal(setting, contender); !reason.empty()) {
+        bench::fail(contender, reason);
+        return attempt;
+    }
+    attempt.rays = store_->rays(choice(setting, seed), contender.needs);
+    attempt.frame = attempt.rays->frame;
+    attempt.segments = attempt.rays->source->segments();
+    if (!setting.row->traits.traces)
+        attempt.capture_ms = 1e3 * (attempt.rays->setup_seconds + attempt.rays->capture_seconds);
+    const Stopwatch stopwatch;
+    const bench::RaySource& source = *attempt.rays->source;
+    const bench::Frame& frame = *attempt.frame;
+    const techniques::BuildInput input{frame.layout, frame.view, casters_.get()};
+    const std::span<Contender> one(&contender, 1);
+    if (contender.needs.apron > 0) source.for_each_batch(contender.needs.apron, [](bench::RaySource::Batch) {});
+    const bool kept = source.kept(contender.needs.apron);
+    try {
+        if (timed && kept) {
+            const base::ThreadLimit one_thread(1);
+            const Stopwatch building;
+            bench::build_all(one, source, input, options_.limits.all, {});
+            attempt.build_ms = 1e3 * building.seconds();
+        } else {
+            bench::build_all(one, source, input, options_.limits.all, {});
+            std::vector<std::vector<double>> seconds(1);
+            if (timed) bench::time_builds(one, source, input, seconds);
+            if (!seconds[0].empty()) attempt.build_ms = 1e3 * seconds[0][0];
+        }
+    } catch (const Error& error) {  // the technique cannot serve this layout
+        if (error.code() != ErrorCode::bad_input) throw;
+        bench::fail(contender, error.message());
+    }
+    if (contender.ok()) bench::check_lookups(one, asked(judged_, frame.view).asked(), truth_);
+    trial_seconds_ += stopwatch.seconds();
+    trial_rays_ += static_cast<double>(source.rays());
+    return attempt;
+}
+
+QuerySet Trials::asked(const QuerySet& set, const rays::LightView& view) const {
+    return bench::rescaled(set.asked(), own_->view, view);
+}
+
+double Trials::error_of(const results::Cell& cell) const {
+    if (measure_ == Measure::curve) return cell.curve ? cell.curve->norms.max : 0.0;
+    const metrics::ErrorNorms& norms = cell.lookup->norms;
+    return measure_ == Measure::rms ? norms.rms : measure_ == Measure::max ? norms.max : norms.p99;
+}
+
+// Fails the contender if a lookup answers what it must not.
+void Trials::time_quickly(Attempt& attempt) const {
+    Contender& contender = attempt.contender;
+    const bench::QuickTimes quick =
+        bench::quick_lookup_times(contender.maps, asked(all_, attempt.frame->view).asked(),
+                                  static_cast<std::size_t>(scenario_->timing.lookups), scenario_->receivers.seed);
+    bench::check_answers(contender, quick.asked, quick.answers);
+    if (!contender.ok()) return;
+    results::CellTimes& times = contender.cell.times.emplace();
+    times.build_ms = results::summarise({attempt.build_ms});
+    times.ns_per_segment = attempt.ns_per_segment(attempt.build_ms);
+    times.image_order.ns = quick.image_ns;
+    times.random_order.ns = quick.random_ns;
+    times.lookups = quick.lookups;
+}
+
+// Compares an even share of the stored functions with those of the light rays.
+void Trials::check_some(Attempt& attempt) const {
+    Contender& contender = attempt.contender;
+    const bench::CheckedMap checked{&contender.maps, contender.promises, contender.cell.error_bound,
+                                    !contender.cell.outside_promise, contender.needs.apron};
+    const std::size_t cells = measure_ == Measure::curve ? checked_cells : quickly_checked_cells;
+    bench::CurveVerdict verdict =
+        bench::check_curves(*attempt.rays->source, attempt.frame->layout, std::span(&checked, 1), cells, {})[0];
+    contender.cell.curve = std::move(verdict.errors);
+    if (!verdict.broken.empty())
+        bench::fail(contender, verdict.broken);
+    else if (measure_ == Measure::curve && !contender.cell.curve)
+        bench::fail(contender, no_curve);
+}
+
+Trial Trials::measure(const Point& point) {
+    const Stopwatch stopwatch;
+    const Setting setting = space_->setting(point);
+    Attempt attempt = this->attempt(setting, 0, true);
+    const Contender& contender = attempt.contender;
+    if (contender.ok()) check_some(attempt);
+    if (contender.ok()) time_quickly(attempt);
+    Trial trial{attempt.failed(), 0.0, {}};
+    if (contender.ok()) {
+        trial.error = error_of(contender.cell);
+        trial.cost = {contender.cell.times->random_order.ns.median, static_cast<double>(contender.cell.bytes),
+                      attempt.capture_ms + attempt.build_ms};
+    }
+    if (attempt.rays) keep(record(setting, *attempt.rays), contender);
+    seconds_ += stopwatch.seconds();
+    return trial;
+}
+
+}  // namespace shadowbench::recommend

@@ -1,0 +1,99 @@
+// Measures the settings of a space on one light of a scenario: the lab of shadowbench recommend.
+//
+// All maps answer the same question. The truth is computed once, from the scenario's own resolution and reference
+// settings. A map of another resolution is asked for the same places and the same footprints of the light's plane.
+// The time of a build is that of capturing the light rays and of building the map from them, both on one thread: more
+// samples a pixel cost both. A family that uses no light rays is not charged for them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "base/parallel.h"
+#include "bench/contender.h"
+#include "bench/load.h"
+#include "bench/progress.h"
+#include "bench/queries.h"
+#include "bench/ray_store.h"
+#include "bench/run.h"
+#include "rays/tracer.h"
+#include "recommend/lab.h"
+#include "recommend/space.h"
+#include "results/result.h"
+
+namespace shadowbench::recommend {
+
+// The error that a setting is judged by: of lookups against the truth, or the largest of the stored functions against
+// their own light rays.
+enum class Measure { rms, max, p99, curve };
+
+class Trials final : public Lab {
+public:
+    // `light`: a name, or a number from 0 on; empty if the scenario has one light. Sweeps over the samples a pixel and
+    // over techniques are dropped, since these are explored. Throws what bench::run() throws for a document, and
+    // Error{usage} for other sweeps, and for a light that does not exist or is not chosen.
+    Trials(const nlohmann::json& document, const bench::RunOptions& options, const std::string& light, Measure measure,
+           const bench::ProgressCallback& progress);
+    ~Trials() override;
+
+    std::span<const Family> families() const override { return space_->families(); }
+    std::optional<std::size_t> scout() const override { return space_->scout(); }
+    double effort(const Point& point) const override;
+    double at_least(const Point& point, Cost cost) const override;
+    Trial measure(const Point& point) override;
+    std::vector<Confirmed> confirm(std::span<const Point> points) override;
+
+    const Space& space() const { return *space_; }
+    const std::string& light() const { return light_->name; }
+    // Everything measured so far, as a run of all these settings would give it: a variant for each resolution and
+    // number of samples. Times of settings that were not confirmed are short ones.
+    results::Result result() const;
+
+private:
+    struct Attempt;
+    struct Timed;
+    bench::RayChoice choice(const Setting& setting, int seed) const;
+    const rays::MapLayout& layout(const Setting& setting) const;
+    std::string refusal(const Setting& setting, const bench::Contender& contender) const;
+    Attempt attempt(const Setting& setting, int seed, bool timed);
+    void check_some(Attempt& attempt) const;
+    void time_quickly(Attempt& attempt) const;
+    bench::QuerySet asked(const bench::QuerySet& set, const rays::LightView& view) const;
+    double error_of(const results::Cell& cell) const;
+    Confirmed judge_errors(std::span<const double> errors) const;
+    void time(std::vector<Timed>& timed);
+    void time_builds_of(std::vector<Timed>& timed, std::uint64_t repetition);
+    results::LightResult* recorded(const Setting& setting);
+    results::LightResult& record(const Setting& setting, const bench::StoredRays& rays);
+    void keep(results::LightResult& light, const bench::Contender& contender) const;
+
+    bench::RunOptions options_;
+    base::ThreadLimit threads_;
+    std::string document_, started_;
+    bench::ScenarioLoader loader_;
+    bench::ProgressCallback progress_;
+    Measure measure_;
+    const scene::Scenario* scenario_ = nullptr;
+    const scene::Light* light_ = nullptr;
+    std::size_t index_ = 0;  // of the light
+    std::unique_ptr<rays::Tracer> casters_;
+    std::optional<Space> space_;
+    std::optional<bench::RayStore> store_;
+    std::shared_ptr<const bench::Frame> own_;  // the scenario's own resolution
+    bench::QuerySet all_, judged_;             // of the own resolution
+    bench::Truth truth_;
+    double truth_rms_ = 0.0, truth_max_ = 0.0;                        // its standard error
+    mutable std::map<std::pair<int, int>, rays::MapLayout> layouts_;  // by the larger side and the samples
+    double trial_seconds_ = 0.0, trial_rays_ = 0.0;                   // of attempts without their captures
+    std::vector<std::pair<bench::RayChoice, results::LightResult>> recorded_;
+    double seconds_ = 0.0;
+};
+
+}  // namespace shadowbench::recommend

@@ -1,0 +1,61 @@
+#include <memory>
+#include <ostream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "service/cli/options.h"
+#include "service/cli/recommend_command.h"
+
+namespace shadowbench::service {
+
+void add_recommend(CLI::App& app, Commands& commands) {
+    const auto arguments = std::make_shared<RecommendArguments>();
+    CLI::App* recommend = app.add_subcommand("recommend", "Find the cheapest technique and settings for an error");
+    set_help(
+        *recommend, command_groups::measure,
+        {"recommend quickstart --error 0.02 --budget 2min",
+         "recommend hairball --error 0.01 --measure p99 --cheapest lookup --at-most bytes=4MiB",
+         "recommend --from results/recommendations/quickstart --error 0.05"},
+        "All maps answer the same lookups over the same footprints, whatever their resolution. The answer holds with "
+        "95 % confidence.\n"
+        "Exit codes: 0; 2 nothing reaches the error; others as in shadowbench --help.");
+    CLI::Option* scenario =
+        recommend->add_option("SCENARIO", arguments->scenario, "A scenario file, or the name of one");
+    recommend->add_option("--error", arguments->error, "The largest error that is good enough")
+        ->required()
+        ->check(CLI::Range(1e-6, 1.0));
+    recommend
+        ->add_option(
+            "--measure", arguments->measure,
+            "The error: of lookups against the truth (rms, max or p99), or the largest of the stored functions "
+            "(curve)")
+        ->check(CLI::IsMember({"rms", "max", "p99", "curve"}))
+        ->capture_default_str();
+    repeatable(
+        recommend
+            ->add_option("--cheapest", arguments->cheapest,
+                         "The cost that counts: lookup, bytes, build (capturing the rays included), or all [all]")
+            ->check(CLI::IsMember({"lookup", "bytes", "build", "all"})));
+    repeatable(
+        recommend->add_option("--at-most", arguments->at_most,
+                              "cost=limit: settings that cost more are left out, as in bytes=4MiB, lookup=50ns or "
+                              "build=2s"));
+    recommend->add_option("--budget", arguments->budget, "Time for the exploration, as in 90s, 5min or 1h")
+        ->capture_default_str();
+    recommend->add_option("--light", arguments->light, "A light's name, or its number, from 0 [the only light]");
+    add_job_options(*recommend, *arguments);
+    add_only_option(*recommend, *arguments);
+    add_folder_option(*recommend, arguments->out,
+                      "Folder of result.json, with every setting measured [results/recommendations/<scenario name>, in "
+                      "the current folder]");
+    recommend
+        ->add_option("--from", arguments->from,
+                     "Answer from the result.json in this folder, which recommend wrote, without measuring")
+        ->excludes(scenario);
+    commands.push_back({recommend, [arguments](std::ostream& out, std::ostream& err) {
+                            return recommend_command(*arguments, out, err) ? 0 : promise_broken;
+                        }});
+}
+
+}  // namespace shadowbench::service

@@ -1,0 +1,68 @@
+// The command recommend, on a scene of two quads.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "base/read_text.h"
+#include "results/report.h"
+#include "service/run_cli.h"
+#include "temporary_folder.h"
+
+namespace shadowbench::service {
+namespace {
+
+constexpr const char* two_quads = R"({
+    "name": "two_quads",
+    "scene": {"objects": [
+        {"type": "quad", "corner": [-1, 1, -1], "edge_u": [1.3, 0, 0.2], "edge_v": [0.1, 0, 1.1], "opacity": 0.6},
+        {"type": "quad", "corner": [-1, 0, -1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2], "opacity": 0.5}]},
+    "lights": [{"type": "directional", "name": "sun", "direction": [0, -1, 0]}],
+    "rays": {"resolution": 16, "samples_per_pixel": 4},
+    "receivers": {"type": "probes", "count": 500},
+    "reference": {"samples_per_pixel": 64, "queries": 100, "spread_seeds": 0},
+    "timing": {"repetitions": 2, "lookups": 128},
+    "techniques": [{"type": "variance"}]
+})";
+
+TEST(Recommend, AnswersWritesWhatItMeasuredAndAnswersFromThat) {
+    const TemporaryFolder folder;
+    const std::string scenario = (folder.path() / "two_quads.json").string(), out = (folder.path() / "found").string();
+    std::ofstream(scenario) << two_quads;
+    const Outcome found = cli({"recommend", scenario, "--error", "0.3", "--only", "variance", "--budget", "20s",
+                               "--at-most", "bytes=1GiB", "--out", out});
+    EXPECT_EQ(found.code, 0) << found.err;
+    EXPECT_THAT(found.out, ::testing::HasSubstr("two_quads, light sun"));
+    EXPECT_THAT(found.out, ::testing::HasSubstr(R"("type":"variance")"));
+
+    const auto written = nlohmann::json::parse(base::read_text(out + "/result.json"));
+    const results::Result result = results::from_json(written, "result.json");
+    std::size_t cells = 0;
+    for (const results::VariantResult& variant : result.variants) cells += variant.lights.at(0).cells.size();
+    EXPECT_EQ(cells, written.at("recommendation").at("measured").size());
+
+    const Outcome again = cli({"recommend", "--from", out, "--error", "0.3"});
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(cli({"recommend", "--from", out, "--error", "0.000001"}).code, 2);
+}
+
+TEST(Recommend, RefusesWhatItCannotRead) {
+    const TemporaryFolder folder;
+    const std::string here = folder.path().string();
+    EXPECT_EQ(cli({"recommend", "quickstart"}).code, 64);  // no error
+    EXPECT_EQ(cli({"recommend", "--error", "0.1"}).code, 64);
+    EXPECT_EQ(cli({"recommend", "quickstart", "--error", "0.1", "--from", here}).code, 64);
+    EXPECT_EQ(cli({"recommend", "quickstart", "--error", "0.1", "--budget", "5"}).code, 64);
+    EXPECT_EQ(cli({"recommend", "quickstart", "--error", "0.1", "--at-most", "nodes=5"}).code, 64);
+    EXPECT_EQ(cli({"recommend", "--from", here, "--error", "0.1"}).code, 66);
+    std::ofstream(folder.path() / "result.json") << "{}";
+    const Outcome outcome = cli({"recommend", "--from", here, "--error", "0.1"});
+    EXPECT_EQ(outcome.code, 65);
+    EXPECT_THAT(outcome.err, ::testing::HasSubstr("no recommendation"));
+}
+
+}  // namespace
+}  // namespace shadowbench::service
