@@ -18,7 +18,7 @@ void ErrorsOverSeeds::add(std::span<const double> errors) {
     ++seeds_;
 }
 
-TruthNoise ErrorsOverSeeds::truth_noise(std::span<const double> standard_error) const {
+TruthNoise ErrorsOverSeeds::truth_noise(std::span<const double> standard_error, bool upper_bounds) const {
     TruthNoise noise;
     if (sum_.empty()) return noise;
     const double n = static_cast<double>(sum_.size()), seeds = seeds_;
@@ -31,6 +31,7 @@ TruthNoise ErrorsOverSeeds::truth_noise(std::span<const double> standard_error) 
         linear.add(se2 * (mean * mean - of_mean - se2));
     }
     noise.bias = variance.value() / n;
+    noise.least_bias = upper_bounds ? 0.0 : noise.bias;
     noise.linear = 4.0 * std::max(0.0, linear.value()) / (n * n);
     noise.quadratic = 2.0 * fourth.value() / (n * n);
     return noise;
@@ -39,7 +40,8 @@ TruthNoise ErrorsOverSeeds::truth_noise(std::span<const double> standard_error) 
 Interval expected_rms(std::span<const double> mean_squares, const TruthNoise& truth, double confidence) {
     const Interval square =
         mean_interval(mean_and_variance(mean_squares), truth.linear + truth.quadratic, 0.5 * (1.0 - confidence));
-    return {std::sqrt(std::max(0.0, square.low - truth.bias)), std::sqrt(std::max(0.0, square.high - truth.bias))};
+    return {std::sqrt(std::max(0.0, square.low - truth.bias)),
+            std::sqrt(std::max(0.0, square.high - truth.least_bias))};
 }
 
 }  // namespace shadowbench::metrics

@@ -31,9 +31,10 @@ namespace shadowbench::metrics {
 
 // What the truth's errors do to the mean square of errors against it.
 struct TruthNoise {
-    double bias = 0.0;       // mean(se^2)
-    double linear = 0.0;     // variance of the part that depends on the technique
-    double quadratic = 0.0;  // variance of the part that is equal for all techniques
+    double bias = 0.0;        // mean(se^2)
+    double least_bias = 0.0;  // the same, or 0 if the standard errors are upper bounds
+    double linear = 0.0;      // variance of the part that depends on the technique
+    double quadratic = 0.0;   // variance of the part that is equal for all techniques
 };
 
 // Errors of the same queries against one truth, seed by seed.
@@ -42,8 +43,9 @@ public:
     // All seeds must have the same queries, in the same order.
     void add(std::span<const double> errors);
     int seeds() const { return seeds_; }
-    // There must be at least one seed, and a standard error for each query.
-    TruthNoise truth_noise(std::span<const double> standard_error) const;
+    // There must be at least one seed, and a standard error for each query. `upper_bounds`: the standard errors are
+    // upper bounds, so the truth may as well be exact.
+    TruthNoise truth_noise(std::span<const double> standard_error, bool upper_bounds) const;
 
 private:
     int seeds_ = 0;
@@ -51,7 +53,8 @@ private:
 };
 
 // Interval of sqrt(E) from the mean squares M_s, at least one. One value has no spread: the interval then covers the
-// truth's uncertainty only. E is never taken below 0.
+// truth's uncertainty only. E is never taken below 0. The lower end assumes the whole bias of the truth, the upper end
+// the least.
 Interval expected_rms(std::span<const double> mean_squares, const TruthNoise& truth, double confidence = 0.95);
 
 }  // namespace shadowbench::metrics

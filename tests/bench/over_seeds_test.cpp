@@ -17,10 +17,10 @@ namespace {
 
 using techniques::Query;
 
-// One light on the half-covered map, whose edge is inside a column of pixels.
+// One light on the half-covered map, whose edge is inside a column of sample cells.
 class OverSeeds : public ::testing::Test {
 protected:
-    OverSeeds() : half_(half_covered(0.125)), tracer_(half_.scene, true) {
+    OverSeeds() : half_(half_covered(0.1)), tracer_(half_.scene, true) {
         half_.settings.samples_per_pixel = 4;
         for (int i = 0; i < 200; ++i)
             queries_.push_back({0.04f * static_cast<float>(i), static_cast<float>(i % 8) + 0.5f, 2.0f, 1.0f});
@@ -135,6 +135,7 @@ TEST_F(OverSeeds, fails_a_technique_that_fails_with_another_seed) {
 }
 
 TEST_F(OverSeeds, spread_is_that_of_a_binomial_if_each_footprint_has_one_ray) {
+    half_ = half_covered(0.125);  // the edge halves pixel 4
     half_.settings.samples_per_pixel = 1;
     for (int i = 0; i < 200; ++i) queries_[i] = {4.5f, static_cast<float>(i % 8) + 0.5f, 2.0f, 1.0f};
     EXPECT_NEAR(measure(64, {}).rms, 0.6 * 0.5, 0.02);
@@ -142,6 +143,7 @@ TEST_F(OverSeeds, spread_is_that_of_a_binomial_if_each_footprint_has_one_ray) {
 
 // The spread of a footprint without a ray is that of its nearest one.
 TEST_F(OverSeeds, spread_of_narrow_footprints_is_that_of_the_nearest_ray) {
+    half_ = half_covered(0.125);  // the edge halves pixel 4
     half_.settings.samples_per_pixel = 1;
     for (int i = 0; i < 200; ++i) queries_[i] = {4.5f, static_cast<float>(i % 8) + 0.5f, 2.0f, 1e-6f};
     EXPECT_NEAR(measure(64, {}).rms, 0.6 * 0.5, 0.02);

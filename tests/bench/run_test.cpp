@@ -155,7 +155,7 @@ TEST(Run, reports_its_progress) {
         EXPECT_LE(progress.done, progress.total);
         if (stages.empty() || stages.back() != progress.stage) stages.push_back(progress.stage);
     });
-    EXPECT_EQ(stages.front(), "capture");
+    EXPECT_EQ(stages.front(), "reference");
     EXPECT_EQ(stages.back(), "timing lookups");
 }
 

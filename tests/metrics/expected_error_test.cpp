@@ -78,7 +78,7 @@ TEST(ExpectedRms, interval_holds_as_often_as_it_says) {
         for (int round = 0; round < rounds; ++round) {
             const Measured measured = measure(model, random);
             const Interval interval =
-                expected_rms(measured.squares, measured.errors.truth_noise(model.standard_error()));
+                expected_rms(measured.squares, measured.errors.truth_noise(model.standard_error(), false));
             held += interval.low <= expected && expected <= interval.high;
         }
         EXPECT_GE(held, 0.93 * rounds) << model.bias << " " << model.truth << " " << model.seeds;
@@ -96,7 +96,7 @@ TEST(TruthNoise, is_what_many_truths_give) {
         const Measured measured = measure(model, random);
         sum += measured.squares[0];
         squares += measured.squares[0] * measured.squares[0];
-        const TruthNoise noise = measured.errors.truth_noise(model.standard_error());
+        const TruthNoise noise = measured.errors.truth_noise(model.standard_error(), false);
         bias += noise.bias / rounds;
         variance += (noise.linear + noise.quadratic) / rounds;
     }
@@ -109,17 +109,28 @@ TEST(TruthNoise, is_what_many_truths_give) {
 TEST(TruthNoise, is_that_of_the_formulas) {
     ErrorsOverSeeds errors;
     errors.add(std::vector<double>{2.0, -1.0});
-    const TruthNoise noise = errors.truth_noise(std::vector<double>{1.0, 0.5});
+    const TruthNoise noise = errors.truth_noise(std::vector<double>{1.0, 0.5}, false);
     EXPECT_DOUBLE_EQ(noise.bias, 0.625);
     EXPECT_DOUBLE_EQ(noise.linear, 4.0 * (1.0 * (4.0 - 1.0) + 0.25 * (1.0 - 0.25)) / 4.0);
     EXPECT_DOUBLE_EQ(noise.quadratic, 2.0 * (1.0 + 0.0625) / 4.0);
+}
+
+// A truth that may be as uncertain as it says, or exact: both ends hold.
+TEST(ExpectedRms, counts_an_upper_bound_of_the_truths_error_on_one_side) {
+    ErrorsOverSeeds errors;
+    errors.add(std::vector<double>(100, 0.1));
+    const std::vector<double> bounds(100, 0.08);
+    const Interval interval = expected_rms(std::vector<double>{0.01}, errors.truth_noise(bounds, true));
+    EXPECT_LT(interval.low, std::sqrt(0.01 - 0.0064));
+    EXPECT_GT(interval.high, 0.1);
+    EXPECT_LT(expected_rms(std::vector<double>{0.01}, errors.truth_noise(bounds, false)).high, 0.1);
 }
 
 TEST(ExpectedRms, is_never_below_0_and_exact_without_uncertainty) {
     const Interval none = expected_rms(std::vector<double>{0.01}, {});
     EXPECT_DOUBLE_EQ(none.low, 0.1);
     EXPECT_DOUBLE_EQ(none.high, 0.1);
-    const Interval below = expected_rms(std::vector<double>{0.01}, {0.02, 1e-6, 1e-6});
+    const Interval below = expected_rms(std::vector<double>{0.01}, {0.02, 0.02, 1e-6, 1e-6});
     EXPECT_EQ(below.low, 0.0);
     EXPECT_EQ(below.high, 0.0);
 }

@@ -79,7 +79,7 @@ TEST_F(JobCommand, ReportsItsProgress) {
         EXPECT_GE(line["fraction"], last);
         last = line["fraction"];
     }
-    EXPECT_EQ(lines[0]["stage"], "capture");
+    EXPECT_EQ(lines[0]["stage"], "reference");
     EXPECT_EQ(lines[0]["place"], "sun");
     EXPECT_GT(last, 0.9);
     EXPECT_LE(last, 1.0);
