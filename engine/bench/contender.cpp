@@ -89,7 +89,7 @@ void find_interval(Contender& contender, std::span<const double> errors, const T
     std::vector<double> squares{result.norms.rms * result.norms.rms};
     for (const results::SeedErrors& seed : contender.cell.over_seeds)
         squares.push_back(seed.lookup.rms * seed.lookup.rms);
-    const metrics::TruthNoise noise = all.truth_noise(truth.standard_error, true);  // Truth states upper bounds
+    const metrics::TruthNoise noise = all.truth_noise(truth.standard_error, truth.degrees == 0);
     const metrics::Interval interval = metrics::expected_rms(squares, noise);
     const bool random_rays = contender.maps.layout->jittered;
     result.interval = {interval.low, interval.high, all.seeds() > 1 || !random_rays};

@@ -86,4 +86,10 @@ Interval mean_interval(const MeanAndVariance& sample, double known, double tail)
     return {sample.mean - half, sample.mean + half};
 }
 
+Interval mean_interval(std::span<const double> sample) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (sample.size() < 2) return {-infinity, infinity};
+    return mean_interval(mean_and_variance(sample), 0.0, 0.025);
+}
+
 }  // namespace shadowbench::metrics

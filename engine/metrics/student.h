@@ -30,4 +30,8 @@ MeanAndVariance mean_and_variance(std::span<const double> sample);
 // one value counts as exact, and only `known` makes it uncertain.
 Interval mean_interval(const MeanAndVariance& sample, double known, double tail);
 
+// The 95 % interval of the expectation of a sample. A sample of one says nothing about its spread: from minus to plus
+// infinity.
+Interval mean_interval(std::span<const double> sample);
+
 }  // namespace shadowbench::metrics

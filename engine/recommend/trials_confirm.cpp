@@ -5,7 +5,7 @@
 
 #include "bench/build_timing.h"
 #include "bench/clock.h"
-#include "metrics/mean_interval.h"
+#include "metrics/student.h"
 #include "recommend/attempt.h"
 
 namespace shadowbench::recommend {
@@ -26,7 +26,7 @@ constexpr double longest_timing = 15.0;  // seconds, after the least repetitions
 // The truth's own error makes a small rms look larger: the lower end allows for it, the upper end does not.
 Confirmed Trials::judge_errors(std::span<const double> errors) const {
     Confirmed confirmed;
-    confirmed.mean_error = metrics::mean(errors);
+    confirmed.mean_error = metrics::mean_and_variance(errors).mean;
     confirmed.error = metrics::mean_interval(errors);
     const double low = std::max(confirmed.error.low, 0.0);
     const double doubt = measure_ == Measure::rms ? truth_rms_ : measure_ == Measure::curve ? 0.0 : truth_max_;
