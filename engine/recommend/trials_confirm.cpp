@@ -41,7 +41,8 @@ void Trials::time_builds_of(std::vector<Timed>& timed, std::uint64_t repetition)
         const auto rays = store_->rays(choice(one.setting, 0), one.attempt.contender.needs);
         const techniques::BuildInput input{rays->frame->layout, rays->frame->view, casters_.get()};
         std::vector<std::vector<double>> seconds(1);
-        bench::time_builds(std::span(&one.attempt.contender, 1), *rays->source, input, seconds);
+        results::TimedPasses passes;
+        bench::time_builds(std::span(&one.attempt.contender, 1), *rays->source, input, seconds, passes);
         one.build_ms.push_back(1e3 * seconds[0].at(0));
         one.capture_ms.push_back(one.setting.row->traits.traces
                                      ? 0.0
