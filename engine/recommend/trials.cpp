@@ -183,8 +183,8 @@ Trials::Attempt Trials::attempt(const Setting& setting, int seed, bool timed) {
         } else {
             bench::build_all(one, source, input, options_.limits.all, {});
             std::vector<std::vector<double>> seconds(1);
-            if (timed) results::TimedPasses passes;
- bench::time_builds(one, source, input, seconds, passes);
+            results::TimedPasses passes;
+            if (timed) bench::time_builds(one, source, input, seconds, passes);
             if (!seconds[0].empty()) attempt.build_ms = 1e3 * seconds[0][0];
         }
     } catch (const Error& error) {  // the technique cannot serve this layout
