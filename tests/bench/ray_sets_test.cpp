@@ -45,7 +45,7 @@ TEST(RaySets, ThatMissTheFootprintWidenTheError) {
     const double sums[] = {0, 0.50, 0, 0.52, 0, 0, 0.54, 0};
     const Mean result = mean_of_sets(sums, counts);
     EXPECT_NEAR(result.value, 0.52, 1e-15);
-    EXPECT_NEAR(result.standard_error * 2.3646, 4.3027 * 0.02 / std::sqrt(3.0), 1e-12);
+    EXPECT_NEAR(result.standard_error * 2.3646, 4.3027 * 0.02 / std::sqrt(3.0), 2e-6);  // t has five digits
 }
 
 TEST(RaySets, WithOneRayInAllAreUnsure) {

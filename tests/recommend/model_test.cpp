@@ -36,12 +36,16 @@ TEST(Model, ExtendsAPlaneAlongItsSlopes) {
 }
 
 TEST(Model, SmoothsNoise) {
-    // Two values at one place that differ by the noise: the mean of both, and less doubt than of one.
-    Model once({0.3, 0.4, 0.07}), twice({0.3, 0.4, 0.07});
-    once.fit({{1, 1}}, std::vector<double>{2.0});
-    twice.fit({{1, 1}, {1, 1}}, std::vector<double>{1.95, 2.05});
-    EXPECT_NEAR(twice.at(std::vector<double>{1, 1}).mean, 2.0, 1e-6);
-    EXPECT_LT(twice.at(std::vector<double>{1, 1}).sd, 0.8 * once.at(std::vector<double>{1, 1}).sd);
+    // Values at one place that differ by as much as the noise may be: their mean, with the doubt of a mean.
+    for (const std::size_t pairs : {1u, 2u, 8u}) {
+        Model model({0.3, 0.4, 0.07});
+        std::vector<double> values;
+        for (std::size_t i = 0; i < pairs; ++i) values.insert(values.end(), {1.93, 2.07});
+        model.fit(std::vector<std::vector<double>>(values.size(), {1, 1}), values);
+        const Estimate estimate = model.at(std::vector<double>{1, 1});
+        EXPECT_NEAR(estimate.mean, 2.0, 1e-6);
+        EXPECT_NEAR(estimate.sd, 0.07 / std::sqrt(static_cast<double>(values.size())), 0.001) << values.size();
+    }
 }
 
 }  // namespace
