@@ -1,3 +1,4 @@
+// Expects errors in tests.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A folder for files that are needed for a while.
+// A folder for temporary files.
 #pragma once
 
 #include <filesystem>

@@ -16,11 +16,17 @@ namespace {
 using base::Error;
 using base::ErrorCode;
 
-// In single quotes, within which gnuplot interprets only quotes.
-std::string quoted(const std::string& text) {
+// In single quotes; `quote` stands for a quote within them.
+std::string quoted(const std::string& text, const char* quote) {
     std::string out = "'";
-    for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
+    for (const char c : text) out += c == '\'' ? std::string(quote) : std::string(1, c);
     return out + "'";
+}
+std::string quoted(const std::string& text) {
+    return quoted(text, "''");
+}
+std::string shell_quoted(const std::string& text) {
+    return quoted(text, "'\\''");
 }
 
 std::string script_of(const Plot& plot, const std::filesystem::path& file) {
@@ -51,7 +57,7 @@ std::string to_svg(const Plot& plot) {
     const base::TemporaryFolder folder;
     const std::filesystem::path svg = folder.path() / "plot.svg", script = folder.path() / "script";
     std::ofstream(script) << script_of(plot, svg);
-    const int status = std::system(fmt::format("gnuplot '{}' > /dev/null 2>&1", script.string()).c_str());
+    const int status = std::system(fmt::format("gnuplot {} > /dev/null 2>&1", shell_quoted(script.string())).c_str());
     if (status != 0 || !std::filesystem::exists(svg))
         throw Error(ErrorCode::internal, "gnuplot",
                     "could not draw " + plot.name + ": is gnuplot installed (Debian package gnuplot-nox)?");

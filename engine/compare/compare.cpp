@@ -230,10 +230,11 @@ void Judge::suites(const Pair& pair) {
         const bool left_out =
             !only.empty() && (" " + only + " ").find(" " + cell.rerun.only + " ") == std::string::npos;
         add(line_of(pair, &cell, Verdict::missing,
-                    left_out ? "no such cell now: that run was limited to " + only : "no such cell now"));
+                    left_out ? "the current result lacks this cell: that run was limited to " + only
+                                                      : "the current result lacks this cell"));
     }
     for (const Cell& cell : pair.current->cells)
-        if (!all[{cell.group, cell.name}].baseline) add(line_of(pair, &cell, Verdict::extra, "no such cell before"));
+        if (!all[{cell.group, cell.name}].baseline) add(line_of(pair, &cell, Verdict::extra, "the baseline lacks this cell"));
     fronts(pair, all, times_compare);
 }
 

@@ -67,7 +67,7 @@ struct Line {
     Verdict verdict = Verdict::same;
     bool time = false;
     double baseline = 0.0, current = 0.0;  // NaN: no value. For times: the medians that were judged
-    // Of times that were judged; otherwise 0 and empty:
+    // Set only for times that were judged:
     double ratio = 0.0;
     metrics::Interval interval{0.0, 0.0};
     std::size_t processes = 0;  // the fewer of the two sides; interleaved: pairs

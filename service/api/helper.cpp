@@ -20,7 +20,7 @@ using base::Error;
 using base::ErrorCode;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* dead = "it ended the process that looked at it; it may need more memory than this server allows";
+constexpr const char* dead = "checking it failed, since the process ended; it may need more memory than this server allows";
 constexpr std::size_t longest_answer = std::size_t{64} << 20;
 
 [[noreturn]] void fail(const char* what) {
@@ -106,7 +106,7 @@ private:
         }
     }
 
-    // What the child has said by now; false: nothing.
+    // Reads what the child has written; returns false if there is nothing.
     bool take() {
         char piece[65536];
         const ssize_t n = ::read(from_, piece, sizeof piece);

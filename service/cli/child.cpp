@@ -43,7 +43,7 @@ void check_program(const std::string& program) {
     std::error_code failed;
     if (!fs::exists(program, failed)) throw Error(ErrorCode::no_such_file, program, "there is no such program");
     if (fs::is_directory(program, failed) || access(program.c_str(), X_OK) != 0)
-        throw Error(ErrorCode::usage, program, "this is no program that can be run");
+        throw Error(ErrorCode::usage, program, "this file cannot be executed; name a program");
 }
 
 int run_child(const std::string& program, const std::vector<std::string>& arguments, const fs::path& log) {

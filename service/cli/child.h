@@ -13,8 +13,8 @@ namespace shadowbench::service {
 void check_program(const std::string& program);
 
 // While it lives, signals that end a program (SIGHUP, SIGINT, SIGQUIT, SIGTERM) wait: run_child() looks for them, and
-// the end of the last such object lets them through. A command makes one before its temporary folder, so that no moment
-// leaves that behind. Ignored ones (nohup) stay ignored.
+// the end of the last such object lets them through. A command makes one before its temporary folder, so that a signal
+// never leaves the folder behind. Ignored ones (nohup) stay ignored.
 class EndingSignals {
 public:
     EndingSignals();

@@ -97,7 +97,7 @@ void add_ab(CLI::App& app, Commands& commands) {
     }
     add_pairs(*ab, *arguments, "Pairs of processes. On a busy machine 20 pairs can see a difference of 1 to 5 percent");
     ab->add_option("--out", arguments->out,
-                   "Keep the results in this folder, in a/ and b/, for compare [they are deleted]");
+                   "Keep the results in this folder, in a/ and b/, for compare [deleted at the end]");
     add_verdict_options(*ab, *arguments);
     ab->add_flag("--confirm", arguments->confirm,
                  "Run cells that look slower again, in twice as many pairs. Only a cell that is slower in these new "

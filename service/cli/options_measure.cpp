@@ -49,7 +49,7 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
     command
         .add_option(
             "--threads", arguments.threads,
-            "Threads that capture and check; 0: one for each processor. Times are always measured on one thread")
+            "Threads; 0: one for each processor. Times are always measured on one thread")
         ->check(CLI::Range(0, 4096));
     command
         .add_option("--memory-limit", arguments.memory_limit,
@@ -65,7 +65,7 @@ void add_folder_option(CLI::App& command, std::string& folder, const char* text)
 }
 
 void add_only_option(CLI::App& command, JobArguments& arguments) {
-    repeatable(command.add_option("--only", arguments.only, "Measure only techniques of this type"));
+    repeatable(command.add_option("--only", arguments.only, "Use only techniques of this type"));
 }
 
 namespace {
@@ -233,7 +233,7 @@ void add_reproduce(CLI::App& app, Commands& commands) {
     reproduce
         ->add_option(
             "--threads", arguments->threads,
-            "Threads that capture and check; 0: one for each processor. Times are always measured on one thread")
+            "Threads; 0: one for each processor. Times are always measured on one thread")
         ->check(CLI::Range(0, 4096));
     commands.push_back({reproduce, [arguments](std::ostream& out, std::ostream& err) {
                             reproduce_command(*arguments, out, err);

@@ -40,7 +40,7 @@ Channel::Ready Channel::wait(short what, Clock::time_point end, const std::funct
             static_cast<int>(std::clamp(left, std::chrono::milliseconds(0), std::chrono::milliseconds(slice)).count()));
         if (ready > 0) return Ready::yes;
         if (ready < 0 && errno != EINTR) return Ready::failed;
-        if (left.count() <= 0 || (give_up && give_up())) return Ready::no;
+        if (left.count() <= 0 || (give_up && give_up())) return Ready::timed_out;
     }
 }
 
@@ -82,7 +82,7 @@ Channel::Outcome Channel::read_head(std::string& head) {
             return waiting && !first_ ? true : Clock::now() >= since + duration(0.1 * limits_.head_seconds);
         });
         if (ready == Ready::failed) return Outcome::closed;
-        if (ready == Ready::no) return waiting || stopping_ ? Outcome::closed : Outcome::too_slow;
+        if (ready == Ready::timed_out) return waiting || stopping_ ? Outcome::closed : Outcome::too_slow;
         const long n = receive(piece, sizeof piece);
         if (n == 0 || (n < 0 && errno != EAGAIN)) return Outcome::closed;
         if (n > 0) buffer_.append(piece, static_cast<std::size_t>(n));

@@ -48,7 +48,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    enum class Ready { yes, no, failed };
+    enum class Ready { yes, timed_out, failed };
     Ready wait(short what, Clock::time_point end, const std::function<bool()>& give_up) const;
     long receive(char* to, std::size_t size) const;
 

@@ -18,8 +18,7 @@ bool is_loopback(const std::string& host);
 
 // The answer that refuses a request; nothing: go on.
 //  - 421: on loopback, a Host that is not this machine. A page whose name an attacker resolves to 127.0.0.1 (DNS
-//  rebinding)
-//    cannot send another Host.
+//    rebinding) cannot send another Host.
 //  - 403: the browser reports that a page of another origin sent the request.
 //  - 401: "Authorization: Bearer TOKEN" is missing or has another token. The comparison takes constant time. /healthz,
 //    /readyz, the page and its assets need no token: the page asks the user for it.

@@ -98,13 +98,13 @@ ChildReport run_child(const std::string& program, const std::vector<std::string>
     };
     const auto end_of_time = Clock::now() + std::chrono::duration<double>(limits.seconds);
     const auto beyond = [&]() -> ChildEnd {
-        if (should_end()) return ChildEnd::told;
+        if (should_end()) return ChildEnd::stopped;
         if (bytes > limits.output) return ChildEnd::too_much_output;
         if (Clock::now() > end_of_time) return ChildEnd::out_of_time;
         if (child.resident() > limits.memory) return ChildEnd::out_of_memory;
         return ChildEnd::exited;
     };
-    int quick = 20;  // the end of its output mostly is its own: then its exit is a matter of microseconds
+    int quick = 20;  // a child that closes its output usually exits within microseconds
     for (auto next_look = Clock::now() + tick; report.end == ChildEnd::exited && !child.has_ended();) {
         pollfd waiting[] = {output.waiting(), errors.waiting()};
         ::poll(waiting, 2, !output.open() && quick > 0 ? 1 : static_cast<int>(tick.count()));

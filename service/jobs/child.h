@@ -15,7 +15,7 @@ struct ChildLimits {
     std::size_t output = std::size_t{64} << 20;  // bytes on standard output and standard error together
 };
 
-enum class ChildEnd { exited, signalled, out_of_time, out_of_memory, too_much_output, told };
+enum class ChildEnd { exited, signalled, out_of_time, out_of_memory, too_much_output, stopped };
 
 struct ChildReport {
     ChildEnd end = ChildEnd::exited;

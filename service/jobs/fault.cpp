@@ -51,7 +51,7 @@ std::string how_it_ended(const ChildReport& report, const JobLimits& limits) {
             return fmt::format("the job's process was ended by signal {} ({})", report.code, name ? name : "unknown");
         }
         case ChildEnd::exited:
-        case ChildEnd::told:
+        case ChildEnd::stopped:
             break;
     }
     if (report.code == 0) return "the job's process ended without a result";

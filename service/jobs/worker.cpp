@@ -178,7 +178,7 @@ bool has_result(const fs::path& work) {
 
 Verdict judge(const Workplace& place, const StoredJob& job, const JobBoard::Run& run, const fs::path& work,
               const ChildReport& report, const std::optional<JobFault>& reported) {
-    if (report.end == ChildEnd::told)
+    if (report.end == ChildEnd::stopped)
         return place.board.is_cancelled(run) ? Verdict(Cancelled{}) : Verdict(Requeue{true});
     if (report.end == ChildEnd::exited) {
         const bool finished = report.code == 0 || report.code == promise_broken;

@@ -12,14 +12,14 @@ namespace shadowbench::service {
 // unless it leaves for another one.
 class BoundGroup {
 public:
-    BoundGroup();   // throws Error{io} where no process can be made
+    BoundGroup();   // throws Error{io} where no process can be started
     ~BoundGroup();  // kills all that is left of it
     BoundGroup(const BoundGroup&) = delete;
     BoundGroup& operator=(const BoundGroup&) = delete;
 
     // For a new process of this one, between fork() and exec(): it joins the group, and dies with the thread that
-    // started it, should the keeper be gone. False, and errno, where it cannot, or this process has died already. Makes
-    // system calls only.
+    // started it if the keeper is gone. Returns false and sets errno if it fails or if this process is dead. Makes only
+    // system calls.
     bool join() const;
 
     void kill() const;  // all of it; whoever started a process of it waits for that one

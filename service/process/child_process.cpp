@@ -85,7 +85,7 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
     int why = errno;
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     const auto because = [&] { return std::generic_category().message(why); };
-    if (child_ < 0) throw base::Error(base::ErrorCode::io, program, "no process can be made: " + because());
+    if (child_ < 0) throw base::Error(base::ErrorCode::io, program, "a process cannot be started: " + because());
     fault.write.close();
     ssize_t count;
     while ((count = ::read(fault.read.number(), &why, sizeof why)) < 0 && errno == EINTR) {
@@ -99,7 +99,7 @@ ChildProcess::~ChildProcess() {
     if (child_ > 0) end();
 }
 
-// The child is not reaped here: until then its number is nobody else's.
+// The child is not reaped here, so its process id cannot be reused.
 bool ChildProcess::has_ended() const {
     siginfo_t info{};
     const int failed = ::waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT);

@@ -35,7 +35,7 @@ struct ChildExit {
 class ChildProcess {
 public:
     // `program` is a path; PATH is not searched. `address_space` in bytes, 0: no limit. Returns once the program runs.
-    // Throws Error{io} where no process can be made, and Error{internal} with the reason, place `program`, where it
+    // Throws Error{io} where no process can be started, and Error{internal} with the reason, place `program`, where it
     // cannot run the program.
     ChildProcess(const std::string& program, const std::vector<std::string>& arguments, const Streams& streams,
                  std::size_t address_space = 0);

@@ -56,7 +56,7 @@ TEST(Compare, MissingCellsFailAndExtraOnesAreListed) {
     EXPECT_EQ(line(comparison, "uncompressed", "").verdict, Verdict::missing);
     EXPECT_NE(line(comparison, "uncompressed", "").reason.find("limited to deep"), std::string::npos);
     fewer["only"] = {"deep", "uncompressed"};
-    EXPECT_EQ(line(compare(side({made_result()}), side({fewer}), {}), "uncompressed", "").reason, "no such cell now");
+    EXPECT_EQ(line(compare(side({made_result()}), side({fewer}), {}), "uncompressed", "").reason, "the current result lacks this cell");
     options.allow_missing = true;
     EXPECT_EQ(exit_code(compare(side({made_result()}), side({fewer}), options)), 0);
     comparison = compare(side({fewer}), side({made_result()}), {});

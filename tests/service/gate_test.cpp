@@ -144,7 +144,7 @@ TEST_F(Gate, WrongUsageIsToldInOneLine) {
     fails({"compare", path("base"), path("base"), "--effect", "-1"}, 64, "--effect");
     fails({"compare", path("base"), path("base"), "--confirm"}, 64, "--binary-a");
     fails({"ab", path("nowhere"), path("nowhere"), path("tiny.json")}, 66, path("nowhere"));
-    fails({"ab", path("tiny.json"), path("tiny.json"), path("tiny.json")}, 64, "no program");
+    fails({"ab", path("tiny.json"), path("tiny.json"), path("tiny.json")}, 64, "cannot be executed");
     fails({"ab", program("a", 3.0), program("b", 3.0)}, 64, "SCENARIO");
     fails({"ab", program("a", 3.0), program("b", 3.0), "x", "--pairs", "0"}, 64, "--pairs");
     fails({"history", path("nowhere")}, 66, path("nowhere"));

@@ -80,13 +80,13 @@ void find_normal(View& view) {
     for (std::size_t i = 1; i + 1 < view.size(); ++i) newell += view.offset[i].cross(view.offset[i + 1]);
     view.normal = newell;
     if (!(newell.length() > view.rounding * view.perimeter)) {
-        const Vec3d far = *std::max_element(view.offset.begin(), view.offset.end(),
+        const Vec3d farthest = *std::max_element(view.offset.begin(), view.offset.end(),
                                             [](const Vec3d& a, const Vec3d& b) { return a.length2() < b.length2(); });
         Vec3d widest(0, 0, 0);
         for (const Vec3d& offset : view.offset)
-            if (far.cross(offset).length2() > widest.length2()) widest = far.cross(offset);
+            if (farthest.cross(offset).length2() > widest.length2()) widest = farthest.cross(offset);
         constexpr double on_one_line = 1e-12;  // far above the rounding of a cross product in double
-        if (!(widest.length() > on_one_line * far.length2())) widest = Vec3d(0, 0, 0);
+        if (!(widest.length() > on_one_line * farthest.length2())) widest = Vec3d(0, 0, 0);
         view.normal = widest.dot(newell) < 0.0 ? -widest : widest;
     }
     view.normal.normalize();

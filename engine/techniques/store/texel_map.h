@@ -8,7 +8,7 @@
 //                                                       sums_rays
 //   prepare(float z) const                              what an evaluation needs of a depth; made once a lookup
 //   float evaluate(texel, prepared) const               the visibility that a texel gives
-//   int nodes_of(const float* texel) const              0: nothing is in its way
+//   int nodes_of(const float* texel) const              0 if the texel is empty
 //   static constexpr int most_own_depths
 //   int own_depths(const float* texel, float* out) const    the depths, sorted, that stored() samples its function at
 //                                                           beside those it is given; their number
