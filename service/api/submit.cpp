@@ -92,8 +92,11 @@ std::variant<PostedScenario, ApiResponse> read_posted_recommendation(const std::
     for (const auto& [key, value] : document.items())
         if (key != "scenario" && key != "recommend" && key != "options")
             fault(base::append_token("", key), "unknown key; the body has the keys scenario, recommend and options");
-    const json options = document.value("options", json::object());
-    if (!options.is_object()) fault("/options", "must be an object");
+    json options = document.value("options", json::object());
+    if (!options.is_object()) {
+        fault("/options", "must be an object");
+        options = json::object();
+    }
     for (const auto& [key, value] : options.items()) {
         if (key == "cache" && (value == "reuse" || value == "fresh"))
             posted.reuse = value == "reuse";
