@@ -76,7 +76,7 @@ export function jobView({id, signal, edit}) {
       fileLink('Offline report', `${path}/report`, `${job.name}.html`),
       h('a', {href: `#/compare/${encodeURIComponent(id)}`}, 'Compare with another'), again);
     place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
-      ...(text ? [h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer'}, text))] : []),
+      ...(text ? [h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer', tabindex: '0'}, text))] : []),
       h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)), resultView({source, result, images, imagesFault: fault?.error, signal}));
     announce(`${job.name}: the result is shown`);
   }

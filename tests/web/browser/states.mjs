@@ -49,7 +49,7 @@ states['a recommendation'] = async ({page, url, mock}) => {
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForSelector('.cells tbody tr');
   assert.match(await text(page, 'pre.answer'), /at most 0\.02/);
-  assert.equal(await page.locator('#curves-title').count(), 0, 'its points are not those of the scenario');
+  assert.equal(await page.locator('#curves').count(), 0, 'its points are not those of the scenario');
   await assertAccessible(page);
 };
 
