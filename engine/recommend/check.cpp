@@ -63,8 +63,7 @@ bench::Validated check(const nlohmann::json& document, const bench::RunOptions& 
                     "which are explored");
     bench::ScenarioLoader loader(options.data);
     const scene::Scenario& scenario = loader.load(variants.front());
-    const std::size_t index =
-        asked_at(where + "/light", [&] { return chosen_light(scenario.lights, request.light); });
+    const std::size_t index = asked_at(where + "/light", [&] { return chosen_light(scenario.lights, request.light); });
     const Space space = asked_at(where + "/only", [&] { return Space(scenario, request.only); });
     const bench::PreparedLight light = bench::prepare_light(scenario, index, {}, options.limits);
     if (rays::misses_all(light.view, scenario.scene))

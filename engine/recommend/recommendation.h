@@ -23,7 +23,7 @@ struct Recommendation {
 };
 
 struct Watch {
-    bench::ProgressCallback measuring;                                     // the truth, and the steps of confirming
+    bench::ProgressCallback measuring;                                        // the truth, and the steps of confirming
     std::function<void(const Progress& progress, double seconds)> exploring;  // seconds: since the exploration began
 };
 

@@ -122,7 +122,8 @@ std::variant<json, ApiResponse> examine_posted(Context& context, const PostedSce
     if (!faults.empty()) return problem_of(faults);
     json& facts = std::get<json>(examined);
     const json& estimate = facts.at("estimate");
-    const std::vector<ProblemPart> over = over_limits(estimate, context.options.limits, posted.recommend.empty() ? "" : "/recommend/budget");
+    const std::vector<ProblemPart> over =
+        over_limits(estimate, context.options.limits, posted.recommend.empty() ? "" : "/recommend/budget");
     if (over.empty()) return std::move(facts);
     return problem(422, "The scenario costs more than this server allows: " + over[0].detail + ".", over,
                    {{"estimate", estimate}});

@@ -24,8 +24,8 @@ struct PostedScenario {
 // answer that refuses any other body.
 std::variant<PostedScenario, ApiResponse> read_posted(const std::string& body);
 
-// The body is {"scenario": ..., "recommend": ..., "options": {"cache": "reuse"|"fresh"}}: see recommend/request.h. Wrong
-// parts become faults. Returns the answer that refuses a body without a scenario.
+// The body is {"scenario": ..., "recommend": ..., "options": {"cache": "reuse"|"fresh"}}: see recommend/request.h.
+// Wrong parts become faults. Returns the answer that refuses a body without a scenario.
 std::variant<PostedScenario, ApiResponse> read_posted_recommendation(const std::string& body);
 
 // The facts and the estimated cost of the scenario (helper_side.h), or the answer that refuses a body with faults, or a

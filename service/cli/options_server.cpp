@@ -94,10 +94,10 @@ void add_submit(CLI::App& app, Commands& commands) {
     submit->add_option("--token-file", arguments->token_file, "File with the token of the server");
     submit->add_option("--set", arguments->set, "path=value: change one value of the scenario, as for run")
         ->allow_extra_args(false);
-    submit->add_flag(
-        "--wait", arguments->wait,
-        "Wait for the result and print its table or answer, with the exit codes of run or recommend. A server that does not answer is tried "
-        "again for 60 s");
+    submit->add_flag("--wait", arguments->wait,
+                     "Wait for the result and print its table or answer, with the exit codes of run or recommend. A "
+                     "server that does not answer is tried "
+                     "again for 60 s");
     submit->add_flag("--fresh", arguments->fresh, "Run the scenario even if the server has a result of it");
     CLI::Option* no_pictures =
         submit->add_flag("--no-pictures", arguments->no_pictures, "Measure, but render no pictures");

@@ -96,8 +96,8 @@ bool recommend_command(const RecommendArguments& arguments, std::ostream& out, s
     if (arguments.from.empty() && arguments.scenario.empty())
         throw Error(ErrorCode::usage, "SCENARIO", "name a scenario, or the folder of an exploration with --from");
     fs::path folder = arguments.from;
-    const Recommendation found = arguments.from.empty() ? explore_scenario(arguments, goal, folder, err)
-                                                        : read_recommendation(arguments.from);
+    const Recommendation found =
+        arguments.from.empty() ? explore_scenario(arguments, goal, folder, err) : read_recommendation(arguments.from);
     const recommend::AnswerText answer = recommend::answer_text(found, goal);
     out << answer.text;
     if (arguments.from.empty()) out << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());

@@ -113,9 +113,8 @@ KeptJob from_result(const results::Result& result, const json& document, const f
     kept.job.key.program = result.program.version + " " + result.program.commit;
     kept.job.key.recommend = request_of(document);
     // A scene without objects has no pictures, whether they were wanted or not.
-    kept.job.key.pictures =
-        type_of(folder / "images") != fs::file_type::not_found ||
-        (kept.job.key.recommend.empty() && !scenario.at("scene").has("objects"));
+    kept.job.key.pictures = type_of(folder / "images") != fs::file_type::not_found ||
+                            (kept.job.key.recommend.empty() && !scenario.at("scene").has("objects"));
     kept.job.ended = time_of(folder / "result.json");
     kept.job.created = kept.job.started = result.times.started.empty() ? kept.job.ended : result.times.started;
     kept.job.attempts = 1;

@@ -230,8 +230,7 @@ JobStore::Added JobStore::add(const NewJob& job, std::size_t most_queued) {
             "revision, scenario, recommend) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
             {job.id, ended ? job_states::succeeded : job_states::queued, job.name, job.key.hash, value(job.key.seed),
              job.key.program, std::int64_t{job.key.pictures}, std::int64_t{ended}, job.created, time_of_end,
-             time_of_end, value(job.kept), value(state_->take_revision()), job.scenario,
-             job.key.recommend});
+             time_of_end, value(job.kept), value(state_->take_revision()), job.scenario, job.key.recommend});
         if (!job.idempotency_key.empty())
             run(database, "INSERT INTO keys (key, request, job) SELECT ?, ?, sequence FROM jobs WHERE id = ?",
                 {job.idempotency_key, job.request, job.id});
@@ -356,11 +355,11 @@ std::size_t JobStore::count(const std::string& state) const {
 
 std::optional<StoredJob> JobStore::find_result(const ResultKey& key) const {
     const std::scoped_lock lock(state_->read_mutex);
-    Rows rows(*state_->reader,
-              "SELECT * FROM jobs WHERE hash = ? AND seed = ? AND program = ? AND pictures = ? AND recommend = ? "
-              "AND state = ? ORDER BY sequence DESC LIMIT 1",
-              {key.hash, value(key.seed), key.program, std::int64_t{key.pictures}, key.recommend,
-               job_states::succeeded});
+    Rows rows(
+        *state_->reader,
+        "SELECT * FROM jobs WHERE hash = ? AND seed = ? AND program = ? AND pictures = ? AND recommend = ? "
+        "AND state = ? ORDER BY sequence DESC LIMIT 1",
+        {key.hash, value(key.seed), key.program, std::int64_t{key.pictures}, key.recommend, job_states::succeeded});
     return read_first(rows);
 }
 

@@ -104,10 +104,10 @@ Submitted Jobs::submit(const JobRequest& request) {
     state_->last = request;
     for (const fake::Shared::Kept& kept : state_->jobs)
         if (!request.idempotency_key.empty() && kept.request.idempotency_key == request.idempotency_key)
-            return {
-                kept.request.scenario == request.scenario && kept.request.recommend == request.recommend
-                    ? Submitted::Outcome::existing : Submitted::Outcome::conflict,
-                kept.info};
+            return {kept.request.scenario == request.scenario && kept.request.recommend == request.recommend
+                        ? Submitted::Outcome::existing
+                        : Submitted::Outcome::conflict,
+                    kept.info};
     if (state_->count(JobState::queued) >= state_->limits.queue) return {Submitted::Outcome::queue_full, {}};
     fake::Shared::Kept kept;
     kept.request = request;

@@ -143,8 +143,8 @@ TEST_F(JobRestart, AsksAgainWhatWaitedOrRanWhenTheServerEnded) {
     limits.grace = 0.0;
     start();
     const std::string gate = (folder.path() / "gate").string();
-    JobRequest request = request_of("[ -e " + gate + " ] || { echo '{\"stage\":\"exploring\"}'; sleep 1000; }; " + success +
-                                    "cp recommend.json table.txt; exit 2");
+    JobRequest request = request_of("[ -e " + gate + " ] || { echo '{\"stage\":\"exploring\"}'; sleep 1000; }; " +
+                                    success + "cp recommend.json table.txt; exit 2");
     request.recommend = R"({"error":0.1})";
     const std::string ran = jobs->submit(request).job.id;
     wait_for_run(ran);

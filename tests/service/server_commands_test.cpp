@@ -190,8 +190,7 @@ TEST_F(ServerCommands, SubmitPrintsTheJobAndDoesNotWait) {
 
 TEST_F(ServerCommands, SubmitAsksForARecommendation) {
     serve();
-    const Outcome submitted =
-        cli({"submit", path("tiny.json"), "--server", url_, "--recommend", "0.25", "--fresh"});
+    const Outcome submitted = cli({"submit", path("tiny.json"), "--server", url_, "--recommend", "0.25", "--fresh"});
     EXPECT_EQ(submitted.code, 0) << submitted.err;
     const std::string id = submitted.out.substr(0, submitted.out.find(' '));
     const auto job = nlohmann::json::parse(Client(url_, "").get("/v1/jobs/" + id).body);
