@@ -11,6 +11,10 @@
 
 namespace shadowbench::recommend {
 
+// The error that a setting is judged by: of lookups against the truth, or the largest of the stored functions against
+// their own light rays.
+enum class Measure { rms, max, p99, curve };
+
 struct Goal {
     double error = 0.0;                           // above 0; a setting is wanted whose error is at most this
     std::array<bool, costs> asked{true, true, true};  // the costs of which each is to be the least

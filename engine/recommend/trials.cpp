@@ -17,6 +17,7 @@
 #include "bench/reference.h"
 #include "document/document.h"
 #include "recommend/attempt.h"
+#include "recommend/check.h"
 
 namespace shadowbench::recommend {
 namespace {
@@ -40,26 +41,6 @@ std::string now_utc() {
     char text[32];
     std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
     return text;
-}
-
-// The document without the sweeps over what is explored.
-nlohmann::json without_explored_sweeps(nlohmann::json document) {
-    const auto sweeps = document.is_object() ? document.find("sweeps") : document.end();
-    if (sweeps == document.end() || !sweeps->is_object()) return document;
-    for (auto sweep = sweeps->begin(); sweep != sweeps->end();) {
-        const bool explored = sweep.key() == "/rays/samples_per_pixel" || sweep.key().rfind("/techniques/", 0) == 0;
-        sweep = explored ? sweeps->erase(sweep) : std::next(sweep);
-    }
-    if (sweeps->empty()) document.erase("sweeps");
-    return document;
-}
-
-std::size_t chosen_light(const std::vector<scene::Light>& lights, const std::string& name) {
-    const std::vector<std::string> names = bench::names_of(lights);
-    if (!name.empty() || names.size() == 1) return bench::find_light(names, name, "--light ");
-    throw Error(ErrorCode::usage, "--light",
-                fmt::format("the scenario has {} lights, and each may need other settings; name one of: {}",
-                            names.size(), fmt::join(names, ", ")));
 }
 
 Contender contender_of(const Setting& setting) {

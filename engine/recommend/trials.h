@@ -24,15 +24,12 @@
 #include "bench/ray_store.h"
 #include "bench/run.h"
 #include "rays/tracer.h"
+#include "recommend/exploration.h"
 #include "recommend/lab.h"
 #include "recommend/space.h"
 #include "results/result.h"
 
 namespace shadowbench::recommend {
-
-// The error that a setting is judged by: of lookups against the truth, or the largest of the stored functions against
-// their own light rays.
-enum class Measure { rms, max, p99, curve };
 
 class Trials final : public Lab {
 public:

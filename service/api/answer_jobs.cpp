@@ -57,13 +57,13 @@ ApiResponse job_file(const Context& context, const Call& call, const std::string
                    std::string("The job is ") + to_string(job->state) + "; only a job that succeeded has results.");
 }
 
-}  // namespace
-
-ApiResponse post_job(Context& context, const Call& call) {
+// Queues what `read` finds in the body.
+ApiResponse queue(Context& context, const Call& call,
+                  std::variant<PostedScenario, ApiResponse> (*read)(const std::string& body)) {
     if (context.jobs.stopping()) return try_later(503, "The server is stopping.", "10");
     const std::string* key = call.request.header("idempotency-key");
     if (key && !is_key(*key)) return problem(400, "An Idempotency-Key must have 1 to 255 printable ASCII characters.");
-    auto posted = read_posted(call.request.body);
+    auto posted = read(call.request.body);
     if (auto* refusal = std::get_if<ApiResponse>(&posted)) return std::move(*refusal);
     auto& scenario = std::get<PostedScenario>(posted);
     auto examined = examine_posted(context, scenario);
@@ -75,9 +75,20 @@ ApiResponse post_job(Context& context, const Call& call) {
     request.hash = facts.at("hash").get<std::string>();
     request.seed = facts.at("seed").get<std::uint64_t>();
     request.pictures = scenario.pictures;
+    request.recommend = std::move(scenario.recommend);
     request.reuse = scenario.reuse;
     if (key) request.idempotency_key = *key;
     return submitted(context, context.jobs.submit(request));
+}
+
+}  // namespace
+
+ApiResponse post_job(Context& context, const Call& call) {
+    return queue(context, call, read_posted);
+}
+
+ApiResponse post_recommendation(Context& context, const Call& call) {
+    return queue(context, call, read_posted_recommendation);
 }
 
 ApiResponse list_jobs(Context& context, const Call& call) {

@@ -30,13 +30,15 @@ Examiner::Examiner(StartHelper start, std::vector<std::string> arguments, double
       slots_(checks_at_a_time, waiting),
       answers_(checks_kept) {}
 
-std::variant<nlohmann::json, std::vector<base::Error>> Examiner::examine(const std::string& scenario) {
+std::variant<nlohmann::json, std::vector<base::Error>> Examiner::examine(const std::string& scenario,
+                                                                         const std::string& recommend) {
+    const std::string question = recommend.empty() ? scenario : scenario + "\t" + recommend;
     {
         const std::scoped_lock lock(mutex_);
-        if (const std::string* known = answers_.find(scenario)) return take_answer(*known);
+        if (const std::string* known = answers_.find(question)) return take_answer(*known);
     }
     const Slots::Slot slot = slots_.take(seconds_);
-    const std::string line = start_(arguments_)->ask(scenario, seconds_);
+    const std::string line = start_(arguments_)->ask(question, seconds_);
     nlohmann::json answer = take_answer(line);
     if (const auto faults = answer.find("faults"); faults != answer.end()) {
         std::vector<base::Error> wrong;
@@ -44,7 +46,7 @@ std::variant<nlohmann::json, std::vector<base::Error>> Examiner::examine(const s
         return wrong;
     }
     const std::scoped_lock lock(mutex_);
-    answers_.put(scenario, line);
+    answers_.put(question, line);
     return answer;
 }
 

@@ -26,9 +26,10 @@ public:
     // `seconds`: longest wait for one answer. `waiting`: requests that may wait for their turn.
     Examiner(StartHelper start, std::vector<std::string> arguments, double seconds, std::size_t waiting);
 
-    // `scenario` is JSON on one line. The facts or the faults that examine_lines() in helper_side.h finds. Throws
-    // Error, Busy.
-    std::variant<nlohmann::json, std::vector<base::Error>> examine(const std::string& scenario);
+    // `scenario` is JSON on one line, and so is `recommend`, a recommend::Request, where it is not empty. The facts or
+    // the faults that examine_lines() in helper_side.h finds. Throws Error, Busy.
+    std::variant<nlohmann::json, std::vector<base::Error>> examine(const std::string& scenario,
+                                                                   const std::string& recommend = "");
 
 private:
     StartHelper start_;

@@ -15,6 +15,7 @@
 #include "bench/pixel_curves.h"
 #include "bench/run.h"
 #include "document/document.h"
+#include "recommend/check.h"
 #include "scene/scenario.h"
 #include "service/privacy/hidden_folders.h"
 
@@ -67,8 +68,19 @@ std::uint64_t seed_of(const json& document) {
     return document.value(json::json_pointer("/rays/seed"), std::uint64_t{1});
 }
 
-json facts_of(const json& document, const std::vector<fs::path>& data, const Hidden& hidden) {
-    const bench::Validated v = bench::validate(document, options_for(data));
+// `recommend`: the text of a request; empty: the scenario is to be run.
+bench::Validated validate(const json& document, const std::string& recommend, const bench::RunOptions& options) {
+    if (recommend.empty()) return bench::validate(document, options);
+    std::vector<Error> faults;
+    const recommend::Request request =
+        recommend::read_request(scene::parse_json(recommend, "recommend"), "/recommend", faults);
+    if (!faults.empty()) throw Error(faults.front());
+    return recommend::check(document, options, request, "/recommend");
+}
+
+json facts_of(const json& document, const std::string& recommend, const std::vector<fs::path>& data,
+              const Hidden& hidden) {
+    const bench::Validated v = validate(document, recommend, options_for(data));
     json notes = json::array();
     for (const std::string& note : v.notes) notes.push_back(hide(note, hidden));
     for (const std::string& light : v.blind)
@@ -88,9 +100,10 @@ json facts_of(const json& document, const std::vector<fs::path>& data, const Hid
 }
 
 std::string examine(const std::string& line, const std::vector<fs::path>& data, const Hidden& hidden) {
-    const json document = scene::parse_json(line, "scenario");
+    const std::size_t tab = line.find('\t');
+    const json document = scene::parse_json(line.substr(0, tab), "scenario");
     try {
-        return facts_of(document, data, hidden).dump();
+        return facts_of(document, tab == std::string::npos ? "" : line.substr(tab + 1), data, hidden).dump();
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_input) throw;
         json faults = json::array();

@@ -9,8 +9,10 @@
 
 namespace shadowbench::service {
 
-// Each line is a scenario. The answer is {"name", "seed", "hash", "variants", "lights", "techniques", "notes",
+// Each line is a scenario or, to check a recommendation, a scenario, a tab and a recommend::Request as JSON. JSON on
+// one line has no tabs. The answer is {"name", "seed", "hash", "variants", "lights", "techniques", "notes",
 // "estimate"}, or {"faults": [{"code", "where", "message"}, ...]} for a wrong scenario.
+// Faults of a request have places in "/recommend".
 void examine_lines(const std::vector<std::filesystem::path>& data, std::istream& in, std::ostream& out);
 
 // The first line is a scenario and gets no answer. Each further line is "X Y"; its answer is the bench::PixelCurves of

@@ -16,6 +16,13 @@ ordered_json or_null(const std::optional<Value>& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
+// What a recommendation was asked. Records of results can be edited by hand.
+ordered_json recommend_json(const std::string& text) {
+    if (text.empty()) return nullptr;
+    ordered_json asked = ordered_json::parse(text, nullptr, false);
+    return asked.is_object() ? asked : ordered_json::object();
+}
+
 ordered_json progress_json(const std::optional<JobProgress>& progress) {
     if (!progress) return nullptr;
     return {{"stage", progress->stage},
@@ -34,7 +41,10 @@ ordered_json fault_json(const std::optional<JobFault>& fault) {
 
 nlohmann::ordered_json to_json(const JobInfo& job, const std::vector<std::string>& artifacts) {
     const std::string self = "/v1/jobs/" + job.id;
+    const bool run = job.recommend.empty();
+    const ordered_json good = or_null(job.promises_kept);
     return {{"id", job.id},
+            {"kind", run ? "run" : "recommendation"},
             {"state", to_string(job.state)},
             {"name", job.name},
             {"scenario_hash", job.scenario_hash},
@@ -47,7 +57,9 @@ nlohmann::ordered_json to_json(const JobInfo& job, const std::vector<std::string
             {"progress", progress_json(job.progress)},
             {"pictures", job.pictures},
             {"cached", job.cached},
-            {"promises_kept", or_null(job.promises_kept)},
+            {"recommend", recommend_json(job.recommend)},
+            {"promises_kept", run ? good : nullptr},
+            {"reached", run ? nullptr : good},
             {"error", fault_json(job.fault)},
             {"artifacts", artifacts},
             {"links",

@@ -24,6 +24,7 @@ constexpr Route table[] = {
     {"GET", "/v1/jobs/{id}/artifacts/{name...}", "", false, job_artifact},
     {"GET", "/v1/jobs/{id}/report", "text/html", false, job_report},
     {"GET", "/v1/jobs/{id}/curves", json_type, false, job_curves, {"light", "variant", "x", "y"}},
+    {"POST", "/v1/recommendations", json_type, true, post_recommendation},
     {"POST", "/v1/compare", json_type, true, compare},
     {"POST", "/v1/validate", json_type, true, validate_scenario},
     {"GET", "/v1/techniques", json_type, false, list_techniques},

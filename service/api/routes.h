@@ -37,6 +37,7 @@ const Route* find_route(const ApiRequest& request, PathParameters& parameters, s
 
 // The answers.
 ApiResponse post_job(Context& context, const Call& call);
+ApiResponse post_recommendation(Context& context, const Call& call);
 ApiResponse list_jobs(Context& context, const Call& call);
 ApiResponse get_job(Context& context, const Call& call);
 ApiResponse cancel_job(Context& context, const Call& call);

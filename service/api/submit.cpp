@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json_pointer.h"
+#include "recommend/request.h"
 #include "scene/scenario.h"
 #include "service/api/problem.h"
 
@@ -29,8 +30,8 @@ std::variant<PostedScenario, ApiResponse> read_options(const json& options, Post
     return posted;
 }
 
-// The limits that the estimate exceeds.
-std::vector<ProblemPart> over_limits(const json& estimate, const CostLimits& limits) {
+// The limits that the estimate exceeds. `time`: what decides about the seconds.
+std::vector<ProblemPart> over_limits(const json& estimate, const CostLimits& limits, const char* time) {
     std::vector<ProblemPart> over;
     const double bytes = estimate.at("bytes").get<double>(), seconds = estimate.at("seconds").get<double>();
     if (const int side = estimate.at("resolution").get<int>(); side > limits.resolution)
@@ -46,19 +47,24 @@ std::vector<ProblemPart> over_limits(const json& estimate, const CostLimits& lim
                                              bytes / gib, limits.bytes / gib)});
     if (seconds > limits.seconds)
         over.push_back(
-            {"", fmt::format("it would run for about {:.3g} s; this server allows {:.3g}", seconds, limits.seconds)});
+            {time, fmt::format("it would run for about {:.3g} s; this server allows {:.3g}", seconds, limits.seconds)});
     return over;
+}
+
+std::variant<json, ApiResponse> read_body(const std::string& body) {
+    try {
+        return scene::parse_json(body, "body");
+    } catch (const base::Error& error) {
+        return problem(400, error.what());
+    }
 }
 
 }  // namespace
 
 std::variant<PostedScenario, ApiResponse> read_posted(const std::string& body) {
-    json document;
-    try {
-        document = scene::parse_json(body, "body");
-    } catch (const base::Error& error) {
-        return problem(400, error.what());
-    }
+    auto read = read_body(body);
+    if (auto* refusal = std::get_if<ApiResponse>(&read)) return std::move(*refusal);
+    const json& document = std::get<json>(read);
     PostedScenario posted;
     if (!document.is_object() || !document.contains("scenario")) {
         posted.text = document.dump();
@@ -73,12 +79,51 @@ std::variant<PostedScenario, ApiResponse> read_posted(const std::string& body) {
     return read_options(document["options"], std::move(posted));
 }
 
+std::variant<PostedScenario, ApiResponse> read_posted_recommendation(const std::string& body) {
+    auto read = read_body(body);
+    if (auto* refusal = std::get_if<ApiResponse>(&read)) return std::move(*refusal);
+    const json& document = std::get<json>(read);
+    PostedScenario posted;
+    posted.pictures = false;
+    const auto fault = [&](const std::string& pointer, const char* detail) {
+        posted.faults.emplace_back(base::ErrorCode::bad_input, pointer, detail);
+    };
+    if (!document.is_object()) return problem(422, "The body must be an object.", {{"", "must be an object"}});
+    for (const auto& [key, value] : document.items())
+        if (key != "scenario" && key != "recommend" && key != "options")
+            fault(base::append_token("", key), "unknown key; the body has the keys scenario, recommend and options");
+    json options = document.value("options", json::object());
+    if (!options.is_object()) {
+        fault("/options", "must be an object");
+        options = json::object();
+    }
+    for (const auto& [key, value] : options.items()) {
+        if (key == "cache" && (value == "reuse" || value == "fresh"))
+            posted.reuse = value == "reuse";
+        else
+            fault(base::append_token("/options", key), "the only option is \"cache\": \"reuse\" or \"fresh\"");
+    }
+    const recommend::Request request =
+        recommend::read_request(document.value("recommend", json::object()), "/recommend", posted.faults);
+    if (!document.contains("scenario")) {
+        fault("/scenario", "is missing");
+        return problem_of(posted.faults);
+    }
+    posted.text = document["scenario"].dump();
+    if (posted.faults.empty()) posted.recommend = recommend::to_json(request).dump();
+    return posted;
+}
+
 std::variant<json, ApiResponse> examine_posted(Context& context, const PostedScenario& posted) {
-    auto examined = context.examiner.examine(posted.text);
-    if (const auto* faults = std::get_if<std::vector<base::Error>>(&examined)) return problem_of(*faults);
+    auto examined = context.examiner.examine(posted.text, posted.recommend);
+    std::vector<base::Error> faults = posted.faults;
+    if (const auto* wrong = std::get_if<std::vector<base::Error>>(&examined))
+        faults.insert(faults.end(), wrong->begin(), wrong->end());
+    if (!faults.empty()) return problem_of(faults);
     json& facts = std::get<json>(examined);
     const json& estimate = facts.at("estimate");
-    const std::vector<ProblemPart> over = over_limits(estimate, context.options.limits);
+    const std::vector<ProblemPart> over =
+        over_limits(estimate, context.options.limits, posted.recommend.empty() ? "" : "/recommend/budget");
     if (over.empty()) return std::move(facts);
     return problem(422, "The scenario costs more than this server allows: " + over[0].detail + ".", over,
                    {{"estimate", estimate}});

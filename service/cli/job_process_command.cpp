@@ -21,6 +21,7 @@
 #include "results/report.h"
 #include "results/write_result.h"
 #include "scene/scenario.h"
+#include "service/cli/recommend_job.h"
 #include "service/jobs/fraction.h"
 #include "service/jobs/progress_line.h"
 #include "service/privacy/hidden_folders.h"
@@ -116,11 +117,16 @@ bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
     options.limits.all = static_cast<std::size_t>(arguments.memory_limit * 1024.0 * 1024.0 * 1024.0);
     options.limits.kept_rays = std::min(options.limits.kept_rays, options.limits.all / 2);
 
+    const std::vector<HiddenFolder> hidden = hidden_folders(arguments.folder, arguments.data);
+    Reporter reporter(out);
+    if (const fs::path asked = folder / "recommend.json"; fs::exists(asked))
+        return recommend_job(
+            document, scene::parse_json(base::read_text(asked), "recommend.json"), options, folder, hidden,
+            [&](const bench::Progress& progress, double fraction) { reporter.report(progress, fraction); });
+
     const std::vector<document::Variant> variants = document::expand(document);
     const bool pictures = arguments.pictures && has_objects(variants.front());
     JobFraction fraction = make_fraction(variants, pictures);
-    const std::vector<HiddenFolder> hidden = hidden_folders(arguments.folder, arguments.data);
-    Reporter reporter(out);
     bool kept = true;
     {
         results::Result result = bench::run(document, options, [&](const bench::Progress& progress) {

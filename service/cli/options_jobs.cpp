@@ -11,9 +11,10 @@ namespace shadowbench::service {
 // Not in --help: the server runs it.
 void add_job_commands(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<JobProcessArguments>();
-    CLI::App* job = app.add_subcommand("job", "Run FOLDER/scenario.json as a job of a server");
+    CLI::App* job = app.add_subcommand(
+        "job", "Run FOLDER/scenario.json, or find what FOLDER/recommend.json asks, as a job of a server");
     job->group("");
-    job->add_option("FOLDER", arguments->folder, "Folder of scenario.json; the results go there too")->required();
+    job->add_option("FOLDER", arguments->folder, "Folder of these files; the results go there too")->required();
     job->add_option("--data", arguments->data, "Look for data only in these folders");
     job->add_option("--memory-limit", arguments->memory_limit,
                     "GiB of memory. A scenario that certainly needs more is refused")

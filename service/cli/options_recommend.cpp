@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "recommend/request.h"
 #include "service/cli/options.h"
 #include "service/cli/recommend_command.h"
 
@@ -24,7 +25,7 @@ void add_recommend(CLI::App& app, Commands& commands) {
         recommend->add_option("SCENARIO", arguments->scenario, "A scenario file, or the name of one");
     recommend->add_option("--error", arguments->error, "The largest error that is good enough")
         ->required()
-        ->check(CLI::Range(1e-6, 1.0));
+        ->check(CLI::Range(recommend::least_error, recommend::most_error));
     recommend
         ->add_option(
             "--measure", arguments->measure,

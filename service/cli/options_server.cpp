@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "recommend/request.h"
 #include "service/cli/options.h"
 #include "service/cli/server_commands.h"
 
@@ -87,18 +88,25 @@ void add_submit(CLI::App& app, Commands& commands) {
     CLI::App* submit = app.add_subcommand("submit", "Send a scenario to a server");
     set_help(*submit, command_groups::serve,
              {"submit quickstart", "submit quickstart --server http://127.0.0.1:8080 --wait",
-              "submit hairball --set rays.resolution=256 --fresh --wait"});
+              "submit hairball --set rays.resolution=256 --fresh --wait", "submit quickstart --recommend 0.02 --wait"});
     submit->add_option("SCENARIO", arguments->scenario, "A scenario file, or the name of one")->required();
     submit->add_option("--server", arguments->server, "URL of the server")->capture_default_str();
     submit->add_option("--token-file", arguments->token_file, "File with the token of the server");
     submit->add_option("--set", arguments->set, "path=value: change one value of the scenario, as for run")
         ->allow_extra_args(false);
-    submit->add_flag(
-        "--wait", arguments->wait,
-        "Wait for the result and print its table, with the exit codes of run. A server that does not answer is tried "
-        "again for 60 s");
+    submit->add_flag("--wait", arguments->wait,
+                     "Wait for the result and print its table or answer, with the exit codes of run or recommend. A "
+                     "server that does not answer is tried "
+                     "again for 60 s");
     submit->add_flag("--fresh", arguments->fresh, "Run the scenario even if the server has a result of it");
-    submit->add_flag("--no-pictures", arguments->no_pictures, "Measure, but render no pictures");
+    CLI::Option* no_pictures =
+        submit->add_flag("--no-pictures", arguments->no_pictures, "Measure, but render no pictures");
+    submit
+        ->add_option("--recommend", arguments->recommend,
+                     "Instead of running it, find the cheapest technique and settings whose RMS error is at most this, "
+                     "as recommend --error does")
+        ->check(CLI::Range(recommend::least_error, recommend::most_error))
+        ->excludes(no_pictures);
     commands.push_back({submit, [arguments](std::ostream& out, std::ostream& err) {
                             return submit_command(*arguments, out, err) ? 0 : promise_broken;
                         }});

@@ -1,7 +1,6 @@
 #include "service/cli/recommend_command.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <ostream>
 
@@ -11,11 +10,7 @@
 #include "base/error.h"
 #include "base/read_text.h"
 #include "base/write_files.h"
-#include "recommend/answer.h"
-#include "recommend/record.h"
-#include "recommend/search.h"
-#include "recommend/trials.h"
-#include "results/fields.h"
+#include "recommend/recommendation.h"
 #include "results/report.h"
 #include "scene/scenario.h"
 #include "service/cli/job.h"
@@ -29,20 +24,17 @@ namespace fs = std::filesystem;
 using base::Error;
 using base::ErrorCode;
 using recommend::Cost;
-using recommend::Exploration;
-using recommend::Goal;
-using recommend::Measure;
-
-constexpr const char* cost_words[recommend::costs] = {"lookup", "bytes", "build"};
-constexpr const char* measure_words[] = {"rms", "max", "p99", "curve"};
+using recommend::cost_words;
+using recommend::measure_words;
+using recommend::Recommendation;
 
 std::span<const Unit> units_of(std::size_t cost) {
     if (cost == static_cast<std::size_t>(Cost::lookup)) return nanosecond_units;
     return cost == static_cast<std::size_t>(Cost::bytes) ? std::span<const Unit>(byte_units) : millisecond_units;
 }
 
-Goal read_goal(const RecommendArguments& arguments) {
-    Goal goal;
+recommend::Goal read_goal(const RecommendArguments& arguments) {
+    recommend::Goal goal;
     goal.error = arguments.error;
     goal.budget = read_quantity(arguments.budget, second_units, "--budget");
     const std::vector<std::string>& asked = arguments.cheapest;
@@ -60,38 +52,14 @@ Goal read_goal(const RecommendArguments& arguments) {
     return goal;
 }
 
-Measure read_measure(const std::string& word) {
+recommend::Measure read_measure(const std::string& word) {
     const auto found = std::find(std::begin(measure_words), std::end(measure_words), word);
-    return static_cast<Measure>(found - std::begin(measure_words));
+    return static_cast<recommend::Measure>(found - std::begin(measure_words));
 }
 
-// What was explored, and of what.
-struct Explored {
-    std::string scenario, light;
-    Measure measure = Measure::rms;
-    Exploration exploration;
-};
-
-Explored read_explored(const fs::path& folder) {
+Recommendation read_recommendation(const fs::path& folder) {
     const fs::path file = folder / "result.json";
-    const nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
-    if (!document.is_object() || !document.contains("recommendation"))
-        throw Error(ErrorCode::bad_input, file.string(),
-                    "holds no recommendation; name a folder that shadowbench recommend wrote");
-    const results::Field whole = results::top(document, file.string()), from = whole.at("recommendation");
-    Explored explored{whole.at("name").text(), from.at("light").text(), {}, {}};
-    explored.measure = read_measure(from.at("measure").text());
-    explored.exploration = recommend::exploration_from_json(from.value, from.where);
-    return explored;
-}
-
-nlohmann::ordered_json to_json(const Explored& explored, const results::Result& result) {
-    nlohmann::ordered_json out = results::to_json(result);
-    nlohmann::ordered_json& recommendation = out["recommendation"];
-    recommendation["light"] = explored.light;
-    recommendation["measure"] = measure_words[static_cast<std::size_t>(explored.measure)];
-    recommendation.update(recommend::to_json(explored.exploration));
-    return out;
+    return recommend::recommendation_from_json(scene::parse_json(base::read_text(file), file.string()), file.string());
 }
 
 const char* stage_name(recommend::Stage stage) {
@@ -99,51 +67,39 @@ const char* stage_name(recommend::Stage stage) {
 }
 
 // Explores the scenario and writes the result.
-Explored explore_scenario(const RecommendArguments& arguments, const Goal& goal, fs::path& folder, std::ostream& err) {
+Recommendation explore_scenario(const RecommendArguments& arguments, const recommend::Goal& goal, fs::path& folder,
+                                std::ostream& err) {
     const Job job = read_job(arguments);
     folder = output_folder(arguments.out, "results/recommendations", *job.document);
     base::Undo made;
     base::make_writable(folder, made);
     ProgressBar bar(err);
-    const auto show = [&](const bench::Progress& progress) { bar.show(progress); };
-    const Measure measure = read_measure(arguments.measure);
-    recommend::Trials trials(*job.document, job.options, arguments.light, measure, show);
-
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point began = Clock::now();
-    recommend::Hooks hooks;
-    hooks.seconds = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
-    hooks.progress = [&](const recommend::Progress& progress) {
+    recommend::Watch watch;
+    watch.measuring = [&](const bench::Progress& progress) { bar.show(progress); };
+    watch.exploring = [&](const recommend::Progress& progress, double seconds) {
         bar.show({fmt::format("{} measured, {} open,", progress.measured, progress.open), stage_name(progress.stage),
-                  static_cast<std::size_t>(std::min(hooks.seconds(), goal.budget)),
-                  static_cast<std::size_t>(goal.budget)});
+                  static_cast<std::size_t>(std::min(seconds, goal.budget)), static_cast<std::size_t>(goal.budget)});
     };
-    Explored explored{job.document->at("name").get<std::string>(), trials.light(), measure,
-                      recommend::explore(trials, goal, hooks)};
-    const results::Result result = trials.result();
+    recommend::Explored explored = recommend::explore(
+        *job.document, job.options, {goal, read_measure(arguments.measure), arguments.light, arguments.only}, watch);
     bar.end();
-    base::write_files({{folder / "result.json", to_json(explored, result).dump(1) + "\n"},
-                       {folder / "result.csv", results::to_csv(result)}});
+    base::write_files({{folder / "result.json", recommend::to_json(explored).dump(1) + "\n"},
+                       {folder / "result.csv", results::to_csv(explored.result)}});
     made.keep();
-    return explored;
+    return std::move(explored.recommendation);
 }
 
 }  // namespace
 
 bool recommend_command(const RecommendArguments& arguments, std::ostream& out, std::ostream& err) {
-    const Goal goal = read_goal(arguments);
+    const recommend::Goal goal = read_goal(arguments);
     if (arguments.from.empty() && arguments.scenario.empty())
         throw Error(ErrorCode::usage, "SCENARIO", "name a scenario, or the folder of an exploration with --from");
     fs::path folder = arguments.from;
-    const Explored explored =
-        arguments.from.empty() ? explore_scenario(arguments, goal, folder, err) : read_explored(arguments.from);
-    const std::vector<recommend::Family>& families = explored.exploration.families;
-    const recommend::Answer answer = recommend::answer(explored.exploration, goal);
-    const auto paste = [&](const recommend::Point& point) {
-        return recommend::scenario_part(families[point.family], point).dump();
-    };
-    out << fmt::format("{}, light {}\n", explored.scenario, explored.light)
-        << recommend::to_text(answer, families, {measure_words[static_cast<std::size_t>(explored.measure)], paste});
+    const Recommendation found =
+        arguments.from.empty() ? explore_scenario(arguments, goal, folder, err) : read_recommendation(arguments.from);
+    const recommend::AnswerText answer = recommend::answer_text(found, goal);
+    out << answer.text;
     if (arguments.from.empty()) out << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
     return answer.reached;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct SubmitArguments {
     std::string server = "http://127.0.0.1:8080";
     std::string token_file;
     bool wait = false, fresh = false, no_pictures = false;
+    std::optional<double> recommend;  // the error to ask a recommendation for
 };
 
 struct HelperArguments {

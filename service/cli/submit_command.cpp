@@ -67,9 +67,12 @@ std::string request_body(const SubmitArguments& arguments) {
     const auto file = find_scenario(arguments.scenario);
     nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
     for (const std::string& assignment : arguments.set) document::set_value(document, assignment);
-    const nlohmann::json body = {
-        {"scenario", std::move(document)},
-        {"options", {{"cache", arguments.fresh ? "fresh" : "reuse"}, {"pictures", !arguments.no_pictures}}}};
+    nlohmann::json body = {{"scenario", std::move(document)},
+                           {"options", {{"cache", arguments.fresh ? "fresh" : "reuse"}}}};
+    if (arguments.recommend)
+        body["recommend"] = {{"error", *arguments.recommend}};
+    else
+        body["options"]["pictures"] = !arguments.no_pictures;
     return body.dump();
 }
 
@@ -136,7 +139,8 @@ bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::os
     const std::string body = request_body(arguments), server = without_slash(arguments.server);
     Client client(server, arguments.token_file.empty() ? "" : read_token(arguments.token_file));
     const std::string key = new_key();
-    const auto post = [&] { return client.post_json("/v1/jobs", body, {{"Idempotency-Key", key}}); };
+    const char* const path = arguments.recommend ? "/v1/recommendations" : "/v1/jobs";
+    const auto post = [&] { return client.post_json(path, body, {{"Idempotency-Key", key}}); };
     json job = take(arguments.wait ? patiently(post, server, err) : post(), 202, server);
     const std::string self = job.at("links").at("self");
     if (!arguments.wait) {
@@ -146,11 +150,11 @@ bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::os
     }
     job = wait_for(client, std::move(job), server, err);
     refuse_failed(job);
-    // The table that run prints. Jobs of earlier versions have none.
+    // The table that run prints, or the answer. Jobs of earlier versions have none.
     const Reply table = patiently([&] { return client.get(self + "/artifacts/table.txt"); }, server, err);
     if (table.status == 200) out << table.body;
     out << fmt::format("result: {}{}/result\n", server, self);
-    return job.at("promises_kept").get<bool>();
+    return job.at(arguments.recommend ? "reached" : "promises_kept").get<bool>();
 }
 
 }  // namespace shadowbench::service

@@ -65,7 +65,8 @@ std::string program_version() {
 
 // Requests with the same idempotency key must have the same hash.
 std::string request_hash(const JobRequest& request) {
-    return base::hash_text(fmt::format("{} {} {}", request.pictures, request.reuse, request.scenario));
+    const std::string recommend = request.recommend.empty() ? "" : request.recommend + " ";
+    return base::hash_text(fmt::format("{} {} {}{}", request.pictures, request.reuse, recommend, request.scenario));
 }
 
 std::int64_t read_cursor(const std::string& cursor) {
@@ -90,6 +91,7 @@ JobInfo info_of(const StoredJob& job, JobBoard::Shown shown) {
     info.ended = job.ended;
     info.attempts = job.attempts;
     info.pictures = job.key.pictures;
+    info.recommend = job.key.recommend;
     info.cached = job.cached;
     if (info.state == JobState::succeeded) info.promises_kept = job.kept;
     if (job.fault) info.fault = {job.fault->code, job.fault->where, job.fault->message};
@@ -206,7 +208,7 @@ Submitted Jobs::submit(const JobRequest& request) {
             return {outcome_of(known->outcome), info_of(known->job, all.board.shown(known->job.id))};
     job.id = new_id();
     job.name = request.name;
-    job.key = {request.hash, request.seed, program_version(), request.pictures};
+    job.key = {request.hash, request.seed, program_version(), request.pictures, request.recommend};
     job.scenario = request.scenario;
     job.created = now_utc();
     job.idempotency_key = request.idempotency_key;

@@ -36,8 +36,9 @@ struct JobInfo {
     std::string created, started, ended;  // UTC, ISO 8601 with milliseconds; empty: not yet
     int attempts = 0;
     bool pictures = true;
+    std::string recommend;                  // as in its JobRequest
     bool cached = false;                    // answered from the result of an earlier job
-    std::optional<bool> promises_kept;      // of a job that succeeded
+    std::optional<bool> promises_kept;      // of a job that succeeded; of a recommendation: a setting reaches the error
     std::optional<std::uint64_t> position;  // of a queued job: number of jobs before it
     std::optional<JobProgress> progress;    // while it runs
     std::optional<JobFault> fault;          // of a failed job
@@ -49,7 +50,8 @@ struct JobRequest {
     std::string name, hash;  // of the scenario
     std::uint64_t seed = 0;
     bool pictures = true;
-    bool reuse = true;            // an earlier result of the same scenario and program version may be the answer
+    std::string recommend = {};   // JSON text of a recommend::Request: find its answer; empty: run the scenario
+    bool reuse = true;            // an earlier result of the same request and program version may be the answer
     std::string idempotency_key;  // empty: none
 };
 

@@ -62,6 +62,7 @@ KeptJob from_record(const Field& record, const std::string& id) {
     kept.job.key.seed = record.at("seed").count();
     kept.job.key.program = record.at("program").text();
     kept.job.key.pictures = record.at("pictures").truth();
+    if (record.has("recommend")) kept.job.key.recommend = record.at("recommend").text();
     kept.job.cached = record.at("cached").truth();
     kept.job.created = record.at("created").text();
     kept.job.started = record.at("started").text();
@@ -93,8 +94,16 @@ std::string time_of(const fs::path& file) {
     return ::stat(file.c_str(), &status) == 0 ? utc_text(status.st_mtim) : now_utc();
 }
 
-KeptJob from_result(const results::Result& result, const Field& scenario, const fs::path& folder,
+// What a recommendation was asked; the command line does not note it. Empty for the result of a run.
+std::string request_of(const json& document) {
+    const auto recommendation = document.find("recommendation");
+    if (recommendation == document.end()) return "";
+    return recommendation->is_object() ? recommendation->value("request", json::object()).dump() : "{}";
+}
+
+KeptJob from_result(const results::Result& result, const json& document, const fs::path& folder,
                     const std::string& id) {
+    const Field scenario = results::top(document, "").at("scenario");
     KeptJob kept;
     kept.job.id = id;
     kept.job.name = result.name;
@@ -102,9 +111,10 @@ KeptJob from_result(const results::Result& result, const Field& scenario, const 
     const bool has_seed = scenario.has("rays") && scenario.at("rays").has("seed");
     kept.job.key.seed = has_seed ? scenario.at("rays").at("seed").count() : std::uint64_t{1};
     kept.job.key.program = result.program.version + " " + result.program.commit;
+    kept.job.key.recommend = request_of(document);
     // A scene without objects has no pictures, whether they were wanted or not.
-    kept.job.key.pictures =
-        type_of(folder / "images") != fs::file_type::not_found || !scenario.at("scene").has("objects");
+    kept.job.key.pictures = type_of(folder / "images") != fs::file_type::not_found ||
+                            (kept.job.key.recommend.empty() && !scenario.at("scene").has("objects"));
     kept.job.ended = time_of(folder / "result.json");
     kept.job.created = kept.job.started = result.times.started.empty() ? kept.job.ended : result.times.started;
     kept.job.attempts = 1;
@@ -129,6 +139,7 @@ void write_record(const fs::path& folder, const KeptJob& kept) {
                                            {"seed", job.key.seed},
                                            {"program", job.key.program},
                                            {"pictures", job.key.pictures},
+                                           {"recommend", job.key.recommend},
                                            {"cached", job.cached},
                                            {"created", job.created},
                                            {"started", job.started},
@@ -152,7 +163,7 @@ FoundResults read_results(const fs::path& folder, const std::string& id) {
         [&]() -> FoundResults {
             const results::Result result = results::from_json(*document, "");
             if (auto kept = read_record(folder, id)) return {std::move(kept), ""};
-            return {from_result(result, results::top(*document, "").at("scenario"), folder, id), ""};
+            return {from_result(result, *document, folder, id), ""};
         },
         [](const Error& error) -> FoundResults {
             return {{}, fmt::format("its result.json is not a result that this program reads: {}", error.what())};

@@ -113,11 +113,14 @@ void wait_for_room(const Workplace& place, const StoredJob& job, const Waits& wa
     } while (!place.board.stopping() && in_queue() && !has_room(place.folders.work, waits.bytes + least_room));
 }
 
-void write_scenario(const fs::path& work, const std::string& text) {
-    std::ofstream file(work / "scenario.json", std::ios::binary);
-    file << text;
-    file.close();
-    if (!file) throw Error(ErrorCode::io, "", "the job's scenario cannot be written");
+// What a job's process reads: its scenario and, for a recommendation, what is asked of it.
+constexpr const char *scenario_name = "scenario.json", *recommend_name = "recommend.json";
+
+void write_input(const fs::path& file, const std::string& text) {
+    std::ofstream out(file, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw Error(ErrorCode::io, "", "the job's scenario cannot be written");
 }
 
 std::vector<std::string> arguments_of(const Workplace& place, const StoredJob& job, const fs::path& work) {
@@ -217,7 +220,8 @@ void keep_record(const Workplace& place, const StoredJob& job, bool kept, const 
 Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run, const fs::path& work) {
     const std::optional<std::string> scenario = place.store.scenario(job.id);
     if (!scenario) return Cancelled{};  // the job was removed
-    write_scenario(work, *scenario);
+    write_input(work / scenario_name, *scenario);
+    if (!job.key.recommend.empty()) write_input(work / recommend_name, job.key.recommend);
     Listener listener(place, run);
     const ChildLimits limits{place.limits.seconds, place.limits.memory};
     const ChildReport report = run_child(
@@ -229,7 +233,7 @@ Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run
     Verdict verdict = judge(place, job, run, work, report, listener.fault());
     if (auto waits = storage_fault(place, verdict, report, listener, work)) return std::move(*waits);
     if (const auto* success = std::get_if<Success>(&verdict)) {
-        remove_folder(work / "scenario.json");  // the record has it
+        for (const char* name : {scenario_name, recommend_name}) remove_folder(work / name);  // the record has them
         // Waits for the storage rather than repeat hours of work.
         const auto state = persist(place, [&] {
             keep_record(place, job, success->kept, *scenario, work);

@@ -12,7 +12,7 @@ namespace {
 using Outcome = JobStore::Added::Outcome;
 using sqlite::Database, sqlite::Rows, sqlite::Transaction, sqlite::Value, sqlite::run;
 
-constexpr std::int64_t schema_version = 1;
+constexpr std::int64_t schema_version = 2;
 
 // AUTOINCREMENT never reuses sequence numbers: cursors and the queue rely on their order.
 constexpr const char* schema = R"(
@@ -21,7 +21,7 @@ CREATE TABLE jobs (
   hash TEXT NOT NULL, seed INTEGER NOT NULL, program TEXT NOT NULL, pictures INTEGER NOT NULL, cached INTEGER NOT NULL,
   created TEXT NOT NULL, started TEXT NOT NULL DEFAULT '', ended TEXT NOT NULL DEFAULT '',
   attempts INTEGER NOT NULL DEFAULT 0, kept INTEGER, fault_code INTEGER, fault_where TEXT, fault_message TEXT,
-  revision INTEGER NOT NULL, scenario TEXT NOT NULL) STRICT;
+  revision INTEGER NOT NULL, scenario TEXT NOT NULL, recommend TEXT NOT NULL DEFAULT '') STRICT;
 CREATE INDEX jobs_by_state ON jobs (state, sequence);
 CREATE INDEX jobs_by_result ON jobs (hash, seed, program, pictures, state, sequence);
 CREATE TABLE keys (
@@ -30,25 +30,33 @@ CREATE TABLE keys (
 CREATE INDEX keys_by_job ON keys (job);
 CREATE TABLE counter (revision INTEGER NOT NULL) STRICT;
 INSERT INTO counter VALUES (0);
-PRAGMA user_version = 1;
+PRAGMA user_version = 2;
 )";
 
-constexpr const char* job_columns =
+// Version 1 had no recommendations.
+constexpr const char* from_version_1 = R"(
+ALTER TABLE jobs ADD COLUMN recommend TEXT NOT NULL DEFAULT '';
+PRAGMA user_version = 2;
+)";
+
+constexpr const char* job_columns_1 =
     "sequence, id, state, name, hash, seed, program, pictures, cached, created, started, ended, attempts, kept, "
     "fault_code, fault_where, fault_message, revision, scenario";
+constexpr const char* added_columns = ", recommend";
 
 // Revisions are reserved in the file this many at a time, so that a revision of progress, which is not stored, costs no
 // write.
 constexpr std::uint64_t revisions_at_once = 1000;
 
-// Reads a complete row, in the order of the schema, but not the scenario, which may be long.
+// Reads a complete row, in the order of the schema, but not the text of the scenario, which may be long.
 StoredJob read_job(const Rows& rows) {
     StoredJob job;
     job.sequence = rows.integer(0);
     job.id = rows.text(1);
     job.state = rows.text(2);
     job.name = rows.text(3);
-    job.key = {rows.text(4), static_cast<std::uint64_t>(rows.integer(5)), rows.text(6), rows.integer(7) != 0};
+    job.key = {rows.text(4), static_cast<std::uint64_t>(rows.integer(5)), rows.text(6), rows.integer(7) != 0,
+               rows.text(19)};
     job.cached = rows.integer(8) != 0;
     job.created = rows.text(9);
     job.started = rows.text(10);
@@ -124,10 +132,10 @@ constexpr std::string_view end_sql =
 
 constexpr std::string_view adopt_sql =
     "INSERT INTO jobs (id, state, name, hash, seed, program, pictures, cached, created, started, ended, attempts, "
-    "kept, "
-    "revision, scenario) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15) "
+    "kept, revision, scenario, recommend) "
+    "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16) "
     "ON CONFLICT (id) DO UPDATE SET state = ?2, started = ?10, ended = ?11, attempts = ?12, kept = ?13, revision = ?14 "
-    "WHERE state IN (?16, ?17)";
+    "WHERE state IN (?17, ?18)";
 
 std::optional<std::uint64_t> end_job(Database& database, const std::string& id, const Ending& ending,
                                      std::uint64_t revision, const char* other_state) {
@@ -140,9 +148,10 @@ std::optional<std::uint64_t> end_job(Database& database, const std::string& id, 
     return changed == 1 ? std::optional(revision) : std::nullopt;
 }
 
-void check_tables(Database& database) {
+void check_tables(Database& database, const std::string& job_columns) {
     for (const auto& [table, columns] :
-         {std::pair("jobs", job_columns), std::pair("keys", "key, request, job"), std::pair("counter", "revision")}) {
+         {std::pair("jobs", job_columns), std::pair("keys", std::string("key, request, job")),
+          std::pair("counter", std::string("revision"))}) {
         Rows rows(database, "SELECT group_concat(name, ', ') FROM pragma_table_info(?)", {std::string_view(table)});
         if (!rows.next() || rows.text(0) != columns)
             database.fail_damaged(std::string("the database lacks its table ") + table);
@@ -155,14 +164,12 @@ void make_schema(Database& database) {
         Rows rows(database, "PRAGMA user_version");
         if (rows.next()) version = rows.integer(0);
     }
-    if (version == schema_version) {
-        check_tables(database);
-        return;
-    }
-    if (version != 0)
+    if (version < 0 || version > schema_version)
         database.fail("a newer shadowbench wrote this database; run that one, or use another folder for the state");
+    if (version == schema_version) return check_tables(database, std::string(job_columns_1) + added_columns);
+    if (version == 1) check_tables(database, job_columns_1);
     Transaction all(database);
-    database.execute(schema);
+    database.execute(version == 0 ? schema : from_version_1);
     all.commit();
 }
 
@@ -220,10 +227,10 @@ JobStore::Added JobStore::add(const NewJob& job, std::size_t most_queued) {
         const std::string_view time_of_end = ended ? std::string_view(job.created) : std::string_view();
         run(database,
             "INSERT INTO jobs (id, state, name, hash, seed, program, pictures, cached, created, started, ended, kept, "
-            "revision, scenario) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            "revision, scenario, recommend) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
             {job.id, ended ? job_states::succeeded : job_states::queued, job.name, job.key.hash, value(job.key.seed),
              job.key.program, std::int64_t{job.key.pictures}, std::int64_t{ended}, job.created, time_of_end,
-             time_of_end, value(job.kept), value(state_->take_revision()), job.scenario});
+             time_of_end, value(job.kept), value(state_->take_revision()), job.scenario, job.key.recommend});
         if (!job.idempotency_key.empty())
             run(database, "INSERT INTO keys (key, request, job) SELECT ?, ?, sequence FROM jobs WHERE id = ?",
                 {job.idempotency_key, job.request, job.id});
@@ -288,7 +295,7 @@ void JobStore::adopt(const std::vector<KeptJob>& jobs) {
                 {job.id, job_states::succeeded, job.name, job.key.hash, value(job.key.seed), job.key.program,
                  std::int64_t{job.key.pictures}, std::int64_t{job.cached}, job.created, job.started, job.ended,
                  std::int64_t{job.attempts}, value(job.kept), value(state_->take_revision()), scenario,
-                 job_states::queued, job_states::running});
+                 job.key.recommend, job_states::queued, job_states::running});
             if (!key.empty())
                 run(database,
                     "INSERT OR IGNORE INTO keys (key, request, job) SELECT ?, ?, sequence FROM jobs WHERE id = ?",
@@ -348,10 +355,11 @@ std::size_t JobStore::count(const std::string& state) const {
 
 std::optional<StoredJob> JobStore::find_result(const ResultKey& key) const {
     const std::scoped_lock lock(state_->read_mutex);
-    Rows rows(*state_->reader,
-              "SELECT * FROM jobs WHERE hash = ? AND seed = ? AND program = ? AND pictures = ? AND state = ? "
-              "ORDER BY sequence DESC LIMIT 1",
-              {key.hash, value(key.seed), key.program, std::int64_t{key.pictures}, job_states::succeeded});
+    Rows rows(
+        *state_->reader,
+        "SELECT * FROM jobs WHERE hash = ? AND seed = ? AND program = ? AND pictures = ? AND recommend = ? "
+        "AND state = ? ORDER BY sequence DESC LIMIT 1",
+        {key.hash, value(key.seed), key.program, std::int64_t{key.pictures}, key.recommend, job_states::succeeded});
     return read_first(rows);
 }
 

@@ -30,6 +30,7 @@ struct ResultKey {
     std::uint64_t seed = 0;
     std::string program;  // version
     bool pictures = true;
+    std::string recommend = {};  // what a recommendation was asked; empty: the scenario is run as it stands
 };
 
 struct StoredJob {
@@ -68,7 +69,8 @@ struct Ending {
 
 class JobStore {
 public:
-    // Creates the file, or checks that it is a complete job store of a known version.
+    // Creates the file, or checks that it is a complete job store of a known version. That of an earlier version gets
+    // what it lacks.
     explicit JobStore(const std::filesystem::path& file);
     ~JobStore();
     JobStore(const JobStore&) = delete;

@@ -104,9 +104,10 @@ Submitted Jobs::submit(const JobRequest& request) {
     state_->last = request;
     for (const fake::Shared::Kept& kept : state_->jobs)
         if (!request.idempotency_key.empty() && kept.request.idempotency_key == request.idempotency_key)
-            return {
-                kept.request.scenario == request.scenario ? Submitted::Outcome::existing : Submitted::Outcome::conflict,
-                kept.info};
+            return {kept.request.scenario == request.scenario && kept.request.recommend == request.recommend
+                        ? Submitted::Outcome::existing
+                        : Submitted::Outcome::conflict,
+                    kept.info};
     if (state_->count(JobState::queued) >= state_->limits.queue) return {Submitted::Outcome::queue_full, {}};
     fake::Shared::Kept kept;
     kept.request = request;
@@ -117,6 +118,7 @@ Submitted Jobs::submit(const JobRequest& request) {
     kept.info.scenario_hash = request.hash;
     kept.info.seed = request.seed;
     kept.info.pictures = request.pictures;
+    kept.info.recommend = request.recommend;
     kept.info.created = "2026-11-25T02:03:04.123Z";
     kept.info.revision = 1;
     state_->jobs.push_back(kept);

@@ -42,6 +42,17 @@ TEST_F(JobProgram, LeavesThePicturesOutWhereTheyAreNotWanted) {
     EXPECT_EQ(jobs->artifacts(job.id), (std::vector<std::string>{"result.csv", "result.json", "table.txt"}));
 }
 
+TEST_F(JobProgram, FindsARecommendation) {
+    JobRequest request = request_of(scenario().dump());
+    request.pictures = false;
+    request.recommend = R"({"error":0.5,"only":["variance"],"budget":5})";
+    const JobInfo job = wait_for_end(jobs->submit(request).job.id);
+    ASSERT_EQ(job.state, JobState::succeeded) << (job.fault ? job.fault->message : "");
+    EXPECT_EQ(job.promises_kept, true);
+    EXPECT_EQ(jobs->artifacts(job.id), (std::vector<std::string>{"result.csv", "result.json", "table.txt"}));
+    EXPECT_THAT(text_of(job.id, "table.txt"), HasSubstr(R"("type":"variance")"));
+}
+
 TEST_F(JobProgram, TellsWhichPartOfTheScenarioIsWrong) {
     auto wrong = scenario();
     wrong["rays"]["resolution"] = 0;

@@ -57,6 +57,7 @@ protected:
         EXPECT_GE(now->ended, before.started);
         EXPECT_EQ(now->attempts, before.attempts);
         EXPECT_EQ(now->pictures, before.pictures);
+        EXPECT_EQ(now->recommend, before.recommend);
         EXPECT_EQ(now->cached, before.cached);
         EXPECT_EQ(now->promises_kept, before.promises_kept);
     }
@@ -236,6 +237,29 @@ std::vector<std::string> damaged_texts() {
             R"({"id": 1})",
             R"({"schema_version": 1, "name": 2})",
             fake_result.substr(0, 99)};
+}
+
+// What a recommendation found must not answer a run of its scenario.
+TEST_F(Recovery, TellsARecommendationFromARun) {
+    start();
+    JobRequest request = request_of("echo '" +
+                                    nlohmann::json::parse(fake_result)
+                                        .patch(nlohmann::json::parse(
+                                            R"([{"op": "add", "path": "/recommendation",
+                                                 "value": {"request": {"error": 0.1}}}])"))
+                                        .dump() +
+                                    "' >result.json");
+    request.recommend = R"({"error":0.1})";
+    request.pictures = false;
+    std::vector<JobInfo> asked;
+    for (int i = 0; i < 2; ++i) asked.push_back(wait_for_end(jobs->submit(request).job.id));
+    stop();
+    remove_database();
+    fs::remove(state() / "jobs" / asked[1].id / ".job.json");
+    start();
+    is_as_before(asked[0]);
+    EXPECT_EQ(jobs->find(asked[1].id)->recommend, request.recommend) << "read from its result";
+    EXPECT_EQ(jobs->find(asked[1].id)->pictures, false);
 }
 
 TEST_F(Recovery, ReadsResultsWhoseRecordIsDamaged) {

@@ -18,6 +18,7 @@
 #include "service/store/database.h"
 #include "service/store/job_store.h"
 #include "service/store/store_kind.h"
+#include "store/version_1.h"
 
 namespace shadowbench::service {
 namespace {
@@ -136,6 +137,43 @@ TEST_F(JobRestart, RunsAgainWhatRanWhenTheServerWasKilledHoweverOften) {
     const JobInfo job = wait_for_end(id);
     EXPECT_EQ(job.state, JobState::succeeded);
     EXPECT_EQ(job.attempts, 1) << "the deaths of servers are not the job's";
+}
+
+TEST_F(JobRestart, AsksAgainWhatWaitedOrRanWhenTheServerEnded) {
+    limits.grace = 0.0;
+    start();
+    const std::string gate = (folder.path() / "gate").string();
+    JobRequest request = request_of("[ -e " + gate + " ] || { echo '{\"stage\":\"exploring\"}'; sleep 1000; }; " +
+                                    success + "cp recommend.json table.txt; exit 2");
+    request.recommend = R"({"error":0.1})";
+    const std::string ran = jobs->submit(request).job.id;
+    wait_for_run(ran);
+    request.recommend = R"({"error":0.2})";
+    const std::string waited = jobs->submit(request).job.id;
+    jobs->stop();
+    std::ofstream(gate) << "x";
+    start();
+    for (const auto& [id, asked] : {std::pair(ran, R"({"error":0.1})"), std::pair(waited, R"({"error":0.2})")}) {
+        const JobInfo job = wait_for_end(id);
+        EXPECT_EQ(job.state, JobState::succeeded);
+        EXPECT_EQ(job.promises_kept, false) << "nothing reaches the error";
+        EXPECT_EQ(job.attempts, 1);
+        EXPECT_EQ(job.recommend, asked);
+        EXPECT_EQ(text_of(id, "table.txt"), asked);
+    }
+}
+
+TEST_F(JobRestart, RunsTheJobsOfAnEarlierVersion) {
+    start();
+    jobs.reset();
+    for (const char* end : {"jobs.db", "jobs.db-wal", "jobs.db-shm"}) fs::remove(state() / end);
+    write_version_1(state() / "jobs.db", success);
+    start();
+    const JobInfo waited = wait_for_end("j-000000000000000b");
+    EXPECT_EQ(waited.state, JobState::succeeded);
+    EXPECT_EQ(waited.recommend, "");
+    EXPECT_FALSE(fs::exists(state() / "lost+found")) << said();
+    EXPECT_EQ(jobs->find("j-000000000000000a")->state, JobState::succeeded);
 }
 
 // Its own crashes count, whatever its servers did in between.

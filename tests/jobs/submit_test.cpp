@@ -28,8 +28,9 @@ TEST_F(JobSubmission, AnswersFromTheResultOfAnEqualJob) {
     EXPECT_EQ(text_of(again.job.id, "result.csv"), "a\n");
     EXPECT_EQ(jobs->submit(request).job.state, JobState::succeeded) << "that of a job which was answered itself";
 
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 5; ++i) {
         JobRequest other = request;
+        if (i == 4) other.recommend = R"({"error":0.1})";
         if (i == 0) other.reuse = false;
         if (i == 1) other.seed = 2;
         if (i == 2) other.hash += "x";
@@ -37,6 +38,26 @@ TEST_F(JobSubmission, AnswersFromTheResultOfAnEqualJob) {
         EXPECT_FALSE(jobs->submit(other).job.cached) << i;
     }
     EXPECT_TRUE(jobs->find(again.job.id)->cached);
+}
+
+TEST_F(JobSubmission, AnswersARecommendationFromThatOfAnEqualRequest) {
+    start();
+    JobRequest request = request_of(success + "cp recommend.json table.txt");
+    request.reuse = true;
+    request.pictures = false;
+    request.recommend = R"({"error":0.1})";
+    const JobInfo first = wait_for_end(jobs->submit(request).job.id);
+    EXPECT_EQ(first.recommend, request.recommend);
+    EXPECT_EQ(text_of(first.id, "table.txt"), request.recommend) << "the process finds the request in its folder";
+    EXPECT_EQ(jobs->artifacts(first.id), (std::vector<std::string>{"result.json", "table.txt"}));
+    const Submitted again = jobs->submit(request);
+    EXPECT_TRUE(again.job.cached);
+    EXPECT_EQ(again.job.recommend, request.recommend);
+    JobRequest other = request;
+    other.recommend = R"({"error":0.2})";
+    EXPECT_FALSE(jobs->submit(other).job.cached);
+    other.recommend = "";
+    EXPECT_FALSE(jobs->submit(other).job.cached) << "the result of a run is another";
 }
 
 TEST_F(JobSubmission, RunsAJobWhoseEarlierResultIsLost) {
@@ -59,8 +80,9 @@ TEST_F(JobSubmission, TakesARequestOfOneKeyOnce) {
     EXPECT_EQ(first.outcome, Outcome::created);
     EXPECT_EQ(second.outcome, Outcome::existing);
     EXPECT_EQ(second.job.id, first.job.id);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 4; ++i) {
         JobRequest other = request;
+        if (i == 3) other.recommend = R"({"error":0.1})";
         if (i == 0) other.scenario += " ";
         if (i == 1) other.pictures = false;
         if (i == 2) other.reuse = true;

@@ -103,7 +103,7 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
          {"base", "bench", "results", "service/privacy", "service/process", "service/store", "service/jobs"}},
         {"service/web", {"base", "service/web"}},
         {"service/api",
-         {"base", "scene", "techniques", "document", "results", "bench", "compare", "service/privacy",
+         {"base", "scene", "techniques", "document", "results", "bench", "recommend", "compare", "service/privacy",
           "service/process", "service/jobs", "service/web", "service/api"}},
         {"service/http", {"base", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files.

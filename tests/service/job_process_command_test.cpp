@@ -105,6 +105,44 @@ TEST_F(JobCommand, KeepsTheResultOfWhatCannotBeDrawn) {
     EXPECT_EQ(why["error"]["where"], "/receivers/resolution");
 }
 
+TEST_F(JobCommand, FindsTheAnswerToARequest) {
+    const auto ask = [&](const json& request) {
+        std::ofstream(folder.path() / "recommend.json") << request;
+        return run();
+    };
+    json request = {{"error", 0.5}, {"only", {"variance"}}, {"light", "sun"}, {"budget", 5}};
+    ASSERT_EQ(ask(request), 0) << lines.back();
+    const json result = json::parse(base::read_text(folder.path() / "result.json"));
+    EXPECT_EQ(result.at("recommendation").at("request"), request);
+    EXPECT_EQ(result.at("recommendation").at("light"), "sun");
+    EXPECT_GT(result.at("recommendation").at("confirmed").size(), 0u);
+    EXPECT_TRUE(exists("result.csv"));
+    EXPECT_FALSE(exists("images"));
+    const std::string answer = base::read_text(folder.path() / "table.txt");
+    EXPECT_EQ(answer.substr(0, answer.find('\n')), "tiny, light sun");
+    EXPECT_NE(answer.find(R"("type":"variance")"), std::string::npos) << answer;
+    std::vector<std::string> stages;
+    double last = 0.0;
+    for (const json& line : lines) {
+        if (stages.empty() || stages.back() != line.at("stage")) stages.push_back(line.at("stage"));
+        EXPECT_GE(line.at("fraction"), last);
+        last = line.at("fraction");
+        EXPECT_LE(last, 1.0);
+        if (line.at("stage") != "reference") EXPECT_EQ(line.at("total"), 5);
+    }
+    ASSERT_GE(stages.size(), 3u);
+    EXPECT_EQ(stages[0], "reference");
+    EXPECT_EQ(stages[1], "exploring");
+    EXPECT_EQ(stages[2], "confirming");
+
+    request["error"] = 1e-6;
+    EXPECT_EQ(ask(request), 2) << "variance does not reach it";
+    EXPECT_NE(base::read_text(folder.path() / "table.txt").find("no setting reaches it"), std::string::npos);
+    request["error"] = 7;
+    EXPECT_EQ(ask(request), 65);
+    EXPECT_EQ(lines.back()["error"]["where"], "/recommend/error");
+}
+
 TEST_F(JobCommand, SaysWhatIsWrongInALine) {
     scenario["lights"][1]["direction"] = "down";
     EXPECT_EQ(run(), 65);

@@ -188,6 +188,17 @@ TEST_F(ServerCommands, SubmitPrintsTheJobAndDoesNotWait) {
     EXPECT_TRUE(submitted.out.starts_with("j-")) << submitted.out;
 }
 
+TEST_F(ServerCommands, SubmitAsksForARecommendation) {
+    serve();
+    const Outcome submitted = cli({"submit", path("tiny.json"), "--server", url_, "--recommend", "0.25", "--fresh"});
+    EXPECT_EQ(submitted.code, 0) << submitted.err;
+    const std::string id = submitted.out.substr(0, submitted.out.find(' '));
+    const auto job = nlohmann::json::parse(Client(url_, "").get("/v1/jobs/" + id).body);
+    EXPECT_EQ(job["kind"], "recommendation");
+    EXPECT_EQ(job["recommend"]["error"], 0.25);
+    EXPECT_EQ(cli({"submit", path("tiny.json"), "--server", url_, "--recommend", "5"}).code, 64);
+}
+
 TEST_F(ServerCommands, SubmitFailsAsRunDoes) {
     serve();
     const Outcome wrong = cli({"submit", path("tiny.json"), "--server", url_, "--set", "rays.resolution=large"});

@@ -10,6 +10,7 @@
 #include "service/store/damaged_store.h"
 #include "service/store/database.h"
 #include "service/store/store_kind.h"
+#include "store/version_1.h"
 #include "temporary_folder.h"
 
 namespace shadowbench::service {
@@ -175,12 +176,13 @@ TEST_F(JobStores, FindTheNewestResultOfEqualValues) {
         store->end_running(id, {job_states::succeeded, "then", true, {}});
     }
     EXPECT_EQ(store->find_result(key)->id, "j-2");
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 5; ++i) {
         ResultKey other = key;
         if (i == 0) other.hash += "x";
         if (i == 1) other.seed = 1;
         if (i == 2) other.program += "x";
         if (i == 3) other.pictures = false;
+        if (i == 4) other.recommend = "{}";
         EXPECT_FALSE(store->find_result(other)) << i;
     }
 }
@@ -253,6 +255,30 @@ TEST_F(JobStores, RefuseADatabaseOfANewerVersion) {
     EXPECT_NE(error_of(file).find("newer"), std::string::npos) << error_of(file);
 }
 
+TEST_F(JobStores, ReadADatabaseOfVersion1) {
+    const fs::path old = folder.path() / "old.db";
+    write_version_1(old, "{}");
+    for (int time = 0; time < 2; ++time) {  // the second time it has this version
+        store.emplace(old);
+        const auto ended = store->find("j-000000000000000a"), waits = store->find("j-000000000000000b");
+        ASSERT_TRUE(ended && waits);
+        EXPECT_EQ(ended->state, job_states::succeeded);
+        EXPECT_EQ(ended->kept, true);
+        EXPECT_EQ(ended->key.recommend, "");
+        EXPECT_EQ(waits->state, job_states::queued);
+        EXPECT_EQ(waits->key.seed, 5u);
+        EXPECT_EQ(store->scenario(waits->id), "{}");
+        EXPECT_EQ(store->find_result({"hash", 5, "1.0 abc", true})->id, ended->id);
+    }
+    NewJob asked = job_named("j-1");
+    asked.key.recommend = R"({"error":0.1})";
+    EXPECT_EQ(store->add(asked, many).outcome, Outcome::added);
+    EXPECT_EQ(store->find("j-1")->key.recommend, asked.key.recommend);
+    store.reset();
+    sqlite::Database(old, sqlite::Database::Access::write, store_application).execute("PRAGMA user_version = 1");
+    EXPECT_NE(error_of(old).find("lacks its table jobs"), std::string::npos) << "it is not of version 1";
+}
+
 TEST_F(JobStores, RefuseADatabaseThatLacksATable) {
     store.reset();
     sqlite::Database(file, sqlite::Database::Access::write, store_application).execute("DROP TABLE keys");
@@ -273,6 +299,7 @@ TEST_F(JobStores, TakeInJobsThatHaveResults) {
         one.job.id = id;
         one.job.name = job.name;
         one.job.key = job.key;
+        one.job.key.recommend = id == std::string("j-new") ? "{}" : "";
         one.job.created = "created";
         one.job.started = "started";
         one.job.ended = "ended";
@@ -296,6 +323,7 @@ TEST_F(JobStores, TakeInJobsThatHaveResults) {
         EXPECT_EQ(job->key.seed, 0xffffffffffffffffull);
         EXPECT_EQ(store->scenario(id), job_named(id).scenario);
     }
+    EXPECT_EQ(store->find("j-new")->key.recommend, "{}");
     EXPECT_EQ(state("j-over"), job_states::cancelled) << "what has ended stays as it did";
     EXPECT_EQ(store->find_key("free", "request")->job.id, "j-new");
     EXPECT_EQ(store->find_key("taken", "")->job.id, "j-other");

@@ -52,6 +52,10 @@ export async function get(path, signal) {
   return (await answer(path, {signal})).json();
 }
 
+export async function getText(path, signal) {
+  return (await answer(path, {signal})).text();
+}
+
 // `json` is text, since parsing and writing it would lose digits of long numbers; null: no body.
 export async function post(path, json, headers = {}, signal) {
   const type = json !== null && {'Content-Type': 'application/json'};

@@ -1,5 +1,5 @@
 // One job: its progress, then its result.
-import {get, hasToken, objectUrl, post} from './api.js';
+import {get, getText, hasToken, objectUrl, post} from './api.js';
 import {announce, h, setText} from './dom.js';
 import {moment} from './format.js';
 import {progressBar, progressText, stateMark} from './jobs.js';
@@ -16,8 +16,9 @@ function sourceOf(job) {
       if (!urls.has(file)) urls.set(file, await objectUrl(address, signal));
       return urls.get(file);
     },
-    curves: (group, x, y, signal) =>
-      get(`${path}/curves?${new URLSearchParams({light: String(group.lightIndex), x, y, variant: String(group.variant)})}`, signal),
+    // The points of a recommendation are not those of its scenario.
+    curves: job.kind !== 'recommendation' && ((group, x, y, signal) =>
+      get(`${path}/curves?${new URLSearchParams({light: String(group.lightIndex), x, y, variant: String(group.variant)})}`, signal)),
   };
 }
 
@@ -68,11 +69,14 @@ export function jobView({id, signal, edit}) {
     const source = sourceOf(job);
     const has = (name) => job.artifacts?.includes(name);
     const described = (name) => (has(name) ? get(`${path}/artifacts/${name}`, signal) : null);
-    const [result, images, fault] = await Promise.all([get(`${path}/result`, signal), described('images/images.json'), described('images/error.json')]);
+    const answer = job.kind === 'recommendation' && has('table.txt') ? getText(`${path}/artifacts/table.txt`, signal) : null;
+    const [result, images, fault, text] = await Promise.all([
+      get(`${path}/result`, signal), described('images/images.json'), described('images/error.json'), answer]);
     links.replaceChildren(fileLink('JSON', `${path}/result`, `${job.name}.json`), fileLink('CSV', `${path}/result.csv`, `${job.name}.csv`),
       fileLink('Offline report', `${path}/report`, `${job.name}.html`),
       h('a', {href: `#/compare/${encodeURIComponent(id)}`}, 'Compare with another'), again);
     place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
+      ...(text ? [h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer', tabindex: '0'}, text))] : []),
       h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)), resultView({source, result, images, imagesFault: fault?.error, signal}));
     announce(`${job.name}: the result is shown`);
   }

@@ -9,9 +9,9 @@ const states = ['queued', 'running', 'succeeded', 'failed', 'cancelled'];
 const signs = {queued: '○', running: '◐', succeeded: '●', failed: '✕', cancelled: '–'};
 
 export function stateMark(job) {
-  const broken = job.state === 'succeeded' && job.promises_kept === false;
+  const broken = job.state === 'succeeded' && (job.promises_kept === false || job.reached === false);
   return h('span', {class: `state state-${broken ? 'broken' : job.state}`}, h('span', {'aria-hidden': 'true'}, broken ? '△' : signs[job.state]),
-    ` ${broken ? 'promise broken' : job.state}`);
+    ` ${!broken ? job.state : job.reached === false ? 'error not reached' : 'promise broken'}`);
 }
 
 export function progressText(job) {
@@ -41,8 +41,8 @@ function row(act) {
       current = job;
       name.href = `#/jobs/${job.id}`;
       setText(name, job.name || 'unnamed');
-      setText(element.querySelector('.id'), job.id);
-      if (before?.state !== job.state || before?.promises_kept !== job.promises_kept) {
+      setText(element.querySelector('.id'), job.kind === 'recommendation' ? `recommendation, ${job.id}` : job.id);
+      if (before?.state !== job.state || before?.promises_kept !== job.promises_kept || before?.reached !== job.reached) {
         state.replaceChildren(stateMark(job));
         if (before) announce(`${job.name}: ${job.state}`);
       }

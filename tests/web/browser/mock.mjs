@@ -81,7 +81,7 @@ export class Mock {
       id, state, name: 'small', scenario_hash: '9e9d87140e16f0a5', seed: 1, created: now, started: state === 'queued' ? null : now,
       ended: ['queued', 'running'].includes(state) ? null : '2026-11-25T02:03:09.500Z', attempts: 1, position: state === 'queued' ? 0 : null,
       progress: state === 'running' ? {stage: 'build', place: '1/2 key', done: 3, total: 16, fraction: 0.42} : null,
-      cached: false, promises_kept: state === 'succeeded' ? true : null, error: null, artifacts: [], ...more,
+      kind: 'run', recommend: null, reached: null, cached: false, promises_kept: state === 'succeeded' ? true : null, error: null, artifacts: [], ...more,
     };
     if (job.state === 'succeeded') this.finish(job);
     this.jobs.unshift(job);

@@ -38,6 +38,21 @@ states['every state of a job'] = async ({page, url, mock}) => {
   assert.equal(await page.locator('#status').innerText(), 'small: succeeded');
 };
 
+states['a recommendation'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  Object.assign(job, {kind: 'recommendation', recommend: {error: 0.02}, promises_kept: null, reached: false,
+    artifacts: ['result.json', 'result.csv', 'table.txt']});
+  mock.files['table.txt'] = 'rms error at most 0.02 with 95 % confidence';
+  await page.goto(`${url}#/jobs`);
+  await page.waitForSelector('.jobs tbody tr');
+  for (const words of ['recommendation', 'error not reached']) assert.ok((await text(page, '.jobs')).includes(words), words);
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('.cells tbody tr');
+  assert.match(await text(page, 'pre.answer'), /at most 0\.02/);
+  assert.equal(await page.locator('#curves').count(), 0, 'its points are not those of the scenario');
+  await assertAccessible(page);
+};
+
 states['cancel and delete'] = async ({page, url, mock}) => {
   mock.job('running');
   await page.goto(`${url}#/jobs`);

@@ -1,0 +1,67 @@
+#include "recommend/recommendation.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "bench/clock.h"
+#include "recommend/answer.h"
+#include "recommend/record.h"
+#include "recommend/trials.h"
+#include "results/fields.h"
+#include "results/report.h"
+
+namespace shadowbench::recommend {
+
+using base::Error;
+using base::ErrorCode;
+
+Explored explore(const nlohmann::json& document, const bench::RunOptions& options, const Request& request,
+                 const Watch& watch) {
+    bench::RunOptions chosen = options;
+    chosen.only = request.only;
+    Trials trials(document, chosen, request.light, request.measure, watch.measuring);
+    const bench::Stopwatch stopwatch;
+    Hooks hooks;
+    hooks.seconds = [&] { return stopwatch.seconds(); };
+    if (watch.exploring)
+        hooks.progress = [&](const Progress& progress) { watch.exploring(progress, stopwatch.seconds()); };
+    Recommendation found{document.at("name").get<std::string>(), trials.light(), request.measure,
+                         explore(trials, request.goal, hooks)};
+    return {std::move(found), trials.result()};
+}
+
+nlohmann::ordered_json to_json(const Explored& explored) {
+    nlohmann::ordered_json out = results::to_json(explored.result);
+    nlohmann::ordered_json& recommendation = out["recommendation"];
+    recommendation["light"] = explored.recommendation.light;
+    recommendation["measure"] = measure_words[static_cast<std::size_t>(explored.recommendation.measure)];
+    recommendation.update(to_json(explored.recommendation.exploration));
+    return out;
+}
+
+Recommendation recommendation_from_json(const nlohmann::json& document, const std::string& origin) {
+    if (!document.is_object() || !document.contains("recommendation"))
+        throw Error(ErrorCode::bad_input, origin,
+                    "holds no recommendation; name a folder that shadowbench recommend wrote");
+    const results::Field whole = results::top(document, origin), from = whole.at("recommendation");
+    const results::Field measure = from.at("measure");
+    const auto word = std::find(std::begin(measure_words), std::end(measure_words), measure.text());
+    if (word == std::end(measure_words)) results::refuse(measure.where, "there is no such measure of the error");
+    return {whole.at("name").text(), from.at("light").text(), static_cast<Measure>(word - std::begin(measure_words)),
+            exploration_from_json(from.value, from.where)};
+}
+
+AnswerText answer_text(const Recommendation& recommendation, const Goal& goal) {
+    const std::vector<Family>& families = recommendation.exploration.families;
+    const Answer answer = recommend::answer(recommendation.exploration, goal);
+    const auto paste = [&](const Point& point) { return scenario_part(families[point.family], point).dump(); };
+    return {fmt::format("{}, light {}\n", recommendation.scenario, recommendation.light) +
+                to_text(answer, families, {measure_words[static_cast<std::size_t>(recommendation.measure)], paste}),
+            answer.reached};
+}
+
+}  // namespace shadowbench::recommend

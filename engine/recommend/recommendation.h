@@ -1,0 +1,53 @@
+// From a scenario and a request to the answer, and back from the file that keeps it.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bench/progress.h"
+#include "bench/run.h"
+#include "recommend/exploration.h"
+#include "recommend/request.h"
+#include "recommend/search.h"
+#include "results/result.h"
+
+namespace shadowbench::recommend {
+
+// An exploration and what it was of.
+struct Recommendation {
+    std::string scenario, light;  // names
+    Measure measure = Measure::rms;
+    Exploration exploration;
+};
+
+struct Watch {
+    bench::ProgressCallback measuring;                                        // the truth, and the steps of confirming
+    std::function<void(const Progress& progress, double seconds)> exploring;  // seconds: since the exploration began
+};
+
+struct Explored {
+    Recommendation recommendation;
+    results::Result result;  // of every setting measured
+};
+
+// Explores a scenario. `request.only` takes the place of that of the options. Throws what Trials throws.
+Explored explore(const nlohmann::json& document, const bench::RunOptions& options, const Request& request,
+                 const Watch& watch);
+
+// result.json: the result, with the recommendation as one more member.
+nlohmann::ordered_json to_json(const Explored& explored);
+
+// Reads it again. Throws Error{bad_input}, place: `origin`, the name of its file, and the JSON pointer.
+Recommendation recommendation_from_json(const nlohmann::json& document, const std::string& origin);
+
+struct AnswerText {
+    std::string text;      // at most 21 lines: the scenario, and to_text()
+    bool reached = false;  // whether a setting reaches the goal's error
+};
+
+// `goal` may be another than the exploration's.
+AnswerText answer_text(const Recommendation& recommendation, const Goal& goal);
+
+}  // namespace shadowbench::recommend
