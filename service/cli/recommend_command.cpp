@@ -107,10 +107,10 @@ Explored explore_scenario(const RecommendArguments& arguments, const Goal& goal,
     ProgressBar bar(err);
     const auto show = [&](const bench::Progress& progress) { bar.show(progress); };
     const Measure measure = read_measure(arguments.measure);
-    recommend::Trials trials(*job.document, job.options, arguments.light, measure, show);
-
     using Clock = std::chrono::steady_clock;
     const Clock::time_point began = Clock::now();
+    recommend::Trials trials(*job.document, job.options, arguments.light, measure, show);
+
     recommend::Hooks hooks;
     hooks.seconds = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
     hooks.progress = [&](const recommend::Progress& progress) {
