@@ -143,6 +143,12 @@ const rays::MapLayout& Trials::layout(const Setting& setting) const {
     return place->second;
 }
 
+std::optional<double> Trials::footprint_share() const {
+    const scene::FilterWidth& width = scenario_->receivers.filter_width;
+    if (width.unit != scene::WidthUnit::map_pixels) return {};
+    return width.value / scenario_->rays.resolution.x;
+}
+
 double Trials::effort(const Point& point) const {
     const Setting setting = space_->setting(point);
     if (kept(setting)) return rest_of_a_trial;

@@ -54,6 +54,9 @@ public:
 
     const Space& space() const { return *space_; }
     const std::string& light() const { return light_->name; }
+    // The width of all footprints as a share of the map, if the scenario gives it in map pixels: a map of another
+    // resolution must be asked for this share instead, to answer the same question.
+    std::optional<double> footprint_share() const;
     // Everything measured so far, as a run of all these settings would give it: a variant for each resolution and
     // number of samples. Times of settings that were not confirmed are short ones.
     results::Result result() const;

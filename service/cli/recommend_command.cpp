@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -69,6 +70,7 @@ Measure read_measure(const std::string& word) {
 struct Explored {
     std::string scenario, light;
     Measure measure = Measure::rms;
+    std::optional<double> footprint_share;  // see Trials
     Exploration exploration;
 };
 
@@ -79,8 +81,10 @@ Explored read_explored(const fs::path& folder) {
         throw Error(ErrorCode::bad_input, file.string(),
                     "holds no recommendation; name a folder that shadowbench recommend wrote");
     const results::Field whole = results::top(document, file.string()), from = whole.at("recommendation");
-    Explored explored{whole.at("name").text(), from.at("light").text(), {}, {}};
+    Explored explored{whole.at("name").text(), from.at("light").text(), {}, {}, {}};
     explored.measure = read_measure(from.at("measure").text());
+    if (const results::Field share = from.at("footprint_share"); !share.is_null())
+        explored.footprint_share = share.number();
     explored.exploration = recommend::exploration_from_json(from.value, from.where);
     return explored;
 }
@@ -90,8 +94,19 @@ nlohmann::ordered_json to_json(const Explored& explored, const results::Result& 
     nlohmann::ordered_json& recommendation = out["recommendation"];
     recommendation["light"] = explored.light;
     recommendation["measure"] = measure_words[static_cast<std::size_t>(explored.measure)];
+    recommendation["footprint_share"] =
+        explored.footprint_share ? nlohmann::ordered_json(*explored.footprint_share) : nlohmann::ordered_json(nullptr);
     recommendation.update(recommend::to_json(explored.exploration));
     return out;
+}
+
+// The part of the scenario that gives this setting, and asks it the same question.
+std::string paste_line(const Explored& explored, const recommend::Point& point) {
+    const recommend::Family& family = explored.exploration.families[point.family];
+    nlohmann::ordered_json part = recommend::scenario_part(family, point);
+    if (part.contains("rays") && explored.footprint_share)
+        part["receivers"] = {{"footprint", {{"share", *explored.footprint_share}}}};
+    return part.dump();
 }
 
 const char* stage_name(recommend::Stage stage) {
@@ -119,7 +134,7 @@ Explored explore_scenario(const RecommendArguments& arguments, const Goal& goal,
                   static_cast<std::size_t>(goal.budget)});
     };
     Explored explored{job.document->at("name").get<std::string>(), trials.light(), measure,
-                      recommend::explore(trials, goal, hooks)};
+                      trials.footprint_share(), recommend::explore(trials, goal, hooks)};
     const results::Result result = trials.result();
     bar.end();
     base::write_files({{folder / "result.json", to_json(explored, result).dump(1) + "\n"},
@@ -140,7 +155,7 @@ bool recommend_command(const RecommendArguments& arguments, std::ostream& out, s
     const std::vector<recommend::Family>& families = explored.exploration.families;
     const recommend::Answer answer = recommend::answer(explored.exploration, goal);
     const auto paste = [&](const recommend::Point& point) {
-        return recommend::scenario_part(families[point.family], point).dump();
+        return paste_line(explored, point);
     };
     out << fmt::format("{}, light {}\n", explored.scenario, explored.light)
         << recommend::to_text(answer, families, {measure_words[static_cast<std::size_t>(explored.measure)], paste});
