@@ -205,7 +205,8 @@ Answer answer(const Exploration& found, const Goal& goal) {
         const Choice* closest = least_error(own);
         if (!closest) continue;
         if (std::any_of(own.begin(), own.end(), [&](const Choice* c) { return good_enough(*c, goal); })) continue;
-        const Held reason = too_dear(result, *closest) ? Held::dear : held(found, goal, own, *closest, all);
+        Held reason = held(found, goal, own, *closest, all);
+        if (reason != Held::bias && reason != Held::at_most && too_dear(result, *closest)) reason = Held::dear;
         result.missed.push_back({name, reason, *closest});
     }
     return result;

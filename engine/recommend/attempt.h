@@ -33,6 +33,7 @@ struct Trials::Kept {
 struct Trials::Timed {
     std::size_t index = 0;  // of the point
     Setting setting;
+    std::size_t lookups = 0;  // of one pass
     Attempt attempt;
     bench::LookupPlan plan{};
     std::vector<double> capture_ms{}, build_ms{};

@@ -21,6 +21,8 @@ constexpr double leader_chance = 0.03, follower_chance = 0.15;
 // Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
 constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
 constexpr double follower_gain = 0.1;
+// A climb ends if its error would stay too large even if the rungs left lowered it so many times faster.
+constexpr double faster = 2.0;
 constexpr int confirm_rounds = 8;
 constexpr double first_round_share = 0.6;  // of the time left to confirm: other rounds may follow
 
@@ -64,6 +66,7 @@ private:
     };
     std::vector<Climb> climbs_;  // of every family
     Incumbents incumbents_;
+    bool fine_ = false;  // whether all points count, or only coarse ones
 };
 
 bool same_light_rays(const Family& a, const Family& b) {
@@ -113,12 +116,12 @@ void Search::measure(const Point& point) {
 }
 
 void Search::update(std::size_t family) {
-    families_[family].update(wanted_);
+    families_[family].update(wanted_, fine_);
     if (found_.scout == family)
         for (std::size_t i = 0; i < families_.size(); ++i)
             if (i != family && same_light_rays(found_.families[i], found_.families[family])) {
                 families_[i].bound_by(families_[family].records());
-                families_[i].update(wanted_);
+                families_[i].update(wanted_, fine_);
             }
     incumbents_ = find_incumbents(found_.families, families_);
 }
@@ -142,6 +145,13 @@ std::optional<std::size_t> Search::next_climb(std::size_t family) const {
     if (climb.measured >= 3) {
         const Record &last = records[climb.measured - 1], &before = records[climb.measured - 3];
         if (last.failed.empty() && before.failed.empty() && last.error > flat_share * before.error) return {};
+    }
+    if (climb.measured >= 2) {
+        const Record &last = records[climb.measured - 1], &before = records[climb.measured - 2];
+        const double left = static_cast<double>(climb.rungs.size() - climb.next);
+        if (last.failed.empty() && before.failed.empty() && last.error > wanted_.trial_error &&
+            last.error * std::pow(last.error / before.error, faster * left) > wanted_.trial_error)
+            return {};
     }
     for (std::size_t rung = climb.next; rung < climb.rungs.size(); ++rung) {
         const std::size_t index = known.lattice().index(climb.rungs[rung].step);
@@ -264,6 +274,11 @@ void Search::refine() {
         std::size_t open = 0;
         bool too_long = false;
         std::optional<Point> next = most_promising(open, too_long);
+        if (!next && !fine_) {
+            fine_ = true;
+            for (std::size_t i = 0; i < families_.size(); ++i) families_[i].update(wanted_, fine_);
+            continue;
+        }
         if (!next) next = open_neighbour(too_long);
         if (!next) {
             if (too_long && found_.end == End::complete) found_.end = End::budget;

@@ -150,14 +150,18 @@ std::optional<double> Trials::footprint_share() const {
 }
 
 double Trials::effort(const Point& point) const {
-    const Setting setting = space_->setting(point);
-    if (kept(setting)) return rest_of_a_trial;
-    const double rays = static_cast<double>(setting.resolution.x) * setting.resolution.y * setting.samples;
-    const auto before = efforts_.find(setting.row);
+    // Asked often: no setting is made unless a map of these light rays is kept.
+    const bench::RayChoice own{space_->resolution(point), space_->samples(point), scenario_->rays.seed};
+    const techniques::Technique* row = &space_->row(point.family);
+    for (const Kept& kept : kept_)
+        if (kept.setting.row == row && kept.setting.resolution == own.resolution && kept.setting.samples == own.samples &&
+            same_map(kept.setting, space_->setting(point)))
+            return rest_of_a_trial;
+    const double rays = static_cast<double>(own.resolution.x) * own.resolution.y * own.samples;
+    const auto before = efforts_.find(row);
     const bool grows = space_->uses_rays(point.family) && before != efforts_.end() && before->second.rays > 0.0;
     const double build = grows ? rays * before->second.seconds / before->second.rays : 0.0;
-    const bool there = store_->kept(choice(setting, 0));
-    return rest_of_a_trial + build + (there ? 0.0 : store_->estimate_seconds(choice(setting, 0)));
+    return rest_of_a_trial + build + (store_->kept(own) ? 0.0 : store_->estimate_seconds(own));
 }
 
 double Trials::at_least(const Point& point, Cost cost) const {
@@ -176,10 +180,6 @@ std::string Trials::refusal(const Setting& setting, const Contender& contender) 
     if (need > static_cast<double>(options_.limits.all))
         return fmt::format("needs at least {:.3g} GiB of memory: more than the limit", need / (1 << 30));
     return "";
-}
-
-bool Trials::kept(const Setting& setting) const {
-    return std::any_of(kept_.begin(), kept_.end(), [&](const Kept& kept) { return same_map(kept.setting, setting); });
 }
 
 // Keeps the map for settings that differ only in their lookups, and drops the longest unused ones beyond a limit.
@@ -317,9 +317,9 @@ Trial Trials::measure(const Point& point) {
     Trial trial{attempt.failed(), 0.0, {}};
     if (contender.ok()) {
         trial.error = error_of(contender.cell);
-        trial_errors_.emplace_back(point, trial.error);
         trial.cost = {contender.cell.times->random_order.ns.median, static_cast<double>(contender.cell.bytes),
                       attempt.capture_ms + attempt.build_ms};
+        trials_.emplace_back(point, trial);
     }
     if (attempt.frame) keep(attempt.rays ? record(setting, *attempt.rays) : *recorded(setting), contender);
     if (contender.ok()) keep_map(setting, std::move(attempt));

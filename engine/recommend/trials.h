@@ -68,7 +68,6 @@ private:
     bench::RayChoice choice(const Setting& setting, int seed) const;
     const rays::MapLayout& layout(const Setting& setting) const;
     std::string refusal(const Setting& setting, const bench::Contender& contender) const;
-    bool kept(const Setting& setting) const;
     void keep_map(const Setting& setting, Attempt attempt);
     Attempt take_kept(std::list<Kept>::iterator kept, const Setting& setting);
     Attempt build(const Setting& setting, int seed, bool timed);
@@ -78,7 +77,9 @@ private:
     bench::QuerySet asked(const bench::QuerySet& set, const rays::LightView& view) const;
     double error_of(const results::Cell& cell) const;
     Confirmed judge_errors(std::span<const double> errors) const;
+    const Trial* trial_of(const Point& point) const;
     int seeds_of(const Point& point, double error) const;
+    std::size_t lookups_of(const Point& point) const;
     bool time_builds(std::vector<Timed>& timed, const bench::Stopwatch& stopwatch, double most_seconds);
     void time_lookups(std::vector<Timed>& timed);
     results::LightResult* recorded(const Setting& setting);
@@ -107,7 +108,7 @@ private:
     };
     std::map<const techniques::Technique*, Effort> efforts_;
     std::list<Kept> kept_;  // the last used one first
-    std::vector<std::pair<Point, double>> trial_errors_;
+    std::vector<std::pair<Point, Trial>> trials_;
     std::vector<std::pair<bench::RayChoice, results::LightResult>> recorded_;
     double seconds_ = 0.0;
 };

@@ -23,6 +23,7 @@ constexpr double capture_share = 0.1;  // seconds of capturing that one repetiti
 // A confirmation repeats its times until the interval of each lookup time is this narrow, as a share of the time.
 constexpr double narrow = 0.03;
 constexpr int least_repetitions = 7, most_repetitions = 21;
+constexpr double longest_pass = 0.05;    // seconds of lookups in one order
 constexpr int fewer_builds = 3;          // repetitions, if time runs out
 constexpr double longest_timing = 15.0;  // seconds, after the least repetitions
 // Shares of a confirmation's time after which it goes on with fewer seeds, and with fewer builds.
@@ -85,7 +86,7 @@ void Trials::time_lookups(std::vector<Timed>& timed) {
     const base::ThreadLimit one_thread(1);
     for (Timed& one : timed)
         one.plan = bench::plan_lookups(one.attempt.contender.maps, asked(all_, one.attempt.frame->view).asked(),
-                                       static_cast<std::size_t>(scenario_->timing.lookups), scenario_->receivers.seed);
+                                       one.lookups, scenario_->receivers.seed);
     const auto settled = [](const Timed& one) {
         const metrics::Interval interval = metrics::median_interval(one.plan.random.ns);
         return interval.high - interval.low <= narrow * metrics::median(one.plan.random.ns);
@@ -101,24 +102,39 @@ void Trials::time_lookups(std::vector<Timed>& timed) {
     }
 }
 
+const Trial* Trials::trial_of(const Point& point) const {
+    const auto found =
+        std::find_if(trials_.begin(), trials_.end(), [&](const auto& measured) { return measured.first == point; });
+    return found == trials_.end() ? nullptr : &found->second;
+}
+
 int Trials::seeds_of(const Point& point, double error) const {
-    const auto trial = std::find_if(trial_errors_.begin(), trial_errors_.end(),
-                                    [&](const auto& measured) { return measured.first == point; });
-    if (measure_ != Measure::rms || trial == trial_errors_.end()) return seeds;
-    const double ratio = trial->second / error;
+    const Trial* trial = trial_of(point);
+    if (measure_ != Measure::rms || !trial) return seeds;
+    const double ratio = trial->error / error;
     return ratio > clear_of || ratio < 1.0 / clear_of ? fewer_seeds : seeds;
+}
+
+// Slow lookups need fewer of them.
+std::size_t Trials::lookups_of(const Point& point) const {
+    const std::size_t most = static_cast<std::size_t>(scenario_->timing.lookups);
+    const Trial* trial = trial_of(point);
+    if (!trial) return most;
+    const double enough = 1e9 * longest_pass / trial->cost[static_cast<std::size_t>(Cost::lookup)];
+    return std::min(most, static_cast<std::size_t>(std::max(enough, 256.0)));
 }
 
 std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double error, double most_seconds) {
     const Stopwatch stopwatch;
     // Points with the same light rays stand together.
-    std::vector<std::size_t> order(points.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<std::size_t> by_rays(points.size());
+    std::iota(by_rays.begin(), by_rays.end(), std::size_t{0});
     const auto rays_of = [&](std::size_t i) {
         const base::Vec2i sides = space_->resolution(points[i]);
         return std::tuple(sides.x, sides.y, space_->samples(points[i]));
     };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rays_of(a) < rays_of(b); });
+    std::stable_sort(by_rays.begin(), by_rays.end(),
+                     [&](std::size_t a, std::size_t b) { return rays_of(a) < rays_of(b); });
     std::vector<Confirmed> answers(points.size());
     std::vector<std::vector<double>> errors(points.size());
     std::vector<Timed> timed;
@@ -128,8 +144,8 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double err
             cut = true;
             break;
         }
-        for (std::size_t done = 0; done < order.size(); ++done) {
-            const std::size_t i = order[done];
+        for (std::size_t done = 0; done < by_rays.size(); ++done) {
+            const std::size_t i = by_rays[done];
             if (!answers[i].failed.empty() || seed >= seeds_of(points[i], error)) continue;
             if (progress_)
                 progress_({"", "checking", static_cast<std::size_t>(seed) * points.size() + done, seeds * points.size()});
@@ -146,7 +162,7 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double err
             if (seed > 0 || !attempt.contender.ok()) continue;
             record(setting, *attempt.rays);
             attempt.rays = nullptr;  // many points' rays may not fit into memory together
-            timed.push_back({i, setting, std::move(attempt)});
+            timed.push_back({i, setting, lookups_of(points[i]), std::move(attempt)});
         }
     }
     std::erase_if(timed, [&](const Timed& one) { return !answers[one.index].failed.empty(); });
