@@ -27,6 +27,8 @@ struct Incumbents {
     std::array<double, costs> second;          // of another technique
     double without_map = std::numeric_limits<double>::infinity();  // the least lookup time
 
+    bool operator==(const Incumbents&) const = default;
+
     Limit limit(const Family& family, std::size_t cost) const {
         if (family.mapless) return {static_cast<Cost>(cost) == Cost::lookup ? without_map : 0.0, true};
         const std::string& of = family.technique;

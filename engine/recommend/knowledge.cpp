@@ -83,9 +83,10 @@ double Knowledge::excess(const Record& record) const {
     return record.error / (record.confirmed ? wanted_.error : wanted_.trial_error);
 }
 
-void Knowledge::update(const Wanted& wanted, bool fine) {
+void Knowledge::update(const Wanted& wanted, bool fine, const std::array<double, costs>& limits) {
     wanted_ = wanted;
     fine_ = fine;
+    limits_ = limits;
     fit();
     bound();
     rule_out_failures();
@@ -180,6 +181,9 @@ void Knowledge::believe() {
         if (measured_[i] || ruled_out_[i]) continue;
         chance_[i] = 0.0;
         if (!fine_ && !coarse_[i]) continue;
+        bool dear = true;
+        for (std::size_t k = 0; k < costs; ++k) dear = dear && least_[k][i] >= limits_[k];
+        if (dear) continue;
         chance_[i] = 0.5;
         for (std::size_t k = 0; k < costs; ++k) estimates_[k][i] = {0.0, std::numeric_limits<double>::infinity()};
         if (nothing) continue;

@@ -55,8 +55,12 @@ public:
     // The errors of the scout's points count for this family too.
     void bound_by(std::span<const Record> scout) { scout_ = {scout.begin(), scout.end()}; }
 
-    // Brings everything below up to date with what was added. Unless `fine`, only coarse points have chances.
-    void update(const Wanted& wanted, bool fine);
+    // Brings everything below up to date with what was added. Unless `fine`, only coarse points have chances. Points
+    // that cost at least as much as `limits` in every cost have none either.
+    void update(const Wanted& wanted, bool fine, const std::array<double, costs>& limits);
+
+    // Only what is acceptable.
+    void want(const Wanted& wanted) { wanted_ = wanted; }
 
     bool measured(std::size_t index) const { return measured_[index]; }
     // The error over the one wanted; infinite if the point fails or costs more than allowed.
@@ -89,6 +93,7 @@ private:
     std::vector<Record> scout_;
     std::vector<char> coarse_, measured_, ruled_out_;
     bool fine_ = true;
+    std::array<double, costs> limits_{};
     bool left_out_ = false;
     std::array<std::vector<double>, costs> known_, least_;
     std::vector<double> chance_;

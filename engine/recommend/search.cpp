@@ -38,14 +38,22 @@ private:
     double left(double share) const;
     bool fits(double seconds) const { return seconds <= left(exploring_share); }
     void measure(const Point& point);
+    std::array<double, costs> limits(std::size_t family) const;
+    void update_one(std::size_t family);
     void update(std::size_t family);
+    void update_all();
 
     bool too_dear(std::size_t family, std::size_t index) const;
     std::optional<std::size_t> next_climb(std::size_t family) const;
     void climb();
 
+    struct Open {
+        std::size_t index;
+        double gain;
+    };
     double gain(std::size_t family, std::size_t index, bool likely) const;
-    std::optional<Point> most_promising(std::size_t& open, bool& too_long) const;
+    const std::vector<Open>& open_points(std::size_t family);
+    std::optional<Point> most_promising(std::size_t& open, bool& too_long);
     std::optional<Point> open_neighbour(bool& too_long) const;
     void refine();
 
@@ -65,7 +73,8 @@ private:
         std::size_t measured = 0;  // rungs: the first records of the family
     };
     std::vector<Climb> climbs_;  // of every family
-    Incumbents incumbents_;
+    std::vector<std::optional<std::vector<Open>>> open_;  // of every family; nothing if it must be found again
+    Incumbents incumbents_{};
     bool fine_ = false;  // whether all points count, or only coarse ones
 };
 
@@ -82,6 +91,7 @@ Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
     const int rungs = ladder_rungs(found_.families);
     for (std::size_t i = 0; i < found_.families.size(); ++i) {
         families_.emplace_back(found_.families[i], i, lab);
+        open_.emplace_back();
         climbs_.push_back({ladder(found_.families[i], i, rungs)});
     }
 }
@@ -115,14 +125,37 @@ void Search::measure(const Point& point) {
     update(point.family);
 }
 
+// What a point of this family must cost less than to matter.
+std::array<double, costs> Search::limits(std::size_t family) const {
+    std::array<double, costs> result{};
+    for (std::size_t k = 0; k < costs; ++k)
+        if (found_.goal.asked[k]) result[k] = incumbents_.limit(found_.families[family], k).cost;
+    return result;
+}
+
+void Search::update_one(std::size_t family) {
+    families_[family].update(wanted_, fine_, limits(family));
+    open_[family].reset();
+}
+
 void Search::update(std::size_t family) {
-    families_[family].update(wanted_, fine_);
+    update_one(family);
     if (found_.scout == family)
         for (std::size_t i = 0; i < families_.size(); ++i)
             if (i != family && same_light_rays(found_.families[i], found_.families[family])) {
                 families_[i].bound_by(families_[family].records());
-                families_[i].update(wanted_, fine_);
+                update_one(i);
             }
+    const Incumbents before = std::exchange(incumbents_, find_incumbents(found_.families, families_));
+    if (!(before == incumbents_))
+        for (auto& open : open_) open.reset();
+}
+
+// After a change of what is wanted: what was out of question may not be any more.
+void Search::update_all() {
+    for (Knowledge& family : families_) family.want(wanted_);
+    incumbents_ = find_incumbents(found_.families, families_);
+    for (std::size_t i = 0; i < families_.size(); ++i) update_one(i);
     incumbents_ = find_incumbents(found_.families, families_);
 }
 
@@ -222,19 +255,28 @@ double Search::gain(std::size_t family, std::size_t index, bool likely) const {
     return sum;
 }
 
-std::optional<Point> Search::most_promising(std::size_t& open, bool& too_long) const {
+// The points of a family that may gain something.
+const std::vector<Search::Open>& Search::open_points(std::size_t family) {
+    if (open_[family]) return *open_[family];
+    std::vector<Open>& open = open_[family].emplace();
+    const Knowledge& known = families_[family];
+    for (std::size_t i = 0; i < known.lattice().size(); ++i) {
+        if (known.measured(i) || known.ruled_out(i) || known.chance(i) <= 0.0) continue;
+        const double gained = gain(family, i, true);
+        if (gained > 0.0) open.push_back({i, gained});
+    }
+    return open;
+}
+
+std::optional<Point> Search::most_promising(std::size_t& open, bool& too_long) {
     std::optional<Point> best;
     double most = 0.0;
     open = 0;
-    for (std::size_t f = 0; f < families_.size(); ++f) {
-        const Knowledge& known = families_[f];
-        for (std::size_t i = 0; i < known.lattice().size(); ++i) {
-            if (known.measured(i) || known.ruled_out(i)) continue;
-            const double gained = gain(f, i, true);
-            if (gained <= 0.0) continue;
+    for (std::size_t f = 0; f < families_.size(); ++f)
+        for (const Open& one : open_points(f)) {
             ++open;
-            const Point& point = known.lattice().point(i);
-            const double effort = lab_.effort(point), worth = gained / effort;
+            const Point& point = families_[f].lattice().point(one.index);
+            const double effort = lab_.effort(point), worth = one.gain / effort;
             if (worth <= most) continue;
             if (!fits(effort)) {
                 too_long = true;
@@ -243,7 +285,6 @@ std::optional<Point> Search::most_promising(std::size_t& open, bool& too_long) c
             most = worth;
             best = point;
         }
-    }
     return best;
 }
 
@@ -276,7 +317,7 @@ void Search::refine() {
         std::optional<Point> next = most_promising(open, too_long);
         if (!next && !fine_) {
             fine_ = true;
-            for (std::size_t i = 0; i < families_.size(); ++i) families_[i].update(wanted_, fine_);
+            update_all();
             continue;
         }
         if (!next) next = open_neighbour(too_long);
@@ -311,7 +352,11 @@ void Search::confirm() {
             found_.confirmed.push_back({points[i], answers[i]});
         }
         wanted_.trial_error = found_.goal.error / growth(found_);
-        for (std::size_t i = 0; i < families_.size(); ++i) update(i);
+        if (found_.scout)
+            for (std::size_t i = 0; i < families_.size(); ++i)
+                if (i != *found_.scout && same_light_rays(found_.families[i], found_.families[*found_.scout]))
+                    families_[i].bound_by(families_[*found_.scout].records());
+        update_all();
         refine();
     }
 }
