@@ -29,6 +29,10 @@ void finish(Maps& maps) {
     for (const auto& map : maps.parts) map->finish();
 }
 
+void set_lookups(Maps& maps, const techniques::ParameterValues& values) {
+    for (const auto& map : maps.parts) map->set_lookups(values);
+}
+
 void lookup(const Maps& maps, const Asked& asked, std::span<float> visibility) {
     const std::size_t per_map = asked.queries.size() * static_cast<std::size_t>(maps.parts[0]->channels());
     for (std::size_t p = 0; p < maps.parts.size(); ++p) {

@@ -40,6 +40,8 @@ Maps begin_maps(const techniques::Technique& row, const techniques::ParameterVal
 // Thread-safe for different tiles.
 void add(Maps& maps, const rays::LightRays& tile);
 void finish(Maps& maps);
+// See Map::set_lookups.
+void set_lookups(Maps& maps, const techniques::ParameterValues& values);
 
 // Answers are stored channel after channel: `visibility` has queries.size() * channels() places.
 void lookup(const Maps& maps, const Asked& asked, std::span<float> visibility);

@@ -126,6 +126,15 @@ Held held(const Exploration& found, const Goal& goal, const std::vector<const Ch
     return own_axes_end || found.scout ? Held::representation : Held::rays;
 }
 
+// Whether a setting certainly costs more than the answers in every cost asked, if there are answers.
+bool too_dear(const Answer& answer, const Choice& choice) {
+    for (std::size_t k = 0; k < costs; ++k) {
+        if (!answer.goal.asked[k]) continue;
+        if (!answer.cheapest[k] || choice.interval[k].low <= answer.cheapest[k]->best.interval[k].high) return false;
+    }
+    return true;
+}
+
 std::vector<std::string> techniques(const Exploration& found) {
     std::vector<std::string> names;
     for (const Family& family : found.families)
@@ -178,8 +187,15 @@ Answer answer(const Exploration& found, const Goal& goal) {
         if (within(choice, goal)) allowed.push_back(&choice);
     }
     result.reached = !good.empty();
+    std::vector<const Choice*> with_map, without_map;
+    for (const Choice* choice : good)
+        (found.families[choice->point.family].mapless ? without_map : with_map).push_back(choice);
     for (std::size_t k = 0; k < costs; ++k)
-        if (goal.asked[k]) result.cheapest[k] = cheapest(found, good, k);
+        if (goal.asked[k])
+            result.cheapest[k] = cheapest(found, static_cast<Cost>(k) == Cost::lookup ? good : with_map, k);
+    if (const Choice* least = cheapest_of(without_map, static_cast<std::size_t>(Cost::lookup))) result.without_map = *least;
+    result.cut = std::any_of(found.confirmed.begin(), found.confirmed.end(),
+                             [](const Answered& answered) { return answered.confirmed.cut; });
     if (!result.reached)
         if (const Choice* closest = least_error(allowed)) result.closest = *closest;
     for (const std::string& name : techniques(found)) {
@@ -189,7 +205,9 @@ Answer answer(const Exploration& found, const Goal& goal) {
         const Choice* closest = least_error(own);
         if (!closest) continue;
         if (std::any_of(own.begin(), own.end(), [&](const Choice* c) { return good_enough(*c, goal); })) continue;
-        result.missed.push_back({name, held(found, goal, own, *closest, all), *closest});
+        Held reason = held(found, goal, own, *closest, all);
+        if (reason != Held::bias && reason != Held::at_most && too_dear(result, *closest)) reason = Held::dear;
+        result.missed.push_back({name, reason, *closest});
     }
     return result;
 }

@@ -37,6 +37,7 @@ enum class Held {
     representation,  // the scout's error is low enough, or the technique's own parameters end
     bias,            // two rungs of the climb (ladder.h) lower the error by less than a tenth
     budget,          // the exploration ended before that was known
+    dear,            // not followed further: the closest setting costs more than the answers in every cost asked
     at_most,         // settings reach the error, but cost more than allowed
 };
 
@@ -57,12 +58,15 @@ struct Broken {
 
 struct Answer {
     Goal goal;
-    std::array<std::optional<Cheapest>, costs> cheapest;  // of the costs asked
+    // Of the costs asked. Bytes and builds are those of a map: techniques without one do not compete for them.
+    std::array<std::optional<Cheapest>, costs> cheapest;
+    std::optional<Choice> without_map;                    // the least lookup time without a map
     bool reached = false;                                 // some setting is good enough; if not, the exit code is 2
     std::optional<Choice> closest;                        // the least error within the limits, if none is
     std::vector<Missed> missed;
     std::vector<Broken> broken;
     std::size_t measured = 0, confirmed = 0;
+    bool cut = false;  // the time to confirm ran out: intervals are wider than planned
     End end = End::complete;
 };
 // `goal` may ask for another error, other costs and other limits than the exploration's.

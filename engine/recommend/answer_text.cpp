@@ -46,6 +46,7 @@ const char* held_text(Held held) {
         case Held::representation: return "the representation's own limit";
         case Held::bias: return "bias or the filter";
         case Held::budget: return "the budget ended";
+        case Held::dear: return "already dearer";
         case Held::at_most: return "over --at-most";
     }
     return "";
@@ -75,7 +76,7 @@ void add_cheapest(const Cheapest& cheapest, std::size_t k, const std::vector<Fam
 
 std::vector<std::string> held_lines(const Answer& answer) {
     std::vector<std::string> lines;
-    for (const Held held : {Held::rays, Held::representation, Held::bias, Held::budget, Held::at_most}) {
+    for (const Held held : {Held::rays, Held::representation, Held::bias, Held::dear, Held::budget, Held::at_most}) {
         std::vector<std::string> names;
         for (const Missed& missed : answer.missed)
             if (missed.held == held)
@@ -123,6 +124,9 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
         const std::string line = wording.paste(answer.cheapest[k]->best.point);
         if (std::find(pasted.begin(), pasted.end(), line) == pasted.end()) pasted.push_back(line);
     }
+    if (const auto& traced = answer.without_map)
+        lines.push_back(cut(fmt::format("without a map: {}, {}, error {}", setting_text(families, traced->point),
+                                        cost_text(traced->cost[0], 0), error_with_interval(*traced))));
     if (!answer.reached) {
         lines.push_back("no setting reaches it");
         if (answer.closest)
@@ -131,6 +135,7 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
     }
     std::vector<std::string> last = pasted;
     if (!answer.broken.empty()) last.push_back(broken_line(answer));
+    if (answer.cut) last.push_back("the time to confirm ran out: intervals are wider than planned");
     if (answer.end == End::budget) last.push_back("the budget ended first: a cheaper setting may be left");
     if (answer.end == End::cancelled) last.push_back("cancelled: a cheaper setting may be left");
     std::vector<std::string> held = held_lines(answer);

@@ -14,7 +14,7 @@ namespace shadowbench::recommend {
 struct Trials::Attempt {
     bench::Contender contender;
     std::shared_ptr<const bench::Frame> frame;      // null if the attempt was refused before rays were captured
-    std::shared_ptr<const bench::StoredRays> rays;  // the same; a confirmation drops them when they are checked
+    std::shared_ptr<const bench::StoredRays> rays;  // null if there is no more to check, or nothing was captured
     std::uint64_t segments = 0;
     double capture_ms = 0.0;  // 0 for what uses no light rays
     double build_ms = 0.0;    // without capturing
@@ -23,10 +23,17 @@ struct Trials::Attempt {
     double ns_per_segment(double ms) const { return segments > 0 ? 1e6 * ms / static_cast<double>(segments) : 0.0; }
 };
 
+// A map that is built and checked, for other settings that store the same map.
+struct Trials::Kept {
+    Setting setting;
+    Attempt attempt;
+};
+
 // One point of a confirmation: the map of the scenario's own seed and its times.
 struct Trials::Timed {
     std::size_t index = 0;  // of the point
     Setting setting;
+    std::size_t lookups = 0;  // of one pass
     Attempt attempt;
     bench::LookupPlan plan{};
     std::vector<double> capture_ms{}, build_ms{};

@@ -52,16 +52,20 @@ Incumbents find_incumbents(std::span<const Family> families, std::span<const Kno
     Incumbents found;
     found.least.fill(infinity);
     found.second.fill(infinity);
+    for (std::size_t f = 0; f < known.size(); ++f)
+        for (const Record& record : known[f].records())
+            if (families[f].mapless && known[f].acceptable(record))
+                found.without_map = std::min(found.without_map, record.cost[static_cast<std::size_t>(Cost::lookup)]);
     for (std::size_t k = 0; k < costs; ++k) {
         for (std::size_t f = 0; f < known.size(); ++f)
             for (const Record& record : known[f].records())
-                if (known[f].acceptable(record) && record.cost[k] < found.least[k]) {
+                if (!families[f].mapless && known[f].acceptable(record) && record.cost[k] < found.least[k]) {
                     found.least[k] = record.cost[k];
                     found.best[k] = Point{f, record.step};
                     found.technique[k] = families[f].technique;
                 }
         for (std::size_t f = 0; f < known.size(); ++f)
-            if (found.best[k] && families[f].technique != found.technique[k])
+            if (found.best[k] && !families[f].mapless && families[f].technique != found.technique[k])
                 for (const Record& record : known[f].records())
                     if (known[f].acceptable(record)) found.second[k] = std::min(found.second[k], record.cost[k]);
     }
@@ -73,16 +77,19 @@ std::vector<Point> to_confirm(std::span<const Family> families, std::span<const 
     std::vector<Point> chosen;
     for (std::size_t k = 0; k < costs; ++k) {
         if (!asked[k]) continue;
-        std::vector<Candidate> leaders, followers;
+        std::vector<Candidate> leaders, followers, without_map;
         for (std::size_t f = 0; f < known.size(); ++f)
             for (const Record& record : known[f].records()) {
                 const double excess = known[f].excess(record);
                 if (!(excess <= (record.confirmed ? 1.0 : doubtful))) continue;
-                auto& list = families[f].technique == incumbents.technique[k] ? leaders : followers;
+                auto& list = families[f].mapless                                  ? without_map
+                             : families[f].technique == incumbents.technique[k] ? leaders
+                                                                                  : followers;
                 list.push_back({Point{f, record.step}, record.cost[k], excess, record.confirmed});
             }
         select(leaders, k, most_leaders[k], chosen);
         select(followers, k, most_followers[k], chosen);
+        if (static_cast<Cost>(k) == Cost::lookup) select(without_map, k, 1, chosen);
     }
     std::vector<Point> unique;
     for (const Point& point : chosen)

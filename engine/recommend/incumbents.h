@@ -13,7 +13,8 @@
 
 namespace shadowbench::recommend {
 
-// Per cost the least of all acceptable settings, and the least of another technique.
+// Per cost the least of all acceptable settings with a map, and the least of another technique. Settings without a map
+// compete among themselves, and only for the least lookup time.
 struct Incumbents {
     struct Limit {
         double cost;  // a point must cost less to matter; infinite if nothing is acceptable yet
@@ -24,8 +25,13 @@ struct Incumbents {
     std::array<std::string, costs> technique;  // of the best
     std::array<double, costs> least;           // infinite if there is none
     std::array<double, costs> second;          // of another technique
+    double without_map = std::numeric_limits<double>::infinity();  // the least lookup time
 
-    Limit limit(const std::string& of, std::size_t cost) const {
+    bool operator==(const Incumbents&) const = default;
+
+    Limit limit(const Family& family, std::size_t cost) const {
+        if (family.mapless) return {static_cast<Cost>(cost) == Cost::lookup ? without_map : 0.0, true};
+        const std::string& of = family.technique;
         if (!best[cost]) return {std::numeric_limits<double>::infinity(), true};
         return of == technique[cost] ? Limit{least[cost], true} : Limit{second[cost], false};
     }

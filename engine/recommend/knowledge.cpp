@@ -41,6 +41,14 @@ Knowledge::Knowledge(const Family& family, std::size_t number, const Lab& lab)
         for (std::size_t i = 0; i < lattice_.size(); ++i) known_[k][i] = lab.at_least(lattice_.point(i), all_costs[k]);
     }
     least_ = known_;
+    // Every stride-th step of every axis, and the last.
+    for (std::size_t i = 0; i < lattice_.size(); ++i) {
+        const std::vector<int>& step = lattice_.point(i).step;
+        bool coarse = true;
+        for (std::size_t a = 0; a < step.size(); ++a)
+            coarse = coarse && (step[a] % family.axes[a].stride == 0 || step[a] + 1 == family.axes[a].steps());
+        coarse_.push_back(coarse || lattice_.size() <= small_lattice);
+    }
 }
 
 std::vector<double> Knowledge::position(const std::vector<int>& step) const {
@@ -75,8 +83,10 @@ double Knowledge::excess(const Record& record) const {
     return record.error / (record.confirmed ? wanted_.error : wanted_.trial_error);
 }
 
-void Knowledge::update(const Wanted& wanted) {
+void Knowledge::update(const Wanted& wanted, bool fine, const std::array<double, costs>& limits) {
     wanted_ = wanted;
+    fine_ = fine;
+    limits_ = limits;
     fit();
     bound();
     rule_out_failures();
@@ -169,6 +179,11 @@ void Knowledge::believe() {
     const bool nothing = std::all_of(records_.begin(), records_.end(), [](const Record& r) { return !r.failed.empty(); });
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
         if (measured_[i] || ruled_out_[i]) continue;
+        chance_[i] = 0.0;
+        if (!fine_ && !coarse_[i]) continue;
+        bool dear = true;
+        for (std::size_t k = 0; k < costs; ++k) dear = dear && least_[k][i] >= limits_[k];
+        if (dear) continue;
         chance_[i] = 0.5;
         for (std::size_t k = 0; k < costs; ++k) estimates_[k][i] = {0.0, std::numeric_limits<double>::infinity()};
         if (nothing) continue;

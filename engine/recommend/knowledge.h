@@ -22,6 +22,8 @@ inline constexpr double clear_error = 1.1;
 inline constexpr double scout_slack = 0.5;
 // What a short measurement of a cost may be off by, as a factor.
 inline constexpr std::array<double, costs> cost_noise{1.15, 1.0, 1.15};
+// Families with at most so many points have no coarse ones: all count from the start.
+inline constexpr std::size_t small_lattice = 2000;
 // A family is left out if this many points fail and none succeeds.
 inline constexpr std::size_t failures_to_leave = 3;
 
@@ -53,8 +55,12 @@ public:
     // The errors of the scout's points count for this family too.
     void bound_by(std::span<const Record> scout) { scout_ = {scout.begin(), scout.end()}; }
 
-    // Brings everything below up to date with what was added.
-    void update(const Wanted& wanted);
+    // Brings everything below up to date with what was added. Unless `fine`, only coarse points have chances. Points
+    // that cost at least as much as `limits` in every cost have none either.
+    void update(const Wanted& wanted, bool fine, const std::array<double, costs>& limits);
+
+    // Only what is acceptable.
+    void want(const Wanted& wanted) { wanted_ = wanted; }
 
     bool measured(std::size_t index) const { return measured_[index]; }
     // The error over the one wanted; infinite if the point fails or costs more than allowed.
@@ -85,7 +91,9 @@ private:
     std::vector<Record> records_;
     std::vector<Trial> trials_;  // of the records
     std::vector<Record> scout_;
-    std::vector<char> measured_, ruled_out_;
+    std::vector<char> coarse_, measured_, ruled_out_;
+    bool fine_ = true;
+    std::array<double, costs> limits_{};
     bool left_out_ = false;
     std::array<std::vector<double>, costs> known_, least_;
     std::vector<double> chance_;

@@ -44,6 +44,8 @@ struct Family {
     std::string name;       // the technique and its words: "deep kernel=box"
     std::vector<Axis> axes;
     std::vector<Word> words = {};
+    // It stores no map: its bytes and its builds cost nothing, and so answer nothing. Only its lookups compete.
+    bool mapless = false;
 };
 
 struct Point {
@@ -60,9 +62,10 @@ struct Trial {
     std::array<double, costs> cost{};
 };
 
-// A measurement that answers: several seeds, times interleaved with those of the other points of the same call.
+// A measurement that answers: several seeds, and times interleaved with those of the other points of the same call.
 struct Confirmed {
     std::string failed;
+    bool cut = false;  // time ran out: its intervals rest on fewer seeds or repetitions than planned
     metrics::Interval error{0.0, 0.0};  // 95 %
     double mean_error = 0.0;
     std::array<double, costs> cost{};  // medians
@@ -82,7 +85,9 @@ public:
     // A lower bound of a cost that is known without measuring; 0 if nothing is known.
     virtual double at_least(const Point& point, Cost cost) const = 0;
     virtual Trial measure(const Point& point) = 0;
-    virtual std::vector<Confirmed> confirm(std::span<const Point> points) = 0;
+    // `error`: what the points are judged by; those that clearly err more or less need fewer seeds. It takes about
+    // `most_seconds` at most, but never less than the least that an interval rests on.
+    virtual std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) = 0;
 };
 
 }  // namespace shadowbench::recommend

@@ -23,14 +23,14 @@ Explored explore(const nlohmann::json& document, const bench::RunOptions& option
                  const Watch& watch) {
     bench::RunOptions chosen = options;
     chosen.only = request.only;
-    Trials trials(document, chosen, request.light, request.measure, watch.measuring);
     const bench::Stopwatch stopwatch;
+    Trials trials(document, chosen, request.light, request.measure, watch.measuring);
     Hooks hooks;
     hooks.seconds = [&] { return stopwatch.seconds(); };
     if (watch.exploring)
         hooks.progress = [&](const Progress& progress) { watch.exploring(progress, stopwatch.seconds()); };
     Recommendation found{document.at("name").get<std::string>(), trials.light(), request.measure,
-                         explore(trials, request.goal, hooks)};
+                         trials.footprint_share(), explore(trials, request.goal, hooks)};
     return {std::move(found), trials.result()};
 }
 
@@ -39,6 +39,8 @@ nlohmann::ordered_json to_json(const Explored& explored) {
     nlohmann::ordered_json& recommendation = out["recommendation"];
     recommendation["light"] = explored.recommendation.light;
     recommendation["measure"] = measure_words[static_cast<std::size_t>(explored.recommendation.measure)];
+    const std::optional<double> share = explored.recommendation.footprint_share;
+    recommendation["footprint_share"] = share ? nlohmann::ordered_json(*share) : nlohmann::ordered_json(nullptr);
     recommendation.update(to_json(explored.recommendation.exploration));
     return out;
 }
@@ -51,14 +53,28 @@ Recommendation recommendation_from_json(const nlohmann::json& document, const st
     const results::Field measure = from.at("measure");
     const auto word = std::find(std::begin(measure_words), std::end(measure_words), measure.text());
     if (word == std::end(measure_words)) results::refuse(measure.where, "there is no such measure of the error");
+    std::optional<double> share;
+    if (const results::Field given = from.at("footprint_share"); !given.is_null()) share = given.number();
     return {whole.at("name").text(), from.at("light").text(), static_cast<Measure>(word - std::begin(measure_words)),
-            exploration_from_json(from.value, from.where)};
+            share, exploration_from_json(from.value, from.where)};
 }
+
+namespace {
+
+// The part of the scenario that gives this setting, and asks it the same question.
+std::string pasted(const Recommendation& recommendation, const Point& point) {
+    nlohmann::ordered_json part = scenario_part(recommendation.exploration.families[point.family], point);
+    if (part.contains("rays") && recommendation.footprint_share)
+        part["receivers"] = {{"footprint", {{"share", *recommendation.footprint_share}}}};
+    return part.dump();
+}
+
+}  // namespace
 
 AnswerText answer_text(const Recommendation& recommendation, const Goal& goal) {
     const std::vector<Family>& families = recommendation.exploration.families;
     const Answer answer = recommend::answer(recommendation.exploration, goal);
-    const auto paste = [&](const Point& point) { return scenario_part(families[point.family], point).dump(); };
+    const auto paste = [&](const Point& point) { return pasted(recommendation, point); };
     return {fmt::format("{}, light {}\n", recommendation.scenario, recommendation.light) +
                 to_text(answer, families, {measure_words[static_cast<std::size_t>(recommendation.measure)], paste}),
             answer.reached};

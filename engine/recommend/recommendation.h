@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -19,12 +20,13 @@ namespace shadowbench::recommend {
 struct Recommendation {
     std::string scenario, light;  // names
     Measure measure = Measure::rms;
+    std::optional<double> footprint_share;  // see Trials::footprint_share
     Exploration exploration;
 };
 
 struct Watch {
     bench::ProgressCallback measuring;                                        // the truth, and the steps of confirming
-    std::function<void(const Progress& progress, double seconds)> exploring;  // seconds: since the exploration began
+    std::function<void(const Progress& progress, double seconds)> exploring;  // seconds: since explore() was called
 };
 
 struct Explored {

@@ -40,7 +40,8 @@ json to_json(const Family& family) {
     for (const Family::Word& word : family.words) words[word.name] = json::parse(word.value);
     for (const Axis& axis : family.axes)
         axes.push_back({{"name", axis.name}, {"values", axis.values}, {"stride", axis.stride}});
-    return {{"technique", family.technique}, {"name", family.name}, {"words", words}, {"axes", axes}};
+    return {{"technique", family.technique}, {"name", family.name}, {"words", words}, {"axes", axes},
+            {"mapless", family.mapless}};
 }
 
 json to_json(const Measured& measured) {
@@ -53,6 +54,7 @@ json to_json(const Measured& measured) {
 json to_json(const Answered& answered) {
     const Confirmed& confirmed = answered.confirmed;
     json out = {{"family", answered.point.family}, {"step", answered.point.step}, {"failed", confirmed.failed}};
+    out["cut"] = confirmed.cut;
     out["error"] = {{"mean", number(confirmed.mean_error)}, {"interval95", to_json(confirmed.error)}};
     for (std::size_t k = 0; k < costs; ++k)
         out[cost_names[k]] = {{"median", number(confirmed.cost[k])}, {"interval95", to_json(confirmed.interval[k])}};
@@ -83,6 +85,7 @@ Goal read_goal(const Field& field) {
 Family read_family(const Field& field) {
     Family family{field.at("technique").text(), field.at("name").text(), {}, {}};
     for (const auto& [name, value] : field.at("words").object().items()) family.words.push_back({name, value.dump()});
+    family.mapless = field.at("mapless").truth();
     const Field axes = field.at("axes");
     for (std::size_t a = 0; a < axes.array().size(); ++a) {
         const Field from = axes.item(a), values = from.at("values");
@@ -122,6 +125,7 @@ Answered read_answered(const Field& field, const std::vector<Family>& families) 
     Answered answered{read_point(field, families), {}};
     Confirmed& confirmed = answered.confirmed;
     confirmed.failed = field.at("failed").text();
+    confirmed.cut = field.at("cut").truth();
     confirmed.mean_error = field.at("error").at("mean").number_or_infinity();
     confirmed.error = read_interval(field.at("error").at("interval95"));
     for (std::size_t k = 0; k < costs; ++k) {

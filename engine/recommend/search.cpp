@@ -21,7 +21,10 @@ constexpr double leader_chance = 0.03, follower_chance = 0.15;
 // Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
 constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
 constexpr double follower_gain = 0.1;
+// A climb ends if its error would stay too large even if the rungs left lowered it so many times faster.
+constexpr double faster = 2.0;
 constexpr int confirm_rounds = 8;
+constexpr double first_round_share = 0.6;  // of the time left to confirm: other rounds may follow
 
 class Search {
 public:
@@ -32,15 +35,26 @@ public:
 private:
     bool out_of_time(double share);
     bool stopped(double share);
+    double left(double share) const;
+    bool fits(double seconds) const { return seconds <= left(exploring_share); }
     void measure(const Point& point);
+    std::array<double, costs> limits(std::size_t family) const;
+    void update_one(std::size_t family);
     void update(std::size_t family);
+    void update_all();
 
-    std::optional<Point> next_climb(std::size_t family) const;
+    bool too_dear(std::size_t family, std::size_t index) const;
+    std::optional<std::size_t> next_climb(std::size_t family) const;
     void climb();
 
+    struct Open {
+        std::size_t index;
+        double gain;
+    };
     double gain(std::size_t family, std::size_t index, bool likely) const;
-    std::optional<Point> most_promising(std::size_t& open) const;
-    std::optional<Point> open_neighbour() const;
+    const std::vector<Open>& open_points(std::size_t family);
+    std::optional<Point> most_promising(std::size_t& open, bool& too_long);
+    std::optional<Point> open_neighbour(bool& too_long) const;
     void refine();
 
     void confirm();
@@ -53,9 +67,15 @@ private:
     Exploration found_;
     Wanted wanted_;
     std::vector<Knowledge> families_;
-    std::vector<std::vector<Point>> ladders_;  // of every family, the points of its climb
-    std::vector<std::size_t> rungs_;           // climbed so far
-    Incumbents incumbents_;
+    struct Climb {
+        std::vector<Point> rungs;
+        std::size_t next = 0;      // the first rung not yet tried
+        std::size_t measured = 0;  // rungs: the first records of the family
+    };
+    std::vector<Climb> climbs_;  // of every family
+    std::vector<std::optional<std::vector<Open>>> open_;  // of every family; nothing if it must be found again
+    Incumbents incumbents_{};
+    bool fine_ = false;  // whether all points count, or only coarse ones
 };
 
 bool same_light_rays(const Family& a, const Family& b) {
@@ -71,15 +91,21 @@ Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
     const int rungs = ladder_rungs(found_.families);
     for (std::size_t i = 0; i < found_.families.size(); ++i) {
         families_.emplace_back(found_.families[i], i, lab);
-        ladders_.push_back(ladder(found_.families[i], i, rungs));
+        open_.emplace_back();
+        climbs_.push_back({ladder(found_.families[i], i, rungs)});
     }
-    rungs_.assign(families_.size(), 0);
 }
 
 bool Search::out_of_time(double share) {
-    if (!hooks_.seconds || hooks_.seconds() - began_ < share * found_.goal.budget) return false;
+    if (left(share) > 0.0) return false;
     if (found_.end == End::complete) found_.end = End::budget;
     return true;
+}
+
+// Seconds until this share is spent of the budget that was left at the start.
+double Search::left(double share) const {
+    if (!hooks_.seconds || std::isinf(found_.goal.budget)) return infinity;
+    return began_ + share * (found_.goal.budget - began_) - hooks_.seconds();
 }
 
 bool Search::stopped(double share) {
@@ -99,48 +125,106 @@ void Search::measure(const Point& point) {
     update(point.family);
 }
 
+// What a point of this family must cost less than to matter.
+std::array<double, costs> Search::limits(std::size_t family) const {
+    std::array<double, costs> result{};
+    for (std::size_t k = 0; k < costs; ++k)
+        if (found_.goal.asked[k]) result[k] = incumbents_.limit(found_.families[family], k).cost;
+    return result;
+}
+
+void Search::update_one(std::size_t family) {
+    families_[family].update(wanted_, fine_, limits(family));
+    open_[family].reset();
+}
+
 void Search::update(std::size_t family) {
-    families_[family].update(wanted_);
+    update_one(family);
     if (found_.scout == family)
         for (std::size_t i = 0; i < families_.size(); ++i)
             if (i != family && same_light_rays(found_.families[i], found_.families[family])) {
                 families_[i].bound_by(families_[family].records());
-                families_[i].update(wanted_);
+                update_one(i);
             }
+    const Incumbents before = std::exchange(incumbents_, find_incumbents(found_.families, families_));
+    if (!(before == incumbents_))
+        for (auto& open : open_) open.reset();
+}
+
+// After a change of what is wanted: what was out of question may not be any more.
+void Search::update_all() {
+    for (Knowledge& family : families_) family.want(wanted_);
+    incumbents_ = find_incumbents(found_.families, families_);
+    for (std::size_t i = 0; i < families_.size(); ++i) update_one(i);
     incumbents_ = find_incumbents(found_.families, families_);
 }
 
-// The next point of a family's climb; nothing if it is done.
-std::optional<Point> Search::next_climb(std::size_t family) const {
-    const std::span<const Record> records = families_[family].records();
-    const std::size_t rung = rungs_[family];
-    if (rung == ladders_[family].size() || families_[family].left_out()) return {};
-    if (rung >= 1 && families_[family].acceptable(records[rung - 1])) return {};
-    if (rung >= 3) {
-        const Record &last = records[rung - 1], &before = records[rung - 3];
-        if (last.failed.empty() && before.failed.empty() && last.error > flat_share * before.error) return {};
-    }
-    return ladders_[family][rung];
+// Whether this point, and all that are more accurate, certainly cost more than what is known, in every cost asked.
+bool Search::too_dear(std::size_t family, std::size_t index) const {
+    for (std::size_t k = 0; k < costs; ++k)
+        if (found_.goal.asked[k] &&
+            families_[family].least(index, static_cast<Cost>(k)) < incumbents_.limit(found_.families[family], k).cost)
+            return false;
+    return true;
 }
 
+// The next rung of a family's climb; nothing if it is done. Rungs that are ruled out by the scout are left out.
+std::optional<std::size_t> Search::next_climb(std::size_t family) const {
+    const Knowledge& known = families_[family];
+    const std::span<const Record> records = known.records();
+    const Climb& climb = climbs_[family];
+    if (known.left_out()) return {};
+    if (climb.measured >= 1 && known.acceptable(records[climb.measured - 1])) return {};
+    if (climb.measured >= 3) {
+        const Record &last = records[climb.measured - 1], &before = records[climb.measured - 3];
+        if (last.failed.empty() && before.failed.empty() && last.error > flat_share * before.error) return {};
+    }
+    if (climb.measured >= 2) {
+        const Record &last = records[climb.measured - 1], &before = records[climb.measured - 2];
+        const double left = static_cast<double>(climb.rungs.size() - climb.next);
+        if (last.failed.empty() && before.failed.empty() && last.error > wanted_.trial_error &&
+            last.error * std::pow(last.error / before.error, faster * left) > wanted_.trial_error)
+            return {};
+    }
+    for (std::size_t rung = climb.next; rung < climb.rungs.size(); ++rung) {
+        const std::size_t index = known.lattice().index(climb.rungs[rung].step);
+        if (too_dear(family, index)) return {};
+        if (!known.ruled_out(index)) return rung;
+    }
+    return {};
+}
+
+// The scout climbs first: what its light rays cannot reach, no other family can.
 void Search::climb() {
     while (!stopped(exploring_share)) {
-        std::optional<Point> next;
+        std::optional<std::size_t> chosen;
         double least = infinity;
         std::size_t climbing = 0;
+        bool too_long = false;
         for (std::size_t i = 0; i < families_.size(); ++i) {
-            const std::optional<Point> point = next_climb(i);
-            if (!point) continue;
+            const std::optional<std::size_t> rung = next_climb(i);
+            if (!rung) continue;
             ++climbing;
-            const double effort = lab_.effort(*point);
-            if (effort >= least) continue;
+            const double effort = lab_.effort(climbs_[i].rungs[*rung]);
+            if (!fits(effort)) {
+                too_long = true;
+                continue;
+            }
+            if (found_.scout == chosen && chosen) continue;
+            if (effort >= least && found_.scout != i) continue;
             least = effort;
-            next = point;
+            chosen = i;
         }
-        if (!next) return;
+        if (!chosen) {
+            if (too_long && found_.end == End::complete) found_.end = End::budget;
+            return;
+        }
         report(Stage::climbing, climbing);
-        measure(*next);
-        ++rungs_[next->family];
+        Climb& climb = climbs_[*chosen];
+        const std::size_t rung = *next_climb(*chosen);
+        measure(climb.rungs[rung]);
+        climb.next = rung + 1;
+        ++climb.measured;
     }
 }
 
@@ -152,7 +236,7 @@ double Search::gain(std::size_t family, std::size_t index, bool likely) const {
     for (std::size_t k = 0; k < costs; ++k) {
         if (!found_.goal.asked[k]) continue;
         const Cost cost = static_cast<Cost>(k);
-        const Incumbents::Limit limit = incumbents_.limit(found_.families[family].technique, k);
+        const Incumbents::Limit limit = incumbents_.limit(found_.families[family], k);
         if (known.least(index, cost) >= limit.cost) continue;
         const Estimate& estimate = known.cost(index, cost);
         // The chance to cost less than a limit by some share of it.
@@ -161,7 +245,7 @@ double Search::gain(std::size_t family, std::size_t index, bool likely) const {
             return known.chance(index) *
                    normal_below((std::log(bound) - estimate.mean - share) / (estimate.sd + 1e-4));
         };
-        const double lead = chance_below(incumbents_.least[k], least_gain[k]);
+        const double lead = chance_below(limit.leads ? limit.cost : incumbents_.least[k], least_gain[k]);
         const double share = limit.leads ? least_gain[k] : follower_gain;
         const double chance = limit.leads ? lead : chance_below(limit.cost, share);
         if (likely && lead < leader_chance && (limit.leads || chance < follower_chance)) continue;
@@ -171,30 +255,42 @@ double Search::gain(std::size_t family, std::size_t index, bool likely) const {
     return sum;
 }
 
-std::optional<Point> Search::most_promising(std::size_t& open) const {
+// The points of a family that may gain something.
+const std::vector<Search::Open>& Search::open_points(std::size_t family) {
+    if (open_[family]) return *open_[family];
+    std::vector<Open>& open = open_[family].emplace();
+    const Knowledge& known = families_[family];
+    for (std::size_t i = 0; i < known.lattice().size(); ++i) {
+        if (known.measured(i) || known.ruled_out(i) || known.chance(i) <= 0.0) continue;
+        const double gained = gain(family, i, true);
+        if (gained > 0.0) open.push_back({i, gained});
+    }
+    return open;
+}
+
+std::optional<Point> Search::most_promising(std::size_t& open, bool& too_long) {
     std::optional<Point> best;
     double most = 0.0;
     open = 0;
-    for (std::size_t f = 0; f < families_.size(); ++f) {
-        const Knowledge& known = families_[f];
-        for (std::size_t i = 0; i < known.lattice().size(); ++i) {
-            if (known.measured(i) || known.ruled_out(i)) continue;
-            const double gained = gain(f, i, true);
-            if (gained <= 0.0) continue;
+    for (std::size_t f = 0; f < families_.size(); ++f)
+        for (const Open& one : open_points(f)) {
             ++open;
-            const Point& point = known.lattice().point(i);
-            const double worth = gained / lab_.effort(point);
+            const Point& point = families_[f].lattice().point(one.index);
+            const double effort = lab_.effort(point), worth = one.gain / effort;
             if (worth <= most) continue;
+            if (!fits(effort)) {
+                too_long = true;
+                continue;
+            }
             most = worth;
             best = point;
         }
-    }
     return best;
 }
 
 // A neighbour of a best setting that nothing measured rules out: one step cheaper on an axis, and perhaps one step more
 // accurate on another.
-std::optional<Point> Search::open_neighbour() const {
+std::optional<Point> Search::open_neighbour(bool& too_long) const {
     for (std::size_t k = 0; k < costs; ++k) {
         if (!found_.goal.asked[k] || !incumbents_.best[k]) continue;
         const Point& best = *incumbents_.best[k];
@@ -206,8 +302,9 @@ std::optional<Point> Search::open_neighbour() const {
                 if (--point.step[down] < 0) continue;
                 if (up != down && ++point.step[up] == lattice.steps(up)) continue;
                 const std::size_t index = lattice.index(point.step);
-                if (!known.measured(index) && !known.ruled_out(index) && gain(best.family, index, false) > 0.0)
-                    return point;
+                if (known.measured(index) || known.ruled_out(index) || gain(best.family, index, false) <= 0.0) continue;
+                if (fits(lab_.effort(point))) return point;
+                too_long = true;
             }
     }
     return {};
@@ -216,29 +313,50 @@ std::optional<Point> Search::open_neighbour() const {
 void Search::refine() {
     while (!stopped(exploring_share)) {
         std::size_t open = 0;
-        std::optional<Point> next = most_promising(open);
-        if (!next) next = open_neighbour();
-        if (!next) return;
+        bool too_long = false;
+        std::optional<Point> next = most_promising(open, too_long);
+        if (!next && !fine_) {
+            fine_ = true;
+            update_all();
+            continue;
+        }
+        if (!next) next = open_neighbour(too_long);
+        if (!next) {
+            if (too_long && found_.end == End::complete) found_.end = End::budget;
+            return;
+        }
         report(Stage::refining, std::max<std::size_t>(open, 1));
         measure(*next);
     }
 }
 
 void Search::confirm() {
+    double seconds_a_point = 0.0;
     for (int round = 0; round < confirm_rounds; ++round) {
         // The first round is due even if the budget is spent: without it there is no answer.
         if (round == 0 ? stopped(infinity) : stopped(1.0)) return;
         const std::vector<Point> points = to_confirm(found_.families, families_, found_.goal.asked, incumbents_);
         if (points.empty()) return;
+        if (static_cast<double>(points.size()) * seconds_a_point > left(1.0)) {
+            found_.end = End::budget;
+            return;
+        }
         report(Stage::confirming, points.size());
-        const std::vector<Confirmed> answers = lab_.confirm(points);
+        const double before = left(1.0);
+        const std::vector<Confirmed> answers =
+            lab_.confirm(points, found_.goal.error, (round == 0 ? first_round_share : 1.0) * std::max(before, 0.0));
+        if (std::isfinite(before)) seconds_a_point = (before - left(1.0)) / static_cast<double>(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             families_[points[i].family].confirm(points[i], answers[i]);
             std::erase_if(found_.confirmed, [&](const Answered& a) { return a.point == points[i]; });
             found_.confirmed.push_back({points[i], answers[i]});
         }
         wanted_.trial_error = found_.goal.error / growth(found_);
-        for (std::size_t i = 0; i < families_.size(); ++i) update(i);
+        if (found_.scout)
+            for (std::size_t i = 0; i < families_.size(); ++i)
+                if (i != *found_.scout && same_light_rays(found_.families[i], found_.families[*found_.scout]))
+                    families_[i].bound_by(families_[*found_.scout].records());
+        update_all();
         refine();
     }
 }

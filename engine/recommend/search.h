@@ -28,13 +28,13 @@ struct Progress {
 };
 
 struct Hooks {
-    std::function<double()> seconds;                // since any moment; needed only if there is a budget
+    std::function<double()> seconds;                // of the budget that are spent; needed only if there is a budget
     std::function<void(const Progress&)> progress;  // may be empty
     std::function<bool()> cancelled;                // may be empty; asked before every measurement
 };
 
-// The share of the budget after which exploring stops, so that time is left to confirm.
-inline constexpr double exploring_share = 0.7;
+// The share of the time that is left at the start after which exploring stops, so that the rest is left to confirm.
+inline constexpr double exploring_share = 0.6;
 
 // Throws Error usage if no cost is asked, or if the error or the budget is not above 0.
 Exploration explore(Lab& lab, const Goal& goal, const Hooks& hooks);

@@ -115,6 +115,7 @@ void Space::add_families(const Technique& row, const Axis& resolutions, const Ax
     for (ParameterValues& values : combinations(row)) {
         Family family{row.id, row.id, {resolutions, samples}, {}};
         Choice choice{&row, std::move(values), {}};
+        family.mapless = row.traits.traces;
         if (row.traits.traces)
             family.axes = {{"resolution", {text_of(own_)}, 1},
                            {"samples_per_pixel", {fmt::format("{}", own_samples_)}, 1}};

@@ -30,8 +30,10 @@ using bench::Stopwatch;
 using bench::StoredRays;
 
 constexpr double most_rays = 1 << 28;               // of one map; more take many minutes
-constexpr std::size_t quickly_checked_cells = 256;  // of a map, in a short measurement
-constexpr std::size_t checked_cells = 4096;         // the same if the error of the stored functions is asked for
+constexpr double quickly_checked_rays = 1 << 18;    // of a map whose functions a short measurement checks
+constexpr std::size_t quickly_checked_cells = 256;  // of it
+constexpr std::size_t checked_cells = 4096;         // of any map, if the error of the stored functions is asked for
+constexpr std::size_t most_kept = 12;               // maps, for settings that differ only in their lookups
 constexpr double rest_of_a_trial = 0.05;            // seconds: what every measurement takes besides rays and builds
 
 std::string now_utc() {
@@ -46,6 +48,20 @@ std::string now_utc() {
 Contender contender_of(const Setting& setting) {
     const std::string where = fmt::format("technique {}", setting.row->id);
     return bench::make_contender({setting.row->id, techniques::to_json(setting.values).dump(), where}, where);
+}
+
+// Whether two settings store the same map, so that only their lookups differ.
+bool same_map(const Setting& a, const Setting& b) {
+    if (a.row != b.row || a.resolution != b.resolution || a.samples != b.samples) return false;
+    const auto only_lookups = [&](const std::string& parameter) {
+        const auto& trades = a.row->traits.trades;
+        return std::any_of(trades.begin(), trades.end(), [&](const techniques::Trade& trade) {
+            return trade.only_lookups && parameter == trade.parameter;
+        });
+    };
+    return std::all_of(a.values.values.begin(), a.values.values.end(), [&](const auto& named) {
+        return named.second == b.values.at(named.first) || only_lookups(named.first);
+    });
 }
 
 double least_bytes(const Setting& setting, rays::MapLayout layout) {
@@ -108,13 +124,25 @@ const rays::MapLayout& Trials::layout(const Setting& setting) const {
     return place->second;
 }
 
+std::optional<double> Trials::footprint_share() const {
+    const scene::FilterWidth& width = scenario_->receivers.filter_width;
+    if (width.unit != scene::WidthUnit::map_pixels) return {};
+    return width.value / scenario_->rays.resolution.x;
+}
+
 double Trials::effort(const Point& point) const {
-    const Setting setting = space_->setting(point);
-    const double rays = static_cast<double>(setting.resolution.x) * setting.resolution.y * setting.samples;
-    const double build =
-        space_->uses_rays(point.family) && trial_rays_ > 0.0 ? rays * trial_seconds_ / trial_rays_ : 0.0;
-    const bool there = store_->kept(choice(setting, 0));
-    return rest_of_a_trial + build + (there ? 0.0 : store_->estimate_seconds(choice(setting, 0)));
+    // Asked often: no setting is made unless a map of these light rays is kept.
+    const bench::RayChoice own{space_->resolution(point), space_->samples(point), scenario_->rays.seed};
+    const techniques::Technique* row = &space_->row(point.family);
+    for (const Kept& kept : kept_)
+        if (kept.setting.row == row && kept.setting.resolution == own.resolution && kept.setting.samples == own.samples &&
+            same_map(kept.setting, space_->setting(point)))
+            return rest_of_a_trial;
+    const double rays = static_cast<double>(own.resolution.x) * own.resolution.y * own.samples;
+    const auto before = efforts_.find(row);
+    const bool grows = space_->uses_rays(point.family) && before != efforts_.end() && before->second.rays > 0.0;
+    const double build = grows ? rays * before->second.seconds / before->second.rays : 0.0;
+    return rest_of_a_trial + build + (store_->kept(own) ? 0.0 : store_->estimate_seconds(own));
 }
 
 double Trials::at_least(const Point& point, Cost cost) const {
@@ -135,8 +163,34 @@ std::string Trials::refusal(const Setting& setting, const Contender& contender) 
     return "";
 }
 
-// Builds one map and compares its answers with the truth; `timed`: builds it on one thread, and times that.
-Trials::Attempt Trials::attempt(const Setting& setting, int seed, bool timed) {
+// Keeps the map for settings that differ only in their lookups, and drops the longest unused ones beyond a limit.
+void Trials::keep_map(const Setting& setting, Attempt attempt) {
+    attempt.rays = nullptr;
+    kept_.push_front({setting, std::move(attempt)});
+    std::size_t sum = 0;
+    for (const Kept& kept : kept_) sum += kept.attempt.contender.cell.bytes;
+    while (kept_.size() > 1 && (sum > options_.limits.kept_rays / 4 || kept_.size() > most_kept)) {
+        sum -= kept_.back().attempt.contender.cell.bytes;
+        kept_.pop_back();
+    }
+}
+
+// The kept map, with the lookups of this setting.
+Trials::Attempt Trials::take_kept(std::list<Kept>::iterator kept, const Setting& setting) {
+    Attempt attempt = std::move(kept->attempt);
+    kept_.erase(kept);
+    Contender wanted = contender_of(setting);
+    Contender& contender = attempt.contender;
+    contender.values = std::move(wanted.values);
+    contender.cell.parameters = std::move(wanted.cell.parameters);
+    contender.cell.parameters_json = std::move(wanted.cell.parameters_json);
+    contender.cell.defaults = wanted.cell.defaults;
+    bench::set_lookups(contender.maps, contender.values);
+    return attempt;
+}
+
+// Captures the light rays and builds one map; `timed`: on one thread, and times that.
+Trials::Attempt Trials::build(const Setting& setting, int seed, bool timed) {
     Attempt attempt{contender_of(setting), nullptr, nullptr};
     Contender& contender = attempt.contender;
     if (const std::string reason = refusal(setting, contender); !reason.empty()) {
@@ -148,10 +202,8 @@ Trials::Attempt Trials::attempt(const Setting& setting, int seed, bool timed) {
     attempt.segments = attempt.rays->source->segments();
     if (!setting.row->traits.traces)
         attempt.capture_ms = 1e3 * (attempt.rays->setup_seconds + attempt.rays->capture_seconds);
-    const Stopwatch stopwatch;
     const bench::RaySource& source = *attempt.rays->source;
-    const bench::Frame& frame = *attempt.frame;
-    const techniques::BuildInput input{frame.layout, frame.view, casters_.get()};
+    const techniques::BuildInput input{attempt.frame->layout, attempt.frame->view, casters_.get()};
     const std::span<Contender> one(&contender, 1);
     if (contender.needs.apron > 0) source.for_each_batch(contender.needs.apron, [](bench::RaySource::Batch) {});
     const bool kept = source.kept(contender.needs.apron);
@@ -172,10 +224,13 @@ Trials::Attempt Trials::attempt(const Setting& setting, int seed, bool timed) {
         if (error.code() != ErrorCode::bad_input) throw;
         bench::fail(contender, error.message());
     }
-    if (contender.ok()) bench::check_lookups(one, asked(judged_, frame.view).asked(), truth_);
-    trial_seconds_ += stopwatch.seconds();
-    trial_rays_ += static_cast<double>(source.rays());
     return attempt;
+}
+
+// Compares the answers of a built map with the truth.
+void Trials::judge_lookups(Attempt& attempt) const {
+    if (!attempt.contender.ok()) return;
+    bench::check_lookups(std::span(&attempt.contender, 1), asked(judged_, attempt.frame->view).asked(), truth_);
 }
 
 QuerySet Trials::asked(const QuerySet& set, const rays::LightView& view) const {
@@ -204,35 +259,51 @@ void Trials::time_quickly(Attempt& attempt) const {
     times.lookups = quick.lookups;
 }
 
-// Compares an even share of the stored functions with those of the light rays.
+// Compares an even share of the stored functions with those of the light rays. Unless their error is asked for, only in
+// small maps: an exploration measures every family in small maps too, and a confirmation checks all functions.
 void Trials::check_some(Attempt& attempt) const {
     Contender& contender = attempt.contender;
+    const bool asked_for = measure_ == Measure::curve;
+    if (!asked_for && static_cast<double>(attempt.rays->source->rays()) > quickly_checked_rays) return;
     const bench::CheckedMap checked{&contender.maps, contender.promises, contender.cell.error_bound,
                                     !contender.cell.outside_promise, contender.needs.apron};
-    const std::size_t cells = measure_ == Measure::curve ? checked_cells : quickly_checked_cells;
     bench::CurveVerdict verdict =
-        bench::check_curves(*attempt.rays->source, attempt.frame->layout, std::span(&checked, 1), cells, {})[0];
+        bench::check_curves(*attempt.rays->source, attempt.frame->layout, std::span(&checked, 1),
+                            asked_for ? checked_cells : quickly_checked_cells, {})[0];
     contender.cell.curve = std::move(verdict.errors);
     if (!verdict.broken.empty())
         bench::fail(contender, verdict.broken);
-    else if (measure_ == Measure::curve && !contender.cell.curve)
+    else if (asked_for && !contender.cell.curve)
         bench::fail(contender, no_curve);
 }
 
+// A map that is kept was checked when it was built.
 Trial Trials::measure(const Point& point) {
     const Stopwatch stopwatch;
     const Setting setting = space_->setting(point);
-    Attempt attempt = this->attempt(setting, 0, true);
+    const auto there = std::find_if(kept_.begin(), kept_.end(),
+                                    [&](const Kept& kept) { return same_map(kept.setting, setting); });
+    const bool built = there == kept_.end();
+    Attempt attempt = built ? build(setting, 0, true) : take_kept(there, setting);
     const Contender& contender = attempt.contender;
-    if (contender.ok()) check_some(attempt);
+    const Stopwatch after_capture;
+    judge_lookups(attempt);
+    if (built) {
+        Effort& effort = efforts_[setting.row];
+        effort.seconds += 1e-3 * attempt.build_ms + after_capture.seconds();
+        if (attempt.rays) effort.rays += static_cast<double>(attempt.rays->source->rays());
+    }
+    if (built && contender.ok()) check_some(attempt);
     if (contender.ok()) time_quickly(attempt);
     Trial trial{attempt.failed(), 0.0, {}};
     if (contender.ok()) {
         trial.error = error_of(contender.cell);
         trial.cost = {contender.cell.times->random_order.ns.median, static_cast<double>(contender.cell.bytes),
                       attempt.capture_ms + attempt.build_ms};
+        trials_.emplace_back(point, trial);
     }
-    if (attempt.rays) keep(record(setting, *attempt.rays), contender);
+    if (attempt.frame) keep(attempt.rays ? record(setting, *attempt.rays) : *recorded(setting), contender);
+    if (contender.ok()) keep_map(setting, std::move(attempt));
     seconds_ += stopwatch.seconds();
     return trial;
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "base/parallel.h"
+#include "bench/clock.h"
 #include "bench/contender.h"
 #include "bench/load.h"
 #include "bench/progress.h"
@@ -45,28 +47,38 @@ public:
     double effort(const Point& point) const override;
     double at_least(const Point& point, Cost cost) const override;
     Trial measure(const Point& point) override;
-    std::vector<Confirmed> confirm(std::span<const Point> points) override;
+    std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) override;
 
     const Space& space() const { return *space_; }
     const std::string& light() const { return light_->name; }
+    // The width of all footprints as a share of the map, if the scenario gives it in map pixels: a map of another
+    // resolution must be asked for this share instead, to answer the same question.
+    std::optional<double> footprint_share() const;
     // Everything measured so far, as a run of all these settings would give it: a variant for each resolution and
     // number of samples. Times of settings that were not confirmed are short ones.
     results::Result result() const;
 
 private:
     struct Attempt;
+    struct Kept;
     struct Timed;
     bench::RayChoice choice(const Setting& setting, int seed) const;
     const rays::MapLayout& layout(const Setting& setting) const;
     std::string refusal(const Setting& setting, const bench::Contender& contender) const;
-    Attempt attempt(const Setting& setting, int seed, bool timed);
+    void keep_map(const Setting& setting, Attempt attempt);
+    Attempt take_kept(std::list<Kept>::iterator kept, const Setting& setting);
+    Attempt build(const Setting& setting, int seed, bool timed);
+    void judge_lookups(Attempt& attempt) const;
     void check_some(Attempt& attempt) const;
     void time_quickly(Attempt& attempt) const;
     bench::QuerySet asked(const bench::QuerySet& set, const rays::LightView& view) const;
     double error_of(const results::Cell& cell) const;
     Confirmed judge_errors(std::span<const double> errors) const;
-    void time(std::vector<Timed>& timed);
-    void time_builds_of(std::vector<Timed>& timed, std::uint64_t repetition);
+    const Trial* trial_of(const Point& point) const;
+    int seeds_of(const Point& point, double error) const;
+    std::size_t lookups_of(const Point& point) const;
+    bool time_builds(std::vector<Timed>& timed, const bench::Stopwatch& stopwatch, double most_seconds);
+    void time_lookups(std::vector<Timed>& timed);
     results::LightResult* recorded(const Setting& setting);
     results::LightResult& record(const Setting& setting, const bench::StoredRays& rays);
     void keep(results::LightResult& light, const bench::Contender& contender) const;
@@ -88,7 +100,12 @@ private:
     bench::Truth truth_;
     double truth_rms_ = 0.0, truth_max_ = 0.0;                        // its standard error
     mutable std::map<std::pair<int, int>, rays::MapLayout> layouts_;  // by the larger side and the samples
-    double trial_seconds_ = 0.0, trial_rays_ = 0.0;                   // of attempts without their captures
+    struct Effort {
+        double seconds = 0.0, rays = 0.0;  // of attempts without their captures
+    };
+    std::map<const techniques::Technique*, Effort> efforts_;
+    std::list<Kept> kept_;  // the last used one first
+    std::vector<std::pair<Point, Trial>> trials_;
     std::vector<std::pair<bench::RayChoice, results::LightResult>> recorded_;
     double seconds_ = 0.0;
 };

@@ -1,6 +1,8 @@
 // How Trials confirms settings: several seeds, all checks of a run, and times in turns.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "bench/build_timing.h"
@@ -15,11 +17,17 @@ using bench::Contender;
 using bench::Stopwatch;
 
 constexpr int seeds = 5;               // of a confirmation, the scenario's own among them
+constexpr int fewer_seeds = 3;         // of a point whose trial is clear of the error wanted, or if time runs out
+constexpr double clear_of = 1.25;      // a trial's RMS that is this factor larger or smaller is
 constexpr double capture_share = 0.1;  // seconds of capturing that one repetition times
 // A confirmation repeats its times until the interval of each lookup time is this narrow, as a share of the time.
 constexpr double narrow = 0.03;
 constexpr int least_repetitions = 7, most_repetitions = 21;
+constexpr double longest_pass = 0.05;    // seconds of lookups in one order
+constexpr int fewer_builds = 3;          // repetitions, if time runs out
 constexpr double longest_timing = 15.0;  // seconds, after the least repetitions
+// Shares of a confirmation's time after which it goes on with fewer seeds, and with fewer builds.
+constexpr double seeds_share = 0.5, builds_share = 0.85;
 
 }  // namespace
 
@@ -35,29 +43,50 @@ Confirmed Trials::judge_errors(std::span<const double> errors) const {
     return confirmed;
 }
 
-void Trials::time_builds_of(std::vector<Timed>& timed, std::uint64_t repetition) {
-    for (Timed& one : timed) {
-        // Captured again if they were dropped.
-        const auto rays = store_->rays(choice(one.setting, 0), one.attempt.contender.needs);
-        const techniques::BuildInput input{rays->frame->layout, rays->frame->view, casters_.get()};
-        std::vector<std::vector<double>> seconds(1);
-        results::TimedPasses passes;
-        bench::time_builds(std::span(&one.attempt.contender, 1), *rays->source, input, seconds, passes);
-        one.build_ms.push_back(1e3 * seconds[0].at(0));
-        one.capture_ms.push_back(one.setting.row->traits.traces
-                                     ? 0.0
-                                     : 1e3 * (rays->setup_seconds + bench::RayStore::seconds_on_one_thread(
-                                                                        *rays, capture_share, repetition)));
+// The builds of all points with the same light rays in turns: rays of several choices may not fit into memory together.
+// Returns false if there was time for the fewest repetitions only.
+bool Trials::time_builds(std::vector<Timed>& timed, const Stopwatch& stopwatch, double most_seconds) {
+    bool all = true;
+    for (auto first = timed.begin(); first != timed.end();) {
+        const bench::RayChoice rays_of_all = choice(first->setting, 0);
+        const auto last = std::find_if(first, timed.end(),
+                                       [&](const Timed& one) { return !(choice(one.setting, 0) == rays_of_all); });
+        for (int r = 0; r < least_repetitions; ++r) {
+            if (r >= fewer_builds && stopwatch.seconds() > most_seconds) {
+                all = false;
+                break;
+            }
+            if (progress_)
+                progress_({"", "builds", static_cast<std::size_t>(last - timed.begin()), timed.size()});
+            std::shared_ptr<const bench::StoredRays> captured;
+            double capture_ms = 0.0;
+            for (auto one = first; one != last; ++one) {
+                const auto rays = store_->rays(rays_of_all, one->attempt.contender.needs);
+                const techniques::BuildInput input{rays->frame->layout, rays->frame->view, casters_.get()};
+                std::vector<std::vector<double>> seconds(1);
+                results::TimedPasses passes;
+                bench::time_builds(std::span(&one->attempt.contender, 1), *rays->source, input, seconds, passes);
+                one->build_ms.push_back(1e3 * seconds[0].at(0));
+                const bool charged = !one->setting.row->traits.traces;
+                if (charged && rays != captured) {
+                    captured = rays;
+                    capture_ms = 1e3 * (rays->setup_seconds + bench::RayStore::seconds_on_one_thread(
+                                                                  *rays, capture_share, static_cast<std::uint64_t>(r)));
+                }
+                one->capture_ms.push_back(charged ? capture_ms : 0.0);
+            }
+        }
+        first = last;
     }
+    return all;
 }
 
-// Builds and lookups in turns: every point once, then every point again, until the lookup times are settled.
-void Trials::time(std::vector<Timed>& timed) {
-    for (Timed& one : timed) {
-        const base::ThreadLimit one_thread(1);
+// Lookups in turns: every point once, then every point again, until the times are settled.
+void Trials::time_lookups(std::vector<Timed>& timed) {
+    const base::ThreadLimit one_thread(1);
+    for (Timed& one : timed)
         one.plan = bench::plan_lookups(one.attempt.contender.maps, asked(all_, one.attempt.frame->view).asked(),
-                                       static_cast<std::size_t>(scenario_->timing.lookups), scenario_->receivers.seed);
-    }
+                                       one.lookups, scenario_->receivers.seed);
     const auto settled = [](const Timed& one) {
         const metrics::Interval interval = metrics::median_interval(one.plan.random.ns);
         return interval.high - interval.low <= narrow * metrics::median(one.plan.random.ns);
@@ -69,24 +98,60 @@ void Trials::time(std::vector<Timed>& timed) {
             return;
         if (progress_)
             progress_({"", "timing", static_cast<std::size_t>(r), static_cast<std::size_t>(most_repetitions)});
-        if (r < least_repetitions) time_builds_of(timed, static_cast<std::uint64_t>(r));
-        const base::ThreadLimit one_thread(1);
         for (Timed& one : timed) bench::time_repetition(one.attempt.contender.maps, one.plan, r % 2 == 1);
     }
 }
 
-std::vector<Confirmed> Trials::confirm(std::span<const Point> points) {
+const Trial* Trials::trial_of(const Point& point) const {
+    const auto found =
+        std::find_if(trials_.begin(), trials_.end(), [&](const auto& measured) { return measured.first == point; });
+    return found == trials_.end() ? nullptr : &found->second;
+}
+
+int Trials::seeds_of(const Point& point, double error) const {
+    const Trial* trial = trial_of(point);
+    if (measure_ != Measure::rms || !trial) return seeds;
+    const double ratio = trial->error / error;
+    return ratio > clear_of || ratio < 1.0 / clear_of ? fewer_seeds : seeds;
+}
+
+// Slow lookups need fewer of them.
+std::size_t Trials::lookups_of(const Point& point) const {
+    const std::size_t most = static_cast<std::size_t>(scenario_->timing.lookups);
+    const Trial* trial = trial_of(point);
+    if (!trial) return most;
+    const double enough = 1e9 * longest_pass / trial->cost[static_cast<std::size_t>(Cost::lookup)];
+    return std::min(most, static_cast<std::size_t>(std::max(enough, 256.0)));
+}
+
+std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double error, double most_seconds) {
     const Stopwatch stopwatch;
+    // Points with the same light rays stand together.
+    std::vector<std::size_t> by_rays(points.size());
+    std::iota(by_rays.begin(), by_rays.end(), std::size_t{0});
+    const auto rays_of = [&](std::size_t i) {
+        const base::Vec2i sides = space_->resolution(points[i]);
+        return std::tuple(sides.x, sides.y, space_->samples(points[i]));
+    };
+    std::stable_sort(by_rays.begin(), by_rays.end(),
+                     [&](std::size_t a, std::size_t b) { return rays_of(a) < rays_of(b); });
     std::vector<Confirmed> answers(points.size());
     std::vector<std::vector<double>> errors(points.size());
     std::vector<Timed> timed;
-    for (int seed = 0; seed < seeds; ++seed)
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!answers[i].failed.empty()) continue;
+    bool cut = false;
+    for (int seed = 0; seed < seeds; ++seed) {
+        if (seed >= fewer_seeds && stopwatch.seconds() > seeds_share * most_seconds * seed / (seed + 1)) {
+            cut = true;
+            break;
+        }
+        for (std::size_t done = 0; done < by_rays.size(); ++done) {
+            const std::size_t i = by_rays[done];
+            if (!answers[i].failed.empty() || seed >= seeds_of(points[i], error)) continue;
             if (progress_)
-                progress_({"", "checking", static_cast<std::size_t>(seed) * points.size() + i, seeds * points.size()});
+                progress_({"", "checking", static_cast<std::size_t>(seed) * points.size() + done, seeds * points.size()});
             const Setting setting = space_->setting(points[i]);
-            Attempt attempt = this->attempt(setting, seed, false);
+            Attempt attempt = build(setting, seed, false);
+            judge_lookups(attempt);
             if (attempt.contender.ok() && (seed == 0 || measure_ == Measure::curve))
                 bench::check_functions(std::span(&attempt.contender, 1), *attempt.rays->source, attempt.frame->layout,
                                        {});
@@ -97,10 +162,12 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points) {
             if (seed > 0 || !attempt.contender.ok()) continue;
             record(setting, *attempt.rays);
             attempt.rays = nullptr;  // many points' rays may not fit into memory together
-            timed.push_back({i, setting, std::move(attempt)});
+            timed.push_back({i, setting, lookups_of(points[i]), std::move(attempt)});
         }
+    }
     std::erase_if(timed, [&](const Timed& one) { return !answers[one.index].failed.empty(); });
-    time(timed);
+    cut = !time_builds(timed, stopwatch, builds_share * most_seconds) || cut;
+    time_lookups(timed);
     for (Timed& one : timed) {
         Contender& contender = one.attempt.contender;
         for (const bench::LookupOrder* order : {&one.plan.image, &one.plan.random})
@@ -109,6 +176,7 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points) {
         answer.failed = one.attempt.failed();
         if (!answer.failed.empty()) continue;
         answer = judge_errors(errors[one.index]);
+        answer.cut = cut;
         std::vector<double> whole(one.build_ms);
         for (std::size_t r = 0; r < whole.size(); ++r) whole[r] += one.capture_ms[r];
         results::CellTimes& times = contender.cell.times.emplace();

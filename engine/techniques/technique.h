@@ -91,8 +91,11 @@ public:
     virtual void begin(const BuildInput& input) = 0;
     // Called once for each tile, from several threads at once for different tiles.
     virtual void add(const rays::LightRays& tile) = 0;
-    // Called once, last. The map does not change afterwards.
+    // Called once, last. What the map stores does not change afterwards.
     virtual void finish() = 0;
+    // Lookups of the finished map become those of these values. They may differ from the values of the map only in
+    // parameters whose trades are `only_lookups`. Not while another thread looks up.
+    virtual void set_lookups(const ParameterValues&) {}
 
     // The number of values in a lookup's answer: 1, or the channels of the layout passed to begin.
     virtual int channels() const { return 1; }
@@ -162,6 +165,7 @@ struct Trade {
     double from = 0.0, to = 0.0;  // linear, logarithmic: the cheapest and the most accurate value
     // choice: at least one value. A single one is set instead of the default.
     std::vector<ParameterValues::Value> choices = {};
+    bool only_lookups = false;  // the finished map is the same for all values: see Map::set_lookups
 };
 
 // What generic code must know about a technique besides its promises, so that it never checks the name. The tests of

@@ -19,7 +19,8 @@ void add_recommend(CLI::App& app, Commands& commands) {
          "recommend hairball --error 0.01 --measure p99 --cheapest lookup --at-most bytes=4MiB",
          "recommend --from results/recommendations/quickstart --error 0.05"},
         "All maps answer the same lookups over the same footprints, whatever their resolution. The answer holds with "
-        "95 % confidence.\n"
+        "95 % confidence. Techniques that store no map stand on a line of their own, and compete only for the lookup "
+        "time.\n"
         "Exit codes: 0; 2 nothing reaches the error; others as in shadowbench --help.");
     CLI::Option* scenario =
         recommend->add_option("SCENARIO", arguments->scenario, "A scenario file, or the name of one");
@@ -42,7 +43,7 @@ void add_recommend(CLI::App& app, Commands& commands) {
         recommend->add_option("--at-most", arguments->at_most,
                               "cost=limit: settings that cost more are left out, as in bytes=4MiB, lookup=50ns or "
                               "build=2s"));
-    recommend->add_option("--budget", arguments->budget, "Time for the exploration, as in 90s, 5min or 1h")
+    recommend->add_option("--budget", arguments->budget, "Time for the truth, the exploration and the confirmation, as in 90s, 5min or 1h")
         ->capture_default_str();
     recommend->add_option("--light", arguments->light, "A light's name, or its number, from 0 [the only light]");
     add_job_options(*recommend, *arguments);

@@ -118,6 +118,43 @@ TEST(Answer, LimitsHoldForTheUpperEndsOfIntervals) {
     EXPECT_EQ(of(made.answered(), Cost::bytes).best.point, (Point{0, {2, 2, 2}}));
 }
 
+TEST(Answer, WithoutAMapOnlyLookupsCompete) {
+    Made made({"deep", "ray_traced"});
+    made.found.families[1].mapless = true;
+    made.sure(0, {2, 2, 2}, 0.018, {20, 5000, 9}).sure(1, {2, 3, 1}, 0.017, {900, 0, 0.01});
+    const Answer result = made.answered();
+    EXPECT_EQ(of(result, Cost::bytes).best.point.family, 0u);
+    EXPECT_FALSE(of(result, Cost::bytes).runner_up);
+    EXPECT_EQ(of(result, Cost::build).best.point.family, 0u);
+    EXPECT_EQ(of(result, Cost::lookup).best.point.family, 0u);
+    EXPECT_EQ(of(result, Cost::lookup).runner_up->point.family, 1u);
+    ASSERT_TRUE(result.without_map);
+    EXPECT_THAT(to_text(result, made.found.families, {"rms", {}}), HasSubstr("without a map: ray_traced"));
+    made.sure(1, {1, 1, 1}, 0.018, {10, 0, 0.01});
+    EXPECT_EQ(of(made.answered(), Cost::lookup).best.point.family, 1u);
+    EXPECT_EQ(of(made.answered(), Cost::lookup).runner_up->point.family, 0u);
+}
+
+TEST(Answer, CallsATechniqueDearThatCostsMoreBeforeItReachesTheError) {
+    Made made({"deep", "dear", "thrifty"});
+    made.sure(0, {2, 2, 2}, 0.018, {20, 5000, 9});
+    made.trial(1, {3, 3, 3}, 0.03, {40, 9000, 20}).trial(2, {3, 3, 3}, 0.03, {40, 4000, 20});
+    made.found.end = End::budget;
+    const Answer result = made.answered();
+    ASSERT_EQ(result.missed.size(), 2u);
+    EXPECT_EQ(result.missed[0].held, Held::dear);
+    EXPECT_EQ(result.missed[1].held, Held::budget);
+}
+
+TEST(Answer, SaysIfConfirmingWasCut) {
+    Made made({"deep"});
+    made.sure(0, {2, 2, 2}, 0.018, {20, 5000, 9});
+    EXPECT_FALSE(made.answered().cut);
+    made.found.confirmed[0].confirmed.cut = true;
+    EXPECT_TRUE(made.answered().cut);
+    EXPECT_THAT(to_text(made.answered(), made.found.families, {"rms", {}}), HasSubstr("ran out"));
+}
+
 TEST(Answer, SaysWhatHoldsATechniqueBack) {
     // Of every technique, three points of a climb; the scout is "uncompressed".
     const auto climb = [](Made& made, std::size_t f, double first, double middle, double last) {

@@ -55,7 +55,7 @@ Trial SyntheticLab::measure(const Point& point) {
     return trial;
 }
 
-std::vector<Confirmed> SyntheticLab::confirm(std::span<const Point> points) {
+std::vector<Confirmed> SyntheticLab::confirm(std::span<const Point> points, double, double) {
     std::vector<Confirmed> answers;
     for (const Point& point : points) {
         ++confirmed_;

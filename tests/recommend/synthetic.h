@@ -40,7 +40,7 @@ public:
     double effort(const Point& point) const override;
     double at_least(const Point& point, Cost cost) const override;
     Trial measure(const Point& point) override;
-    std::vector<Confirmed> confirm(std::span<const Point> points) override;
+    std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) override;
 
     // What the answer rests on: errors without noise, with the upper end of their interval.
     double upper_error(const Point& point) const;

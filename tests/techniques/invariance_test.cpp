@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "techniques/any_rays.h"
+#include "techniques/trades.h"
 #include "techniques/variants.h"
 
 namespace shadowbench::techniques {
@@ -102,6 +103,31 @@ std::vector<ParameterValues> roomy(const Technique& row) {
 }
 
 constexpr double rounding = 1e-6;
+
+// A search builds one map for all values of the trades that only change lookups.
+TEST_P(Invariance, LookupsThatAreSetLaterAnswerAsThoseOfAMapBuiltForThem) {
+    if (row().traits.traces) return;
+    std::vector<ParameterValues> settings{read_parameters(row().parameters, nlohmann::json::object(), "")};
+    for (const Trade& trade : row().traits.trades) {
+        std::vector<ParameterValues> more;
+        const std::vector<ParameterValues::Value> values = values_of(trade, row().parameters);
+        for (const ParameterValues& before : settings)
+            for (std::size_t i = 0; i < values.size(); i += trade.only_lookups ? std::max<std::size_t>(values.size() / 3, 1) : values.size())
+                more.push_back(with(before, std::vector<ParameterSetting>{{trade.parameter, values[i]}}));
+        settings = std::move(more);
+    }
+    rc::detail::checkGTest([&] {
+        const HandRays given = testing::rays_of(3, 2, 2, *testing::any_draws(), {.hostile = false});
+        const std::vector<Query> queries = any_queries(given);
+        const ParameterValues& first = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
+        const ParameterValues& second = settings[*rc::gen::inRange<std::size_t>(0, settings.size())];
+        RC_LOG() << testing::text_of(row(), first) << ", then " << testing::text_of(row(), second) << '\n';
+        const HandMap one = make_map(row(), first, given), two = make_map(row(), second, given);
+        RC_ASSERT(one.map->bytes() == two.map->bytes());
+        one.map->set_lookups(second);
+        RC_ASSERT(one.lookup(queries) == two.lookup(queries));
+    });
+}
 
 // The contract leaves the order of hits that begin and end at one depth open.
 TEST_P(Invariance, TheOrderOfHitsAtOneDepthChangesNothing) {

@@ -119,6 +119,7 @@ public:
     }
     void add(const rays::LightRays& tile) override { map_.add(tile); }
     void finish() override { map_.finish(); }
+    void set_lookups(const ParameterValues& values) override { map_.rule = rule_of(values); }
 
     int channels() const override { return channels_; }
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
@@ -164,7 +165,7 @@ std::size_t least_bytes(const ParameterValues& values, const rays::MapLayout& la
 // and linear ways gain only where neighbours are looked up together, or for very short functions.
 std::vector<Trade> deep_trades() {
     return {{"tolerance", Trade::Scale::logarithmic, 0.2, 0.0005},
-            {.parameter = "kernel", .choices = {"box", "tent"}},
+            {.parameter = "kernel", .choices = {"box", "tent"}, .only_lookups = true},
             {.parameter = "mip", .choices = {"none", "nearest", "blend"}}};
 }
 

@@ -56,12 +56,16 @@ std::uint64_t key_of(const Query& q) {
     return base::mix(base::mix(place) ^ std::bit_cast<std::uint32_t>(q.z));
 }
 
+PcfSettings read_settings(const ParameterValues& v) {
+    return {static_cast<float>(v.number("num_samples")), static_cast<float>(v.number("res_factor")),
+            static_cast<float>(v.number("min_size")),    static_cast<float>(v.number("min_samples")),
+            static_cast<float>(v.number("bias0")),       static_cast<float>(v.number("bias1"))};
+}
+
 class PercentageCloser final : public Map {
 public:
     explicit PercentageCloser(const ParameterValues& v)
-        : settings_{static_cast<float>(v.number("num_samples")), static_cast<float>(v.number("res_factor")),
-                    static_cast<float>(v.number("min_size")),    static_cast<float>(v.number("min_samples")),
-                    static_cast<float>(v.number("bias0")),       static_cast<float>(v.number("bias1"))},
+        : settings_(read_settings(v)),
           bias_range_(settings_.bias1 - settings_.bias0),
           placement_(read_placement(v)),
           pixel_(v.is_word("region") && v.word("region") == "pixel"),
@@ -77,6 +81,7 @@ public:
     }
     void add(const rays::LightRays& tile) override { depths_.map.add(tile); }
     void finish() override { depths_.finish(); }
+    void set_lookups(const ParameterValues& values) override { settings_ = read_settings(values); }
 
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
         lookup_shaped(queries, {}, visibility);
@@ -236,8 +241,8 @@ private:
 // shadow_map; `region`, as the query asks for one; `placement`, since of those that fill the query's square jittered
 // samples have the least noise.
 std::vector<Trade> pcf_trades() {
-    return {{"num_samples", Trade::Scale::logarithmic, 1, 256},
-            {.parameter = "res_factor", .choices = {1.0, 3.0}},
+    return {{"num_samples", Trade::Scale::logarithmic, 1, 256, {}, true},
+            {.parameter = "res_factor", .choices = {1.0, 3.0}, .only_lookups = true},
             {.parameter = "min_size", .choices = {0.0}},
             {.parameter = "min_samples", .choices = {1.0}},
             storage_trade};

@@ -65,6 +65,7 @@ public:
         const std::vector<float> base = std::exchange(base_.depth, {});
         store_.keep(way_, base_.grid, n_, select_all(selection_, q_, n_, base_.grid, base));
     }
+    void set_lookups(const ParameterValues& values) override { side_ = values.integer("kernel"); }
 
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
         const float outcomes = static_cast<float>(side_ * side_ * n_);
@@ -184,7 +185,7 @@ private:
 // `cells`, for the reasons of shadow_map.
 std::vector<Trade> multi_depth_trades() {
     return {{"n", Trade::Scale::linear, 1, most_depths},
-            {"kernel", Trade::Scale::linear, 1, 16},
+            {"kernel", Trade::Scale::linear, 1, 16, {}, true},
             {.parameter = "select", .choices = {"both", "sorted"}},
             {.parameter = "region", .choices = {"query"}},
             storage_trade};

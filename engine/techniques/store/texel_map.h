@@ -58,6 +58,7 @@ public:
         scratch_.add(means.bytes());
     }
     void finish() override {}
+    void set_lookups(const ParameterValues& values) override { texels_.filter = read_filter(values); }
 
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
         const auto prepare = [this](float z) { return own().prepare(z); };

@@ -26,7 +26,8 @@ inline const Parameter filter_parameter{"filter",
                                         0,
                                         "footprint",
                                         {"point", "bilinear", "footprint"}};
-inline const Trade filter_trade{.parameter = "filter", .choices = {"footprint", "bilinear", "point"}};
+inline const Trade filter_trade{
+    .parameter = "filter", .choices = {"footprint", "bilinear", "point"}, .only_lookups = true};
 inline Filter read_filter(const ParameterValues& values) {
     const std::string& word = values.word("filter");
     return word == "point" ? Filter::point : word == "bilinear" ? Filter::bilinear : Filter::footprint;

@@ -83,6 +83,7 @@ public:
     }
 
     void finish() override {}
+    void set_lookups(const ParameterValues& values) override { filter_ = read_filter(values); }
 
     // With the footprint filter, the mean over the rays whose samples lie inside the footprint; the nearest cell's ray
     // if there are none.
