@@ -84,7 +84,7 @@ TEST(Children, AreEndedWhenTheyAreTold) {
             [&] { return told.load(); });
         return result;
     }();
-    EXPECT_EQ(outcome.report.end, ChildEnd::told);
+    EXPECT_EQ(outcome.report.end, ChildEnd::stopped);
     EXPECT_EQ(outcome.report.code, SIGKILL);
 }
 
