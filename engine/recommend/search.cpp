@@ -26,6 +26,7 @@ constexpr double faster = 2.0;
 // Refining ends if going on for as long as everything has taken so far promises to gain less than this, as a share of
 // the costs.
 constexpr double least_promise = 0.03;
+constexpr double coarse_share = 0.35;  // of the time, after which points between the coarse ones count too
 constexpr int confirm_rounds = 8;
 constexpr double first_round_share = 0.6;  // of the time left to confirm: other rounds may follow
 
@@ -321,7 +322,7 @@ void Search::refine() {
         std::size_t open = 0;
         bool too_long = false;
         std::optional<Point> next = most_promising(open, too_long);
-        if (!next && !fine_) {
+        if (!fine_ && (!next || left(coarse_share) <= 0.0)) {
             fine_ = true;
             update_all();
             continue;
