@@ -56,6 +56,7 @@ private:
         double gain;
     };
     double gain(std::size_t family, std::size_t index, bool likely) const;
+    bool answered() const;
     const std::vector<Open>& open_points(std::size_t family);
     std::optional<Point> most_promising(std::size_t& open, bool& too_long);
     std::optional<Point> open_neighbour(bool& too_long) const;
@@ -262,6 +263,13 @@ double Search::gain(std::size_t family, std::size_t index, bool likely) const {
     return sum;
 }
 
+// Whether something is good enough for every cost asked.
+bool Search::answered() const {
+    for (std::size_t k = 0; k < costs; ++k)
+        if (found_.goal.asked[k] && !incumbents_.best[k]) return false;
+    return true;
+}
+
 // The points of a family that may gain something.
 const std::vector<Search::Open>& Search::open_points(std::size_t family) {
     if (open_[family]) return *open_[family];
@@ -322,7 +330,7 @@ void Search::refine() {
         std::size_t open = 0;
         bool too_long = false;
         std::optional<Point> next = most_promising(open, too_long);
-        if (!fine_ && (!next || left(coarse_share) <= 0.0)) {
+        if (!fine_ && (!next || (left(coarse_share) <= 0.0 && answered()))) {
             fine_ = true;
             update_all();
             continue;
