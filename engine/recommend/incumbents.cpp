@@ -11,6 +11,9 @@ namespace {
 constexpr std::array<double, costs> close{1.1, 1.02, 1.1};
 // Points that err by at most this times the error wanted in a trial may turn out to err less.
 constexpr double doubtful = 1.06;
+// Until one is confirmed, the cheapest that errs by at most this is confirmed too: those closer to the error wanted often
+// turn out to err more, and the budget may end before another round.
+constexpr double safe = 0.95;
 // How many are confirmed in one round. Trials rank bytes well, and times only roughly.
 constexpr std::array<std::size_t, costs> most_leaders{3, 1, 3}, most_followers{2, 1, 2};
 constexpr std::size_t most_doubtful = 1;
@@ -22,8 +25,8 @@ struct Candidate {
     bool confirmed;
 };
 
-// The unconfirmed points that may be the cheapest: those that seem acceptable, cheapest first, and those in doubt, least
-// error first. If there are any, the cheapest confirmed one comes with them.
+// The unconfirmed points that may be the cheapest: those that seem acceptable, cheapest first, a safe one, and those in
+// doubt, least error first. If there are any, the cheapest confirmed one comes with them.
 void select(const std::vector<Candidate>& candidates, std::size_t k, std::size_t most, std::vector<Point>& chosen) {
     std::vector<Candidate> seem, doubt;
     const Candidate* sure = nullptr;
@@ -38,6 +41,8 @@ void select(const std::vector<Candidate>& candidates, std::size_t k, std::size_t
     for (const Candidate& candidate : seem)
         if (chosen.size() - before < most && (sure ? candidate.cost < sure->cost : candidate.cost <= least * close[k]))
             chosen.push_back(candidate.point);
+    const auto clear = std::find_if(seem.begin(), seem.end(), [](const auto& c) { return c.excess <= safe; });
+    if (!sure && clear != seem.end()) chosen.push_back(clear->point);
     const std::size_t between = chosen.size();
     for (const Candidate& candidate : doubt)
         if (chosen.size() - between < most_doubtful && candidate.cost < (sure ? std::min(sure->cost, least) : least))

@@ -22,8 +22,9 @@ inline constexpr double clear_error = 1.1;
 inline constexpr double scout_slack = 0.5;
 // What a short measurement of a cost may be off by, as a factor.
 inline constexpr std::array<double, costs> cost_noise{1.15, 1.0, 1.15};
-// Families with at most so many points have no coarse ones: all count from the start.
-inline constexpr std::size_t small_lattice = 2000;
+// Families with at most so many points have no coarse ones: they are modelled fast enough for all to count from the
+// start, which misses less.
+inline constexpr std::size_t small_lattice = 10000;
 // A family is left out if this many points fail and none succeeds.
 inline constexpr std::size_t failures_to_leave = 3;
 

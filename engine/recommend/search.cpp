@@ -23,6 +23,10 @@ constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
 constexpr double follower_gain = 0.1;
 // A climb ends if its error would stay too large even if the rungs left lowered it so many times faster.
 constexpr double faster = 2.0;
+// Refining ends if going on for as long as everything has taken so far promises to gain less than this, as a share of
+// the costs.
+constexpr double least_promise = 0.03;
+constexpr double coarse_share = 0.35;  // of the time, after which points between the coarse ones count too
 constexpr int confirm_rounds = 8;
 constexpr double first_round_share = 0.6;  // of the time left to confirm: other rounds may follow
 
@@ -52,6 +56,7 @@ private:
         double gain;
     };
     double gain(std::size_t family, std::size_t index, bool likely) const;
+    bool answered() const;
     const std::vector<Open>& open_points(std::size_t family);
     std::optional<Point> most_promising(std::size_t& open, bool& too_long);
     std::optional<Point> open_neighbour(bool& too_long) const;
@@ -64,6 +69,7 @@ private:
     Lab& lab_;
     const Hooks& hooks_;
     double began_;
+    double spent_ = 1e-9;  // seconds of measuring, as foreseen
     Exploration found_;
     Wanted wanted_;
     std::vector<Knowledge> families_;
@@ -118,6 +124,7 @@ void Search::report(Stage stage, std::size_t open) const {
 }
 
 void Search::measure(const Point& point) {
+    spent_ += lab_.effort(point);
     Trial trial = lab_.measure(point);
     if (trial.failed.empty() && !std::isfinite(trial.error)) trial.failed = "its error is not finite";
     families_[point.family].add(point, trial);
@@ -125,11 +132,12 @@ void Search::measure(const Point& point) {
     update(point.family);
 }
 
-// What a point of this family must cost less than to matter.
+// What a point of this family must cost less than to matter. Trials of times are smoothed, so the limit may rise a
+// little before the family is updated again.
 std::array<double, costs> Search::limits(std::size_t family) const {
     std::array<double, costs> result{};
     for (std::size_t k = 0; k < costs; ++k)
-        if (found_.goal.asked[k]) result[k] = incumbents_.limit(found_.families[family], k).cost;
+        if (found_.goal.asked[k]) result[k] = incumbents_.limit(found_.families[family], k).cost * cost_noise[k];
     return result;
 }
 
@@ -210,7 +218,7 @@ void Search::climb() {
                 too_long = true;
                 continue;
             }
-            if (found_.scout == chosen && chosen) continue;
+            if (chosen && found_.scout == chosen) continue;
             if (effort >= least && found_.scout != i) continue;
             least = effort;
             chosen = i;
@@ -255,6 +263,13 @@ double Search::gain(std::size_t family, std::size_t index, bool likely) const {
     return sum;
 }
 
+// Whether something is good enough for every cost asked.
+bool Search::answered() const {
+    for (std::size_t k = 0; k < costs; ++k)
+        if (found_.goal.asked[k] && !incumbents_.best[k]) return false;
+    return true;
+}
+
 // The points of a family that may gain something.
 const std::vector<Search::Open>& Search::open_points(std::size_t family) {
     if (open_[family]) return *open_[family];
@@ -277,7 +292,7 @@ std::optional<Point> Search::most_promising(std::size_t& open, bool& too_long) {
             ++open;
             const Point& point = families_[f].lattice().point(one.index);
             const double effort = lab_.effort(point), worth = one.gain / effort;
-            if (worth <= most) continue;
+            if (worth <= std::max(most, least_promise / spent_)) continue;
             if (!fits(effort)) {
                 too_long = true;
                 continue;
@@ -315,7 +330,7 @@ void Search::refine() {
         std::size_t open = 0;
         bool too_long = false;
         std::optional<Point> next = most_promising(open, too_long);
-        if (!next && !fine_) {
+        if (!fine_ && (!next || (left(coarse_share) <= 0.0 && answered()))) {
             fine_ = true;
             update_all();
             continue;

@@ -5,8 +5,9 @@
 //    curve of cost against error, and the first settings that are good enough.
 // 2. A model of each family (kriging of the logarithms: constrained expected improvement after Schonlau, Welch and Jones
 //    1998) says where a cheaper setting may be good enough. The point with the most expected gain for its effort is
-//    measured next, until no point is left that has a chance. Bounds from measured points rule out the rest: see
-//    knowledge.h. The neighbours of the best settings are measured in any case.
+//    measured next, first among points that are coarse steps apart, then among all, until no point is left that has a
+//    chance and is worth its effort. Bounds from measured points rule out the rest: see knowledge.h. The neighbours of
+//    the best settings are measured in any case.
 // 3. The best settings, those within noise of them, and the runner-up of another technique are confirmed together. If
 //    one turns out to err too much, step 2 goes on with what was learned.
 #pragma once

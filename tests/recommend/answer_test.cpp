@@ -300,7 +300,7 @@ TEST(Curves, OfAnExplorationReachFromTheCheapestSettingToTheLeastError) {
             most = std::max(most, measured.trial.error);
             least = std::min(least, measured.trial.error);
         }
-        ASSERT_GE(curve.points.size(), 3u) << curve.technique;
+        ASSERT_GE(curve.points.size(), 2u) << curve.technique;  // a climb that cannot reach the error ends after two
         EXPECT_EQ(curve.points.front().error.low, most);
         EXPECT_NEAR(curve.points.back().error.low, least, 1e-12);
     }
