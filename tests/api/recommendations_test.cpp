@@ -17,8 +17,8 @@ struct RecommendationsApi : ApiTest {
     }
     std::set<std::string> pointers(const nlohmann::json& body) {
         std::set<std::string> found;
-        for (const nlohmann::json& error : refused(post(target, body.dump()), 422, "")["errors"])
-            found.insert(error["pointer"]);
+        const nlohmann::json problem = refused(post(target, body.dump()), 422, "");
+        for (const nlohmann::json& error : problem["errors"]) found.insert(error["pointer"]);
         return found;
     }
 };
