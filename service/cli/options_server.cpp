@@ -87,7 +87,7 @@ void add_submit(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<SubmitArguments>();
     CLI::App* submit = app.add_subcommand("submit", "Send a scenario to a server");
     set_help(*submit, command_groups::serve,
-             {"submit quickstart", "submit quickstart --server http://127.0.0.1:8080 --wait",
+             {"submit quickstart --server http://127.0.0.1:8080 --wait",
               "submit hairball --set rays.resolution=256 --fresh --wait", "submit quickstart --recommend 0.02 --wait"});
     submit->add_option("SCENARIO", arguments->scenario, "A scenario file, or the name of one")->required();
     submit->add_option("--server", arguments->server, "URL of the server")->capture_default_str();

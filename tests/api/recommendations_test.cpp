@@ -17,8 +17,8 @@ struct RecommendationsApi : ApiTest {
     }
     std::set<std::string> pointers(const nlohmann::json& body) {
         std::set<std::string> found;
-        for (const nlohmann::json& error : refused(post(target, body.dump()), 422, "")["errors"])
-            found.insert(error["pointer"]);
+        const nlohmann::json problem = refused(post(target, body.dump()), 422, "");
+        for (const nlohmann::json& error : problem["errors"]) found.insert(error["pointer"]);
         return found;
     }
 };
@@ -109,7 +109,7 @@ TEST_F(RecommendationsApi, ChecksTheRequestAgainstTheScenario) {
     EXPECT_EQ(pointers(whole), std::set<std::string>{"/sweeps"});
     whole = body();
     whole["scenario"]["lights"][0] = {
-        {"type", "spot"}, {"name", "sun"}, {"position", {0, 5, 0}}, {"direction", {0, 1, 0}}, {"angle", 10}};
+        {"type", "spot"}, {"name", "sun"}, {"position", {0, 5, 0}}, {"target", {0, 9, 0}}, {"angle", 10}};
     EXPECT_EQ(pointers(whole), std::set<std::string>{"/lights/0"}) << "it sees nothing";
 }
 

@@ -128,8 +128,9 @@ TEST_F(JobCommand, FindsTheAnswerToARequest) {
         EXPECT_GE(line.at("fraction"), last);
         last = line.at("fraction");
         EXPECT_LE(last, 1.0);
-        if (line.at("stage") == "reference") continue;
-        EXPECT_EQ(line.at("total"), 5);
+        if (line.at("stage") != "reference") {
+            EXPECT_EQ(line.at("total"), 5);
+        }
     }
     ASSERT_GE(stages.size(), 3u);
     EXPECT_EQ(stages[0], "reference");
