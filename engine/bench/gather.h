@@ -59,4 +59,35 @@ void gather_footprints(const rays::LightRays& tile, const rays::MapLayout& layou
 void gather_nearest(const rays::LightRays& tile, const rays::MapLayout& layout,
                     std::span<const techniques::Query> queries, const GridsInLight& media, std::span<Part> parts);
 
+// Either of the two.
+using Gather = void (*)(const rays::LightRays&, const rays::MapLayout&, std::span<const techniques::Query>,
+                        const GridsInLight&, std::span<Part>);
+
+// Queries whose footprint holds no ray, since it is narrower than a sample cell. They are asked again with a width of
+// 0.
+struct EmptyFootprints {
+    std::vector<std::size_t> place;  // in all queries
+    std::vector<techniques::Query> query;
+
+    void add(std::size_t q, const techniques::Query& asked) {
+        place.push_back(q);
+        query.push_back(asked);
+        query.back().width = 0.0f;
+    }
+};
+
+// The rays inside each footprint, or the nearest ray if there is none. `sums_of(queries, gather)` gathers over all
+// tiles.
+template <class SumsOf>
+std::vector<Moments> gather_or_nearest(std::span<const techniques::Query> queries, const SumsOf& sums_of) {
+    std::vector<Moments> moments = sums_of(queries, gather_footprints);
+    EmptyFootprints empty;
+    for (std::size_t q = 0; q < queries.size(); ++q)
+        if (moments[q].count == 0) empty.add(q, queries[q]);
+    if (empty.query.empty()) return moments;
+    const std::vector<Moments> nearest = sums_of(std::span<const techniques::Query>(empty.query), gather_nearest);
+    for (std::size_t i = 0; i < nearest.size(); ++i) moments[empty.place[i]] = nearest[i];
+    return moments;
+}
+
 }  // namespace shadowbench::bench

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "bench/agreement.h"
 #include "bench/clock.h"
+#include "bench/light_report.h"
 #include "bench/over_seeds.h"
 #include "bench/prepared_light.h"
 #include "bench/queries.h"
@@ -44,19 +45,6 @@ Truth find_truth(const LightJob& job, const rays::LightView& view, std::span<con
                                 stage(job, "reference"));
 }
 
-results::ReferenceReport report_reference(const rays::MapLayout& layout, std::span<const Query> judged,
-                                          const Truth& truth) {
-    results::ReferenceReport report;
-    const metrics::ErrorNorms error = metrics::error_norms(truth.standard_error);
-    report.judged = judged.size();
-    report.samples_per_pixel = truth.samples_per_pixel;
-    report.degrees = truth.degrees;
-    report.error_rms = error.rms;
-    report.error_max = error.max;
-    report.noise_tolerance = 0.5 / std::sqrt(static_cast<double>(layout.samples()));
-    return report;
-}
-
 // Absent values if there are too few seeds.
 void find_spread(const LightJob& job, std::span<Contender> contenders, const techniques::BuildInput& input,
                  const Asked& judged, const Truth& truth, results::ReferenceReport& report) {
@@ -68,26 +56,6 @@ void find_spread(const LightJob& job, std::span<Contender> contenders, const tec
     report.spread_max = spread.max;
 }
 
-results::LightResult describe(const LightJob& job, const rays::MapLayout& layout, const QuerySet& set) {
-    results::LightResult result;
-    result.name = light_of(job).name;
-    result.layout = {layout.width, layout.height,   layout.samples_x, layout.samples_y, layout.jittered,
-                     layout.seed,  layout.channels, layout.media,     layout.z_min,     layout.z_max};
-    result.deep_image = job.scenario.scene.deep_image.has_value();
-    result.receivers = set.queries.size();
-    result.dropped = set.dropped;
-    return result;
-}
-
-void report_capture(const RaySource& source, double setup_seconds, results::LightResult& result) {
-    result.rays = source.rays();
-    result.segments = source.segments();
-    result.ray_bytes = source.bytes();
-    result.kept = source.kept();
-    result.translucent = source.translucent();
-    result.times = {source.seconds(), setup_seconds, static_cast<double>(source.rays()) / source.seconds()};
-}
-
 }  // namespace
 
 results::LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
@@ -96,7 +64,7 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
     const techniques::BuildInput input{layout, view, job.casters};
     if (scene.deep_image) check_served(contenders, input);
     const QuerySet set = scenario_queries(job.scenario, light_of(job), job.seen, view);
-    results::LightResult result = describe(job, layout, set);
+    results::LightResult result = describe_light(job.scenario, light_of(job), layout, set);
 
     // Other seeds come before the light's own rays and maps, so that memory holds only one of them at a time.
     const QuerySet judged = judged_queries(job.scenario, set);

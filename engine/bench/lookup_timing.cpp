@@ -13,7 +13,6 @@
 namespace shadowbench::bench {
 namespace {
 
-constexpr std::size_t run_length = 64;
 constexpr double longest_pass = 0.050;         // seconds
 constexpr double longest_warm_pass = 0.100;    // seconds: only passes of 64 lookups that take longer stay cold
 constexpr double longest_random_pass = 0.010;  // seconds, of several random orders
@@ -22,13 +21,6 @@ constexpr int least_warm_passes = 2, most_warm_passes = 16;
 constexpr double warm_time = 0.050;      // seconds: a map of the size of L3 needs several passes to fill it
 constexpr double shortest_pass = 0.002;  // seconds: keeps clock errors and late interrupts below 1 %
 constexpr std::size_t most_lines = std::size_t{1} << 21;  // 16 MiB of addresses an order
-
-double seconds_of_pass(const Maps& maps, const Asked& asked, int rounds, std::vector<float>& out) {
-    out.resize(asked.queries.size() * maps.channels());
-    const Stopwatch stopwatch;
-    for (int r = 0; r < rounds; ++r) lookup(maps, asked, out);
-    return stopwatch.seconds();
-}
 
 // Stores the floor's sum, so that the compiler cannot remove it.
 void consume(unsigned value) {
@@ -60,19 +52,6 @@ void append_shuffled(const LookupOrder& all, base::Random& random, LookupOrder& 
 int rounds_of(double seconds_a_round) {
     if (seconds_a_round >= shortest_pass) return 1;
     return static_cast<int>(std::min(1000.0, std::ceil(shortest_pass / seconds_a_round)));
-}
-
-// Seconds per lookup, from passes that grow until one is long enough to measure.
-double calibrate(const Maps& maps, const Asked& asked) {
-    std::vector<float> out;
-    const std::size_t all = asked.queries.size();
-    std::size_t count = std::min(run_length, all);
-    for (;;) {
-        const QuerySet some = pick(asked, choose_runs(all, count));
-        const double seconds = seconds_of_pass(maps, some.asked(), 1, out);
-        if (seconds > 0.1 * longest_pass || count == all) return seconds / static_cast<double>(count);
-        count = std::min(4 * count, all);
-    }
 }
 
 // Makes untimed passes until the caches have settled: at least two, then more while there is time.
@@ -118,6 +97,25 @@ void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bo
 
 }  // namespace
 
+double seconds_of_pass(const Maps& maps, const Asked& asked, int rounds, std::vector<float>& out) {
+    out.resize(asked.queries.size() * maps.channels());
+    const Stopwatch stopwatch;
+    for (int r = 0; r < rounds; ++r) lookup(maps, asked, out);
+    return stopwatch.seconds();
+}
+
+double seconds_a_lookup(const Maps& maps, const Asked& asked, double longest) {
+    std::vector<float> out;
+    const std::size_t all = asked.queries.size();
+    std::size_t count = std::min(run_length, all);
+    for (;;) {
+        const QuerySet some = pick(asked, choose_runs(all, count));
+        const double seconds = seconds_of_pass(maps, some.asked(), 1, out);
+        if (seconds > 0.1 * longest || count == all) return std::max(seconds, 1e-9) / static_cast<double>(count);
+        count = std::min(4 * count, all);
+    }
+}
+
 std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count) {
     std::vector<std::size_t> chosen;
     count = std::min(count, total);
@@ -140,8 +138,8 @@ std::size_t random_orders(std::size_t queries, double seconds_a_lookup) {
 }
 
 LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed) {
-    const double lookup_seconds = calibrate(maps, asked);
-    const double fit = lookup_seconds > 0.0 ? longest_pass / lookup_seconds : static_cast<double>(most);
+    const double lookup_seconds = seconds_a_lookup(maps, asked, longest_pass);
+    const double fit = longest_pass / lookup_seconds;
     const std::size_t count =
         std::clamp(static_cast<std::size_t>(std::min(fit, 1e15)), run_length, std::max(most, run_length));
 

@@ -31,6 +31,15 @@ struct LookupPlan {
     bool warm = false;  // whether untimed passes go before each pass, so that the cache holds what fits into it
 };
 
+// The number of neighbours in a run of queries that are looked up together, and the least in a pass.
+inline constexpr std::size_t run_length = 64;
+
+// Seconds in which all queries are looked up `rounds` times on this thread; `answers` has those of the last.
+double seconds_of_pass(const Maps& maps, const Asked& asked, int rounds, std::vector<float>& answers);
+
+// Seconds of a lookup, above 0, from passes that grow until one takes a tenth of `longest` seconds, or has all queries.
+double seconds_a_lookup(const Maps& maps, const Asked& asked, double longest);
+
 // Indices of `count` of `total` queries: all, or runs of 64 neighbours spread evenly.
 std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count);
 

@@ -16,9 +16,6 @@
 namespace shadowbench::bench {
 namespace {
 
-using Gather = void (*)(const rays::LightRays&, const rays::MapLayout&, std::span<const techniques::Query>,
-                        const GridsInLight&, std::span<Part>);
-
 // The sums of the rays of all tiles for each query. The captured segments hold the grid volumes.
 std::vector<Moments> gather_kept(const RaySource& source, const techniques::BuildInput& input,
                                  std::span<const techniques::Query> queries, Gather gather) {
@@ -37,19 +34,10 @@ std::vector<Moments> gather_kept(const RaySource& source, const techniques::Buil
 // The mean of the rays inside each footprint, or the nearest ray if there is none; channel after channel.
 std::vector<double> means_of_rays(const RaySource& source, const techniques::BuildInput& input,
                                   std::span<const techniques::Query> queries) {
-    std::vector<Moments> moments = gather_kept(source, input, queries, gather_footprints);
-    std::vector<std::size_t> empty;
-    std::vector<techniques::Query> narrow;
-    for (std::size_t q = 0; q < queries.size(); ++q)
-        if (moments[q].count == 0) {
-            empty.push_back(q);
-            narrow.push_back(queries[q]);
-            narrow.back().width = 0.0f;
-        }
-    if (!empty.empty()) {
-        const std::vector<Moments> nearest = gather_kept(source, input, narrow, gather_nearest);
-        for (std::size_t i = 0; i < empty.size(); ++i) moments[empty[i]] = nearest[i];
-    }
+    const std::vector<Moments> moments =
+        gather_or_nearest(queries, [&](std::span<const techniques::Query> asked, Gather gather) {
+            return gather_kept(source, input, asked, gather);
+        });
     std::vector<double> means;
     for (int c = 0; c < input.layout.channels; ++c)
         for (const Moments& m : moments) means.push_back(m.count ? m.sum[c] / static_cast<double>(m.count) : 1.0);

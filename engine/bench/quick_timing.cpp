@@ -16,33 +16,14 @@ namespace {
 constexpr int passes = 3;
 constexpr double longest_pass = 0.005;   // seconds
 constexpr double shortest_pass = 0.001;  // seconds
-constexpr std::size_t first_lookups = 64;
-
-double seconds_of(const Maps& maps, const Asked& asked, int rounds, std::vector<float>& answers) {
-    answers.resize(asked.queries.size() * maps.channels());
-    const Stopwatch stopwatch;
-    for (int r = 0; r < rounds; ++r) lookup(maps, asked, answers);
-    return stopwatch.seconds();
-}
-
-// Seconds of a lookup, from passes that grow until one is long enough.
-double calibrate(const Maps& maps, const Asked& asked, std::vector<float>& answers) {
-    for (std::size_t count = std::min(first_lookups, asked.queries.size());;
-         count = std::min(4 * count, asked.queries.size())) {
-        const QuerySet some = pick(asked, choose_runs(asked.queries.size(), count));
-        const double seconds = seconds_of(maps, some.asked(), 1, answers);
-        if (seconds > 0.1 * longest_pass || count == asked.queries.size())
-            return std::max(seconds, 1e-9) / static_cast<double>(count);
-    }
-}
 
 results::Sample time(const Maps& maps, const Asked& asked, double seconds_a_lookup, std::vector<float>& answers) {
     const double once = seconds_a_lookup * static_cast<double>(asked.queries.size());
     const int rounds = static_cast<int>(std::clamp(std::ceil(shortest_pass / once), 1.0, 1000.0));
     std::vector<double> ns;
-    seconds_of(maps, asked, rounds, answers);
+    seconds_of_pass(maps, asked, rounds, answers);
     for (int p = 0; p < passes; ++p)
-        ns.push_back(1e9 * seconds_of(maps, asked, rounds, answers) / rounds /
+        ns.push_back(1e9 * seconds_of_pass(maps, asked, rounds, answers) / rounds /
                      static_cast<double>(asked.queries.size()));
     return results::summarise(std::move(ns));
 }
@@ -63,9 +44,9 @@ QuerySet shuffled(const QuerySet& set, std::size_t orders, std::uint64_t seed) {
 QuickTimes quick_lookup_times(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed) {
     const base::ThreadLimit one_thread(1);
     QuickTimes times;
-    const double seconds = calibrate(maps, asked, times.answers);
+    const double seconds = seconds_a_lookup(maps, asked, longest_pass);
     const std::size_t fit = static_cast<std::size_t>(std::min(longest_pass / seconds, 1e12));
-    times.lookups = std::min(std::clamp(fit, first_lookups, std::max(most, first_lookups)), asked.queries.size());
+    times.lookups = std::min(std::clamp(fit, run_length, std::max(most, run_length)), asked.queries.size());
     QuerySet image = pick(asked, choose_runs(asked.queries.size(), times.lookups));
     const QuerySet random = shuffled(image, random_orders(times.lookups, 2.0 * seconds), seed);
     times.random_ns = time(maps, random.asked(), seconds, times.answers);

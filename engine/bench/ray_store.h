@@ -46,7 +46,7 @@ struct StoredRays {
 
 class RayStore {
 public:
-    // Keeps a reference to the scenario. `where` is the light's JSON pointer.
+    // Keeps a reference to the scenario.
     RayStore(const scene::Scenario& scenario, std::size_t light, const MemoryLimits& limits);
 
     // The layout has no apron.

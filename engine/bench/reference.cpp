@@ -18,9 +18,6 @@ using rays::LightRays;
 using rays::MapLayout;
 using techniques::Query;
 
-using Gather = void (*)(const LightRays&, const MapLayout&, std::span<const Query>, const GridsInLight&,
-                        std::span<Part>);
-
 // One set of rays.
 struct RaySet {
     const MapLayout& layout;
@@ -49,18 +46,6 @@ std::vector<Moments> gather_all(const RaySet& set, std::span<const Query> querie
     return reduce(parts, queries.size());
 }
 
-// Queries whose footprint holds no ray: it is narrower than a sample cell.
-struct Empty {
-    std::vector<std::size_t> place;  // in all queries
-    std::vector<Query> query;
-
-    void add(std::size_t q, const Query& asked) {
-        place.push_back(q);
-        query.push_back(asked);
-        query.back().width = 0.0f;
-    }
-};
-
 // The casters of one light without grid volumes, whose extinction varies within a segment.
 struct Casters {
     Casters(const scene::Scene& scene, const rays::LightView& in, const MapLayout& map)
@@ -86,14 +71,9 @@ struct Casters {
 std::vector<Moments> gather_one_set(const Casters& casters, std::span<const Query> queries,
                                     const ReferenceWatch& watch) {
     const RaySet set{casters.layout, casters.capture, {casters.grids, casters.view}};
-    std::vector<Moments> moments = gather_all(set, queries, gather_footprints, watch);
-    Empty empty;
-    for (std::size_t q = 0; q < queries.size(); ++q)
-        if (moments[q].count == 0) empty.add(q, queries[q]);
-    if (empty.query.empty()) return moments;
-    const std::vector<Moments> nearest = gather_all(set, empty.query, gather_nearest, {});
-    for (std::size_t i = 0; i < nearest.size(); ++i) moments[empty.place[i]] = nearest[i];
-    return moments;
+    return gather_or_nearest(queries, [&](std::span<const Query> asked, Gather gather) {
+        return gather_all(set, asked, gather, gather == gather_footprints ? watch : ReferenceWatch());
+    });
 }
 
 SetSums gather_sets(const Casters& casters, int sets, std::span<const Query> queries, const ReferenceWatch& watch) {
@@ -104,7 +84,7 @@ SetSums gather_sets(const Casters& casters, int sets, std::span<const Query> que
             gather_all(set, queries, gather_footprints, watch ? of_all : ReferenceWatch());
         for (std::size_t q = 0; q < queries.size(); ++q) sums.set(q, k, moments[q]);
     });
-    Empty empty;
+    EmptyFootprints empty;
     for (std::size_t q = 0; q < queries.size(); ++q)
         if (sums.empty(q)) empty.add(q, queries[q]);
     if (empty.query.empty()) return sums;

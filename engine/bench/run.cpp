@@ -1,7 +1,6 @@
 #include "bench/run.h"
 
 #include <algorithm>
-#include <ctime>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "base/hash_text.h"
 #include "base/parallel.h"
+#include "base/utc.h"
 #include "bench/clock.h"
 #include "bench/estimate.h"
 #include "bench/light_run.h"
@@ -24,15 +24,6 @@
 
 namespace shadowbench::bench {
 namespace {
-
-std::string now_utc() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
-}
 
 std::vector<document::Variant> variants_of(const nlohmann::json& document, const RunOptions& options) {
     std::vector<document::Variant> variants = document::expand(document);
@@ -82,7 +73,7 @@ results::Result run(const nlohmann::json& document, const RunOptions& options, c
     const base::ThreadLimit threads(options.threads);
     const Stopwatch stopwatch;
     results::Result result;
-    result.times.started = now_utc();
+    result.times.started = base::now_utc();
     result.times.threads = base::thread_count();
     result.program = results::this_program();
     result.machine = results::this_machine();

@@ -1,13 +1,13 @@
 #include "recommend/trials.h"
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/utc.h"
 #include "bench/build_timing.h"
 #include "bench/clock.h"
 #include "bench/curve_check.h"
@@ -35,15 +35,6 @@ constexpr std::size_t quickly_checked_cells = 256;  // of it
 constexpr std::size_t checked_cells = 4096;         // of any map, if the error of the stored functions is asked for
 constexpr std::size_t most_kept = 12;               // maps, for settings that differ only in their lookups
 constexpr double rest_of_a_trial = 0.05;            // seconds: what every measurement takes besides rays and builds
-
-std::string now_utc() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text;
-}
 
 Contender contender_of(const Setting& setting) {
     const std::string where = fmt::format("technique {}", setting.row->id);
@@ -76,7 +67,7 @@ Trials::Trials(const nlohmann::json& document, const bench::RunOptions& options,
                Measure measure, const bench::ProgressCallback& progress)
     : options_(options),
       threads_(options.threads),
-      started_(now_utc()),
+      started_(base::now_utc()),
       loader_(options.data),
       progress_(progress),
       measure_(measure) {

@@ -1,11 +1,11 @@
 // What Trials measured, as a result.
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/hash_text.h"
+#include "bench/light_report.h"
 #include "bench/verdict.h"
 #include "recommend/trials.h"
 #include "results/machine.h"
@@ -28,25 +28,9 @@ results::LightResult* Trials::recorded(const Setting& setting) {
 results::LightResult& Trials::record(const Setting& setting, const StoredRays& rays) {
     if (results::LightResult* there = recorded(setting)) return *there;
     const rays::MapLayout& layout = rays.frame->layout;
-    results::LightResult light;
-    light.name = light_->name;
-    light.layout = {layout.width, layout.height,   layout.samples_x, layout.samples_y, layout.jittered,
-                    layout.seed,  layout.channels, layout.media,     layout.z_min,     layout.z_max};
-    light.deep_image = scenario_->scene.deep_image.has_value();
-    light.receivers = all_.queries.size();
-    light.dropped = all_.dropped;
-    light.rays = rays.source->rays();
-    light.segments = rays.source->segments();
-    light.ray_bytes = rays.source->bytes();
-    light.kept = rays.source->kept();
-    light.translucent = rays.source->translucent();
-    light.times = {rays.source->seconds(), rays.setup_seconds,
-                   static_cast<double>(rays.source->rays()) / rays.source->seconds()};
-    light.reference.judged = judged_.queries.size();
-    light.reference.samples_per_pixel = light.deep_image ? 1 : scenario_->reference.samples_per_pixel;
-    light.reference.error_rms = truth_rms_;
-    light.reference.error_max = truth_max_;
-    light.reference.noise_tolerance = 0.5 / std::sqrt(static_cast<double>(layout.samples()));
+    results::LightResult light = bench::describe_light(*scenario_, *light_, layout, all_);
+    bench::report_capture(*rays.source, rays.setup_seconds, light);
+    light.reference = bench::report_reference(layout, judged_.queries, truth_);
     return recorded_.emplace_back(choice(setting, 0), std::move(light)).second;
 }
 
