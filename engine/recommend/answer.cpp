@@ -115,6 +115,7 @@ Held held(const Exploration& found, const Goal& goal, const std::vector<const Ch
           const std::vector<Choice>& all) {
     for (const Choice* choice : own)
         if (choice->error.high <= goal.error) return Held::at_most;
+    if (found.end == End::given) return Held::given;
     if (flat(found, own, closest)) return Held::bias;
     if (found.end != End::complete) return Held::budget;
     double scout = std::numeric_limits<double>::infinity();
@@ -206,7 +207,7 @@ Answer answer(const Exploration& found, const Goal& goal) {
         if (!closest) continue;
         if (std::any_of(own.begin(), own.end(), [&](const Choice* c) { return good_enough(*c, goal); })) continue;
         Held reason = held(found, goal, own, *closest, all);
-        if (reason != Held::bias && reason != Held::at_most && too_dear(result, *closest)) reason = Held::dear;
+        if (reason != Held::bias && reason != Held::at_most && reason != Held::given && too_dear(result, *closest)) reason = Held::dear;
         result.missed.push_back({name, reason, *closest});
     }
     return result;

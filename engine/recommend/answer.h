@@ -38,6 +38,7 @@ enum class Held {
     bias,            // two rungs of the climb (ladder.h) lower the error by less than a tenth
     budget,          // the exploration ended before that was known
     dear,            // not followed further: the closest setting costs more than the answers in every cost asked
+    given,           // none of the run's settings reaches it; nothing is known of others
     at_most,         // settings reach the error, but cost more than allowed
 };
 

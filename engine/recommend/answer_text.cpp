@@ -5,16 +5,17 @@
 
 #include "base/table.h"
 #include "recommend/answer.h"
+#include "recommend/answer_words.h"
+#include "recommend/request.h"
 
 namespace shadowbench::recommend {
-namespace {
 
-constexpr std::array<const char*, costs> cost_names{"lookup", "bytes", "build"};
-
-std::string cost_text(double value, std::size_t k) {
-    if (static_cast<Cost>(k) == Cost::bytes) return base::bytes_text(static_cast<std::size_t>(std::llround(value)));
-    return fmt::format("{:.3g} {}", value, static_cast<Cost>(k) == Cost::lookup ? "ns" : "ms");
+std::string cost_text(double value, std::size_t cost) {
+    if (static_cast<Cost>(cost) == Cost::bytes) return base::bytes_text(static_cast<std::size_t>(std::llround(value)));
+    return fmt::format("{:.3g} {}", value, static_cast<Cost>(cost) == Cost::lookup ? "ns" : "ms");
 }
+
+namespace {
 
 std::string error_with_interval(const Choice& choice) {
     if (!choice.confirmed) return fmt::format("about {:.3g}, not confirmed", choice.error.high);
@@ -47,6 +48,7 @@ const char* held_text(Held held) {
         case Held::bias: return "bias or the filter";
         case Held::budget: return "the budget ended";
         case Held::dear: return "already dearer";
+        case Held::given: return "by these settings";
         case Held::at_most: return "over --at-most";
     }
     return "";
@@ -55,11 +57,11 @@ const char* held_text(Held held) {
 void add_cheapest(const Cheapest& cheapest, std::size_t k, const std::vector<Family>& families,
                   std::vector<std::string>& lines) {
     const Choice& best = cheapest.best;
-    lines.push_back(cut(fmt::format("{:<6} {}: {}", cost_names[k], cost_text(best.cost[k], k),
+    lines.push_back(cut(fmt::format("{:<6} {}: {}", cost_words[k], cost_text(best.cost[k], k),
                                     setting_text(families, best.point))));
     std::string others;
     for (std::size_t other = 0; other < costs; ++other)
-        if (other != k) others += fmt::format(", {} {}", cost_names[other], cost_text(best.cost[other], other));
+        if (other != k) others += fmt::format(", {} {}", cost_words[other], cost_text(best.cost[other], other));
     lines.push_back(cut(fmt::format("       error {}{}", error_with_interval(best), others)));
     if (const auto& second = cheapest.runner_up) {
         const std::string distance = cheapest.tie             ? "a tie with"
@@ -76,7 +78,7 @@ void add_cheapest(const Cheapest& cheapest, std::size_t k, const std::vector<Fam
 
 std::vector<std::string> held_lines(const Answer& answer) {
     std::vector<std::string> lines;
-    for (const Held held : {Held::rays, Held::representation, Held::bias, Held::dear, Held::budget, Held::at_most}) {
+    for (const Held held : {Held::rays, Held::representation, Held::bias, Held::dear, Held::budget, Held::given, Held::at_most}) {
         std::vector<std::string> names;
         for (const Missed& missed : answer.missed)
             if (missed.held == held)

@@ -45,12 +45,11 @@ nlohmann::json without_explored_sweeps(nlohmann::json document) {
     return document;
 }
 
-std::size_t chosen_light(const std::vector<scene::Light>& lights, const std::string& name) {
-    const std::vector<std::string> names = bench::names_of(lights);
-    if (!name.empty() || names.size() == 1) return bench::find_light(names, name, "--light ");
+std::size_t chosen_light(const std::vector<std::string>& lights, const std::string& name) {
+    if (!name.empty() || lights.size() == 1) return bench::find_light(lights, name, "--light ");
     throw Error(ErrorCode::usage, "--light",
                 fmt::format("the scenario has {} lights, and each may need other settings; name one of: {}",
-                            names.size(), fmt::join(names, ", ")));
+                            lights.size(), fmt::join(lights, ", ")));
 }
 
 bench::Validated check(const nlohmann::json& document, const bench::RunOptions& options, const Request& request,
@@ -63,7 +62,7 @@ bench::Validated check(const nlohmann::json& document, const bench::RunOptions& 
                     "which are explored");
     bench::ScenarioLoader loader(options.data);
     const scene::Scenario& scenario = loader.load(variants.front());
-    const std::size_t index = asked_at(where + "/light", [&] { return chosen_light(scenario.lights, request.light); });
+    const std::size_t index = asked_at(where + "/light", [&] { return chosen_light(bench::names_of(scenario.lights), request.light); });
     const Space space = asked_at(where + "/only", [&] { return Space(scenario, request.only); });
     const bench::PreparedLight light = bench::prepare_light(scenario, index, {}, options.limits);
     if (rays::misses_all(light.view, scenario.scene))

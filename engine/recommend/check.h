@@ -17,7 +17,7 @@ namespace shadowbench::recommend {
 nlohmann::json without_explored_sweeps(nlohmann::json document);
 
 // The index of the light of this name or number; empty: the only one. Throws Error{usage}, place "--light".
-std::size_t chosen_light(const std::vector<scene::Light>& lights, const std::string& name);
+std::size_t chosen_light(const std::vector<std::string>& lights, const std::string& name);
 
 // Makes the checks that Trials makes before it works: the document and its files, the light and what it sees, and
 // whether a technique can serve the scene. The seconds are those of the truth and the budget; the sides, samples and

@@ -33,7 +33,12 @@ struct Answered {
     Confirmed confirmed;
 };
 
-enum class End { complete, budget, cancelled };
+enum class End {
+    complete,
+    budget,
+    cancelled,
+    given,  // nothing was searched: the points are those of a run
+};
 
 struct Exploration {
     Goal goal;

@@ -45,8 +45,12 @@ nlohmann::ordered_json to_json(const Explored& explored) {
     return out;
 }
 
+bool is_recommendation(const nlohmann::json& document) {
+    return document.is_object() && document.contains("recommendation");
+}
+
 Recommendation recommendation_from_json(const nlohmann::json& document, const std::string& origin) {
-    if (!document.is_object() || !document.contains("recommendation"))
+    if (!is_recommendation(document))
         throw Error(ErrorCode::bad_input, origin,
                     "holds no recommendation; name a folder that shadowbench recommend wrote");
     const results::Field whole = results::top(document, origin), from = whole.at("recommendation");

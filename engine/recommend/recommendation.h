@@ -41,6 +41,9 @@ Explored explore(const nlohmann::json& document, const bench::RunOptions& option
 // result.json: the result, with the recommendation as one more member.
 nlohmann::ordered_json to_json(const Explored& explored);
 
+// Whether this is such a document, and not the result of a run.
+bool is_recommendation(const nlohmann::json& document);
+
 // Reads it again. Throws Error{bad_input}, place: `origin`, the name of its file, and the JSON pointer.
 Recommendation recommendation_from_json(const nlohmann::json& document, const std::string& origin);
 

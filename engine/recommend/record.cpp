@@ -15,7 +15,7 @@ using json = nlohmann::ordered_json;
 using results::Field;
 
 constexpr const char* cost_names[costs] = {"lookup_ns", "bytes", "build_ms"};
-constexpr const char* ends[] = {"complete", "budget", "cancelled"};
+constexpr const char* ends[] = {"complete", "budget", "cancelled", "given"};
 
 json number(double value) {
     return std::isfinite(value) ? json(value) : json(nullptr);

@@ -60,6 +60,11 @@ std::string text_of(base::Vec2i resolution) {
                                         : fmt::format("[{},{}]", resolution.x, resolution.y);
 }
 
+base::Vec2i resolution_of(const nlohmann::json& value) {
+    return value.is_array() ? base::Vec2i(value.at(0).get<int>(), value.at(1).get<int>())
+                            : base::Vec2i(value.get<int>(), value.get<int>());
+}
+
 std::string text_of(const ParameterValues::Value& value) {
     const double* number = std::get_if<double>(&value);
     return number ? fmt::format("{:g}", *number) : std::get<std::string>(value);
@@ -114,7 +119,7 @@ Space::Space(const scene::Scenario& scenario, std::span<const std::string> only)
 void Space::add_families(const Technique& row, const Axis& resolutions, const Axis& samples) {
     for (ParameterValues& values : combinations(row)) {
         Family family{row.id, row.id, {resolutions, samples}, {}};
-        Choice choice{&row, std::move(values), {}};
+        Choice choice{&row, std::move(values), {}, {}};
         family.mapless = row.traits.traces;
         if (row.traits.traces)
             family.axes = {{"resolution", {text_of(own_)}, 1},
@@ -142,16 +147,44 @@ void Space::add_families(const Technique& row, const Axis& resolutions, const Ax
     }
 }
 
+Point Space::add(const nlohmann::json& part) {
+    const nlohmann::json& technique = part.at("techniques").at(0);
+    Setting setting{&techniques::find(technique.at("type").get<std::string>(), "/techniques/0/type"), {}, own_,
+                    own_samples_};
+    nlohmann::json parameters = technique;
+    parameters.erase("type");
+    setting.values = techniques::read_parameters(setting.row->parameters, parameters, "/techniques/0");
+    if (setting.row->traits.traces || !part.contains("rays")) {
+        // The scenario's own light rays.
+    } else {
+        const nlohmann::json& rays = part["rays"];
+        if (rays.contains("resolution")) setting.resolution = resolution_of(rays["resolution"]);
+        setting.samples = rays.value("samples_per_pixel", own_samples_);
+    }
+    if (static_cast<std::int64_t>(setting.resolution.x) * own_.y != static_cast<std::int64_t>(setting.resolution.y) * own_.x)
+        throw base::Error(base::ErrorCode::bad_input, "/rays/resolution",
+                          "must have the scenario's ratio of sides, so that the light frames the same part of its plane");
+    Family family{setting.row->id, part.dump(), {}, {}};
+    family.axes = {{"resolution", {text_of(setting.resolution)}}, {"samples_per_pixel", {fmt::format("{}", setting.samples)}}};
+    family.mapless = setting.row->traits.traces;
+    families_.push_back(std::move(family));
+    choices_.push_back({setting.row, setting.values, {}, setting});
+    return {families_.size() - 1, {0, 0}};
+}
+
 base::Vec2i Space::resolution(const Point& point) const {
+    if (const std::optional<Setting>& given = choices_[point.family].given) return given->resolution;
     return uses_rays(point.family) ? resolutions_[static_cast<std::size_t>(point.step[0])] : own_;
 }
 
 int Space::samples(const Point& point) const {
+    if (const std::optional<Setting>& given = choices_[point.family].given) return given->samples;
     return uses_rays(point.family) ? samples_[static_cast<std::size_t>(point.step[1])] : own_samples_;
 }
 
 Setting Space::setting(const Point& point) const {
     const Choice& choice = choices_[point.family];
+    if (choice.given) return *choice.given;
     Setting setting{choice.row, choice.values, resolution(point), samples(point)};
     for (std::size_t i = 0; i < choice.numbers.size(); ++i)
         setting.values.values[choice.numbers[i].first] =

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "base/vec.h"
 #include "recommend/lab.h"
 #include "scene/scene.h"
@@ -33,6 +35,11 @@ public:
     // deep image's rays are all there are: they have one resolution and one sample.
     Space(const scene::Scenario& scenario, std::span<const std::string> only);
 
+    // One more setting, as a family of its own. `part` is a part of a scenario, as scenario_part() writes it: rays
+    // with a resolution of the scenario's ratio of sides and the samples a pixel, where they differ from the
+    // scenario's, and one technique. Throws Error{bad_input}, place: a JSON pointer into it.
+    Point add(const nlohmann::json& part);
+
     std::span<const Family> families() const { return families_; }
     // The family that stores every ray's function exactly.
     std::optional<std::size_t> scout() const { return scout_; }
@@ -48,6 +55,7 @@ private:
         const techniques::Technique* row = nullptr;
         techniques::ParameterValues values;  // with the family's words
         std::vector<std::pair<const char*, std::vector<techniques::ParameterValues::Value>>> numbers;  // axes 2, ...
+        std::optional<Setting> given;  // the only setting of the family
     };
     void add_families(const techniques::Technique& row, const Axis& resolutions, const Axis& samples);
 

@@ -75,7 +75,7 @@ Trials::Trials(const nlohmann::json& document, const bench::RunOptions& options,
     const nlohmann::json single = without_explored_sweeps(document);
     document_ = single.dump();
     scenario_ = &loader_.load(bench::only_variant(single));
-    index_ = chosen_light(scenario_->lights, light);
+    index_ = chosen_light(bench::names_of(scenario_->lights), light);
     light_ = &scenario_->lights[index_];
     space_.emplace(*scenario_, options_.only);
     store_.emplace(*scenario_, index_, options_.limits);
@@ -97,8 +97,7 @@ Trials::Trials(const nlohmann::json& document, const bench::RunOptions& options,
     truth_ = bench::reference_visibility(scenario_->scene, own_->view, bench::reference_settings(*scenario_),
                                          judged_.queries, watch);
     const metrics::ErrorNorms doubt = metrics::error_norms(truth_.standard_error);
-    truth_rms_ = doubt.rms;
-    truth_max_ = doubt.max;
+    truth_doubt_ = {doubt.rms, doubt.max};
     seconds_ = stopwatch.seconds();
 }
 

@@ -26,6 +26,7 @@
 #include "bench/ray_store.h"
 #include "bench/run.h"
 #include "rays/tracer.h"
+#include "recommend/error_interval.h"
 #include "recommend/exploration.h"
 #include "recommend/lab.h"
 #include "recommend/space.h"
@@ -50,6 +51,8 @@ public:
     std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) override;
 
     const Space& space() const { return *space_; }
+    // One more setting to measure: see Space::add.
+    Point add(const nlohmann::json& part) { return space_->add(part); }
     const std::string& light() const { return light_->name; }
     // The width of all footprints as a share of the map, if the scenario gives it in map pixels: a map of another
     // resolution must be asked for this share instead, to answer the same question.
@@ -73,7 +76,6 @@ private:
     void time_quickly(Attempt& attempt) const;
     bench::QuerySet asked(const bench::QuerySet& set, const rays::LightView& view) const;
     double error_of(const results::Cell& cell) const;
-    Confirmed judge_errors(std::span<const double> errors) const;
     const Trial* trial_of(const Point& point) const;
     int seeds_of(const Point& point, double error) const;
     std::size_t lookups_of(const Point& point) const;
@@ -98,7 +100,7 @@ private:
     std::shared_ptr<const bench::Frame> own_;  // the scenario's own resolution
     bench::QuerySet all_, judged_;             // of the own resolution
     bench::Truth truth_;
-    double truth_rms_ = 0.0, truth_max_ = 0.0;                        // its standard error
+    TruthDoubt truth_doubt_;
     mutable std::map<std::pair<int, int>, rays::MapLayout> layouts_;  // by the larger side and the samples
     struct Effort {
         double seconds = 0.0, rays = 0.0;  // of attempts without their captures

@@ -1,6 +1,5 @@
 // How Trials confirms settings: several seeds, all checks of a run, and times in turns.
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -9,6 +8,7 @@
 #include "bench/clock.h"
 #include "metrics/student.h"
 #include "recommend/attempt.h"
+#include "recommend/error_interval.h"
 
 namespace shadowbench::recommend {
 namespace {
@@ -30,18 +30,6 @@ constexpr double longest_timing = 15.0;  // seconds, after the least repetitions
 constexpr double seeds_share = 0.5, builds_share = 0.85;
 
 }  // namespace
-
-// The truth's own error makes a small rms look larger: the lower end allows for it, the upper end does not.
-Confirmed Trials::judge_errors(std::span<const double> errors) const {
-    Confirmed confirmed;
-    confirmed.mean_error = metrics::mean_and_variance(errors).mean;
-    confirmed.error = metrics::mean_interval(errors);
-    const double low = std::max(confirmed.error.low, 0.0);
-    const double doubt = measure_ == Measure::rms ? truth_rms_ : measure_ == Measure::curve ? 0.0 : truth_max_;
-    confirmed.error.low =
-        measure_ == Measure::rms ? std::sqrt(std::max(0.0, low * low - doubt * doubt)) : std::max(0.0, low - doubt);
-    return confirmed;
-}
 
 // The builds of all points with the same light rays in turns: rays of several choices may not fit into memory together.
 // Returns false if there was time for the fewest repetitions only.
@@ -175,7 +163,8 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double err
         Confirmed& answer = answers[one.index];
         answer.failed = one.attempt.failed();
         if (!answer.failed.empty()) continue;
-        answer = judge_errors(errors[one.index]);
+        answer.error = error_interval(errors[one.index], measure_, truth_doubt_);
+        answer.mean_error = metrics::mean_and_variance(errors[one.index]).mean;
         answer.cut = cut;
         std::vector<double> whole(one.build_ms);
         for (std::size_t r = 0; r < whole.size(); ++r) whole[r] += one.capture_ms[r];

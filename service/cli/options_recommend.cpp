@@ -17,7 +17,7 @@ void add_recommend(CLI::App& app, Commands& commands) {
         *recommend, command_groups::measure,
         {"recommend quickstart --error 0.02 --budget 2min",
          "recommend hairball --error 0.01 --measure p99 --cheapest lookup --at-most bytes=4MiB",
-         "recommend --from results/recommendations/quickstart --error 0.05"},
+         "recommend --from results/recommendations/quickstart --beside results/runs/quickstart --error 0.05"},
         "All maps answer the same lookups over the same footprints, whatever their resolution. The answer holds with "
         "95 % confidence. Techniques that store no map stand on a line of their own, and compete only for the lookup "
         "time.\n"
@@ -53,8 +53,13 @@ void add_recommend(CLI::App& app, Commands& commands) {
                       "the current folder]");
     recommend
         ->add_option("--from", arguments->from,
-                     "Answer from the result.json in this folder, which recommend wrote, without measuring")
+                     "Answer from the result.json in this folder, which recommend or run wrote, without measuring")
         ->excludes(scenario);
+    recommend
+        ->add_option("--beside", arguments->beside,
+                     "With --from: measure the cheapest settings of both again, in turns, beside those of the run or "
+                     "exploration in this folder")
+        ->needs("--from");
     commands.push_back({recommend, [arguments](std::ostream& out, std::ostream& err) {
                             return recommend_command(*arguments, out, err) ? 0 : promise_broken;
                         }});

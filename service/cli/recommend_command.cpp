@@ -11,6 +11,8 @@
 #include "base/error.h"
 #include "base/read_text.h"
 #include "base/write_files.h"
+#include "recommend/beside.h"
+#include "recommend/of_run.h"
 #include "recommend/recommendation.h"
 #include "results/report.h"
 #include "scene/scenario.h"
@@ -58,9 +60,13 @@ recommend::Measure read_measure(const std::string& word) {
     return static_cast<recommend::Measure>(found - std::begin(measure_words));
 }
 
-Recommendation read_recommendation(const fs::path& folder) {
-    const fs::path file = folder / "result.json";
-    return recommend::recommendation_from_json(scene::parse_json(base::read_text(file), file.string()), file.string());
+// Of an exploration, or of a run.
+Recommendation read_recommendation(const RecommendArguments& arguments, const fs::path& folder) {
+    const std::string file = (folder / "result.json").string();
+    const nlohmann::json document = scene::parse_json(base::read_text(file), file);
+    if (recommend::is_recommendation(document)) return recommend::recommendation_from_json(document, file);
+    return recommend::recommendation_of(results::from_json(document, file), arguments.light,
+                                        read_measure(arguments.measure), file);
 }
 
 const char* stage_name(recommend::Stage stage) {
@@ -90,18 +96,32 @@ Recommendation explore_scenario(const RecommendArguments& arguments, const recom
     return std::move(explored.recommendation);
 }
 
+// Measures the cheapest settings of two answers again.
+std::string beside(const RecommendArguments& arguments, const recommend::Goal& goal, const Recommendation& ours,
+                   std::ostream& err) {
+    const Job job = read_job(arguments, fs::path(arguments.from) / "result.json"),
+              other = read_job(arguments, fs::path(arguments.beside) / "result.json");
+    ProgressBar bar(err);
+    const std::vector<recommend::Contest> contests = recommend::hold_beside(
+        *job.document, job.options, ours, *other.document, read_recommendation(arguments, arguments.beside), goal,
+        goal.budget, [&](const bench::Progress& progress) { bar.show(progress); });
+    bar.end();
+    return recommend::to_text(contests, measure_words[static_cast<std::size_t>(ours.measure)], goal.error);
+}
+
 }  // namespace
 
 bool recommend_command(const RecommendArguments& arguments, std::ostream& out, std::ostream& err) {
     const recommend::Goal goal = read_goal(arguments);
     if (arguments.from.empty() && arguments.scenario.empty())
-        throw Error(ErrorCode::usage, "SCENARIO", "name a scenario, or the folder of an exploration with --from");
+        throw Error(ErrorCode::usage, "SCENARIO", "name a scenario, or the folder of a finished recommend or run with --from");
     fs::path folder = arguments.from;
     const Recommendation found =
-        arguments.from.empty() ? explore_scenario(arguments, goal, folder, err) : read_recommendation(arguments.from);
+        arguments.from.empty() ? explore_scenario(arguments, goal, folder, err) : read_recommendation(arguments, arguments.from);
     const recommend::AnswerText answer = recommend::answer_text(found, goal);
     out << answer.text;
     if (arguments.from.empty()) out << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
+    if (!arguments.beside.empty()) out << beside(arguments, goal, found, err);
     return answer.reached;
 }
 

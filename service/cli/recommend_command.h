@@ -16,7 +16,8 @@ struct RecommendArguments : ScenarioArguments {
     std::string budget = "5min";
     std::string light;  // a name, or a number, from 0; empty: the only one
     std::string out;    // folder; empty: results/recommendations/<scenario name>
-    std::string from;   // folder of an earlier exploration; empty: explore SCENARIO
+    std::string from;   // folder of an earlier exploration or run; empty: explore SCENARIO
+    std::string beside;  // folder of another, to compare that one with; empty: none
 };
 
 // Returns whether a setting reaches the error.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include <nlohmann/json.hpp>
+
 #include "base/error.h"
 
 namespace shadowbench::recommend {
@@ -107,6 +109,32 @@ TEST(Space, OfADeepImageHasItsOwnRaysOnly) {
         EXPECT_EQ(family.axes[1].steps(), 1);
         EXPECT_NE(family.technique, "ray_traced");
     }
+}
+
+TEST(Space, TakesASettingThatIsNotOnItsAxes) {
+    Space space(with_resolution(64, 32), std::vector<std::string>{"pcf"});
+    const Point point = space.add(nlohmann::json::parse(
+        R"({"rays": {"resolution": [70, 35], "samples_per_pixel": 7}, "techniques": [{"type": "deep", "radius": 1.5}]})"));
+    const Setting setting = space.setting(point);
+    EXPECT_EQ(setting.row->id, std::string("deep"));
+    EXPECT_EQ(setting.values.number("radius"), 1.5);
+    EXPECT_TRUE(setting.values.is_word("tolerance"));  // the default
+    EXPECT_EQ(setting.resolution, base::Vec2i(70, 35));
+    EXPECT_EQ(setting.samples, 7);
+    EXPECT_EQ(space.resolution(point), setting.resolution);
+    const Setting own = space.setting(space.add(nlohmann::json::parse(R"({"techniques": [{"type": "variance"}]})")));
+    EXPECT_EQ(own.resolution, base::Vec2i(64, 32));
+    EXPECT_EQ(own.samples, scene::Scenario().rays.samples_per_pixel);
+}
+
+TEST(Space, RefusesASettingThatFramesAnotherPartOfThePlane) {
+    Space space(with_resolution(64, 32), {});
+    const auto part = [](const char* rays, const char* technique) {
+        return nlohmann::json{{"rays", nlohmann::json::parse(rays)}, {"techniques", {nlohmann::json::parse(technique)}}};
+    };
+    EXPECT_THROW(space.add(part(R"({"resolution": 64})", R"({"type": "variance"})")), base::Error);
+    EXPECT_THROW(space.add(part(R"({})", R"({"type": "variance", "depth": 1})")), base::Error);
+    EXPECT_THROW(space.add(part(R"({})", R"({"type": "varience"})")), base::Error);
 }
 
 TEST(Space, RefusesATechniqueThatDoesNotExist) {

@@ -49,6 +49,20 @@ TEST(Recommend, AnswersWritesWhatItMeasuredAndAnswersFromThat) {
     EXPECT_EQ(cli({"recommend", "--from", out, "--error", "0.000001"}).code, 2);
 }
 
+TEST(Recommend, AnswersFromARun) {
+    const TemporaryFolder folder;
+    const std::string scenario = (folder.path() / "two_quads.json").string(), out = (folder.path() / "run").string();
+    std::ofstream(scenario) << two_quads;
+    const Outcome ran = cli({"run", scenario, "--out", out, "--set", "reference.spread_seeds=2", "--set",
+                             "receivers.footprint={\"share\": 0.06}", "--set", "sweeps={\"/rays/resolution\": [16, 32]}"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const Outcome found = cli({"recommend", "--from", out, "--error", "0.5"});
+    EXPECT_EQ(found.code, 0) << found.err;
+    EXPECT_THAT(found.out, ::testing::HasSubstr("2 settings measured, 2 confirmed"));
+    EXPECT_THAT(found.out, ::testing::HasSubstr("variance, resolution=16"));
+    EXPECT_EQ(cli({"recommend", "--from", out, "--error", "0.5", "--measure", "curve"}).code, 65);
+}
+
 TEST(Recommend, RefusesWhatItCannotRead) {
     const TemporaryFolder folder;
     const std::string here = folder.path().string();
@@ -61,7 +75,7 @@ TEST(Recommend, RefusesWhatItCannotRead) {
     std::ofstream(folder.path() / "result.json") << "{}";
     const Outcome outcome = cli({"recommend", "--from", here, "--error", "0.1"});
     EXPECT_EQ(outcome.code, 65);
-    EXPECT_THAT(outcome.err, ::testing::HasSubstr("no recommendation"));
+    EXPECT_THAT(outcome.err, ::testing::HasSubstr("result.json"));
 }
 
 }  // namespace
