@@ -10,6 +10,10 @@ namespace {
 constexpr std::array<Cost, costs> all_costs{Cost::lookup, Cost::bytes, Cost::build};
 constexpr double least_value = 1e-12;  // values below count as this: their logarithm is modelled
 
+constexpr std::size_t most_borrowed = 8;  // floors: each slows the model down
+constexpr double most_excess = 0.5;       // of the logarithm: what filters of faithful families differ by
+constexpr double borrowed_doubt = 0.2;    // of the logarithm of an error derived from a floor
+constexpr double nearly_none = 0.02;
 constexpr double hopeless = 1e-4;       // the costs of points with a smaller chance are not modelled
 
 // Of logarithms. A coarse step is about a factor of 2 in a parameter.
@@ -29,6 +33,7 @@ double normal_below(double x) {
 
 Knowledge::Knowledge(const Family& family, std::size_t number, const Lab& lab)
     : lattice_(family, number),
+      faithful_(family.faithful),
       measured_(lattice_.size(), 0),
       ruled_out_(lattice_.size(), 0),
       chance_(lattice_.size(), 0.0),
@@ -98,9 +103,8 @@ void Knowledge::bound() {
     std::fill(ruled_out_.begin(), ruled_out_.end(), 0);
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
         const std::vector<int>& step = lattice_.point(i).step;
-        for (const Record& record : scout_)
-            if (record.failed.empty() && record.error * scout_slack > wanted_.error && step[0] <= record.step[0] &&
-                step[1] <= record.step[1])
+        for (const Floor& floor : floors_)
+            if (floor.error * floor_slack > wanted_.error && step[0] <= floor.resolution && step[1] <= floor.samples)
                 ruled_out_[i] = 1;
         for (const Record& record : records_) {
             if (!record.failed.empty()) continue;
@@ -149,9 +153,51 @@ void Knowledge::rule_out_failures() {
     }
 }
 
+// A floor, and how much more this family errs than the floors of the light rays that it was built from, make values at
+// the accurate ends of its own axes. Only the floors nearest to the error wanted: they decide which light rays suffice.
+void Knowledge::add_borrowed(Values& errors) const {
+    std::vector<int> steps;
+    for (std::size_t axis = 0; axis < lattice_.axes(); ++axis) steps.push_back(lattice_.steps(axis));
+    std::vector<double> excess;
+    std::vector<Floor> borrowed;
+    for (const Floor& floor : others_) {
+        if (floor.resolution >= steps[0] || floor.samples >= steps[1]) continue;
+        double least = std::numeric_limits<double>::infinity();
+        bool exact = false;
+        for (std::size_t i = 0; i < records_.size(); ++i) {
+            const std::vector<int>& step = records_[i].step;
+            if (!trials_[i].failed.empty() || step[0] != floor.resolution || step[1] != floor.samples) continue;
+            least = std::min(least, trials_[i].error);
+            exact = exact || accurate(step, steps);
+        }
+        if (!std::isfinite(least)) {
+            borrowed.push_back(floor);
+            continue;
+        }
+        // Coarse settings of a faithful family say little of what it would reach with accurate ones.
+        const double more = log_of(least) - log_of(floor.error);
+        excess.push_back(faithful_ && !exact ? std::min(more, most_excess) : more);
+    }
+    if (excess.empty()) return;
+    std::sort(borrowed.begin(), borrowed.end(), [&](const Floor& a, const Floor& b) {
+        const double wanted = log_of(wanted_.error);
+        return std::abs(log_of(a.error) - wanted) < std::abs(log_of(b.error) - wanted);
+    });
+    if (borrowed.size() > most_borrowed) borrowed.resize(most_borrowed);
+    for (const Floor& floor : borrowed) {
+        std::vector<int> step = steps;
+        for (int& last : step) --last;
+        step[0] = floor.resolution;
+        step[1] = floor.samples;
+        errors.positions.push_back(position(step));
+        errors.logarithms.push_back(log_of(floor.error) + metrics::median(excess));
+        errors.doubts.push_back(borrowed_doubt);
+    }
+}
+
 void Knowledge::fit() {
-    std::vector<std::vector<double>> positions;
-    std::vector<double> errors;
+    Values errors;
+    std::vector<std::vector<double>>& positions = errors.positions;
     std::array<std::vector<double>, costs> values;
     for (std::size_t i = 0; i < records_.size(); ++i) {
         if (!trials_[i].failed.empty()) continue;
@@ -160,12 +206,14 @@ void Knowledge::fit() {
         const double error = records_[i].confirmed && records_[i].failed.empty()
                                  ? records_[i].error * wanted_.trial_error / wanted_.error
                                  : trials_[i].error;
-        errors.push_back(log_of(std::max(error, wanted_.error * 1e-3)));
+        errors.logarithms.push_back(log_of(std::max(error, wanted_.error * 1e-3)));
+        errors.doubts.push_back(0.0);
         for (std::size_t k = 0; k < costs; ++k) values[k].push_back(log_of(trials_[i].cost[k]));
     }
     if (positions.empty()) return;
-    error_model_.fit(positions, errors);
     for (std::size_t k = 0; k < costs; ++k) cost_models_[k].fit(positions, values[k]);
+    add_borrowed(errors);
+    error_model_.fit(positions, errors.logarithms, errors.doubts);
     for (std::size_t i = 0; i < records_.size(); ++i) {
         Record& record = records_[i];
         if (record.confirmed || !record.failed.empty()) continue;
@@ -175,8 +223,22 @@ void Knowledge::fit() {
     }
 }
 
+bool Knowledge::borrowed_at(const Point& point) const {
+    return std::any_of(others_.begin(), others_.end(), [&](const Floor& floor) {
+        return floor.resolution == point.step[0] && floor.samples == point.step[1];
+    });
+}
+
+double Knowledge::chance_there(std::size_t index) const {
+    const Estimate error = error_model_.at(position(lattice_.point(index).step));
+    return normal_below((std::log(wanted_.trial_error) - error.mean) / std::hypot(error.sd, error_prior.noise));
+}
+
 void Knowledge::believe() {
     const bool nothing = std::all_of(records_.begin(), records_.end(), [](const Record& r) { return !r.failed.empty(); });
+    std::size_t settings = 1;  // of the family's own axes, for each choice of light rays
+    for (std::size_t axis = 2; axis < lattice_.axes(); ++axis) settings *= static_cast<std::size_t>(lattice_.steps(axis));
+    std::vector<double> most_chances(lattice_.size() / settings, -1.0);
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
         if (measured_[i] || ruled_out_[i]) continue;
         chance_[i] = 0.0;
@@ -188,8 +250,17 @@ void Knowledge::believe() {
         for (std::size_t k = 0; k < costs; ++k) estimates_[k][i] = {0.0, std::numeric_limits<double>::infinity()};
         if (nothing) continue;
         const std::vector<double> at = position(lattice_.point(i).step);
-        const Estimate error = error_model_.at(at);
-        chance_[i] = normal_below((std::log(wanted_.trial_error) - error.mean) / std::hypot(error.sd, error_prior.noise));
+        // What others reached bounds the most accurate setting for these light rays, which is the last. The model does
+        // not know that errors fall along every axis: if that one has nearly no chance, no other has one.
+        if (!others_.empty()) {
+            double& most = most_chances[i / settings];
+            if (most < 0.0) most = chance_there((i / settings + 1) * settings - 1);
+            if (most < nearly_none) {
+                chance_[i] = 0.0;
+                continue;
+            }
+        }
+        chance_[i] = chance_there(i);
         if (chance_[i] < hopeless) continue;
         for (std::size_t k = 0; k < costs; ++k) {
             estimates_[k][i] = cost_models_[k].at(at);

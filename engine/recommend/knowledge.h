@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "recommend/exploration.h"
+#include "recommend/floors.h"
 #include "recommend/lattice.h"
 #include "recommend/model.h"
 
@@ -18,8 +19,6 @@ namespace shadowbench::recommend {
 
 // A point that errs by more than this times the error asked rules out all points that are less accurate on every axis.
 inline constexpr double clear_error = 1.1;
-// The scout's error times this is a bound for all other families: their filters may remove some of the rays' noise.
-inline constexpr double scout_slack = 0.5;
 // What a short measurement of a cost may be off by, as a factor.
 inline constexpr std::array<double, costs> cost_noise{1.15, 1.0, 1.15};
 // Families with at most so many points have no coarse ones: they are modelled fast enough for all to count from the
@@ -53,8 +52,12 @@ public:
     std::span<const Record> records() const { return records_; }
     void add(const Point& point, const Trial& trial);
     void confirm(const Point& point, const Confirmed& confirmed);
-    // The errors of the scout's points count for this family too.
-    void bound_by(std::span<const Record> scout) { scout_ = {scout.begin(), scout.end()}; }
+    // What light rays leave of any function counts for this family too.
+    void bound_by(const std::vector<Floor>& floors) { floors_ = floors; }
+    // What other families reached with light rays that this one was not built from tells about its error there.
+    void borrow(std::vector<Floor> floors) { others_ = std::move(floors); }
+
+    bool borrowed_at(const Point& point) const;
 
     // Brings everything below up to date with what was added. Unless `fine`, only coarse points have chances. Points
     // that cost at least as much as `limits` in every cost have none either.
@@ -75,6 +78,8 @@ public:
     // The chance that the point is acceptable, and what the model says about the logarithms of its costs. Of points
     // that are neither measured nor ruled out.
     double chance(std::size_t index) const { return chance_[index]; }
+    // What the model says of any point, whatever rules it out. At least one point must have been measured.
+    double chance_there(std::size_t index) const;
     const Estimate& cost(std::size_t index, Cost cost) const {
         return estimates_[static_cast<std::size_t>(cost)][index];
     }
@@ -84,14 +89,20 @@ private:
     void bound();
     void rule_out_failures();
     void fit();
+    struct Values {
+        std::vector<std::vector<double>> positions;
+        std::vector<double> logarithms, doubts;
+    };
+    void add_borrowed(Values& errors) const;
     void believe();
 
     Lattice lattice_;
+    bool faithful_;
     std::vector<double> stride_;
     Wanted wanted_;
     std::vector<Record> records_;
     std::vector<Trial> trials_;  // of the records
-    std::vector<Record> scout_;
+    std::vector<Floor> floors_, others_;
     std::vector<char> coarse_, measured_, ruled_out_;
     bool fine_ = true;
     std::array<double, costs> limits_{};

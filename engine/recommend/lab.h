@@ -44,6 +44,9 @@ struct Family {
     std::string name;       // the technique and its words: "deep kernel=box"
     std::vector<Axis> axes;
     std::vector<Word> words = {};
+    // It can store any function as exactly as its own axes allow, so that with their last steps it errs by its light
+    // rays and its filter only.
+    bool faithful = false;
     // It stores no map: its bytes and its builds cost nothing, and so answer nothing. Only its lookups compete.
     bool mapless = false;
 };

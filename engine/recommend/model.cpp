@@ -46,7 +46,7 @@ double Model::factorise() {
             if (i != j) {
                 factor_[i * n + j] = sum / factor_[j * n + j];
             } else {
-                factor_[i * n + i] = std::sqrt(std::max(sum, 0.0) + noise_ * noise_);
+                factor_[i * n + i] = std::sqrt(std::max(sum, 0.0) + noise_ * noise_ + doubts_[i]);
                 likelihood -= std::log(factor_[i * n + i]);
             }
         }
@@ -63,12 +63,19 @@ double Model::factorise() {
     return likelihood;
 }
 
-void Model::fit(const std::vector<std::vector<double>>& positions, std::span<const double> values) {
+void Model::fit(const std::vector<std::vector<double>>& positions, std::span<const double> values,
+                std::span<const double> doubts) {
     positions_ = positions;
+    doubts_.assign(values.size(), 0.0);
+    for (std::size_t i = 0; i < doubts.size(); ++i) doubts_[i] = doubts[i] * doubts[i];
     level_ = 0.0;
-    double mean = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) mean += values[i] - trend(positions_[i]);
-    level_ = mean / static_cast<double>(values.size());
+    double mean = 0.0, weights = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double weight = 1.0 / (1.0 + doubts_[i] / (prior_.noise * prior_.noise));
+        mean += weight * (values[i] - trend(positions_[i]));
+        weights += weight;
+    }
+    level_ = mean / weights;
     residuals_.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) residuals_[i] = values[i] - trend(positions_[i]);
     const std::size_t n = positions_.size();

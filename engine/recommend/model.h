@@ -23,9 +23,11 @@ class Model {
 public:
     explicit Model(Prior prior) : prior_(prior) {}
 
-    // One position and one value a measurement; at least one. How far the function bends away from its trend, and
+    // One position and one value a measurement; at least one. `doubts`: standard deviations of the values besides the
+    // noise, one each, or none. How far the function bends away from its trend, and
     // how much noise there is, are chosen from the values by their likelihood.
-    void fit(const std::vector<std::vector<double>>& positions, std::span<const double> values);
+    void fit(const std::vector<std::vector<double>>& positions, std::span<const double> values,
+             std::span<const double> doubts = {});
     Estimate at(std::span<const double> position) const;
 
 private:
@@ -43,6 +45,7 @@ private:
     std::vector<std::vector<double>> positions_;
     std::vector<Covariance> covariances_;  // of the positions, lower, row by row
     std::vector<double> residuals_;  // from the trend
+    std::vector<double> doubts_;     // variances, one a value
     std::vector<double> factor_;     // Cholesky factor, lower, row by row
     std::vector<double> weights_;
 };

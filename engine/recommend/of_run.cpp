@@ -152,9 +152,11 @@ Recommendation recommendation_of(const results::Result& run, const std::string& 
             const techniques::Technique& row = techniques::find(cell.technique, origin);
             const auto [number, added] =
                 numbers.emplace(cell.technique + cell.parameters_json, found.exploration.families.size());
-            if (added)
-                found.exploration.families.push_back({cell.technique, results::title(cell), {resolutions, samples},
-                                                      words_of(cell, row), row.traits.traces});
+            if (added) {
+                Family family{cell.technique, results::title(cell), {resolutions, samples}, words_of(cell, row)};
+                family.mapless = row.traits.traces;
+                found.exploration.families.push_back(std::move(family));
+            }
             const Point point{number->second,
                               {index_in(axes.resolutions, side_of(*one)), index_in(axes.samples, one->layout.samples())}};
             Trial trial{cell.status == results::CellStatus::ok ? "" : cell.reason, 0.0, {}};

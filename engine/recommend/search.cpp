@@ -21,8 +21,17 @@ constexpr double leader_chance = 0.03, follower_chance = 0.15;
 // Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
 constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
 constexpr double follower_gain = 0.1;
+// A climb leaves out rungs whose light rays make the scout err by more than the error asked for over this. The scout
+// sees only the rays inside a footprint, so other filters may err less; refining may come back to such rays.
+constexpr double scout_slack = 0.5;
 // A climb ends if its error would stay too large even if the rungs left lowered it so many times faster.
 constexpr double faster = 2.0;
+// Or if others were built from the light rays of the next rung, and the model gives it a chance below this.
+constexpr double climbing_chance = 0.02;
+// Faithful families climb before others that take up to this times less effort: what light rays leave is then known.
+constexpr double faithful_first = 2.0;
+// A probe beside the climbs may take this share of the time left.
+constexpr double probe_share = 0.1;
 // Refining ends if going on for as long as everything has taken so far promises to gain less than this, as a share of
 // the costs.
 constexpr double least_promise = 0.03;
@@ -42,12 +51,14 @@ private:
     double left(double share) const;
     bool fits(double seconds) const { return seconds <= left(exploring_share); }
     void measure(const Point& point);
+    void note_floor(const Point& point, double error);
     std::array<double, costs> limits(std::size_t family) const;
     void update_one(std::size_t family);
     void update(std::size_t family);
     void update_all();
 
     bool too_dear(std::size_t family, std::size_t index) const;
+    bool too_few_rays(std::size_t family, const Point& point) const;
     std::optional<std::size_t> next_climb(std::size_t family) const;
     void climb();
 
@@ -55,10 +66,14 @@ private:
         std::size_t index;
         double gain;
     };
+    std::optional<Point> best_witness() const;
+    void probe();
     double gain(std::size_t family, std::size_t index, bool likely) const;
     bool answered() const;
     const std::vector<Open>& open_points(std::size_t family);
+    void share_floors(std::size_t family);
     std::optional<Point> most_promising(std::size_t& open, bool& too_long);
+    std::optional<Point> seemingly_most_promising(std::size_t& open, bool& too_long);
     std::optional<Point> open_neighbour(bool& too_long) const;
     void refine();
 
@@ -73,6 +88,8 @@ private:
     Exploration found_;
     Wanted wanted_;
     std::vector<Knowledge> families_;
+    Floors floors_;
+    std::vector<std::size_t> shared_;  // the version of the floors that each family was brought up to date with
     struct Climb {
         std::vector<Point> rungs;
         std::size_t next = 0;      // the first rung not yet tried
@@ -98,6 +115,7 @@ Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
     for (std::size_t i = 0; i < found_.families.size(); ++i) {
         families_.emplace_back(found_.families[i], i, lab);
         open_.emplace_back();
+        shared_.push_back(0);
         climbs_.push_back({ladder(found_.families[i], i, rungs)});
     }
 }
@@ -128,8 +146,21 @@ void Search::measure(const Point& point) {
     Trial trial = lab_.measure(point);
     if (trial.failed.empty() && !std::isfinite(trial.error)) trial.failed = "its error is not finite";
     families_[point.family].add(point, trial);
+    if (trial.failed.empty()) note_floor(point, trial.error);
     found_.measured.push_back({point, std::move(trial)});
     update(point.family);
+}
+
+// If the light rays of this point certainly err too much, they do so for all families.
+void Search::note_floor(const Point& point, double error) {
+    const Family& family = found_.families[point.family];
+    const Floor* floor = floors_.add(family, point, error);
+    if (!floor || floor->error * floor_slack <= wanted_.error) return;
+    for (std::size_t i = 0; i < families_.size(); ++i) {
+        if (!same_light_rays(found_.families[i], family)) continue;
+        families_[i].bound_by(floors_.known());
+        if (i != point.family) update_one(i);
+    }
 }
 
 // What a point of this family must cost less than to matter. Trials of times are smoothed, so the limit may rise a
@@ -147,13 +178,7 @@ void Search::update_one(std::size_t family) {
 }
 
 void Search::update(std::size_t family) {
-    update_one(family);
-    if (found_.scout == family)
-        for (std::size_t i = 0; i < families_.size(); ++i)
-            if (i != family && same_light_rays(found_.families[i], found_.families[family])) {
-                families_[i].bound_by(families_[family].records());
-                update_one(i);
-            }
+    share_floors(family);
     const Incumbents before = std::exchange(incumbents_, find_incumbents(found_.families, families_));
     if (!(before == incumbents_))
         for (auto& open : open_) open.reset();
@@ -176,7 +201,19 @@ bool Search::too_dear(std::size_t family, std::size_t index) const {
     return true;
 }
 
-// The next rung of a family's climb; nothing if it is done. Rungs that are ruled out by the scout are left out.
+// Whether the scout errs so much with these light rays, or more of them, that a climb may begin above.
+bool Search::too_few_rays(std::size_t family, const Point& point) const {
+    if (!found_.scout || family == *found_.scout ||
+        !same_light_rays(found_.families[family], found_.families[*found_.scout]))
+        return false;
+    const std::span<const Record> records = families_[*found_.scout].records();
+    return std::any_of(records.begin(), records.end(), [&](const Record& record) {
+        return record.failed.empty() && record.error * scout_slack > wanted_.error && point.step[0] <= record.step[0] &&
+               point.step[1] <= record.step[1];
+    });
+}
+
+// The next rung of a family's climb; nothing if it is done. Rungs that are ruled out, or have too few rays, are left out.
 std::optional<std::size_t> Search::next_climb(std::size_t family) const {
     const Knowledge& known = families_[family];
     const std::span<const Record> records = known.records();
@@ -197,12 +234,14 @@ std::optional<std::size_t> Search::next_climb(std::size_t family) const {
     for (std::size_t rung = climb.next; rung < climb.rungs.size(); ++rung) {
         const std::size_t index = known.lattice().index(climb.rungs[rung].step);
         if (too_dear(family, index)) return {};
-        if (!known.ruled_out(index)) return rung;
+        if (climb.measured >= 2 && known.borrowed_at(climb.rungs[rung]) && known.chance_there(index) < climbing_chance)
+            return {};
+        if (!known.ruled_out(index) && !too_few_rays(family, climb.rungs[rung])) return rung;
     }
     return {};
 }
 
-// The scout climbs first: what its light rays cannot reach, no other family can.
+// The scout climbs first: the others begin where its light rays may do.
 void Search::climb() {
     while (!stopped(exploring_share)) {
         std::optional<std::size_t> chosen;
@@ -213,11 +252,12 @@ void Search::climb() {
             const std::optional<std::size_t> rung = next_climb(i);
             if (!rung) continue;
             ++climbing;
-            const double effort = lab_.effort(climbs_[i].rungs[*rung]);
-            if (!fits(effort)) {
+            const double seconds = lab_.effort(climbs_[i].rungs[*rung]);
+            if (!fits(seconds)) {
                 too_long = true;
                 continue;
             }
+            const double effort = seconds * (found_.families[i].faithful ? 1.0 : faithful_first);
             if (chosen && found_.scout == chosen) continue;
             if (effort >= least && found_.scout != i) continue;
             least = effort;
@@ -227,6 +267,10 @@ void Search::climb() {
             if (too_long && found_.end == End::complete) found_.end = End::budget;
             return;
         }
+        if (shared_[*chosen] != floors_.version()) {  // what others reached may end this climb
+            share_floors(*chosen);
+            continue;
+        }
         report(Stage::climbing, climbing);
         Climb& climb = climbs_[*chosen];
         const std::size_t rung = *next_climb(*chosen);
@@ -234,6 +278,54 @@ void Search::climb() {
         climb.next = rung + 1;
         ++climb.measured;
     }
+}
+
+// The faithful family that errs least with any light rays, and its light rays there: those of the least settings that
+// are good enough, or else the finest.
+std::optional<Point> Search::best_witness() const {
+    std::optional<Point> best;
+    double error = infinity;
+    bool enough = false;
+    for (std::size_t f = 0; f < families_.size(); ++f) {
+        if (!found_.families[f].faithful) continue;
+        for (const Record& record : families_[f].records()) {
+            if (!record.failed.empty()) continue;
+            const bool good = families_[f].acceptable(record);
+            const bool fewer = best && (record.step[0] < best->step[0] || record.step[1] < best->step[1]);
+            const bool same = best && record.step[0] == best->step[0] && record.step[1] == best->step[1];
+            if (!best || (good && !enough) || (good == enough && (same ? record.error < error : good == fewer))) {
+                best = Point{f, record.step};
+                error = record.error;
+                enough = good;
+            }
+        }
+    }
+    return best;
+}
+
+// Climbs go along one line: resolution and samples rise together. A faithful family looks to both sides of it, at about
+// as many light rays: coarser maps with more samples, and finer ones with fewer. What it finds there tells all families
+// which light rays may suffice.
+void Search::probe() {
+    const std::optional<Point> from = best_witness();
+    if (!from) return;
+    const Family& family = found_.families[from->family];
+    for (const int octaves : {1, 2, 4})
+        for (const int side : {-1, 1}) {
+            Point point = *from;
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                const int moved = point.step[axis] + (axis == 0 ? side : -side) * octaves * family.axes[axis].stride;
+                point.step[axis] = std::clamp(moved, 0, family.axes[axis].steps() - 1);
+            }
+            for (std::size_t axis = 2; axis < family.axes.size(); ++axis)
+                point.step[axis] = 3 * (family.axes[axis].steps() - 1) / 4;
+            const std::size_t index = families_[from->family].lattice().index(point.step);
+            if (families_[from->family].measured(index) || families_[from->family].ruled_out(index)) continue;
+            const double seconds = lab_.effort(point);
+            if (seconds > probe_share * left(exploring_share) || stopped(exploring_share)) continue;
+            report(Stage::refining, 1);
+            measure(point);
+        }
 }
 
 // The expected gain of measuring a point, summed over the costs: how much cheaper it may be than what is known, as a
@@ -283,7 +375,24 @@ const std::vector<Search::Open>& Search::open_points(std::size_t family) {
     return open;
 }
 
+// Brings a family up to date with what others reached.
+void Search::share_floors(std::size_t family) {
+    families_[family].borrow(floors_.all());
+    shared_[family] = floors_.version();
+    update_one(family);
+}
+
+// What others reached since a family was last updated makes its points less promising, rarely more. So only the family
+// of the most promising point is brought up to date, until the most promising point is of a family that is.
 std::optional<Point> Search::most_promising(std::size_t& open, bool& too_long) {
+    for (;;) {
+        const std::optional<Point> best = seemingly_most_promising(open, too_long);
+        if (!best || shared_[best->family] == floors_.version()) return best;
+        share_floors(best->family);
+    }
+}
+
+std::optional<Point> Search::seemingly_most_promising(std::size_t& open, bool& too_long) {
     std::optional<Point> best;
     double most = 0.0;
     open = 0;
@@ -367,10 +476,6 @@ void Search::confirm() {
             found_.confirmed.push_back({points[i], answers[i]});
         }
         wanted_.trial_error = found_.goal.error / growth(found_);
-        if (found_.scout)
-            for (std::size_t i = 0; i < families_.size(); ++i)
-                if (i != *found_.scout && same_light_rays(found_.families[i], found_.families[*found_.scout]))
-                    families_[i].bound_by(families_[*found_.scout].records());
         update_all();
         refine();
     }
@@ -378,6 +483,7 @@ void Search::confirm() {
 
 Exploration Search::run() {
     climb();
+    probe();
     refine();
     confirm();
     return std::move(found_);

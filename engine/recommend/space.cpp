@@ -139,6 +139,8 @@ void Space::add_families(const Technique& row, const Axis& resolutions, const Ax
             family.axes.push_back(std::move(axis));
             choice.numbers.emplace_back(trade.parameter, steps);
         }
+        family.faithful = family.axes.size() > 2 && !row.traits.traces && !row.promises.opaque_only &&
+                          !row.promises.approximate;
         if (!scout_ && !row.promises.opaque_only && !row.traits.traces &&
             row.error_bound(choice.values, rays::MapLayout()) <= exact)
             scout_ = families_.size();

@@ -24,7 +24,7 @@ json two_layers(int resolution, const json& techniques) {
             {"type": "quad", "corner": [-1, 0, -1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2], "opacity": 0.5}]},
         "lights": [{"type": "directional", "name": "sun", "direction": [0, -1, 0]}],
         "receivers": {"type": "probes", "count": 1000, "footprint": {"share": 0.06}},
-        "reference": {"samples_per_pixel": 1024, "queries": 200, "spread_seeds": 2},
+        "reference": {"samples_per_pixel": 256, "queries": 100, "spread_seeds": 2},
         "timing": {"repetitions": 2, "lookups": 128}
     })");
     document["rays"] = {{"resolution", resolution}, {"samples_per_pixel", 4}};

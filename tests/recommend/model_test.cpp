@@ -35,6 +35,21 @@ TEST(Model, ExtendsAPlaneAlongItsSlopes) {
     EXPECT_LT(std::abs(beyond.mean - 5.95), 3.0 * beyond.sd);
 }
 
+TEST(Model, TrustsADoubtfulValueLess) {
+    Model model({-0.3, 0.4, 0.02});
+    const std::vector<std::vector<double>> positions{{0, 0}, {1, 1}, {6, 0}};
+    model.fit(positions, std::vector<double>{0.0, -0.6, 1.0}, std::vector<double>{0.0, 0.0, 0.2});
+    const Estimate there = model.at(std::vector<double>{6, 0});
+    EXPECT_GT(there.sd, 0.05);
+    EXPECT_LT(there.sd, 0.2);
+    EXPECT_NEAR(there.mean, 1.0, 0.3);
+    EXPECT_LT(model.at(std::vector<double>{0, 0}).sd, 0.03);
+    Model without({-0.3, 0.4, 0.02});
+    without.fit({{0, 0}, {1, 1}}, std::vector<double>{0.0, -0.6});
+    EXPECT_GT(without.at(std::vector<double>{6, 0}).sd, 2.0 * there.sd);
+    EXPECT_LT(without.at(std::vector<double>{6, 0}).mean, 0.0);
+}
+
 TEST(Model, SmoothsNoise) {
     // Values at one place that differ by as much as the noise may be: their mean, with the doubt of a mean.
     for (const std::size_t pairs : {1u, 2u, 8u}) {

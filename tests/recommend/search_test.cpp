@@ -93,6 +93,43 @@ TEST(Search, CostsThatAreEqualOverSeveralSteps) {
     }
 }
 
+// Twelve families whose errors are mostly those of the same light rays. All but the first two cost more.
+std::vector<Law> of_the_same_rays(bool faithful) {
+    std::vector<Law> laws;
+    for (int i = 0; i < 12; ++i) {
+        Law law = usual("technique " + std::to_string(i), 0.1 + 0.01 * i, i < 2 ? 1000.0 : 1500.0 + 100.0 * i);
+        law.error = error_law({{0.5, 0.35}, {0.3, 0.35}, {0.1 + 0.01 * i, 0.4}}, 0.0);
+        law.family.faithful = faithful;
+        laws.push_back(law);
+    }
+    return laws;
+}
+
+TEST(Search, LearnsFromOneFamilyWhatLightRaysLeaveToOthers) {
+    for (const double error : {0.3, 0.12, 0.08}) {
+        SCOPED_TRACE(error);
+        SyntheticLab alone(of_the_same_rays(false), {0.02, 0.01, 0.01}, 5),
+            together(of_the_same_rays(true), {0.02, 0.01, 0.01}, 5);
+        explore(alone, goal_of(error), {});
+        expect_best(together, goal_of(error));
+        EXPECT_LT(static_cast<double>(together.trials()), 0.9 * static_cast<double>(alone.trials()));
+    }
+}
+
+TEST(Search, AFamilyThatFiltersBetterThanOthersIsNotRuledOutByThem) {
+    // The last one errs 1.5 times less than all others with the same light rays.
+    std::vector<Law> laws = of_the_same_rays(true);
+    Law better = usual("better", 0.1, 1000.0);
+    better.error = [](const Step& step) { return error_law({{0.5, 0.35}, {0.3, 0.35}, {0.1, 0.4}}, 0.0)(step) / 1.5; };
+    better.family.faithful = true;
+    laws.push_back(better);
+    for (const double error : {0.3, 0.12, 0.08}) {
+        SCOPED_TRACE(error);
+        SyntheticLab lab(laws, {}, 5);
+        expect_best(lab, goal_of(error));
+    }
+}
+
 TEST(Search, EveryWordOfATechniqueIsTried) {
     // Three filters of one technique: the one in the middle of the list is the best.
     std::vector<Law> laws{usual("deep"), usual("deep"), usual("deep"), usual("other", 0.6)};

@@ -166,7 +166,8 @@ TEST(Trials, JudgeTheMeasureAskedFor) {
         Trials trials = trials_of(two_layers(), {"deep", "ray_traced"}, measure);
         const Trial trial = trials.measure(point_of(trials, "deep kernel=box mip=none", {32, 16, 0.1}));
         errors.push_back(trial.error);
-        const results::Cell& cell = trials.result().variants[0].lights[0].cells[0];
+        const results::Result result = trials.result();
+        const results::Cell& cell = result.variants[0].lights[0].cells[0];
         if (measure == Measure::curve) {
             EXPECT_EQ(trial.error, cell.curve->norms.max);
             EXPECT_LE(trial.error, 0.12);  // the tolerance
