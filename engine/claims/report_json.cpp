@@ -17,7 +17,9 @@ ordered_json to_object(const Claim& claim) {
             {"says", claim.says},
             {"measured", claim.measured},
             {"values", values},
-            {"verdict", to_string(claim.verdict)},
+            {"rule", claim.judged.rule},
+            {"limits", claim.judged.limits},
+            {"verdict", to_string(claim.judged.verdict)},
             {"why", claim.why}};
 }
 

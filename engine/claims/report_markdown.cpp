@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -8,12 +8,24 @@
 namespace shadowbench::claims {
 namespace {
 
-constexpr const char* rules =
+constexpr const char* introduction =
     "Every number is measured with the scenarios and on the machine named below. Absolute times cannot be compared "
-    "between machines, so times are given as ratios within one run. *holds*: the paper's value is met (a ratio within "
-    "a factor of 1.5), or bettered if the paper claims a gain. *holds in shape*: only the direction or the law is the "
-    "paper's. *does not hold here*: neither. *undecided*: measured, but not judged; the last column says why. "
-    "Intervals in brackets are 95 % intervals; the verdict is then the worst of those of the value and of both ends.\n";
+    "between machines, so times are given as ratios within one run. Numbers in brackets are 95 % intervals: of medians "
+    "for times, and for errors of the RMS expected over seeds of the light rays against the exact truth.\n\n"
+    "Each claim is judged by one rule of the table below, by the whole interval of what is measured: *holds*, *holds in "
+    "shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*. A claim "
+    "about times on a GPU, or about a scene that is not public, is *not comparable*: its number is given, and nothing is "
+    "judged. What a technique cannot do otherwise is *by construction*.\n";
+
+std::string rules_table() {
+    std::vector<std::vector<std::string>> rows;
+    for (const Rule& rule : all_rules()) rows.push_back({rule.id, rule.says, rule.holds, rule.in_shape, rule.reason});
+    return base::markdown_table({"rule", "the paper says", "holds if", "holds in shape if", "reason"}, rows);
+}
+
+std::string rule_text(const Judged& judged) {
+    return judged.limits.empty() ? judged.rule : judged.rule + ": " + judged.limits;
+}
 
 std::string text_of(Verdict verdict) {
     const bool strong = verdict == Verdict::holds || verdict == Verdict::fails;
@@ -24,8 +36,9 @@ void add_paper(std::string& out, const PaperReport& report) {
     out += fmt::format("## {}\n\n{}\n\n", report.title, report.conditions);
     std::vector<std::vector<std::string>> rows;
     for (const Claim& claim : report.claims)
-        rows.push_back({claim.place, claim.says, claim.measured, text_of(claim.verdict), claim.why});
-    out += base::markdown_table({"where", "the paper says", "measured here", "verdict", "why"}, rows);
+        rows.push_back({claim.place, claim.says, claim.measured, rule_text(claim.judged), text_of(claim.judged.verdict),
+                        claim.why});
+    out += base::markdown_table({"where", "the paper says", "measured here", "rule", "verdict", "why"}, rows);
     for (const Table& table : report.tables) {
         out += fmt::format("### {}\n\n", table.title);
         out += base::markdown_table(table.header, table.rows);
@@ -45,13 +58,17 @@ void add_paper(std::string& out, const PaperReport& report) {
 std::string to_markdown(std::span<const PaperReport> reports, const Conditions& conditions) {
     std::string out = "# Claims of the papers, measured again\n\n";
     if (conditions.quick) out += "**Quick run: smaller sizes than the report that is cited.**\n\n";
-    out += rules;
+    out += introduction;
     out += fmt::format("\n{}; {}; {}.\n\n", conditions.machine, conditions.build, conditions.date);
-    std::size_t count[4] = {0, 0, 0, 0};
+    std::array<std::size_t, verdicts> count{};
+    std::size_t all = 0;
     for (const PaperReport& report : reports)
-        for (const Claim& claim : report.claims) ++count[static_cast<int>(claim.verdict)];
-    out += fmt::format("{} claims hold, {} hold in shape, {} do not hold here, {} are undecided.\n\n", count[0],
-                       count[1], count[2], count[3]);
+        for (const Claim& claim : report.claims) ++count[static_cast<std::size_t>(claim.judged.verdict)], ++all;
+    std::vector<std::string> parts;
+    for (std::size_t verdict = 0; verdict < verdicts; ++verdict)
+        parts.push_back(fmt::format("{} {}", to_string(static_cast<Verdict>(verdict)), count[verdict]));
+    out += fmt::format("Of {} claims: {}.\n\n## Rules\n\n", all, fmt::join(parts, ", "));
+    out += rules_table();
     for (const PaperReport& report : reports) add_paper(out, report);
     return out;
 }

@@ -18,7 +18,6 @@ namespace {
 using results::Cell;
 using results::LightResult;
 
-constexpr double grey_step = 1.0 / 255.0;       // of a picture of 8 bits: smaller differences are not noticed
 constexpr double image_pixels = 512.0 * 512.0;  // of a frame; the paper gives only the map's size
 constexpr double view_lookups = 128.0;          // a pixel
 
@@ -65,14 +64,11 @@ std::string list(const Sets& sets, const Text& text) {
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-template <class Holds>
-bool in_all(const Sets& sets, const Holds& holds) {
-    return std::all_of(sets.begin(), sets.end(), holds);
-}
-// Whether it holds for more than half of the data sets.
-template <class Holds>
-bool in_most(const Sets& sets, const Holds& holds) {
-    return 2 * std::count_if(sets.begin(), sets.end(), holds) > static_cast<std::ptrdiff_t>(sets.size());
+template <class Judge>
+std::vector<Judged> judged(const Sets& sets, const Judge& judge) {
+    std::vector<Judged> cases;
+    for (const Measured& m : sets) cases.push_back(judge(m));
+    return cases;
 }
 
 template <class Number>
@@ -134,18 +130,17 @@ void frames_a_second(const Sets& sets, PaperReport& report) {
         {"section Results", "180 to 330 frames a second, with up to 512 steps to build and 128 lookups a view ray",
          fmt::format("frames a second: {}; 180 everywhere would take {:.0f} such threads",
                      list(sets, [&](const Measured& m) { return to_text(rate(m)); }), std::ceil(180.0 / slowest)),
-         slowest >= 180.0  ? Verdict::holds
-         : slowest >= 24.0 ? Verdict::in_shape
-                           : Verdict::fails,
+         not_comparable(),
          "Theirs is a GPU (GeForce GTX 465), ours one thread of a processor; the view rays' own march through the data "
-         "is not counted. It would hold in shape with 24 in the slowest data set.",
+         "is not counted.",
          values(sets, rate)});
 }
 
 void bucket(const Sets& sets, PaperReport& report) {
-    const auto more = [](const Measured& m, int steps) {
-        return rms(volume_deep(m.light(), "bucket", steps)) - rms(volume_deep(m.light(), "smooth", steps));
+    const auto error = [](const Measured& m, const char* interpolation, int steps) {
+        return error_of(volume_deep(m.light(), interpolation, steps));
     };
+    const auto more = [&](const Measured& m, int steps) { return error(m, "bucket", steps) - error(m, "smooth", steps); };
     const auto errors = [](const Cell& cell) {
         return fmt::format("{:.3g} ({:+.2g})", rms(cell), cell.lookup->signed_mean);
     };
@@ -153,8 +148,6 @@ void bucket(const Sets& sets, PaperReport& report) {
         return of(volume_deep(m.light(), "smooth").times->build_ms) /
                of(volume_deep(m.light(), "bucket").times->build_ms);
     };
-    const bool unseen = in_most(sets, [&](const Measured& m) { return std::abs(more(m, 512)) <= grey_step; });
-    const bool worse = in_most(sets, [&](const Measured& m) { return more(m, 512) > 0.0; });
     report.claims.push_back({"section Implementation",
                              "recording the step before a crossing is less accurate, in most cases not noticeably",
                              "lookup error rms (mean), smooth / bucket: " +
@@ -163,54 +156,46 @@ void bucket(const Sets& sets, PaperReport& report) {
                                           return errors(volume_deep(m.light(), "smooth")) + " / " +
                                                  errors(volume_deep(m.light(), "bucket"));
                                       }),
-                             unseen && worse ? Verdict::holds
-                             : unseen        ? Verdict::in_shape
-                                             : Verdict::fails,
-                             "A difference above 1/255 counts as noticed. A mean above 0 is too bright: up to the "
+                             both(in_most(judged(sets,
+                                                 [&](const Measured& m) {
+                                                     return judge_less(error(m, "smooth", 512), error(m, "bucket", 512));
+                                                 })),
+                                  in_most(judged(sets, [&](const Measured& m) { return judge_unnoticed(more(m, 512)); }))),
+                             "A mean above 0 is too bright: up to the "
                              "first depth, a lookup answers "
                              "1, and the earlier depths of the bucket make up for some of that.",
-                             values(sets, [&](const Measured& m) { return exactly(more(m, 512)); })});
+                             values(sets, [&](const Measured& m) { return more(m, 512); })});
     report.claims.push_back(
         {"section Implementation", "the more steps, the less the difference is noticed",
          "bucket less smooth at 64 / 512 steps: " +
-             list(sets, [&](const Measured& m) { return fmt::format("{:.2g} / {:.2g}", more(m, 64), more(m, 512)); }),
-         in_all(sets, [&](const Measured& m) { return std::abs(more(m, 512)) < std::abs(more(m, 64)); })
-             ? Verdict::holds
-         : in_most(sets, [&](const Measured& m) { return std::abs(more(m, 512)) < std::abs(more(m, 64)); })
-             ? Verdict::in_shape
-             : Verdict::fails,
-         "Differences of lookup error rms. The claim holds if it does in every data set, and in shape if in most.",
-         values(sets, [&](const Measured& m) { return exactly(more(m, 512)); })});
+             list(sets, [&](const Measured& m) { return fmt::format("{} / {}", to_text(more(m, 64)), to_text(more(m, 512))); }),
+         in_all(judged(sets, [&](const Measured& m) { return judge_less(absolute(more(m, 512)), absolute(more(m, 64))); })),
+         "Differences of lookup error rms.",
+         values(sets, [&](const Measured& m) { return more(m, 512); })});
     report.claims.push_back(
         {"section Implementation", "and it is faster",
          "build time smooth over bucket: " + list(sets, [&](const Measured& m) { return to_text(faster(m)); }),
-         in_most(sets, [&](const Measured& m) { return faster(m).low > 1.0; })     ? Verdict::holds
-         : in_most(sets, [&](const Measured& m) { return faster(m).value > 1.0; }) ? Verdict::in_shape
-                                                                                   : Verdict::fails,
-         "Here a step is expensive and the three crossings of a ray are not. The claim holds if the interval is above "
-         "1 in "
-         "most data sets, and in shape if the median is.",
+         in_most(judged(sets, [&](const Measured& m) { return judge_less(exactly(1.0), faster(m)); })),
+         "Here a step is expensive and the three crossings of a ray are not.",
          values(sets, faster)});
 }
 
 void shadows_behind(const Sets& sets, PaperReport& report) {
-    const auto plane = [](const Measured& m) { return rms(volume_deep(m.behind(), "smooth")); };
-    const auto plain = [](const Measured& m) { return rms(cell_of(m.behind(), "uncompressed")); };
-    const auto inside = [](const Measured& m) { return rms(volume_deep(m.light(), "smooth")); };
+    const auto plane = [](const Measured& m) { return error_of(volume_deep(m.behind(), "smooth")); };
+    const auto plain = [](const Measured& m) { return error_of(cell_of(m.behind(), "uncompressed")); };
+    const auto inside = [](const Measured& m) { return error_of(volume_deep(m.light(), "smooth")); };
     report.claims.push_back(
         {"section Implementation, figure 4", "the maximum opacity casts the volume's shadow on other objects",
          "lookup error rms on the plane / uncompressed there / with the volume's inside: " +
              list(sets,
                   [&](const Measured& m) {
-                      return fmt::format("{:.2g} / {:.2g} / {:.2g}", plane(m), plain(m), inside(m));
+                      return fmt::format("{} / {} / {}", to_text(plane(m)), to_text(plain(m)), to_text(inside(m)));
                   }),
-         in_all(sets, [&](const Measured& m) { return plane(m) <= plain(m) + grey_step; }) ? Verdict::holds
-         : in_all(sets, [&](const Measured& m) { return plane(m) < inside(m); })           ? Verdict::in_shape
-                                                                                           : Verdict::fails,
+         in_all(judged(sets, [&](const Measured& m) { return judge_unnoticed(plane(m) - plain(m)); })),
          "Behind everything a texel answers with the maximum itself. The remaining error is that of one ray a texel, "
          "which "
          "the uncompressed map has too.",
-         values(sets, [&](const Measured& m) { return exactly(plane(m)); })});
+         values(sets, plane)});
 }
 
 void thresholds(const Sets& sets, PaperReport& report) {
@@ -222,20 +207,14 @@ void thresholds(const Sets& sets, PaperReport& report) {
         return fmt::format("; AVSM {}: ", nodes) +
                list(sets, [&](const Measured& m) { return errors(avsm(m.light(), nodes)); });
     };
-    const auto better = [&](int nodes) {
-        return in_most(sets, [&](const Measured& m) { return rms(fixed(m)) <= rms(avsm(m.light(), nodes)); });
-    };
     report.claims.push_back(
         {"section Implementation",
          "the depths of 10, 50 and 90 % opacity and the maximum stand for a ray's whole function",
          "curve error max / rms / lookup error rms: " +
              list(sets, [&](const Measured& m) { return errors(fixed(m)); }) + of_avsm(4) + of_avsm(2),
-         better(4)   ? Verdict::holds
-         : better(2) ? Verdict::in_shape
-                     : Verdict::fails,
-         "The claim holds if lookups err no more than AVSM with 4 nodes (twice the bytes) in most data sets, and in "
-         "shape if "
-         "no more than AVSM with 2 nodes (as many bytes). Fixed levels jump by 10 % at the first and the last depth.",
+         in_most(judged(sets, [&](const Measured& m) { return judge_fit(exactly(fixed(m).curve->norms.rms)); })),
+         "The rms over texels of each function's largest error. Fixed levels jump by 10 % at the first and the last "
+         "depth. AVSM of 4 nodes takes twice the bytes, of 2 as many.",
          values(sets, [&](const Measured& m) { return exactly(fixed(m).curve->norms.rms); })});
 }
 
@@ -252,11 +231,8 @@ void memory(const Sets& sets, PaperReport& report) {
                       return fmt::format("{} ({:.3g})", to_text(ours(m)),
                                          bytes_a_texel(cell_of(m.light(), "uncompressed"), m.light()));
                   }),
-         in_all(sets, [&](const Measured& m) { return judge_value(paper, ours(m), 0.5, paper) == Verdict::holds; })
-             ? Verdict::holds
-         : in_all(sets, [&](const Measured& m) { return judge_value(paper, ours(m), 0.5, paper) != Verdict::fails; })
-             ? Verdict::in_shape
-             : Verdict::fails,
+         by_construction(std::all_of(sets.begin(), sets.end(),
+                                     [&](const Measured& m) { return std::abs(ours(m).value - paper) < 0.5; })),
          "Four floats are 16 bytes; the paper does not say how many bits a channel of its texture has.",
          values(sets, ours)});
 }

@@ -71,7 +71,7 @@ void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, s
         bar.end();
         out << reports.back().title << "\n";
         for (const claims::Claim& claim : reports.back().claims)
-            out << fmt::format("  {:<18}  {}: {}; here {}\n", to_string(claim.verdict), claim.place, claim.says,
+            out << fmt::format("  {:<18}  {}: {}; here {}\n", to_string(claim.judged.verdict), claim.place, claim.says,
                                claim.measured);
         out.flush();
     }

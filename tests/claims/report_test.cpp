@@ -17,9 +17,9 @@ PaperReport report() {
     r.title = "A paper";
     r.conditions = "On paper.";
     r.documents = {"scene 0123"};
-    r.claims = {{"section 1", "a | b is 2", "2.1 [2, 2.2]", Verdict::holds, "So it is.", {{2.1, 2.0, 2.2}}},
-                undecided({"section 3", "d is 4", "5", Verdict::holds, "It may be.", {exactly(5)}}, "the rule moved"),
-                {"section 2", "c is 3", "0.1", Verdict::fails, "So it is not.", {exactly(0.1)}}};
+    r.claims = {{"section 1", "a | b is 2", "2.1 [2, 2.2]", judge_ratio(2, {2.1, 2.0, 2.2}), "So it is.", {{2.1, 2.0, 2.2}}},
+                {"section 3", "d is 4", "5", judge_ratio(4, {5, 4, 7}), "It may be.", {exactly(5)}},
+                {"section 2", "c is 3", "0.1", judge_ratio(3, exactly(0.1)), "So it is not.", {exactly(0.1)}}};
     r.tables = {{"Numbers", {"a", "b"}, {{"1", "2"}}}};
     r.plots = {{"x2000_figure1", "It's a title", "x", "y", true, true, {{"one", {{1, 1}, {10, 2}}, true}}}};
     return r;
@@ -30,13 +30,11 @@ const Conditions conditions{false, "a machine", "a build", "2000-01-01"};
 TEST(Report, EveryClaimIsARowAndVerdictsAreCounted) {
     const std::vector<PaperReport> reports{report()};
     const std::string text = to_markdown(reports, conditions);
-    EXPECT_NE(text.find("1 claims hold, 0 hold in shape, 1 do not hold here, 1 are undecided."), std::string::npos);
-    EXPECT_NE(text.find("| section 1 | a \\| b is 2 | 2.1 [2, 2.2] | **holds** | So it is. |"), std::string::npos)
+    EXPECT_NE(text.find("Of 3 claims: holds 1, holds in shape 0, does not hold here 1, undecided 1, not comparable 0, by construction 0."), std::string::npos);
+    EXPECT_NE(text.find("| section 1 | a \\| b is 2 | 2.1 [2, 2.2] | ratio: holds in [1.33, 3], in shape in [1, 6] | **holds** | So it is. |"), std::string::npos)
         << "a bar must not end the cell";
-    EXPECT_NE(text.find("| section 3 | d is 4 | 5 | undecided | Undecided until the experiment is done again: the rule "
-                        "moved. It may be. |"),
-              std::string::npos)
-        << "whatever the earlier verdict";
+    EXPECT_NE(text.find("| undecided | It may be. |"), std::string::npos);
+    EXPECT_NE(text.find("| gain | A is r times better than B |"), std::string::npos) << "the table of rules";
     EXPECT_NE(text.find("| 1 | 2 |"), std::string::npos);
     EXPECT_NE(text.find("plots/x2000_figure1.svg"), std::string::npos);
     EXPECT_EQ(text.find("Quick run"), std::string::npos);
@@ -48,6 +46,7 @@ TEST(Report, NumbersSurviveInJson) {
     const auto document = nlohmann::json::parse(to_json(reports, conditions));
     const auto& claim = document["papers"][0]["claims"][0];
     EXPECT_EQ(claim["verdict"], "holds");
+    EXPECT_EQ(claim["rule"], "ratio");
     EXPECT_EQ(document["papers"][0]["claims"][1]["verdict"], "undecided");
     EXPECT_EQ(document["papers"][0]["claims"][2]["verdict"], "does not hold here");
     EXPECT_EQ(claim["values"][0]["high"], 2.2);

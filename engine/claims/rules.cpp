@@ -1,0 +1,248 @@
+#include "claims/rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace shadowbench::claims {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr double near_ratio = 1.5, far_ratio = 3.0;          // factors
+constexpr double near_size = 1.1, far_size = 1.5;            // factors
+constexpr double near_exponent = 0.05, far_exponent = 0.25;  // distances
+constexpr double constant = 1.25, nearly_constant = 2.0;     // factors
+constexpr double negligible = 0.1, small = 1.0 / 3.0;        // shares
+constexpr double much = 0.5;                                 // "much less" is at most this share
+constexpr double alike = 1.1, similar = 1.5;                 // factors
+constexpr double fits = 0.02, fits_roughly = 0.05;           // of visibility
+constexpr double grey_step = 1.0 / 255.0;                    // of a picture of 8 bits
+
+constexpr Rule rules[] = {
+    {"ratio", "A is r times B", "the ratio is within a factor of 1.5 of r",
+     "within a factor of 3, on the same side of 1",
+     "Scenes and machines differ; 1.5 is what a rebuilt scene or another compiler explains. Three times more or less is "
+     "another effect."},
+    {"gain", "A is r times better than B", "the gain is at least r / 1.5", "at least r / 3, and a gain",
+     "As for a ratio, but a larger gain than the paper's fulfils its claim."},
+    {"size", "a map is s times as large as another", "within 10 % of s",
+     "nearer to s than to the size without the paper's idea (their geometric mean), at most 1.5 times off on the other "
+     "side",
+     "Sizes follow from the method and do not depend on the machine."},
+    {"exponent", "a quantity grows as x^p", "the fitted exponent is within 0.05 of p", "within 0.25 of p",
+     "0.25 separates the laws that the papers compare: 1/4, 1/2, 1."},
+    {"constant", "a time does not change", "it grows by at most a factor of 1.25", "by at most a factor of 2",
+     "What is compared changes by a factor of 16 to 32 meanwhile."},
+    {"growth", "a time or a width grows", "by a factor of at least 2", "by a factor of at least 1.25",
+     "The counterpart of constant."},
+    {"negligible", "one cost is negligible beside another", "it is at most a tenth", "at most a third",
+     "A tenth is within the noise of most measurements of a frame."},
+    {"less", "A is less than B", "A is certainly less", "-", "The paper gives a direction, and no size."},
+    {"much less", "A is much less than B, or B shows artifacts that A does not", "A is at most half of B",
+     "A is less than B", "Half an error is one bit of precision, and visible beside the other."},
+    {"alike", "two pictures look alike", "their errors are within 10 % of each other", "within a factor of 1.5",
+     "Neither may be the better picture: the rule has two sides."},
+    {"visible", "a difference is visible", "one error is more than 10 % larger", "-", "The counterpart of alike."},
+    {"fit", "a stored function fits almost exactly", "its largest error is at most 0.02", "at most 0.05",
+     "0.02 are five grey levels of 8 bits, at the single worst depth."},
+    {"unnoticed", "a difference is not noticed", "it is at most 1/255", "-", "One grey level of a picture of 8 bits."},
+    {"count", "a number of outcomes is reached", "it is reached in every entry and never exceeded",
+     "never exceeded, but not always reached", "Counting is exact."},
+    {"construction", "a size or a format", "not judged: the technique cannot do otherwise", "-",
+     "Tests check it; measuring it shows nothing about the method."},
+    {"not comparable", "a time on a GPU, or a figure of a scene that is not public", "not judged: the number is given",
+     "-", "A processor's thread cannot test the one, a stand-in cannot test the other."},
+};
+
+struct Range {
+    double low, high;
+};
+
+bool inside(const Value& value, const Range& range) {
+    return value.low >= range.low && value.high <= range.high;
+}
+
+bool apart(const Value& value, const Range& range) {
+    return value.high < range.low || value.low > range.high;
+}
+
+std::string to_text(const Range& range) {
+    if (range.low == -infinity) return fmt::format("up to {:.3g}", range.high);
+    if (range.high == infinity) return fmt::format("from {:.3g}", range.low);
+    return fmt::format("in [{:.3g}, {:.3g}]", range.low, range.high);
+}
+
+// `in_shape` contains `holds`.
+Judged judge(const char* rule, const Value& value, const Range& holds, const Range& in_shape) {
+    const bool one_limit = holds.low == in_shape.low && holds.high == in_shape.high;
+    Judged judged{Verdict::undecided, rule, "holds " + to_text(holds)};
+    if (!one_limit) judged.limits += ", in shape " + to_text(in_shape);
+    if (!(std::isfinite(value.low) && std::isfinite(value.high))) return judged;
+    if (inside(value, holds))
+        judged.verdict = Verdict::holds;
+    else if (apart(value, in_shape))
+        judged.verdict = Verdict::fails;
+    else if (inside(value, in_shape) && apart(value, holds))
+        judged.verdict = Verdict::in_shape;
+    return judged;
+}
+
+Judged judge(const char* rule, const Value& value, const Range& holds) {
+    return judge(rule, value, holds, holds);
+}
+
+Judged judge_at_most(const char* rule, const Value& value, double holds, double in_shape) {
+    return judge(rule, value, {-infinity, holds}, {-infinity, in_shape});
+}
+
+std::string among(const char* which, const Judged& one) {
+    return one.limits.empty() ? which : fmt::format("{}: {}", which, one.limits);
+}
+
+// From the best to the worst of a claim's parts.
+int badness(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::by_construction: return 0;
+        case Verdict::holds: return 1;
+        case Verdict::in_shape: return 2;
+        case Verdict::not_comparable: return 3;
+        case Verdict::undecided: return 4;
+        case Verdict::fails: return 5;
+    }
+    return 5;
+}
+
+}  // namespace
+
+const char* to_string(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::holds: return "holds";
+        case Verdict::in_shape: return "holds in shape";
+        case Verdict::fails: return "does not hold here";
+        case Verdict::undecided: return "undecided";
+        case Verdict::not_comparable: return "not comparable";
+        case Verdict::by_construction: return "by construction";
+    }
+    return "";
+}
+
+std::span<const Rule> all_rules() {
+    return rules;
+}
+
+Judged judge_ratio(double paper, const Value& measured) {
+    const Range side{paper > 1.0 ? 1.0 : 0.0, paper < 1.0 ? 1.0 : infinity};
+    return judge("ratio", measured, {paper / near_ratio, paper * near_ratio},
+                 {std::min(std::max(paper / far_ratio, side.low), paper / near_ratio),
+                  std::max(std::min(paper * far_ratio, side.high), paper * near_ratio)});
+}
+
+Judged judge_gain(double paper, const Value& measured) {
+    return judge("gain", measured, {paper / near_ratio, infinity},
+                 {std::min(std::max(paper / far_ratio, 1.0), paper / near_ratio), infinity});
+}
+
+Judged judge_size(double paper, double without, const Value& measured) {
+    const double between = std::sqrt(paper * without);
+    const Range near{paper / near_size, paper * near_size};
+    const Range far = without > paper ? Range{paper / far_size, std::max(between, near.high)}
+                                      : Range{std::min(between, near.low), paper * far_size};
+    return judge("size", measured, near, far);
+}
+
+Judged judge_exponent(double paper, const Value& measured) {
+    return judge("exponent", measured, {paper - near_exponent, paper + near_exponent},
+                 {paper - far_exponent, paper + far_exponent});
+}
+
+Judged judge_constant(const Value& factor) {
+    return judge_at_most("constant", factor, constant, nearly_constant);
+}
+
+Judged judge_growth(const Value& factor) {
+    return judge("growth", factor, {nearly_constant, infinity}, {constant, infinity});
+}
+
+Judged judge_negligible(const Value& share) {
+    return judge_at_most("negligible", share, negligible, small);
+}
+
+Judged judge_less(const Value& less, const Value& more) {
+    Judged judged{Verdict::undecided, "less", ""};
+    if (less.high < more.low) judged.verdict = Verdict::holds;
+    if (less.low >= more.high) judged.verdict = Verdict::fails;
+    return judged;
+}
+
+Judged judge_much_less(const Value& less, const Value& more) {
+    return judge_at_most("much less", less / more, much, 1.0);
+}
+
+Judged judge_alike(const Value& one, const Value& other) {
+    return judge("alike", one / other, {1.0 / alike, alike}, {1.0 / similar, similar});
+}
+
+Judged judge_visible(const Value& factor) {
+    return judge("visible", factor, {alike, infinity});
+}
+
+Judged judge_fit(const Value& largest_error) {
+    return judge_at_most("fit", largest_error, fits, fits_roughly);
+}
+
+Judged judge_unnoticed(const Value& difference) {
+    return judge("unnoticed", absolute(difference), {-infinity, grey_step});
+}
+
+Judged judge_count(int exact, int over, int entries) {
+    return {over > 0 ? Verdict::fails : exact == entries ? Verdict::holds : Verdict::in_shape, "count",
+            fmt::format("holds at {} of {}", entries, entries)};
+}
+
+Judged by_construction(bool kept) {
+    return {kept ? Verdict::by_construction : Verdict::fails, "construction", ""};
+}
+
+Judged not_comparable() {
+    return {Verdict::not_comparable, "not comparable", ""};
+}
+
+Judged both(const Judged& a, const Judged& b) {
+    const auto joined = [](const std::string& x, const std::string& y, const char* between) {
+        return x.empty() || x == y ? y : y.empty() ? x : x + between + y;
+    };
+    return {badness(a.verdict) > badness(b.verdict) ? a.verdict : b.verdict, joined(a.rule, b.rule, ", "),
+            joined(a.limits, b.limits, "; ")};
+}
+
+Judged in_most(const std::vector<Judged>& cases) {
+    const auto count = [&](Verdict verdict) {
+        return static_cast<std::size_t>(
+            std::count_if(cases.begin(), cases.end(), [&](const Judged& one) { return one.verdict == verdict; }));
+    };
+    Judged judged{Verdict::undecided, cases.front().rule, among("in most", cases.front())};
+    const std::size_t hold = count(Verdict::holds), shape = hold + count(Verdict::in_shape), all = cases.size();
+    if (2 * hold > all)
+        judged.verdict = Verdict::holds;
+    else if (2 * (hold + count(Verdict::undecided)) > all)
+        judged.verdict = Verdict::undecided;
+    else if (2 * shape > all)
+        judged.verdict = Verdict::in_shape;
+    else if (2 * (shape + count(Verdict::undecided)) <= all)
+        judged.verdict = Verdict::fails;
+    return judged;
+}
+
+Judged in_all(const std::vector<Judged>& cases) {
+    Judged judged = cases.front();
+    for (const Judged& one : cases)
+        if (badness(one.verdict) > badness(judged.verdict)) judged.verdict = one.verdict;
+    judged.limits = among("in all", cases.front());
+    if (judged.verdict == Verdict::fails && in_most(cases).verdict == Verdict::holds) judged.verdict = Verdict::in_shape;
+    return judged;
+}
+
+}  // namespace shadowbench::claims

@@ -1,0 +1,66 @@
+// The rules by which claims are judged: one rule for all claims of a kind, with limits that stand before anything is
+// measured. The report prints this table.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "claims/value.h"
+
+namespace shadowbench::claims {
+
+enum class Verdict {
+    holds,
+    in_shape,         // the direction or the law is the paper's, the size of the effect is not
+    fails,
+    undecided,        // the interval of the measurement crosses a limit of the rule
+    not_comparable,   // measured, but not what the paper measured: GPU times, scenes that are not public
+    by_construction,  // the technique cannot do otherwise; tests check it
+};
+inline constexpr std::size_t verdicts = 6;
+const char* to_string(Verdict verdict);  // "holds", "holds in shape", "does not hold here", ...
+
+struct Rule {
+    const char* id;        // "gain"
+    const char* says;      // what the paper says: "A is r times B, or better"
+    const char* holds;     // the limits in words
+    const char* in_shape;  // "-" if there is no such verdict
+    const char* reason;    // why these limits
+};
+std::span<const Rule> all_rules();
+
+// A verdict, and how it was found.
+struct Judged {
+    Verdict verdict = Verdict::fails;
+    std::string rule;    // ids, joined by commas
+    std::string limits;  // the numbers of the rule for this claim: "holds in [0.91, 1.1], in shape in [0.67, 1.5]"
+};
+
+// Of each rule below, `measured` is the quantity that the claim is about, and the whole interval of it is judged: if all
+// of it lies within a limit, that verdict is certain; if it crosses a limit, the claim is undecided.
+Judged judge_ratio(double paper, const Value& measured);
+Judged judge_gain(double paper, const Value& measured);
+Judged judge_size(double paper, double without, const Value& measured);
+Judged judge_exponent(double paper, const Value& measured);
+Judged judge_constant(const Value& factor);
+Judged judge_growth(const Value& factor);
+Judged judge_negligible(const Value& share);
+Judged judge_less(const Value& less, const Value& more);
+Judged judge_much_less(const Value& less, const Value& more);
+Judged judge_alike(const Value& one, const Value& other);
+Judged judge_visible(const Value& factor);
+Judged judge_fit(const Value& largest_error);
+Judged judge_unnoticed(const Value& difference);
+Judged judge_count(int exact, int over, int entries);  // entries that reach the number, that exceed it, of all
+Judged by_construction(bool kept);
+Judged not_comparable();
+
+// A claim of two halves: the worse of their verdicts. Does not hold is the worst, then undecided, then in shape.
+Judged both(const Judged& a, const Judged& b);
+// A claim about "most cases": the verdict that more than half of the cases have at least, or undecided.
+Judged in_most(const std::vector<Judged>& cases);
+// A claim about all cases: the worst of their verdicts, but in shape if it holds in most.
+Judged in_all(const std::vector<Judged>& cases);
+
+}  // namespace shadowbench::claims

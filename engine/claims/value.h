@@ -1,0 +1,31 @@
+// Measured numbers with their intervals.
+#pragma once
+
+#include <string>
+
+#include "results/result.h"
+
+namespace shadowbench::claims {
+
+// A number with its interval: 95 % for medians and errors, or the number itself twice if nothing varies.
+struct Value {
+    double value = 0.0, low = 0.0, high = 0.0;
+};
+Value exactly(double value);
+Value of(const results::Sample& sample);
+Value operator/(const Value& a, const Value& b);  // both above 0; the widest interval that the operands allow
+Value operator+(const Value& a, const Value& b);
+Value operator-(const Value& a, const Value& b);
+Value operator*(double factor, const Value& a);
+Value absolute(const Value& a);
+Value least(const Value& a, const Value& b);
+Value largest(const Value& a, const Value& b);
+
+// The RMS lookup error of a cell. Its interval is that of the RMS expected over seeds of the light rays against the
+// exact truth, so it need not hold the value of this run. Exact if the result has no interval.
+Value error_of(const results::Cell& cell);
+
+// "14.2 [13.9, 14.6]", or "14.2" if nothing varies.
+std::string to_text(const Value& value);
+
+}  // namespace shadowbench::claims

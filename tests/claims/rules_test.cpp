@@ -1,0 +1,119 @@
+#include "claims/rules.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+#include <string>
+
+namespace shadowbench::claims {
+namespace {
+
+Verdict verdict(const Judged& judged) {
+    return judged.verdict;
+}
+
+TEST(Rules, AreNamedOnce) {
+    std::set<std::string> ids;
+    for (const Rule& rule : all_rules()) {
+        EXPECT_TRUE(ids.insert(rule.id).second) << rule.id;
+        EXPECT_GT(std::string(rule.reason).size(), 10u) << rule.id;
+    }
+    for (const Judged& judged :
+         {judge_ratio(2, exactly(2)), judge_gain(2, exactly(2)), judge_size(2, 3, exactly(2)), judge_exponent(1, exactly(1)),
+          judge_constant(exactly(1)), judge_growth(exactly(3)), judge_negligible(exactly(0)),
+          judge_less(exactly(1), exactly(2)), judge_much_less(exactly(1), exactly(2)), judge_alike(exactly(1), exactly(1)),
+          judge_visible(exactly(2)), judge_fit(exactly(0)), judge_unnoticed(exactly(0)), judge_count(1, 0, 1),
+          by_construction(true), not_comparable()})
+        EXPECT_TRUE(ids.count(judged.rule)) << judged.rule;
+}
+
+TEST(Rules, ARatioHasTwoSides) {
+    EXPECT_EQ(verdict(judge_ratio(15, exactly(14))), Verdict::holds);
+    EXPECT_EQ(verdict(judge_ratio(15, exactly(6))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_ratio(15, exactly(4))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_ratio(15, exactly(40))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_ratio(15, exactly(60))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_ratio(2.5, exactly(0.9))), Verdict::fails) << "the other side of 1";
+    EXPECT_EQ(verdict(judge_ratio(0.25, exactly(0.6))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_ratio(0.5, exactly(1.1))), Verdict::fails) << "the other side of 1";
+    EXPECT_EQ(verdict(judge_ratio(1.1, exactly(0.95))), Verdict::holds) << "near, though on the other side of 1";
+}
+
+TEST(Rules, AGainMayBeLarger) {
+    EXPECT_EQ(verdict(judge_gain(15, exactly(60))), Verdict::holds);
+    EXPECT_EQ(verdict(judge_gain(15, exactly(5.5))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_gain(10, exactly(1.56))), Verdict::fails) << "one to two orders of magnitude";
+    EXPECT_EQ(verdict(judge_gain(2, exactly(0.9))), Verdict::fails);
+}
+
+TEST(Rules, AnIntervalThatCrossesALimitDecidesNothing) {
+    EXPECT_EQ(verdict(judge_ratio(2, {2, 1.4, 2.9})), Verdict::holds);
+    EXPECT_EQ(verdict(judge_ratio(2, {2, 1.2, 2.5})), Verdict::undecided);
+    EXPECT_EQ(verdict(judge_ratio(2, {1.2, 1.1, 1.3})), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_ratio(2, {1.0, 0.9, 1.2})), Verdict::undecided);
+    EXPECT_EQ(verdict(judge_ratio(2, {0.8, 0.7, 0.9})), Verdict::fails);
+    EXPECT_EQ(verdict(judge_gain(15, {14, 9, 18})), Verdict::undecided) << "it came out both ways on one engine";
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(verdict(judge_ratio(2, {nan, nan, nan})), Verdict::undecided);
+    EXPECT_EQ(verdict(judge_constant({1.0, 0.9, 1.3})), Verdict::undecided);
+    EXPECT_EQ(verdict(judge_constant({1.0, 0.9, 1.2})), Verdict::holds);
+}
+
+TEST(Rules, ASizeIsNearerToThePapersThanToThatWithoutItsIdea) {
+    EXPECT_EQ(verdict(judge_size(2, 3, exactly(2.1))), Verdict::holds);
+    EXPECT_EQ(verdict(judge_size(2, 3, exactly(2.4))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_size(2, 3, exactly(2.5))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_size(2, 3, exactly(1.5))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_size(2, 3, exactly(1.2))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_size(1.55, 4.0 / 3.0, exactly(1.31))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_size(1.55, 4.0 / 3.0, exactly(1.45))), Verdict::holds);
+}
+
+TEST(Rules, DirectionsNeedIntervalsThatDoNotMeet) {
+    EXPECT_EQ(verdict(judge_less({1, 0.9, 1.1}, {2, 1.5, 2.5})), Verdict::holds);
+    EXPECT_EQ(verdict(judge_less({1, 0.9, 1.6}, {2, 1.5, 2.5})), Verdict::undecided);
+    EXPECT_EQ(verdict(judge_less({2, 1.5, 2.5}, {1, 0.9, 1.1})), Verdict::fails);
+    EXPECT_EQ(verdict(judge_less(exactly(1), exactly(1))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_much_less(exactly(1), exactly(2.1))), Verdict::holds);
+    EXPECT_EQ(verdict(judge_much_less(exactly(1), exactly(1.9))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_much_less(exactly(2), exactly(1.9))), Verdict::fails);
+}
+
+TEST(Rules, AlikeHasTwoSides) {
+    EXPECT_EQ(verdict(judge_alike(exactly(1), exactly(1.05))), Verdict::holds);
+    EXPECT_EQ(verdict(judge_alike(exactly(1), exactly(1.2))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_alike(exactly(1.2), exactly(1))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_alike(exactly(1), exactly(2))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_visible({1.2, 1.15, 1.3})), Verdict::holds);
+    EXPECT_EQ(verdict(judge_visible(exactly(1.05))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_unnoticed({-0.001, -0.003, 0.002})), Verdict::holds);
+    EXPECT_EQ(verdict(judge_unnoticed(exactly(-0.01))), Verdict::fails);
+}
+
+TEST(Rules, TwoHalvesAreAsGoodAsTheWorse) {
+    const Judged good = judge_fit(exactly(0.01)), shape = judge_fit(exactly(0.03)), open = judge_fit({0.02, 0.01, 0.03}),
+                 bad = judge_fit(exactly(0.1));
+    EXPECT_EQ(verdict(both(good, shape)), Verdict::in_shape);
+    EXPECT_EQ(verdict(both(open, shape)), Verdict::undecided);
+    EXPECT_EQ(verdict(both(bad, open)), Verdict::fails);
+    EXPECT_EQ(both(good, good).limits, good.limits);
+    EXPECT_EQ(both(good, judge_constant(exactly(1))).rule, "fit, constant");
+}
+
+TEST(Rules, MostAndAllCountCases) {
+    const Judged good = judge_fit(exactly(0.01)), shape = judge_fit(exactly(0.03)), open = judge_fit({0.02, 0.01, 0.03}),
+                 bad = judge_fit(exactly(0.1));
+    EXPECT_EQ(verdict(in_most({good, good, good, bad})), Verdict::holds);
+    EXPECT_EQ(verdict(in_most({good, good, shape, bad})), Verdict::in_shape);
+    EXPECT_EQ(verdict(in_most({good, good, open, bad})), Verdict::undecided);
+    EXPECT_EQ(verdict(in_most({good, bad, bad, bad})), Verdict::fails);
+    EXPECT_EQ(verdict(in_most({good, shape, open, bad})), Verdict::undecided) << "in shape if the open one is";
+    EXPECT_EQ(verdict(in_all({good, good, good})), Verdict::holds);
+    EXPECT_EQ(verdict(in_all({good, good, good, bad})), Verdict::in_shape);
+    EXPECT_EQ(verdict(in_all({good, bad, bad})), Verdict::fails);
+    EXPECT_EQ(verdict(in_all({good, good, open})), Verdict::undecided);
+}
+
+}  // namespace
+}  // namespace shadowbench::claims
