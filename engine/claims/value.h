@@ -22,7 +22,8 @@ Value least(const Value& a, const Value& b);
 Value largest(const Value& a, const Value& b);
 
 // The RMS lookup error of a cell. Its interval is that of the RMS expected over seeds of the light rays against the
-// exact truth, so it need not hold the value of this run. Exact if the result has no interval.
+// exact truth, so it need not hold the value of this run. If the rays are regular or only one seed was measured, it
+// covers the truth's uncertainty only. Exact if the result has no interval.
 Value error_of(const results::Cell& cell);
 
 // "14.2 [13.9, 14.6]", or "14.2" if nothing varies.
