@@ -139,7 +139,8 @@ TEST_F(Recovery, KeepsResultsThatAreNewerThanTheDatabase) {
     }
     EXPECT_EQ(jobs->list(JobState::succeeded, 9, "").jobs.size(), 3u);
     EXPECT_EQ(jobs->list({}, 1, "").jobs[0].id, fresh.id) << "in the order they came";
-    EXPECT_EQ(jobs->find(blocker)->state, JobState::queued) << "as that database has it";
+    const JobState state = jobs->find(blocker)->state;
+    EXPECT_TRUE(state == JobState::queued || state == JobState::running) << "not cancelled, as that database has it";
 }
 
 TEST_F(Recovery, TakesResultsOfAnEarlierVersionBack) {
