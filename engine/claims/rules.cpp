@@ -16,7 +16,7 @@ constexpr double near_size = 1.1, far_size = 1.5;            // factors
 constexpr double near_exponent = 0.05, far_exponent = 0.25;  // distances
 constexpr double constant = 1.25, nearly_constant = 2.0;     // factors
 constexpr double negligible = 0.1, small = 1.0 / 3.0;        // shares
-constexpr double much = 0.5;                                 // "much less" is at most this share
+constexpr double much = 0.3;                                 // "much less" is at most this share
 constexpr double alike = 1.1, similar = 1.5;                 // factors
 constexpr double fits = 0.02, fits_roughly = 0.05;           // of visibility
 constexpr double grey_step = 1.0 / 255.0;                    // of a picture of 8 bits
@@ -41,8 +41,8 @@ constexpr Rule rules[] = {
     {"negligible", "one cost is negligible beside another", "it is at most a tenth", "at most a third",
      "A tenth is within the noise of most measurements of a frame."},
     {"less", "A is less than B", "A is certainly less", "-", "The paper gives a direction, and no size."},
-    {"much less", "A is much less than B, or B shows artifacts that A does not", "A is at most half of B",
-     "A is less than B", "Half an error is one bit of precision, and visible beside the other."},
+    {"much less", "A is much less than B, or B shows artifacts that A does not", "A is at most 0.3 of B",
+     "A is less than B", "A smaller error of the same order is less, but not much less."},
     {"alike", "two pictures look alike", "their errors are within 10 % of each other", "within a factor of 1.5",
      "Neither may be the better picture: the rule has two sides."},
     {"visible", "a difference is visible", "one error is more than 10 % larger", "-", "The counterpart of alike."},

@@ -75,8 +75,8 @@ TEST(Rules, DirectionsNeedIntervalsThatDoNotMeet) {
     EXPECT_EQ(verdict(judge_less({1, 0.9, 1.6}, {2, 1.5, 2.5})), Verdict::undecided);
     EXPECT_EQ(verdict(judge_less({2, 1.5, 2.5}, {1, 0.9, 1.1})), Verdict::fails);
     EXPECT_EQ(verdict(judge_less(exactly(1), exactly(1))), Verdict::fails);
-    EXPECT_EQ(verdict(judge_much_less(exactly(1), exactly(2.1))), Verdict::holds);
-    EXPECT_EQ(verdict(judge_much_less(exactly(1), exactly(1.9))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_much_less(exactly(1), exactly(3.4))), Verdict::holds);
+    EXPECT_EQ(verdict(judge_much_less(exactly(1), exactly(3.2))), Verdict::in_shape);
     EXPECT_EQ(verdict(judge_much_less(exactly(2), exactly(1.9))), Verdict::fails);
 }
 
