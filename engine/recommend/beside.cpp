@@ -36,6 +36,7 @@ void check_same_question(const json& ours, const Recommendation& our, const json
     for (const char* key : {"scene", "lights"})
         if (ours.value(key, json()) != theirs.value(key, json())) differ(fmt::format("/{}", key).c_str());
     if (our.light != their.light) differ("the light");
+    if (our.measure != their.measure) differ("the measure of the error");
     if (places_of(ours) != places_of(theirs)) differ("/receivers");
     const auto footprint = [](const json& document, const Recommendation& of) {
         return of.footprint_share ? json{{"share", *of.footprint_share}} : document.at("receivers").at("footprint");

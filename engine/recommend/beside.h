@@ -30,7 +30,7 @@ struct Contest {
 };
 
 // `document`: the scenario that our answer is of. Both answers must be of the same scene, light and receivers, and of
-// footprints of the same size; other keys may differ. `seconds`: about how long the measurement may take. Throws
+// footprints of the same size, and judged by the same measure; other keys may differ. `seconds`: about how long the measurement may take. Throws
 // Error{bad_input}, place: the part of the scenario that differs, or of the setting that cannot be measured.
 std::vector<Contest> hold_beside(const nlohmann::json& document, const bench::RunOptions& options,
                                  const Recommendation& ours, const nlohmann::json& their_document,

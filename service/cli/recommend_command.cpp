@@ -60,13 +60,12 @@ recommend::Measure read_measure(const std::string& word) {
     return static_cast<recommend::Measure>(found - std::begin(measure_words));
 }
 
-// Of an exploration, or of a run.
-Recommendation read_recommendation(const RecommendArguments& arguments, const fs::path& folder) {
+// Of an exploration, which says its light and measure, or of a run.
+Recommendation read_recommendation(const fs::path& folder, const std::string& light, recommend::Measure measure) {
     const std::string file = (folder / "result.json").string();
     const nlohmann::json document = scene::parse_json(base::read_text(file), file);
     if (recommend::is_recommendation(document)) return recommend::recommendation_from_json(document, file);
-    return recommend::recommendation_of(results::from_json(document, file), arguments.light,
-                                        read_measure(arguments.measure), file);
+    return recommend::recommendation_of(results::from_json(document, file), light, measure, file);
 }
 
 const char* stage_name(recommend::Stage stage) {
@@ -103,8 +102,9 @@ std::string beside(const RecommendArguments& arguments, const recommend::Goal& g
               other = read_job(arguments, fs::path(arguments.beside) / "result.json");
     ProgressBar bar(err);
     const std::vector<recommend::Contest> contests = recommend::hold_beside(
-        *job.document, job.options, ours, *other.document, read_recommendation(arguments, arguments.beside), goal,
-        goal.budget, [&](const bench::Progress& progress) { bar.show(progress); });
+        *job.document, job.options, ours, *other.document,
+        read_recommendation(arguments.beside, ours.light, ours.measure), goal, goal.budget,
+        [&](const bench::Progress& progress) { bar.show(progress); });
     bar.end();
     return recommend::to_text(contests, measure_words[static_cast<std::size_t>(ours.measure)], goal.error);
 }
@@ -114,10 +114,13 @@ std::string beside(const RecommendArguments& arguments, const recommend::Goal& g
 bool recommend_command(const RecommendArguments& arguments, std::ostream& out, std::ostream& err) {
     const recommend::Goal goal = read_goal(arguments);
     if (arguments.from.empty() && arguments.scenario.empty())
-        throw Error(ErrorCode::usage, "SCENARIO", "name a scenario, or the folder of a finished recommend or run with --from");
+        throw Error(ErrorCode::usage, "SCENARIO",
+                    "name a scenario, or the folder of a finished recommend or run with --from");
     fs::path folder = arguments.from;
     const Recommendation found =
-        arguments.from.empty() ? explore_scenario(arguments, goal, folder, err) : read_recommendation(arguments, arguments.from);
+        arguments.from.empty()
+            ? explore_scenario(arguments, goal, folder, err)
+            : read_recommendation(arguments.from, arguments.light, read_measure(arguments.measure));
     const recommend::AnswerText answer = recommend::answer_text(found, goal);
     out << answer.text;
     if (arguments.from.empty()) out << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());

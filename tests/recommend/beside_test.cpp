@@ -91,5 +91,14 @@ TEST(Beside, RefusesAnswersToDifferentQuestions) {
     }
 }
 
+TEST(Beside, RefusesAnswersByDifferentMeasures) {
+    const json ours = two_layers(16, deep);
+    Recommendation by_largest = ran(ours);
+    by_largest.measure = Measure::max;
+    Goal goal;
+    goal.error = 0.5;
+    EXPECT_THROW(hold_beside(ours, {}, ran(ours), ours, by_largest, goal, 20.0, {}), base::Error);
+}
+
 }  // namespace
 }  // namespace shadowbench::recommend
