@@ -259,8 +259,11 @@ void figure_9(const Context& context) {
     report.claims.push_back({"section 5.3",
                              "without mip levels the number of pixels read grows with the width",
                              fmt::format("width 32 takes {} times as long as width 1", to_text(plain)),
-                             judge_growth(plain),
-                             "1,024 times the area covers about 1,024 times the functions.",
+                             judge_exponent(2.0, {std::log(plain.value) / std::log(32.0),
+                                                  std::log(plain.low) / std::log(32.0),
+                                                  std::log(plain.high) / std::log(32.0)}),
+                             "1,024 times the area covers about 1,024 times the functions; the exponent is that of the "
+                             "time over the width.",
                              {plain}});
     const LightResult& light = light_of(result, {"/receivers/filter_width=1"});
     const Value size = exactly(static_cast<double>(cell_of(light, "deep", {"mip=nearest"}).bytes) /

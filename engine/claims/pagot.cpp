@@ -91,7 +91,8 @@ void crossing(const LightResult& light, PaperReport& report) {
     const Value saved = time_of(kernel(light, 1, 4)) - time_of(kernel(light, 2, 3));
     const bool pays = saved.low > 0.0 && select.low > 0.0;
     const Value fragments = pays ? (1.0 / cells) * (select / saved) : Value{};
-    const bool never = saved.high <= 0.0;
+    Judged judged = judge_ratio(predicted, fragments);
+    if (!pays) judged.verdict = saved.high <= 0.0 ? Verdict::fails : Verdict::undecided;
     report.claims.push_back(
         {"section 6",
          fmt::format("2-SM with 3 x 3 beats 1-SM with 4 x 4 beyond {:.2f} fragments a cell (q = 9, r = 7)", predicted),
@@ -99,8 +100,7 @@ void crossing(const LightResult& light, PaperReport& report) {
                             to_text(fragments), to_text((1.0 / cells) * select), to_text(saved))
               : fmt::format("no crossing is measured: selection {} ns a cell, {} ns saved a lookup",
                             to_text((1.0 / cells) * select), to_text(saved)),
-         pays ? judge_ratio(predicted, fragments)
-              : Judged{never ? Verdict::fails : Verdict::undecided, "ratio", judge_ratio(predicted, fragments).limits},
+         judged,
          "The paper counts only texture fetches; comparing a depth has a cost too.",
          {fragments}});
 }

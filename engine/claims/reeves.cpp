@@ -190,7 +190,7 @@ void figure_9(const Context& context) {
              "mean error {:+.4f}, {:+.4f}, {:+.4f} with bias 0, 0.2 to 0.3, 0.3 to 0.4, and {:+.4f} with 3 to 4", none,
              some, more, most),
          both(judge_much_less(exactly(std::abs(more)), exactly(std::abs(none))),
-              both(judge_less(exactly(none), exactly(some)), judge_less(exactly(more), exactly(most)))),
+              both(judge_less(exactly(none), exactly(0.0)), judge_less(exactly(more), exactly(most)))),
          "In a world of 100 units, as in the paper; a mean below 0 is shadow where there should be none.",
          {exactly(none), exactly(some), exactly(more), exactly(most)}});
 }

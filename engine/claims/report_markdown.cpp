@@ -62,8 +62,10 @@ std::string to_markdown(std::span<const PaperReport> reports, const Conditions& 
     out += fmt::format("\n{}; {}; {}.\n\n", conditions.machine, conditions.build, conditions.date);
     std::array<std::size_t, verdicts> count{};
     std::size_t all = 0;
-    for (const PaperReport& report : reports)
-        for (const Claim& claim : report.claims) ++count[static_cast<std::size_t>(claim.judged.verdict)], ++all;
+    for (const PaperReport& report : reports) {
+        all += report.claims.size();
+        for (const Claim& claim : report.claims) ++count[static_cast<std::size_t>(claim.judged.verdict)];
+    }
     std::vector<std::string> parts;
     for (std::size_t verdict = 0; verdict < verdicts; ++verdict)
         parts.push_back(fmt::format("{} {}", to_string(static_cast<Verdict>(verdict)), count[verdict]));

@@ -12,7 +12,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double near_ratio = 1.5, far_ratio = 3.0;          // factors
-constexpr double near_size = 1.1, far_size = 1.5;            // factors
+constexpr double near_size = 1.1, far_size = 1.35;           // factors
 constexpr double near_exponent = 0.05, far_exponent = 0.25;  // distances
 constexpr double constant = 1.25, nearly_constant = 2.0;     // factors
 constexpr double negligible = 0.1, small = 1.0 / 3.0;        // shares
@@ -29,7 +29,7 @@ constexpr Rule rules[] = {
     {"gain", "A is r times better than B", "the gain is at least r / 1.5", "at least r / 3, and a gain",
      "As for a ratio, but a larger gain than the paper's fulfils its claim."},
     {"size", "a map is s times as large as another", "within 10 % of s",
-     "nearer to s than to the size without the paper's idea (their geometric mean), at most 1.5 times off on the other "
+     "nearer to s than to the size without the paper's idea (their geometric mean), at most 1.35 times off on the other "
      "side",
      "Sizes follow from the method and do not depend on the machine."},
     {"exponent", "a quantity grows as x^p", "the fitted exponent is within 0.05 of p", "within 0.25 of p",

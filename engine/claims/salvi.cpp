@@ -112,7 +112,8 @@ void quality(const LightResult& light, PaperReport& report) {
                              "4 nodes deviate clearly, 8 match closely, 12 often match almost exactly",
                              fmt::format("lookup error rms {}, {}, {}; uncompressed {}", to_text(four), to_text(closer),
                                          to_text(twelve), to_text(all)),
-                             both(judge_visible(four / all), judge_alike(twelve, all)),
+                             both(both(judge_visible(four / all), judge_less(closer, four)),
+                                  both(judge_alike(closer, all), judge_alike(twelve, all))),
                              "The uncompressed error is that of one ray a texel.",
                              {four, closer, twelve, all}});
     for (const int nodes : {4, 8}) {
