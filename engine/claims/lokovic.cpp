@@ -119,7 +119,7 @@ Row measure_row(const Context& context, int samples) {
                                                {"rays.resolution=96"});
     const LightResult& light = light_of(result);
     const Cell &deep = cell_of(light, "deep"), &depth = cell_of(light, "pcf");
-    const double capture_ms = 1e3 * static_cast<double>(light.rays) / light.agreement->times.capture_rays_per_second;
+    const double capture_ms = 1e3 * results::capture_seconds_on_one_thread(light);
     return {samples,
             time_of(deep),
             time_of(depth),

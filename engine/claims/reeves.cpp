@@ -57,8 +57,7 @@ void table_1(const Context& context, const char* name, const char* title, bool r
     Value first = exactly(0.0), second = exactly(0.0);
     for (const LightResult& light : result.variants.front().lights) {
         const Cell& pcf = cell_of(light, "pcf", {"num_samples=16"});
-        const double capture = static_cast<double>(light.rays) / light.agreement->times.capture_rays_per_second;
-        first = first + exactly(capture) + 1e-3 * of(pcf.times->build_ms);
+        first = first + exactly(results::capture_seconds_on_one_thread(light)) + 1e-3 * of(pcf.times->build_ms);
         second = second + 1e-9 * static_cast<double>(points) * time_of(pcf);
     }
     const Value increase = 100.0 * ((first + second) / without);

@@ -109,7 +109,7 @@ struct Frame {
 
 Frame frame_of(const LightResult& light) {
     const Cell& point = volume_deep(light, "smooth", 512, "point");  // the paper's lookup: one texel
-    return {exactly(1e3 * static_cast<double>(light.rays) / light.agreement->times.capture_rays_per_second),
+    return {exactly(1e3 * results::capture_seconds_on_one_thread(light)),
             of(point.times->build_ms), 1e-6 * image_pixels * view_lookups * time_of(point)};
 }
 

@@ -73,6 +73,9 @@ struct Answer {
 // `goal` may ask for another error, other costs and other limits than the exploration's.
 Answer answer(const Exploration& found, const Goal& goal);
 
+// A cost (as Cost) with its unit: "10.5 ns", "128 KiB", "24.1 ms".
+std::string cost_text(double value, std::size_t cost);
+
 // "deep kernel=box tolerance=0.01, resolution=512 samples=16"
 std::string setting_text(const std::vector<Family>& families, const Point& point);
 

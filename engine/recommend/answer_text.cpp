@@ -5,7 +5,6 @@
 
 #include "base/table.h"
 #include "recommend/answer.h"
-#include "recommend/answer_words.h"
 #include "recommend/request.h"
 
 namespace shadowbench::recommend {

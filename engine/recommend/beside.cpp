@@ -10,7 +10,6 @@
 
 #include "base/error.h"
 #include "recommend/answer.h"
-#include "recommend/answer_words.h"
 #include "recommend/record.h"
 #include "recommend/trials.h"
 

@@ -7,6 +7,10 @@
 
 namespace shadowbench::recommend {
 
+double norm_of(const metrics::ErrorNorms& norms, Measure measure) {
+    return measure == Measure::rms ? norms.rms : measure == Measure::max ? norms.max : norms.p99;
+}
+
 metrics::Interval error_interval(std::span<const double> errors, Measure measure, const TruthDoubt& truth) {
     metrics::Interval interval = metrics::mean_interval(errors);
     const double low = std::max(interval.low, 0.0);

@@ -8,6 +8,9 @@
 
 namespace shadowbench::recommend {
 
+// The norm that a measure of lookups asks for: not of Measure::curve.
+double norm_of(const metrics::ErrorNorms& norms, Measure measure);
+
 // The standard error of the truth, over the judged receivers.
 struct TruthDoubt {
     double rms = 0.0, max = 0.0;

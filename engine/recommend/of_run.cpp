@@ -13,6 +13,7 @@
 #include "metrics/student.h"
 #include "recommend/check.h"
 #include "recommend/error_interval.h"
+#include "scene/scene.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::recommend {
@@ -75,7 +76,7 @@ std::optional<double> footprint_share(const results::Result& run, const RayAxes&
         throw Error(ErrorCode::bad_input, origin,
                     "the run sweeps the resolution, and its footprints are in map pixels: finer maps were asked for "
                     "smaller footprints; give receivers.footprint and run it again");
-    return receivers.value("filter_width", 1.0) / axes.resolutions.front().first;
+    return receivers.value("filter_width", scene::FilterWidth().value) / axes.resolutions.front().first;
 }
 
 // The parameters that differ from the row's defaults.
@@ -87,10 +88,6 @@ std::vector<Family::Word> words_of(const Cell& cell, const techniques::Technique
     for (const auto& [name, value] : values.items())
         if (name != "type" && (!defaults.contains(name) || defaults[name] != value)) words.push_back({name, value.dump()});
     return words;
-}
-
-double norm_of(const metrics::ErrorNorms& norms, Measure measure) {
-    return measure == Measure::rms ? norms.rms : measure == Measure::max ? norms.max : norms.p99;
 }
 
 Confirmed confirmed_of(const LightResult& light, const Cell& cell, bool traces, Measure measure,
@@ -109,8 +106,7 @@ Confirmed confirmed_of(const LightResult& light, const Cell& cell, bool traces, 
     const double capture_ms =
         traces || !light.agreement
             ? 0.0
-            : 1e3 * (light.times.setup_seconds +
-                     static_cast<double>(light.rays) / light.agreement->times.capture_rays_per_second);
+            : 1e3 * (light.times.setup_seconds + results::capture_seconds_on_one_thread(light));
     const results::Sample& build = cell.times->build_ms;
     const double bytes = static_cast<double>(cell.bytes);
     confirmed.cost = {cell.times->random_order.ns.median, bytes, capture_ms + build.median};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -88,42 +89,39 @@ std::vector<ParameterValues> combinations(const Technique& row) {
 
 }  // namespace
 
+std::vector<Axis> Space::Rays::axes() const {
+    Axis first{"resolution", {}, resolution_stride}, second{"samples_per_pixel", {}, sample_stride};
+    for (const base::Vec2i& resolution : resolutions) first.values.push_back(text_of(resolution));
+    for (const int count : samples) second.values.push_back(fmt::format("{}", count));
+    return {first, second};
+}
+
 Space::Space(const scene::Scenario& scenario, std::span<const std::string> only)
     : own_(scenario.rays.resolution), own_samples_(scenario.rays.samples_per_pixel) {
     const bool fixed = scenario.scene.deep_image.has_value();
-    Axis resolutions{"resolution", {}, 1}, samples{"samples_per_pixel", {}, 1};
-    if (fixed) {
-        resolutions_ = {own_};
-        samples_ = {own_samples_};
-    } else {
+    const Rays own{{own_}, {own_samples_}};
+    Rays explored = own;
+    if (!fixed) {
         const Resolutions found = resolutions_of(own_);
-        resolutions_ = found.sides;
-        resolutions.stride = found.steps_an_octave;
-        for (const int side : sample_sides) samples_.push_back(side * side);
-        samples.stride = sample_stride;
+        explored = {found.sides, {}, found.steps_an_octave, sample_stride};
+        for (const int side : sample_sides) explored.samples.push_back(side * side);
     }
-    for (const base::Vec2i& resolution : resolutions_) resolutions.values.push_back(text_of(resolution));
-    for (const int count : samples_) samples.values.push_back(fmt::format("{}", count));
-
     for (const std::string& id : only) techniques::find(id, "--only");
     for (const Technique& row : techniques::all()) {
         if (!only.empty() && std::count(only.begin(), only.end(), row.id) == 0) continue;
         if (row.traits.traces && fixed) continue;  // there is no scene to trace
-        add_families(row, resolutions, samples);
+        add_families(row, row.traits.traces ? own : explored);
     }
     if (families_.empty())
         throw base::Error(base::ErrorCode::usage, "--only",
                           "a deep image has no scene that this technique could trace");
 }
 
-void Space::add_families(const Technique& row, const Axis& resolutions, const Axis& samples) {
+void Space::add_families(const Technique& row, const Rays& rays) {
     for (ParameterValues& values : combinations(row)) {
-        Family family{row.id, row.id, {resolutions, samples}, {}};
-        Choice choice{&row, std::move(values), {}, {}};
+        Family family{row.id, row.id, rays.axes(), {}};
+        Choice choice{&row, std::move(values), rays};
         family.mapless = row.traits.traces;
-        if (row.traits.traces)
-            family.axes = {{"resolution", {text_of(own_)}, 1},
-                           {"samples_per_pixel", {fmt::format("{}", own_samples_)}, 1}};
         for (const Trade& trade : row.traits.trades) {
             const std::vector<ParameterValues::Value> steps = techniques::values_of(trade, row.parameters);
             if (trade.scale == Trade::Scale::choice) {
@@ -150,43 +148,37 @@ void Space::add_families(const Technique& row, const Axis& resolutions, const Ax
 }
 
 Point Space::add(const nlohmann::json& part) {
-    const nlohmann::json& technique = part.at("techniques").at(0);
-    Setting setting{&techniques::find(technique.at("type").get<std::string>(), "/techniques/0/type"), {}, own_,
-                    own_samples_};
-    nlohmann::json parameters = technique;
+    nlohmann::json parameters = part.at("techniques").at(0);
+    const Technique& row = techniques::find(parameters.at("type").get<std::string>(), "/techniques/0/type");
     parameters.erase("type");
-    setting.values = techniques::read_parameters(setting.row->parameters, parameters, "/techniques/0");
-    if (setting.row->traits.traces || !part.contains("rays")) {
-        // The scenario's own light rays.
-    } else {
+    Choice choice{&row, techniques::read_parameters(row.parameters, parameters, "/techniques/0"),
+                  {{own_}, {own_samples_}}};
+    if (part.contains("rays") && !row.traits.traces) {
         const nlohmann::json& rays = part["rays"];
-        if (rays.contains("resolution")) setting.resolution = resolution_of(rays["resolution"]);
-        setting.samples = rays.value("samples_per_pixel", own_samples_);
+        if (rays.contains("resolution")) choice.rays.resolutions = {resolution_of(rays["resolution"])};
+        choice.rays.samples = {rays.value("samples_per_pixel", own_samples_)};
     }
-    if (static_cast<std::int64_t>(setting.resolution.x) * own_.y != static_cast<std::int64_t>(setting.resolution.y) * own_.x)
+    const base::Vec2i sides = choice.rays.resolutions.front();
+    if (static_cast<std::int64_t>(sides.x) * own_.y != static_cast<std::int64_t>(sides.y) * own_.x)
         throw base::Error(base::ErrorCode::bad_input, "/rays/resolution",
                           "must have the scenario's ratio of sides, so that the light frames the same part of its plane");
-    Family family{setting.row->id, part.dump(), {}, {}};
-    family.axes = {{"resolution", {text_of(setting.resolution)}}, {"samples_per_pixel", {fmt::format("{}", setting.samples)}}};
-    family.mapless = setting.row->traits.traces;
+    Family family{row.id, part.dump(), choice.rays.axes(), {}};
+    family.mapless = row.traits.traces;
     families_.push_back(std::move(family));
-    choices_.push_back({setting.row, setting.values, {}, setting});
+    choices_.push_back(std::move(choice));
     return {families_.size() - 1, {0, 0}};
 }
 
 base::Vec2i Space::resolution(const Point& point) const {
-    if (const std::optional<Setting>& given = choices_[point.family].given) return given->resolution;
-    return uses_rays(point.family) ? resolutions_[static_cast<std::size_t>(point.step[0])] : own_;
+    return choices_[point.family].rays.resolutions[static_cast<std::size_t>(point.step[0])];
 }
 
 int Space::samples(const Point& point) const {
-    if (const std::optional<Setting>& given = choices_[point.family].given) return given->samples;
-    return uses_rays(point.family) ? samples_[static_cast<std::size_t>(point.step[1])] : own_samples_;
+    return choices_[point.family].rays.samples[static_cast<std::size_t>(point.step[1])];
 }
 
 Setting Space::setting(const Point& point) const {
     const Choice& choice = choices_[point.family];
-    if (choice.given) return *choice.given;
     Setting setting{choice.row, choice.values, resolution(point), samples(point)};
     for (std::size_t i = 0; i < choice.numbers.size(); ++i)
         setting.values.values[choice.numbers[i].first] =

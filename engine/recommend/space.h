@@ -51,18 +51,24 @@ public:
     int samples(const Point& point) const;
 
 private:
+    // The steps of axes 0 and 1.
+    struct Rays {
+        std::vector<base::Vec2i> resolutions;
+        std::vector<int> samples;
+        int resolution_stride = 1, sample_stride = 1;
+
+        std::vector<Axis> axes() const;
+    };
     struct Choice {
         const techniques::Technique* row = nullptr;
         techniques::ParameterValues values;  // with the family's words
-        std::vector<std::pair<const char*, std::vector<techniques::ParameterValues::Value>>> numbers;  // axes 2, ...
-        std::optional<Setting> given;  // the only setting of the family
+        Rays rays;
+        std::vector<std::pair<const char*, std::vector<techniques::ParameterValues::Value>>> numbers = {};  // axes 2, ...
     };
-    void add_families(const techniques::Technique& row, const Axis& resolutions, const Axis& samples);
+    void add_families(const techniques::Technique& row, const Rays& rays);
 
     base::Vec2i own_;
     int own_samples_ = 1;
-    std::vector<base::Vec2i> resolutions_;
-    std::vector<int> samples_;
     std::vector<Family> families_;
     std::vector<Choice> choices_;  // of each family
     std::optional<std::size_t> scout_;

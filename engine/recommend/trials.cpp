@@ -229,8 +229,7 @@ QuerySet Trials::asked(const QuerySet& set, const rays::LightView& view) const {
 
 double Trials::error_of(const results::Cell& cell) const {
     if (measure_ == Measure::curve) return cell.curve ? cell.curve->norms.max : 0.0;
-    const metrics::ErrorNorms& norms = cell.lookup->norms;
-    return measure_ == Measure::rms ? norms.rms : measure_ == Measure::max ? norms.max : norms.p99;
+    return norm_of(cell.lookup->norms, measure_);
 }
 
 // Fails the contender if a lookup answers what it must not.

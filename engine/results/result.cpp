@@ -31,6 +31,10 @@ bool agrees(const Agreement& agreement) {
     return static_cast<double>(std::max(agreement.other_crossings, agreement.other_transmittance)) <= allowed;
 }
 
+double capture_seconds_on_one_thread(const LightResult& light) {
+    return static_cast<double>(light.rays) / light.agreement->times.capture_rays_per_second;
+}
+
 bool sees_nothing(const LightResult& light) {
     return light.segments == 0;
 }
