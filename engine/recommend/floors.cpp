@@ -22,6 +22,17 @@ bool accurate(const std::vector<int>& step, const std::vector<int>& steps) {
     return true;
 }
 
+bool Floors::Seen::bounds() const {
+    return accurate.size() >= witnesses;
+}
+
+std::vector<Floor> Floors::known() const {
+    std::vector<Floor> floors;
+    for (const auto& [rays, seen] : seen_)
+        if (seen.bounds()) floors.push_back({rays.first, rays.second, seen.error});
+    return floors;
+}
+
 std::vector<Floor> Floors::all() const {
     std::vector<Floor> floors;
     for (const auto& [rays, seen] : seen_)
@@ -29,23 +40,16 @@ std::vector<Floor> Floors::all() const {
     return floors;
 }
 
-const Floor* Floors::add(const Family& family, const Point& point, double error) {
-    if (!family.faithful) return nullptr;
+std::optional<Floor> Floors::add(const Family& family, const Point& point, double error) {
+    if (!family.faithful) return {};
     Seen& seen = seen_[{point.step[0], point.step[1]}];
-    bool news = seen.any.empty() || error < seen.error;
-    seen.error = seen.any.empty() ? error : std::min(seen.error, error);
-    news = seen.any.insert(point.family).second || news;
+    const bool bounded = seen.bounds(), lower = error < seen.error;
+    seen.error = std::min(seen.error, error);
+    bool news = seen.any.insert(point.family).second || lower;
     if (accurate(point.step, steps_of(family))) news = seen.accurate.insert(point.family).second || news;
-    if (!news) return nullptr;
-    ++version_;
-    if (seen.accurate.size() < witnesses) return nullptr;
-    const auto there = std::find_if(known_.begin(), known_.end(), [&](const Floor& floor) {
-        return floor.resolution == point.step[0] && floor.samples == point.step[1];
-    });
-    if (there == known_.end()) return &known_.emplace_back(Floor{point.step[0], point.step[1], seen.error});
-    if (there->error == seen.error) return nullptr;
-    there->error = seen.error;
-    return &*there;
+    if (news) ++version_;
+    if (!seen.bounds() || (bounded && !lower)) return {};
+    return Floor{point.step[0], point.step[1], seen.error};
 }
 
 }  // namespace shadowbench::recommend

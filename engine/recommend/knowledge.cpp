@@ -104,8 +104,7 @@ void Knowledge::bound() {
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
         const std::vector<int>& step = lattice_.point(i).step;
         for (const Floor& floor : floors_)
-            if (floor.error * floor_slack > wanted_.error && step[0] <= floor.resolution && step[1] <= floor.samples)
-                ruled_out_[i] = 1;
+            if (floor.rules_out(step, wanted_.error)) ruled_out_[i] = 1;
         for (const Record& record : records_) {
             if (!record.failed.empty()) continue;
             const double limit = record.confirmed ? wanted_.error : wanted_.trial_error;
@@ -156,8 +155,7 @@ void Knowledge::rule_out_failures() {
 // A floor, and how much more this family errs than the floors of the light rays that it was built from, make values at
 // the accurate ends of its own axes. Only the floors nearest to the error wanted: they decide which light rays suffice.
 void Knowledge::add_borrowed(Values& errors) const {
-    std::vector<int> steps;
-    for (std::size_t axis = 0; axis < lattice_.axes(); ++axis) steps.push_back(lattice_.steps(axis));
+    const std::vector<int>& steps = lattice_.steps();
     std::vector<double> excess;
     std::vector<Floor> borrowed;
     for (const Floor& floor : others_) {
@@ -166,7 +164,7 @@ void Knowledge::add_borrowed(Values& errors) const {
         bool exact = false;
         for (std::size_t i = 0; i < records_.size(); ++i) {
             const std::vector<int>& step = records_[i].step;
-            if (!trials_[i].failed.empty() || step[0] != floor.resolution || step[1] != floor.samples) continue;
+            if (!trials_[i].failed.empty() || !floor.is_of(step)) continue;
             least = std::min(least, trials_[i].error);
             exact = exact || accurate(step, steps);
         }
@@ -224,9 +222,7 @@ void Knowledge::fit() {
 }
 
 bool Knowledge::borrowed_at(const Point& point) const {
-    return std::any_of(others_.begin(), others_.end(), [&](const Floor& floor) {
-        return floor.resolution == point.step[0] && floor.samples == point.step[1];
-    });
+    return std::any_of(others_.begin(), others_.end(), [&](const Floor& floor) { return floor.is_of(point.step); });
 }
 
 double Knowledge::chance_there(std::size_t index) const {

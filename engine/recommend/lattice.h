@@ -21,6 +21,7 @@ public:
     std::size_t size() const { return size_; }
     std::size_t axes() const { return steps_.size(); }
     int steps(std::size_t axis) const { return steps_[axis]; }
+    const std::vector<int>& steps() const { return steps_; }
 
     const Point& point(std::size_t index) const { return points_[index]; }
     std::size_t index(const std::vector<int>& step) const {

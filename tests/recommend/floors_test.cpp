@@ -25,7 +25,7 @@ TEST(Floors, AreBoundsOnceFourFaithfulFamiliesHaveAccurateSettings) {
     EXPECT_FALSE(floors.add(depth_map, point(4, 3), 0.3));
     EXPECT_FALSE(floors.add(faithful(), point(2, 3), 0.11)) << "the same family again";
     EXPECT_TRUE(floors.known().empty());
-    const Floor* floor = floors.add(faithful(), point(3, 3), 0.2);
+    const std::optional<Floor> floor = floors.add(faithful(), point(3, 3), 0.2);
     ASSERT_TRUE(floor);
     EXPECT_EQ(floor->resolution, 1);
     EXPECT_EQ(floor->samples, 0);

@@ -1,0 +1,142 @@
+// The second step of a search: the point with the most expected gain for its effort comes next.
+#include <algorithm>
+#include <cmath>
+
+#include "recommend/search_steps.h"
+
+namespace shadowbench::recommend {
+namespace {
+
+// A point is left unmeasured if its chance to be the best is below the first, and that of a better runner-up below the
+// second.
+constexpr double leader_chance = 0.03, follower_chance = 0.15;
+// Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
+constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
+constexpr double follower_gain = 0.1;
+// Refining ends if going on for as long as everything has taken so far promises to gain less than this, as a share of
+// the costs.
+constexpr double least_promise = 0.03;
+constexpr double coarse_share = 0.35;  // of the time, after which points between the coarse ones count too
+
+}  // namespace
+
+// The expected gain of measuring a point, summed over the costs: how much cheaper it may be than what is known, as a
+// logarithm, times the chance of that. If it must be `likely`, chances that are too small do not count.
+double Search::gain(std::size_t family, std::size_t index, bool likely) const {
+    const Knowledge& known = families_[family];
+    double sum = 0.0;
+    for (std::size_t k = 0; k < costs; ++k) {
+        if (!found_.goal.asked[k]) continue;
+        const Cost cost = static_cast<Cost>(k);
+        const Incumbents::Limit limit = incumbents_.limit(found_.families[family], k);
+        if (known.least(index, cost) >= limit.cost) continue;
+        const Estimate& estimate = known.cost(index, cost);
+        // The chance to cost less than a limit by some share of it.
+        const auto chance_below = [&](double bound, double share) {
+            if (!std::isfinite(bound) || !std::isfinite(estimate.sd)) return known.chance(index);
+            return known.chance(index) *
+                   normal_below((std::log(bound) - estimate.mean - share) / (estimate.sd + 1e-4));
+        };
+        const double lead = chance_below(limit.leads ? limit.cost : incumbents_.least[k], least_gain[k]);
+        const double share = limit.leads ? least_gain[k] : follower_gain;
+        const double chance = limit.leads ? lead : chance_below(limit.cost, share);
+        if (likely && lead < leader_chance && (limit.leads || chance < follower_chance)) continue;
+        const bool known_size = std::isfinite(limit.cost) && std::isfinite(estimate.sd);
+        sum += chance * (known_size ? std::clamp(std::log(limit.cost) - estimate.mean, share, 1.0) : 1.0);
+    }
+    return sum;
+}
+
+// Whether something is good enough for every cost asked.
+bool Search::answered() const {
+    for (std::size_t k = 0; k < costs; ++k)
+        if (found_.goal.asked[k] && !incumbents_.best[k]) return false;
+    return true;
+}
+
+// The points of a family that may gain something.
+const std::vector<Search::Open>& Search::open_points(std::size_t family) {
+    if (open_[family]) return *open_[family];
+    std::vector<Open>& open = open_[family].emplace();
+    const Knowledge& known = families_[family];
+    for (std::size_t i = 0; i < known.lattice().size(); ++i) {
+        if (known.measured(i) || known.ruled_out(i) || known.chance(i) <= 0.0) continue;
+        const double gained = gain(family, i, true);
+        if (gained > 0.0) open.push_back({i, gained});
+    }
+    return open;
+}
+
+// What others reached since a family was last updated makes its points less promising, rarely more. So only the family
+// of the most promising point is brought up to date, until the most promising point is of a family that is.
+std::optional<Point> Search::most_promising(std::size_t& open, bool& too_long) {
+    for (;;) {
+        const std::optional<Point> best = seemingly_most_promising(open, too_long);
+        if (!best || shared_[best->family] == floors_.version()) return best;
+        share_floors(best->family);
+    }
+}
+
+std::optional<Point> Search::seemingly_most_promising(std::size_t& open, bool& too_long) {
+    std::optional<Point> best;
+    double most = 0.0;
+    open = 0;
+    for (std::size_t f = 0; f < families_.size(); ++f)
+        for (const Open& one : open_points(f)) {
+            ++open;
+            const Point& point = families_[f].lattice().point(one.index);
+            const double effort = lab_.effort(point), worth = one.gain / effort;
+            if (worth <= std::max(most, least_promise / spent_)) continue;
+            if (!fits(effort)) {
+                too_long = true;
+                continue;
+            }
+            most = worth;
+            best = point;
+        }
+    return best;
+}
+
+// A neighbour of a best setting that nothing measured rules out: one step cheaper on an axis, and perhaps one step more
+// accurate on another.
+std::optional<Point> Search::open_neighbour(bool& too_long) const {
+    for (std::size_t k = 0; k < costs; ++k) {
+        if (!found_.goal.asked[k] || !incumbents_.best[k]) continue;
+        const Point& best = *incumbents_.best[k];
+        const Knowledge& known = families_[best.family];
+        const Lattice& lattice = known.lattice();
+        for (std::size_t down = 0; down < lattice.axes(); ++down)
+            for (std::size_t up = 0; up < lattice.axes(); ++up) {
+                Point point = best;
+                if (--point.step[down] < 0) continue;
+                if (up != down && ++point.step[up] == lattice.steps(up)) continue;
+                const std::size_t index = lattice.index(point.step);
+                if (known.measured(index) || known.ruled_out(index) || gain(best.family, index, false) <= 0.0) continue;
+                if (fits(lab_.effort(point))) return point;
+                too_long = true;
+            }
+    }
+    return {};
+}
+
+void Search::refine() {
+    while (!stopped(exploring_share)) {
+        std::size_t open = 0;
+        bool too_long = false;
+        std::optional<Point> next = most_promising(open, too_long);
+        if (!fine_ && (!next || (left(coarse_share) <= 0.0 && answered()))) {
+            fine_ = true;
+            update_all();
+            continue;
+        }
+        if (!next) next = open_neighbour(too_long);
+        if (!next) {
+            if (too_long && found_.end == End::complete) found_.end = End::budget;
+            return;
+        }
+        report(Stage::refining, std::max<std::size_t>(open, 1));
+        measure(*next);
+    }
+}
+
+}  // namespace shadowbench::recommend
