@@ -9,6 +9,7 @@
 #include "bench/run.h"
 #include "recommend/answer.h"
 #include "recommend/of_run.h"
+#include "recommend/two_layers.h"
 
 namespace shadowbench::recommend {
 namespace {
@@ -16,18 +17,11 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-json two_layers(int resolution, const json& techniques) {
-    json document = json::parse(R"({
-        "name": "two_layers",
-        "scene": {"objects": [
-            {"type": "quad", "corner": [-1, 1, -1], "edge_u": [1.3, 0, 0.2], "edge_v": [0.1, 0, 1.1], "opacity": 0.6},
-            {"type": "quad", "corner": [-1, 0, -1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2], "opacity": 0.5}]},
-        "lights": [{"type": "directional", "name": "sun", "direction": [0, -1, 0]}],
-        "receivers": {"type": "probes", "count": 1000, "footprint": {"share": 0.06}},
-        "reference": {"samples_per_pixel": 256, "queries": 100, "spread_seeds": 2},
-        "timing": {"repetitions": 2, "lookups": 128}
-    })");
-    document["rays"] = {{"resolution", resolution}, {"samples_per_pixel", 4}};
+json scenario(int resolution, const json& techniques) {
+    json document = two_layers();
+    document["rays"]["resolution"] = resolution;
+    document["receivers"] = {{"type", "probes"}, {"count", 1000}, {"footprint", {{"share", 0.06}}}};
+    document["reference"] = {{"samples_per_pixel", 256}, {"queries", 100}, {"spread_seeds", 2}};
     document["techniques"] = techniques;
     return document;
 }
@@ -48,7 +42,7 @@ std::vector<Contest> held(const json& ours, const json& theirs, double error) {
 }
 
 TEST(Beside, MeasuresBothAnswersAgain) {
-    const json ours = two_layers(16, deep), theirs = two_layers(32, slices);
+    const json ours = scenario(16, deep), theirs = scenario(32, slices);
     const std::vector<Contest> contests = held(ours, theirs, 0.5);
     ASSERT_EQ(contests.size(), costs);
     const Contest& bytes = contests[static_cast<std::size_t>(Cost::bytes)];
@@ -65,7 +59,7 @@ TEST(Beside, MeasuresBothAnswersAgain) {
 }
 
 TEST(Beside, NamesTheSameSettingAndWhatOneDoesNotReach) {
-    const json ours = two_layers(16, deep), coarse = two_layers(16, json::array({{{"type", "variance"}}}));
+    const json ours = scenario(16, deep), coarse = scenario(16, json::array({{{"type", "variance"}}}));
     EXPECT_THAT(to_text(held(ours, ours, 0.5), "rms", 0.5), HasSubstr("the same setting: ours over theirs 1.000"));
     Recommendation nothing = ran(coarse);
     for (Answered& row : nothing.exploration.confirmed) row.confirmed.error.high = 1.0;
@@ -76,7 +70,7 @@ TEST(Beside, NamesTheSameSettingAndWhatOneDoesNotReach) {
 }
 
 TEST(Beside, RefusesAnswersToDifferentQuestions) {
-    const json ours = two_layers(16, deep);
+    const json ours = scenario(16, deep);
     for (const auto& [pointer, value] : std::vector<std::pair<const char*, json>>{
              {"/receivers/count", 900}, {"/receivers/footprint/share", 0.05}, {"/scene/objects/0/opacity", 0.7},
              {"/lights/0/direction/0", 0.1}}) {
@@ -92,7 +86,7 @@ TEST(Beside, RefusesAnswersToDifferentQuestions) {
 }
 
 TEST(Beside, RefusesAnswersByDifferentMeasures) {
-    const json ours = two_layers(16, deep);
+    const json ours = scenario(16, deep);
     Recommendation by_largest = ran(ours);
     by_largest.measure = Measure::max;
     Goal goal;
