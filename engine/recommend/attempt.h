@@ -39,6 +39,7 @@ struct Trials::Timed {
     std::vector<double> capture_ms{}, build_ms{};
 };
 
+inline constexpr double rest_of_a_trial = 0.05;  // seconds: what every measurement takes besides rays and builds
 inline constexpr const char* no_curve = "stores no function, so it has no error of stored functions";
 
 }  // namespace shadowbench::recommend

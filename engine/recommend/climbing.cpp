@@ -18,7 +18,7 @@ constexpr double faster = 2.0;
 constexpr double climbing_chance = 0.02;
 // Faithful families climb before others that take up to this times less effort: what light rays leave is then known.
 constexpr double faithful_first = 2.0;
-// A probe beside the climbs may take this share of the time left.
+// A probe beside the climbs, and a rung once something answers, may take this share of the time left.
 constexpr double probe_share = 0.1;
 
 }  // namespace
@@ -85,7 +85,7 @@ void Search::climb() {
             if (!rung) continue;
             ++climbing;
             const double seconds = lab_.effort(climbs_[i].rungs[*rung]);
-            if (!fits(seconds)) {
+            if (!fits(seconds) || (answered() && seconds > probe_share * left(exploring_share))) {
                 too_long = true;
                 continue;
             }

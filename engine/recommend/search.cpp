@@ -16,6 +16,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int confirm_rounds = 8;
 constexpr double first_round_share = 0.6;  // of the time left to confirm: other rounds may follow
+// A point that is not the best known is confirmed only if it takes at most this share of the round's time.
+constexpr double other_share = 0.2;
+// If time is limited, trials are asked to err so many times less before anything is confirmed: the upper ends of confirmed
+// errors lie above the errors of trials by about this much, and there may be no time for another round.
+constexpr double first_growth = 1.02;
 
 }  // namespace
 
@@ -24,7 +29,7 @@ Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
     found_.goal = goal;
     found_.families = {lab.families().begin(), lab.families().end()};
     found_.scout = lab.scout();
-    wanted_ = {goal.error, goal.error, goal.at_most};
+    wanted_ = {goal.error, std::isfinite(goal.budget) ? goal.error / first_growth : goal.error, goal.at_most};
     const int rungs = ladder_rungs(found_.families);
     for (std::size_t i = 0; i < found_.families.size(); ++i) {
         families_.emplace_back(found_.families[i], i, lab);
@@ -113,12 +118,23 @@ void Search::share_floors(std::size_t family) {
     update_one(family);
 }
 
+bool Search::is_best(const Point& point) const {
+    for (std::size_t k = 0; k < costs; ++k)
+        if (found_.goal.asked[k] && incumbents_.best[k] == point) return true;
+    return false;
+}
+
 void Search::confirm() {
     double seconds_a_point = 0.0;
     for (int round = 0; round < confirm_rounds; ++round) {
         // The first round is due even if the budget is spent: without it there is no answer.
         if (round == 0 ? stopped(infinity) : stopped(1.0)) return;
-        const std::vector<Point> points = to_confirm(found_.families, families_, found_.goal.asked, incumbents_);
+        std::vector<Point> points = to_confirm(found_.families, families_, found_.goal.asked, incumbents_);
+        const double round_share = round == 0 ? first_round_share : 1.0;
+        if (std::erase_if(points, [&](const Point& point) {
+                return !is_best(point) && lab_.confirm_effort(point) > other_share * round_share * left(1.0);
+            }) > 0 && found_.end == End::complete)
+            found_.end = End::budget;
         if (points.empty()) return;
         if (static_cast<double>(points.size()) * seconds_a_point > left(1.0)) {
             found_.end = End::budget;
@@ -127,7 +143,7 @@ void Search::confirm() {
         report(Stage::confirming, points.size());
         const double before = left(1.0);
         const std::vector<Confirmed> answers =
-            lab_.confirm(points, found_.goal.error, (round == 0 ? first_round_share : 1.0) * std::max(before, 0.0));
+            lab_.confirm(points, found_.goal.error, round_share * std::max(before, 0.0));
         if (std::isfinite(before)) seconds_a_point = (before - left(1.0)) / static_cast<double>(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             families_[points[i].family].confirm(points[i], answers[i]);

@@ -52,6 +52,7 @@ private:
     std::optional<Point> open_neighbour(bool& too_long) const;
     void refine();
 
+    bool is_best(const Point& point) const;
     void confirm();
 
     void report(Stage stage, std::size_t open) const;

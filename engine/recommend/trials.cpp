@@ -34,7 +34,6 @@ constexpr double quickly_checked_rays = 1 << 18;    // of a map whose functions 
 constexpr std::size_t quickly_checked_cells = 256;  // of it
 constexpr std::size_t checked_cells = 4096;         // of any map, if the error of the stored functions is asked for
 constexpr std::size_t most_kept = 12;               // maps, for settings that differ only in their lookups
-constexpr double rest_of_a_trial = 0.05;            // seconds: what every measurement takes besides rays and builds
 
 Contender contender_of(const Setting& setting) {
     const std::string where = fmt::format("technique {}", setting.row->id);
@@ -128,11 +127,16 @@ double Trials::effort(const Point& point) const {
         if (kept.setting.row == row && kept.setting.resolution == own.resolution && kept.setting.samples == own.samples &&
             same_map(kept.setting, space_->setting(point)))
             return rest_of_a_trial;
-    const double rays = static_cast<double>(own.resolution.x) * own.resolution.y * own.samples;
-    const auto before = efforts_.find(row);
+    return rest_of_a_trial + build_seconds(point) + (store_->kept(own) ? 0.0 : store_->estimate_seconds(own));
+}
+
+// What building and judging the map takes, as far as maps of the technique tell; 0 before the first.
+double Trials::build_seconds(const Point& point) const {
+    const base::Vec2i sides = space_->resolution(point);
+    const double rays = static_cast<double>(sides.x) * sides.y * space_->samples(point);
+    const auto before = efforts_.find(&space_->row(point.family));
     const bool grows = space_->uses_rays(point.family) && before != efforts_.end() && before->second.rays > 0.0;
-    const double build = grows ? rays * before->second.seconds / before->second.rays : 0.0;
-    return rest_of_a_trial + build + (store_->kept(own) ? 0.0 : store_->estimate_seconds(own));
+    return grows ? rays * before->second.seconds / before->second.rays : 0.0;
 }
 
 double Trials::at_least(const Point& point, Cost cost) const {

@@ -46,6 +46,7 @@ public:
     std::span<const Family> families() const override { return space_->families(); }
     std::optional<std::size_t> scout() const override { return space_->scout(); }
     double effort(const Point& point) const override;
+    double confirm_effort(const Point& point) const override;
     double at_least(const Point& point, Cost cost) const override;
     Trial measure(const Point& point) override;
     std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) override;
@@ -76,6 +77,7 @@ private:
     void time_quickly(Attempt& attempt) const;
     bench::QuerySet asked(const bench::QuerySet& set, const rays::LightView& view) const;
     double error_of(const results::Cell& cell) const;
+    double build_seconds(const Point& point) const;
     const Trial* trial_of(const Point& point) const;
     int seeds_of(const Point& point, double error) const;
     std::size_t lookups_of(const Point& point) const;

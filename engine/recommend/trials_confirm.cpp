@@ -90,6 +90,14 @@ void Trials::time_lookups(std::vector<Timed>& timed) {
     }
 }
 
+// Every seed has light rays of its own.
+double Trials::confirm_effort(const Point& point) const {
+    const bench::RayChoice own{space_->resolution(point), space_->samples(point), scenario_->rays.seed};
+    const double build = build_seconds(point),
+                 capture = space_->uses_rays(point.family) ? store_->estimate_seconds(own) : 0.0;
+    return seeds * (capture + build + rest_of_a_trial) + fewer_builds * build;
+}
+
 const Trial* Trials::trial_of(const Point& point) const {
     const auto found =
         std::find_if(trials_.begin(), trials_.end(), [&](const auto& measured) { return measured.first == point; });

@@ -282,6 +282,28 @@ TEST(Search, AShortBudgetIsKeptAndStillGivesAnAnswer) {
     EXPECT_TRUE(std::isfinite(found_cost(lab, found, Cost::bytes)));
 }
 
+// "slow" reaches the error only where a map takes 10 s, and five times that to confirm.
+TEST(Search, ARunnerUpThatWouldTakeMostOfTheTimeIsLeftIfTimeIsLimited) {
+    Law slow = usual("slow");
+    slow.error = error_law({{1.2, 0.35}, {0.3, 0.35}, {0.3, 0.4}}, 0.0);
+    const std::vector<Law> laws{usual("a"), slow};
+    const auto confirms_slow = [](const Exploration& found) {
+        return std::any_of(found.confirmed.begin(), found.confirmed.end(),
+                           [](const Answered& answered) { return answered.point.family == 1; });
+    };
+    SyntheticLab unlimited(laws, {}, 1);
+    EXPECT_TRUE(confirms_slow(explore(unlimited, goal_of(0.1), {})));
+    SyntheticLab lab(laws, {}, 1);
+    Goal goal = goal_of(0.1);
+    goal.budget = 60.0;
+    Hooks hooks;
+    hooks.seconds = [&lab] { return lab.seconds(); };
+    const Exploration found = explore(lab, goal, hooks);
+    EXPECT_FALSE(confirms_slow(found));
+    EXPECT_EQ(found.end, End::budget) << "the answer says that something was left";
+    EXPECT_LE(found_cost(lab, found, Cost::bytes), cheapest(lab, goal, Cost::bytes) * (1.0 + 1e-12));
+}
+
 TEST(Search, CancellingEndsBeforeTheNextMeasurement) {
     SyntheticLab lab({usual("a"), usual("b", 0.5)}, {}, 1);
     Hooks hooks;

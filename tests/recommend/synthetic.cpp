@@ -34,6 +34,10 @@ double SyntheticLab::effort(const Point& point) const {
     return captured + 0.1 * rays(point.step) + seconds_of_trial;
 }
 
+double SyntheticLab::confirm_effort(const Point& point) const {
+    return 5.0 * (1.1 * rays(point.step) + seconds_of_trial);
+}
+
 double SyntheticLab::at_least(const Point& point, Cost cost) const {
     const Law& law = laws_[point.family];
     return cost == Cost::bytes && law.least_bytes ? law.least_bytes(point.step) : 0.0;

@@ -38,6 +38,7 @@ public:
     std::span<const Family> families() const override { return families_; }
     std::optional<std::size_t> scout() const override { return scout_; }
     double effort(const Point& point) const override;
+    double confirm_effort(const Point& point) const override;
     double at_least(const Point& point, Cost cost) const override;
     Trial measure(const Point& point) override;
     std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) override;
