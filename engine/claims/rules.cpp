@@ -43,8 +43,12 @@ constexpr Rule rules[] = {
     {"less", "A is less than B", "A is certainly less", "-", "The paper gives a direction, and no size."},
     {"much less", "A is much less than B, or B shows artifacts that A does not", "A is at most 0.3 of B",
      "A is less than B", "A smaller error of the same order is less, but not much less."},
-    {"alike", "two pictures look alike", "their errors are within 10 % of each other", "within a factor of 1.5",
+    {"alike", "A is as good as B", "their errors are within 10 % of each other", "within a factor of 1.5",
      "Neither may be the better picture: the rule has two sides."},
+    {"likeness", "the picture of A looks like that of B",
+     "they differ by at most 0.3 of the difference that the paper's idea is to remove", "by less than that difference",
+     "The paper compares the pictures with each other, and not with a truth. Without the paper's idea A would be "
+     "another picture. What looks like B must differ from B much less than that one does."},
     {"visible", "a difference is visible", "one error is more than 10 % larger", "-", "The counterpart of alike."},
     {"fit", "a stored function fits almost exactly", "its largest error is at most 0.02", "at most 0.05",
      "0.02 are five grey levels of 8 bits, at the single worst depth."},
@@ -183,6 +187,10 @@ Judged judge_much_less(const Value& less, const Value& more) {
 
 Judged judge_alike(const Value& one, const Value& other) {
     return judge("alike", one / other, {1.0 / alike, alike}, {1.0 / similar, similar});
+}
+
+Judged judge_likeness(const Value& share) {
+    return judge_at_most("likeness", share, much, 1.0);
 }
 
 Judged judge_visible(const Value& factor) {
