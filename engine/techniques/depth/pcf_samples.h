@@ -1,5 +1,5 @@
 // Places the samples of percentage closer filtering in the depth map: the region of a lookup, its partition, and the
-// four ways to place samples. Reeves, Salesin, Cook 1987, figures 3 and 4.
+// four ways of figure 3 to place samples. Reeves, Salesin, Cook 1987, figures 3 and 4.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@ enum class Placement {
     gaussian,  // (b) in the bounding box, a Gaussian cut at two standard deviations, where the box ends
     jittered,  // (c) one anywhere in each part of the bounding box
     shape,     // (d) one anywhere in each part of the region's own shape, a parallelogram
+    subset,    // cells of the bounding box, drawn at random without replacement: cell_subset.h
 };
 
 // The parameters of figure 4.
