@@ -25,13 +25,15 @@ const Parameter parameters[] = {
     {"placement",
      ParameterKind::choice,
      "where the samples lie (figure 3): anywhere in the region's bounding box, Gaussian in it, jittered in it, or "
-     "jittered in the region's own shape; subset: a random subset of the cells with their middles in the bounding box, "
-     "each at most once, all if they are no more than num_samples (Lokovic, Veach 2000, section 6)",
+     "jittered in the region's own shape; published: jittered in the upper half of each part of the bounding box, as "
+     "figure 4 prints it, which moves every shadow by a quarter of a part; subset: a random subset of the cells with "
+     "their middles in the bounding box, each at most once, all if they are no more than num_samples (Lokovic, Veach "
+     "2000, section 6)",
      0,
      0,
      0,
      "jittered",
-     {"uniform", "gaussian", "jittered", "shape", "subset"}},
+     {"uniform", "gaussian", "jittered", "shape", "published", "subset"}},
     {"region",
      ParameterKind::number_or_word,
      "the region of the filter: a square of the query's width, the receiver's pixel mapped into the map (or that "
@@ -49,6 +51,7 @@ Placement read_placement(const ParameterValues& values) {
     const std::string& word = values.word("placement");
     if (word == "uniform") return Placement::uniform;
     if (word == "gaussian") return Placement::gaussian;
+    if (word == "published") return Placement::published;
     if (word == "subset") return Placement::subset;
     return word == "shape" ? Placement::shape : Placement::jittered;
 }
@@ -136,6 +139,8 @@ private:
                     return visit(depths, constant<Placement::jittered>);
                 case Placement::shape:
                     return visit(depths, constant<Placement::shape>);
+                case Placement::published:
+                    return visit(depths, constant<Placement::published>);
                 case Placement::subset:
                     return visit(depths, constant<Placement::subset>);
             }
@@ -178,8 +183,8 @@ private:
         return x >= 0.0f && y >= 0.0f && x < static_cast<float>(grid().width) && y < static_cast<float>(grid().height);
     }
 
-    // visit(x, y, u) for each sample; returns their number. Samples spread over their whole parts of the region. The
-    // printed code moves them by half a part in one direction only, which would shift every shadow.
+    // visit(x, y, u) for each sample; returns their number. Samples spread over their whole parts of the region,
+    // unless they are placed as published.
     template <Placement placement, class Visit>
     int visit_samples(const Region& region, const Query& q, const Place& p, const Visit& visit) const {
         if constexpr (placement == Placement::subset)

@@ -10,11 +10,12 @@
 namespace shadowbench::techniques {
 
 enum class Placement {
-    uniform,   // (a) anywhere in the bounding box of the region
-    gaussian,  // (b) in the bounding box, a Gaussian cut at two standard deviations, where the box ends
-    jittered,  // (c) one anywhere in each part of the bounding box
-    shape,     // (d) one anywhere in each part of the region's own shape, a parallelogram
-    subset,    // cells of the bounding box, drawn at random without replacement: cell_subset.h
+    uniform,    // (a) anywhere in the bounding box of the region
+    gaussian,   // (b) in the bounding box, a Gaussian cut at two standard deviations, where the box ends
+    jittered,   // (c) one anywhere in each part of the bounding box
+    shape,      // (d) one anywhere in each part of the region's own shape, a parallelogram
+    published,  // (c) as figure 4 prints it: one in the upper half of each part of the bounding box
+    subset,     // cells of the bounding box, drawn at random without replacement: cell_subset.h
 };
 
 // The parameters of figure 4.
@@ -97,6 +98,9 @@ void for_each_sample(const Region& r, float x, float y, std::uint64_t key, const
             } else if constexpr (placement == Placement::gaussian) {
                 s = ns * table->at(s);
                 t = nt * table->at(t);
+            } else if constexpr (placement == Placement::published) {
+                s = i + 0.5f + 0.5f * s;
+                t = j + 0.5f + 0.5f * t;
             } else {
                 s += i;
                 t += j;
