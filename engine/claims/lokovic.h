@@ -1,5 +1,5 @@
-// The parts of Lokovic and Veach, Deep Shadow Maps, 2000, and what they share. Each adds its claims, tables and plots to
-// context.report.
+// The parts of Lokovic and Veach, Deep Shadow Maps, 2000, and what they share. Each adds its claims, tables and plots
+// to context.report.
 #pragma once
 
 #include <string>
@@ -15,14 +15,29 @@ inline constexpr const char* hair_ball = "lokovic2000_hairball";
 inline constexpr const char* tent = R"({"type":"deep","kernel":"tent"})";
 inline constexpr const char* pixels = R"({"type":"deep","kernel":"pixels"})";
 
+// The scenes of figures 6 to 8, and of figures 10 and 11, from the paper's description.
+inline constexpr const char* ball_scene = "lokovic2000_ball";
+inline constexpr const char* cloud_scene = "lokovic2000_cloud";
+inline constexpr const char* smoke_scene = "lokovic2000_smoke";
+
+// The paper's deep map word for word: the compression of section 3.3, and the lookups of section 3.4, which start at
+// the segment that the pixel used last. Its filter weights pixel (i, j) by f(i + 1/2 - x, j + 1/2 - y). The default
+// kernel is of this form: f(d) is the part of a pixel at distance d that the footprint covers.
+std::string published_deep(const char* kernel = "box");
+
 // Filters over exactly the width of the lookup, with this number of samples.
 std::string pcf(int samples, const char* cells);
+std::string placed_pcf(int samples, const char* placement);
 std::string set_techniques(const std::string& list);
 std::string bytes_text(double bytes);  // "1.5 MiB"
 
-void sampling(const Context& context);   // section 6, figures 7 and 8
-void filtering(const Context& context);  // figure 9 and section 5.3
-void channels(const Context& context);   // section 5.2
-void motion(const Context& context);     // section 5.5, figure 12
+void noise(const Context& context);       // sections 2 and 4: the error of N samples
+void three_maps(const Context& context);  // section 6, figure 6
+void sampling(const Context& context);    // section 6, figure 7
+void vertices(const Context& context);    // section 4, figure 8
+void filtering(const Context& context);   // figure 9 and section 5.3
+void channels(const Context& context);    // section 5.2
+void motion(const Context& context);      // section 5.5, figure 12
+void media(const Context& context);       // figures 10 and 11
 
 }  // namespace shadowbench::claims::lokovic
