@@ -29,7 +29,8 @@ std::string published_deep(const char* kernel = "box");
 std::string pcf(int samples, const char* cells);
 std::string placed_pcf(int samples, const char* placement);
 std::string set_techniques(const std::string& list);
-std::string bytes_text(double bytes);  // "1.5 MiB"
+std::string bytes_text(double bytes);       // "1.5 MiB"
+Value bytes_of(const results::Cell& cell);  // its mean over the seeds of the light rays, with its interval
 
 void noise(const Context& context);       // sections 2 and 4: the error of N samples
 void three_maps(const Context& context);  // section 6, figure 6

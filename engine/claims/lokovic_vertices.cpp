@@ -66,7 +66,7 @@ Growth grow(const Context& context, const Scene& scene, bool whole, double& shar
     const std::vector<char> chosen = crossed_pixels(noted(context, scene.name, alone), context.data);
     share = static_cast<double>(std::count(chosen.begin(), chosen.end(), 1)) / static_cast<double>(chosen.size());
     Growth growth;
-    for (const int samples : {16, 36, 64, 144, 256, 576, 1024}) {
+    for (const int samples : {16, 36, 64, 144, 256, 1024}) {
         if (context.quick && samples > 256) break;  // at a lower resolution pixels would hold other hair
         std::vector<std::string> settings = whole ? std::vector<std::string>{} : scene.alone;
         settings.insert(settings.end(), {resolution, fmt::format("rays.samples_per_pixel={}", samples), both_ways()});
