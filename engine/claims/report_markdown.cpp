@@ -45,10 +45,7 @@ void add_paper(std::string& out, const PaperReport& report) {
     }
     for (const Plot& plot : report.plots) out += fmt::format("![{}](plots/{}.svg)\n\n", plot.title, plot.name);
     for (const Sheet& sheet : report.sheets)
-        out += fmt::format(
-            "![{0}](pictures/{1}.png)\n\nAbove the pictures, from left to right: {0}. Below: the reference's "
-            "visibility, then each difference from the reference, times four.\n\n",
-            sheet.caption, sheet.name);
+        out += fmt::format("![{0}](pictures/{0}.png)\n\n{1}.\n\n", sheet.name, sheet.caption);
     out += fmt::format("Scenarios (name, hash): {}. Measured in {:.0f} s.\n\n", fmt::join(report.documents, ", "),
                        report.seconds);
 }
