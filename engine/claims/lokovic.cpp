@@ -61,6 +61,7 @@ void measure_lokovic(const Context& context) {
     filtering(context);
     channels(context);
     motion(context);
+    media(context);
     context.report->sheets.push_back(
         picture_sheet(context, hair_ball,
                       {"rays.resolution=512", "rays.samples_per_pixel=16",
