@@ -1,0 +1,182 @@
+// Lokovic and Veach, Deep Shadow Maps, 2000: section 5.4.
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/random.h"
+#include "claims/intervals.h"
+#include "claims/lokovic.h"
+#include "claims/lokovic_filtering.h"
+#include "claims/seeded_light.h"
+#include "techniques/deep/deep.h"
+
+namespace shadowbench::claims::lokovic {
+namespace {
+
+using techniques::TileCounts;
+
+constexpr int all_slots[] = {4, 16, 64, 1024};  // the last: one for every tile
+constexpr std::size_t few = 1;                  // the place of the claim's number of slots in that list
+
+const std::vector<std::string> settings{"rays.samples_per_pixel=64"}, smaller{"rays.resolution=128"};
+
+std::string maps() {
+    std::string list = R"({"type":"deep"})";
+    for (const int slots : all_slots) list += fmt::format(R"(,{{"type":"deep","storage":"tiled","slots":{}}})", slots);
+    return set_techniques(list);
+}
+
+std::vector<std::string> with_maps() {
+    std::vector<std::string> all = settings;
+    all.push_back(maps());
+    return all;
+}
+
+// Magnified, as figure 6b: the picture shows a part of the shadow.
+std::vector<std::string> magnified() {
+    std::vector<std::string> all = settings;
+    all.insert(all.end(),
+               {"receivers.fov=8", "receivers.target=[-1.3,0,-0.5]",
+                set_techniques(fmt::format(R"({{"type":"deep"}},{{"type":"deep","storage":"tiled","slots":{}}})",
+                                           all_slots[std::size(all_slots) - 1]))});
+    return all;
+}
+
+// The lookups of one picture through one map in tiles, for every seed.
+struct Caching {
+    std::vector<double> image_hits, random_hits;  // share of the functions whose tile was held
+    std::vector<double> loaded;                   // tiles loaded in image order
+    std::vector<double> held, file, tiles;        // bytes held after both orders, bytes of the file, its tiles
+};
+
+struct Counted {
+    std::vector<Caching> caching;  // one for each number of slots
+    std::vector<double> memory;    // bytes of the map in memory, for every seed
+    bool bounded = true;           // no map held more than all its slots at the largest tile
+};
+
+// On this thread, in this order; the answers are those of the map in memory to the bit.
+TileCounts look_up(const bench::Maps& tiled, const bench::Maps& memory, std::span<const techniques::Query> queries) {
+    std::vector<float> expected(queries.size()), answers(queries.size());
+    bench::lookup(memory, queries, expected);
+    bench::lookup(tiled, queries, answers);
+    if (answers != expected)
+        throw base::Error(base::ErrorCode::internal, "deep storage=tiled", "its answers differ from those in memory");
+    return techniques::tiles(*tiled.parts.front()).value();
+}
+
+double hit_share(const TileCounts& after, const TileCounts& before) {
+    const auto hits = static_cast<double>(after.hits - before.hits);
+    return hits / (hits + static_cast<double>(after.misses - before.misses));
+}
+
+Counted count_tiles(const Context& context) {
+    const SeededLight light(context, ball_scene, with_maps(), smaller);
+    const bench::QuerySet image = light.queries();
+    std::vector<std::size_t> order(image.queries.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    base::Random random(1);
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+    const bench::QuerySet shuffled = bench::pick(image.asked(), order);
+    Counted counted;
+    counted.caching.resize(std::size(all_slots));
+    for (int seed = 0; seed < ray_seeds; ++seed) {
+        const std::vector<bench::Maps> built = light.build(seed);
+        counted.memory.push_back(static_cast<double>(bench::bytes(built[0])));
+        for (std::size_t i = 0; i < std::size(all_slots); ++i) {
+            const TileCounts first = look_up(built[i + 1], built[0], image.queries);
+            const TileCounts both = look_up(built[i + 1], built[0], shuffled.queries);
+            counted.bounded = counted.bounded && both.held_bytes <= bench::bytes(built[i + 1]);
+            Caching& caching = counted.caching[i];
+            caching.image_hits.push_back(hit_share(first, {}));
+            caching.random_hits.push_back(hit_share(both, first));
+            caching.loaded.push_back(static_cast<double>(first.misses));
+            caching.held.push_back(static_cast<double>(both.held_bytes));
+            caching.file.push_back(static_cast<double>(both.file_bytes));
+            caching.tiles.push_back(static_cast<double>(both.tiles));
+        }
+    }
+    return counted;
+}
+
+// The tiles that the lookups of the magnified picture load, for every seed.
+std::vector<double> tiles_of_detail(const Context& context) {
+    const SeededLight light(context, ball_scene, magnified(), smaller);
+    const bench::QuerySet image = light.queries();
+    std::vector<double> loaded;
+    for (int seed = 0; seed < ray_seeds; ++seed) {
+        const std::vector<bench::Maps> built = light.build(seed);
+        loaded.push_back(static_cast<double>(look_up(built[1], built[0], image.queries).misses));
+    }
+    return loaded;
+}
+
+std::string percent(const std::vector<double>& shares) {
+    return to_text(100.0 * mean_of(shares)) + " %";
+}
+
+Table tile_table(const results::LightResult& light, const Counted& counted) {
+    Table table{
+        fmt::format("Section 5.4: lookups through tiles of 16 x 16 pixels of a file of {}; the map in memory has "
+                    "{}. Hits are pixels read whose tile was held",
+                    bytes_text(mean_of(counted.caching[0].file).value), bytes_text(mean_of(counted.memory).value)),
+        {"slots", "ns a lookup, image order", "random order", "hits, image order", "random order", "bytes held"},
+        {}};
+    const auto times = [](const results::Cell& cell) {
+        return std::pair{to_text(of(cell.times->image_order.ns)), to_text(of(cell.times->random_order.ns))};
+    };
+    const auto [image, random] = times(cell_of(light, "deep", {"storage=memory"}));
+    table.rows.push_back({"in memory", image, random, "-", "-", bytes_text(mean_of(counted.memory).value)});
+    for (std::size_t i = 0; i < std::size(all_slots); ++i) {
+        const Caching& caching = counted.caching[i];
+        const auto [ns, random_ns] =
+            times(cell_of(light, "deep", {"storage=tiled", fmt::format("slots={}", all_slots[i])}));
+        const bool all = all_slots[i] >= caching.tiles.front();
+        table.rows.push_back({all ? "all" : std::to_string(all_slots[i]), ns, random_ns, percent(caching.image_hits),
+                              percent(caching.random_hits), bytes_text(mean_of(caching.held).value)});
+    }
+    return table;
+}
+
+}  // namespace
+
+void tiles(const Context& context) {
+    PaperReport& report = *context.report;
+    const results::Result result = context.run(ball_scene, with_maps(), smaller);
+    const base::ThreadLimit threads(context.threads);
+    const Counted counted = count_tiles(context);
+    const results::LightResult& light = light_of(result);
+    report.tables.push_back(tile_table(light, counted));
+
+    const Caching& all = counted.caching.back();
+    const Value of_scene = mean_of(all.loaded), of_detail = mean_of(tiles_of_detail(context));
+    const Value in_file = exactly(all.tiles.front());
+    report.claims.push_back(
+        {"section 5.4",
+         "the tiled format lets us load and cache only the tiles that are actually accessed",
+         fmt::format("the picture of the scene loads {} of {} tiles, a magnified one of the shadow {}",
+                     to_text(of_scene), to_text(in_file), to_text(of_detail)),
+         both(judge_less(of_scene, in_file), judge_less(of_detail, of_scene)),
+         "With a slot for every tile, each is loaded once. The file lies in the system's page cache: a disk would add "
+         "its own time to each tile that is loaded.",
+         {of_scene, in_file, of_detail}});
+    const Caching& fixed = counted.caching[few];
+    const Value held = mean_of(fixed.held), memory = mean_of(counted.memory), hits = 100.0 * mean_of(fixed.image_hits);
+    const Value slower = time_of(cell_of(light, "deep", {"storage=tiled", fmt::format("slots={}", all_slots[few])})) /
+                         time_of(cell_of(light, "deep", {"storage=memory"}));
+    report.claims.push_back(
+        {"section 5.4",
+         "caching needs a fixed number of tile slots, each of which grows to the largest tile that it has seen",
+         fmt::format(
+             "{} slots hold {} times the bytes of the map in memory; {} % of the pixels read in image order find "
+             "their tile, and lookups take {} times as long",
+             all_slots[few], to_text(held / memory), to_text(hits), to_text(slower)),
+         by_construction(counted.bounded),
+         "Bytes held are those of slots, directory and tables; the answers are those of the map in memory to the bit.",
+         {held / memory, hits, slower}});
+}
+
+}  // namespace shadowbench::claims::lokovic
