@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/markdown.h"
+#include "claims/former.h"
 #include "claims/report.h"
 
 namespace shadowbench::claims {
@@ -16,6 +17,10 @@ constexpr const char* introduction =
     "shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*. A claim "
     "about times on a GPU, or about a scene that is not public, is *not comparable*: its number is given, and nothing is "
     "judged. What a technique cannot do otherwise is *by construction*.\n";
+
+constexpr const char* former_introduction =
+    "The first report judged some claims *holds in shape* or *does not hold here*, by rules that differed from claim to "
+    "claim.\n\n";
 
 std::string rules_table() {
     std::vector<std::vector<std::string>> rows;
@@ -68,6 +73,8 @@ std::string to_markdown(std::span<const PaperReport> reports, const Conditions& 
         parts.push_back(fmt::format("{} {}", to_string(static_cast<Verdict>(verdict)), count[verdict]));
     out += fmt::format("Of {} claims: {}.\n\n## Rules\n\n", all, fmt::join(parts, ", "));
     out += rules_table();
+    if (const std::string former = former_table(reports); !former.empty())
+        out += fmt::format("## What became of the first verdicts\n\n{}{}", former_introduction, former);
     for (const PaperReport& report : reports) add_paper(out, report);
     return out;
 }
