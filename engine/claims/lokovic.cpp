@@ -11,8 +11,8 @@
 namespace shadowbench::claims {
 namespace lokovic {
 
-std::string published_deep(const char* kernel) {
-    return fmt::format(R"({{"type":"deep","compression":"published","search":"cached","kernel":"{}"}})", kernel);
+std::string published_deep(const char* kernel, const char* search) {
+    return fmt::format(R"({{"type":"deep","compression":"published","kernel":"{}","search":"{}"}})", kernel, search);
 }
 
 // Filters over exactly the width of the lookup, with this number of samples.

@@ -20,10 +20,10 @@ inline constexpr const char* ball_scene = "lokovic2000_ball";
 inline constexpr const char* cloud_scene = "lokovic2000_cloud";
 inline constexpr const char* smoke_scene = "lokovic2000_smoke";
 
-// The paper's deep map word for word: the compression of section 3.3, and the lookups of section 3.4, which start at
-// the segment that the pixel used last. Its filter weights pixel (i, j) by f(i + 1/2 - x, j + 1/2 - y). The default
-// kernel is of this form: f(d) is the part of a pixel at distance d that the footprint covers.
-std::string published_deep(const char* kernel = "box");
+// The paper's deep map: the compression of section 3.3 word for word, and one of the searches that section 3.4 names.
+// Its filter weights pixel (i, j) by f(i + 1/2 - x, j + 1/2 - y). The default kernel is of this form: f(d) is the part
+// of a pixel at distance d that the footprint covers.
+std::string published_deep(const char* kernel = "box", const char* search = "binary");
 
 // Filters over exactly the width of the lookup, with this number of samples.
 std::string pcf(int samples, const char* cells);

@@ -27,7 +27,7 @@ struct Row {
 Row measure_row(const Context& context, int samples) {
     const results::Result result =
         context.run(ball_scene,
-                    {fmt::format("rays.samples_per_pixel={}", samples), "reference.samples_per_pixel=512",
+                    {fmt::format("rays.samples_per_pixel={}", samples), "reference.samples_per_pixel=256",
                      set_techniques(published_deep() + "," + pcf(samples, "sample"))},
                     {"reference.samples_per_pixel=64", "reference.spread_seeds=0"});
     const LightResult& light = light_of(result);

@@ -43,7 +43,7 @@ struct Readings {
 };
 
 const Cell& published(const results::Result& result) {
-    return cell_of(light_of(result), "deep", {"compression=published", "kernel=box"});
+    return cell_of(light_of(result), "deep", {"compression=published", "kernel=box", "search=binary"});
 }
 
 template <class Of>
@@ -72,11 +72,11 @@ ThreeMaps run(const Context& context) {
                         smaller(1024)),
             context.run(ball_scene, settings(512, 256, 128, deep), smaller(128)),
             context.run(ball_scene, settings(512, 64, 128, deep), smaller(128)),
-            context.run(
-                ball_scene,
-                settings(256, 256, 512,
-                         deep + "," + published_deep("pixels") + "," + published_deep("tent") + R"(,{"type":"deep"})"),
-                smaller(64))};
+            context.run(ball_scene,
+                        settings(256, 256, 512,
+                                 deep + "," + published_deep("box", "cached") + "," + published_deep("pixels") + "," +
+                                     published_deep("tent") + R"(,{"type":"deep"})"),
+                        smaller(64))};
 }
 
 void add_table(const ThreeMaps& maps, PaperReport& report) {
@@ -103,6 +103,7 @@ void add_table(const ThreeMaps& maps, PaperReport& report) {
     add_deep(maps.printed, covered, published(maps.printed));
     add_deep(maps.fewer_samples, covered, published(maps.fewer_samples));
     add_deep(maps.fewer_pixels, covered, published(maps.fewer_pixels));
+    add_deep(maps.fewer_pixels, "the same, from the segment that each pixel used last", other("search=cached"));
     add_deep(maps.fewer_pixels, "whole pixels inside the filter", other("kernel=pixels"));
     add_deep(maps.fewer_pixels, "a tent over whole pixels", other("kernel=tent"));
     add_deep(maps.fewer_pixels, "the program's defaults", other("compression=bounded"));
