@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
-#include "bench/lookup_timing.h"
 #include "claims/intervals.h"
 #include "claims/lokovic.h"
 #include "claims/lokovic_filtering.h"
@@ -23,7 +22,6 @@ using techniques::Query;
 
 constexpr int most_probes[] = {0, 1, 2, 4, 8, 16};
 constexpr std::size_t same_area = 0, long_axis = 1, most = std::size(most_probes) - 1;  // places in that list
-constexpr int repetitions = 7;
 
 std::string name_of(int probes) {
     if (probes == 0) return "one square of the same area";
@@ -105,18 +103,11 @@ double rms_error(const bench::Maps& map, const bench::QuerySet& asked, const std
     return metrics::error_norms(errors).rms;
 }
 
-// Nanoseconds a lookup of each map, the first left out: in turn, so that disturbances hit all alike.
+// Of each map, the first left out.
 std::vector<Value> times_of(const std::vector<bench::Maps>& maps, const bench::QuerySet& asked) {
-    std::vector<std::vector<double>> ns(maps.size());
-    std::vector<float> answers(asked.queries.size());
-    for (int repetition = 0; repetition <= repetitions; ++repetition)
-        for (std::size_t m = 1; m < maps.size(); ++m) {
-            const double seconds = bench::seconds_of_pass(maps[m], asked.asked(), 1, answers);
-            if (repetition > 0) ns[m].push_back(1e9 * seconds / static_cast<double>(asked.queries.size()));
-        }
-    std::vector<Value> times;
-    for (std::size_t m = 1; m < maps.size(); ++m) times.push_back(of(results::summarise(ns[m])));
-    return times;
+    std::vector<TimedLookups> all;
+    for (std::size_t m = 1; m < maps.size(); ++m) all.push_back({&maps[m], asked.asked()});
+    return lookup_times(all);
 }
 
 struct Measured {

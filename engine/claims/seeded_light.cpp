@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "bench/camera_points.h"
+#include "bench/lookup_timing.h"
 #include "claims/seen.h"
 #include "document/document.h"
 #include "rays/tracer.h"
@@ -44,6 +45,22 @@ std::vector<bench::Maps> SeededLight::build(int seed) const {
     });
     for (bench::Maps& map : maps) bench::finish(map);
     return maps;
+}
+
+std::vector<Value> lookup_times(std::span<const TimedLookups> all) {
+    constexpr int passes = 15;
+    std::vector<std::vector<double>> ns(all.size());
+    std::vector<float> answers;
+    for (int pass = 0; pass <= passes; ++pass)
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const auto& [maps, asked] = all[i];
+            answers.resize(asked.queries.size() * maps->channels());
+            const double seconds = bench::seconds_of_pass(*maps, asked, 1, answers);
+            if (pass > 0) ns[i].push_back(1e9 * seconds / static_cast<double>(asked.queries.size()));
+        }
+    std::vector<Value> times;
+    for (std::vector<double>& raw : ns) times.push_back(of(results::summarise(std::move(raw))));
+    return times;
 }
 
 }  // namespace shadowbench::claims

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "bench/prepared_light.h"
 #include "bench/queries.h"
 #include "claims/paper.h"
+#include "claims/value.h"
 #include "rays/capture.h"
 
 namespace shadowbench::claims {
@@ -38,5 +40,13 @@ private:
     bench::PreparedLight light_;
     std::unique_ptr<rays::Capture> capture_;
 };
+
+struct TimedLookups {
+    const bench::Maps* maps;
+    bench::Asked asked;  // must outlive the timing
+};
+// Nanoseconds a lookup, on this thread: medians of passes over all queries, after one untimed pass. The passes of all
+// go in turn, so that a disturbance hits all alike.
+std::vector<Value> lookup_times(std::span<const TimedLookups> all);
 
 }  // namespace shadowbench::claims
