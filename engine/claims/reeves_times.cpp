@@ -90,8 +90,8 @@ private:
 };
 
 Passes time_passes(const Context& context, const char* name) {
-    std::vector<std::string> set{"rays.resolution=512", "receivers.resolution=[512,384]", "receivers.bias=0", filter};
-    if (context.quick) set.insert(set.end(), {"rays.resolution=256", "receivers.resolution=[256,192]"});
+    std::vector<std::string> set{"rays.resolution=384", "receivers.resolution=[384,288]", "receivers.bias=0", filter};
+    if (context.quick) set.insert(set.end(), {"rays.resolution=192", "receivers.resolution=[192,144]"});
     const nlohmann::json document = context.document(name, set);
     note_document(context, name, document);
     const document::Variant variant = document::expand(document).front();
