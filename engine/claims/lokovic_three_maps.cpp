@@ -60,18 +60,18 @@ std::vector<std::string> settings(int resolution, int samples, int reference, co
             set_techniques(techniques)};
 }
 
-// Footprints of a quick run cover as many pixels.
-std::vector<std::string> smaller(int resolution) {
-    return {fmt::format("rays.resolution={}", resolution), R"(receivers.footprint={"share":0.03125})"};
+// A quick run has maps of the same sizes, since smaller ones would hold other hair in a pixel.
+std::vector<std::string> smaller(int reference) {
+    return {"reference.spread_seeds=0", fmt::format("reference.samples_per_pixel={}", reference)};
 }
 
 ThreeMaps run(const Context& context) {
     const std::string deep = published_deep();
-    return {context.run(ball_scene, settings(512, 1, 64, placed_pcf(16, "jittered")), smaller(128)),
+    return {context.run(ball_scene, settings(512, 1, 64, placed_pcf(16, "jittered")), smaller(16)),
             context.run(ball_scene, settings(4096, 1, 4, placed_pcf(400, "jittered") + "," + placed_pcf(400, "subset")),
-                        smaller(1024)),
-            context.run(ball_scene, settings(512, 256, 128, deep), smaller(128)),
-            context.run(ball_scene, settings(512, 64, 128, deep), smaller(128)),
+                        smaller(2)),
+            context.run(ball_scene, settings(512, 256, 128, deep), smaller(16)),
+            context.run(ball_scene, settings(512, 64, 128, deep), smaller(16)),
             context.run(ball_scene,
                         settings(256, 256, 512,
                                  deep + "," + published_deep("box", "cached") + "," + published_deep("pixels") + "," +
