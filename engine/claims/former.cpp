@@ -58,7 +58,7 @@ constexpr Former rows[] = {
      "Judged by whole intervals."},
     {"volume", "section Implementation", "three depths stand for the whole function",
      "holds in shape", "rms 0.044 to 0.087", "the depths of 10, 50 and 90 %",
-     "The rule of a fit judges it, instead of AVSM of 2 and 4 nodes."},
+     "The paper states no accuracy; its numbers are given beside AVSM of 2 and 4 nodes, and nothing is judged."},
     {"salvi2010", "section 5.3, table 1", "AVSM 4 looks up in 0.56 of AVSM 8's time",
      "holds in shape", "0.96", "AVSM 4 looks up in",
      gpu},

@@ -15,8 +15,8 @@ constexpr const char* introduction =
     "for times, and for errors of the RMS expected over seeds of the light rays against the exact truth.\n\n"
     "Each claim is judged by one rule of the table below, by the whole interval of what is measured: *holds*, *holds in "
     "shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*. A claim "
-    "about times on a GPU, or about a scene that is not public, is *not comparable*: its number is given, and nothing is "
-    "judged. What a technique cannot do otherwise is *by construction*.\n";
+    "about times on a GPU, about a scene that is not public, or without a value is *not comparable*: its number is given, "
+    "and nothing is judged. What a technique cannot do otherwise is *by construction*.\n";
 
 constexpr const char* former_introduction =
     "The first report judged some claims *holds in shape* or *does not hold here*, by rules that differed from claim to "
