@@ -63,28 +63,32 @@ void gather_nearest(const rays::LightRays& tile, const rays::MapLayout& layout,
 using Gather = void (*)(const rays::LightRays&, const rays::MapLayout&, std::span<const techniques::Query>,
                         const GridsInLight&, std::span<Part>);
 
-// Queries whose footprint holds no ray, since it is narrower than a sample cell. They are asked again with a width of
-// 0.
+// Queries whose footprint holds no ray, since it is narrower than a sample cell.
 struct EmptyFootprints {
     std::vector<std::size_t> place;  // in all queries
     std::vector<techniques::Query> query;
-
-    void add(std::size_t q, const techniques::Query& asked) {
-        place.push_back(q);
-        query.push_back(asked);
-        query.back().width = 0.0f;
-    }
 };
+
+// holds(q): whether the footprint of query q holds a ray.
+template <class Holds>
+EmptyFootprints empty_footprints(std::span<const techniques::Query> queries, const Holds& holds) {
+    EmptyFootprints empty;
+    for (std::size_t q = 0; q < queries.size(); ++q)
+        if (!holds(q)) {
+            empty.place.push_back(q);
+            empty.query.push_back(queries[q]);
+        }
+    return empty;
+}
 
 // The rays inside each footprint, or the nearest ray if there is none. `sums_of(queries, gather)` gathers over all
 // tiles.
 template <class SumsOf>
 std::vector<Moments> gather_or_nearest(std::span<const techniques::Query> queries, const SumsOf& sums_of) {
     std::vector<Moments> moments = sums_of(queries, gather_footprints);
-    EmptyFootprints empty;
-    for (std::size_t q = 0; q < queries.size(); ++q)
-        if (moments[q].count == 0) empty.add(q, queries[q]);
+    EmptyFootprints empty = empty_footprints(queries, [&](std::size_t q) { return moments[q].count > 0; });
     if (empty.query.empty()) return moments;
+    for (techniques::Query& query : empty.query) query.width = 0.0f;
     const std::vector<Moments> nearest = sums_of(std::span<const techniques::Query>(empty.query), gather_nearest);
     for (std::size_t i = 0; i < nearest.size(); ++i) moments[empty.place[i]] = nearest[i];
     return moments;

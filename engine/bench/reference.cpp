@@ -8,8 +8,10 @@
 #include "base/random.h"
 #include "bench/gather.h"
 #include "bench/ray_sets.h"
+#include "bench/reference_traced.h"
 #include "rays/capture.h"
 #include "rays/light_rays.h"
+#include "rays/tracer.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -48,8 +50,8 @@ std::vector<Moments> gather_all(const RaySet& set, std::span<const Query> querie
 
 // The casters of one light without grid volumes, whose extinction varies within a segment.
 struct Casters {
-    Casters(const scene::Scene& scene, const rays::LightView& in, const MapLayout& map)
-        : layout(map), capture(scene, in, map, rays::Capture::Grids::left_out), grids(scene, true), view(in) {}
+    Casters(const scene::Scene& all, const rays::LightView& in, const MapLayout& map)
+        : scene(all), layout(map), capture(all, in, map, rays::Capture::Grids::left_out), grids(all, true), view(in) {}
 
     // Calls visit(index, set) for each of the sets. Each has the seed of the layout and of its index.
     template <class Visit>
@@ -62,6 +64,7 @@ struct Casters {
         }
     }
 
+    const scene::Scene& scene;
     const MapLayout& layout;
     rays::Capture capture;
     rays::GridMedia grids;
@@ -71,9 +74,17 @@ struct Casters {
 std::vector<Moments> gather_one_set(const Casters& casters, std::span<const Query> queries,
                                     const ReferenceWatch& watch) {
     const RaySet set{casters.layout, casters.capture, {casters.grids, casters.view}};
-    return gather_or_nearest(queries, [&](std::span<const Query> asked, Gather gather) {
+    const auto sums_of = [&](std::span<const Query> asked, Gather gather) {
         return gather_all(set, asked, gather, gather == gather_footprints ? watch : ReferenceWatch());
-    });
+    };
+    if (casters.scene.deep_image) return gather_or_nearest(queries, sums_of);  // there is nothing to trace
+    std::vector<Moments> moments = sums_of(queries, gather_footprints);
+    const EmptyFootprints empty = empty_footprints(queries, [&](std::size_t q) { return moments[q].count > 0; });
+    if (empty.query.empty()) return moments;
+    const rays::Tracer tracer(casters.scene, true);
+    const std::vector<Moments> traced = trace_footprints(tracer, casters.view, casters.layout, empty.query);
+    for (std::size_t i = 0; i < traced.size(); ++i) moments[empty.place[i]] = traced[i];
+    return moments;
 }
 
 SetSums gather_sets(const Casters& casters, int sets, std::span<const Query> queries, const ReferenceWatch& watch) {
@@ -84,13 +95,12 @@ SetSums gather_sets(const Casters& casters, int sets, std::span<const Query> que
             gather_all(set, queries, gather_footprints, watch ? of_all : ReferenceWatch());
         for (std::size_t q = 0; q < queries.size(); ++q) sums.set(q, k, moments[q]);
     });
-    EmptyFootprints empty;
-    for (std::size_t q = 0; q < queries.size(); ++q)
-        if (sums.empty(q)) empty.add(q, queries[q]);
+    const EmptyFootprints empty = empty_footprints(queries, [&](std::size_t q) { return !sums.empty(q); });
     if (empty.query.empty()) return sums;
+    const rays::Tracer tracer(casters.scene, true);
     casters.for_each_set(sets, [&](int k, const RaySet& set) {
-        const std::vector<Moments> nearest = gather_all(set, empty.query, gather_nearest, {});
-        for (std::size_t i = 0; i < nearest.size(); ++i) sums.set(empty.place[i], k, nearest[i]);
+        const std::vector<Moments> traced = trace_footprints(tracer, casters.view, set.layout, empty.query);
+        for (std::size_t i = 0; i < traced.size(); ++i) sums.set(empty.place[i], k, traced[i]);
     });
     return sums;
 }

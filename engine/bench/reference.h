@@ -1,6 +1,7 @@
 // The truth that lookups are judged against: the mean, over every light ray inside the footprint of a query, of its
 // exact transmittance up to the query's depth. It uses rays of its own: more of them, with another seed. Steps and
-// cells of grid volumes leave no error in it.
+// cells of grid volumes leave no error in it. In a footprint so narrow that none of these rays falls into it, it traces
+// rays of its own.
 //
 // Rays spread evenly do not tell how far their mean is off: taken for independent, they claim up to ten times as much
 // doubt as there is. So the rays form independent randomised sets, each spread evenly, and the sets' means tell it
@@ -49,10 +50,11 @@ scene::RaySettings reference_settings(const scene::Scenario& scenario);
 
 using ReferenceWatch = std::function<void(std::size_t done, std::size_t total)>;
 
-// V*(x, y, z; w): averages the rays with |sx - x| <= w/2 and |sy - y| <= w/2 inside the map, or takes each set's ray of
-// the sample cell of (x, y) if there are none. Captures the tiles that the footprints touch, a few at a time. The rays
-// of a set are multi-jittered (light_rays.h). Each set has a seed of its own, made from that of the settings. The
-// result does not depend on the number of threads.
+// V*(x, y, z; w): averages the rays with |sx - x| <= w/2 and |sy - y| <= w/2 inside the map. If no set has a ray there,
+// each set traces as many through the footprint as a pixel has, spread over it as over a pixel. Of a deep image, which
+// has nothing to trace, it takes the ray of the sample cell of (x, y) then. Captures the tiles that the footprints
+// touch, a few at a time. The rays of a set are multi-jittered (light_rays.h). Each set has a seed of its own, made
+// from that of the settings. The result does not depend on the number of threads.
 Truth reference_visibility(const scene::Scene& scene, const rays::LightView& view, const scene::RaySettings& settings,
                            std::span<const techniques::Query> queries, const ReferenceWatch& watch);
 

@@ -42,7 +42,7 @@ struct Plot {
 // Pictures side by side.
 struct Sheet {
     std::string name;     // of the file, without extension
-    std::string caption;  // the columns, from left to right
+    std::string caption;  // what the pictures are, and in which order: sentences, without the last full stop
     std::string png;      // the file's bytes
 };
 

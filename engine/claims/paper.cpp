@@ -10,6 +10,7 @@
 #include "bench/clock.h"
 #include "bench/run.h"
 #include "document/document.h"
+#include "scene/named_scenarios.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -53,7 +54,9 @@ bool has_settings(const results::VariantResult& variant, const std::vector<std::
 }  // namespace
 
 json Context::document(const std::string& name, const std::vector<std::string>& set) const {
-    const std::filesystem::path file = scenarios / (name + ".json");
+    const std::filesystem::path file = scene::find_scenario({&scenarios, 1}, name);
+    if (file.empty())
+        throw Error(ErrorCode::no_such_file, name, "there is no scenario of this name in " + scenarios.string());
     json document = scene::parse_json(base::read_text(file), file.string());
     for (const std::string& assignment : set) document::set_value(document, assignment);
     return document;

@@ -17,17 +17,17 @@ namespace shadowbench::claims {
 
 // The input of a paper's measurements.
 struct Context {
-    std::filesystem::path scenarios;  // folder of <paper>*.json
+    std::filesystem::path scenarios;  // folder of the papers' scenarios
     scene::SearchPath data;
     bool quick = false;  // smaller sizes, for a first look
     int threads = 0;     // 0: all processors
     bench::ProgressCallback progress;
     PaperReport* report = nullptr;  // receives the results, and the scenarios that run
 
-    // scenarios/papers/<name>.json with these changes ("path=value").
+    // The scenario of this name in the folder, with these changes ("path=value"). Throws Error{no_such_file}.
     nlohmann::json document(const std::string& name, const std::vector<std::string>& set = {}) const;
 
-    // Runs scenarios/papers/<name>.json with these changes ("path=value"), and also with `smaller` if quick.
+    // Runs that document, and also with `smaller` if quick.
     results::Result run(const std::string& name, const std::vector<std::string>& set,
                         const std::vector<std::string>& smaller) const;
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/markdown.h"
+#include "claims/former.h"
 #include "claims/report.h"
 
 namespace shadowbench::claims {
@@ -14,8 +15,12 @@ constexpr const char* introduction =
     "for times, and for errors of the RMS expected over seeds of the light rays against the exact truth.\n\n"
     "Each claim is judged by one rule of the table below, by the whole interval of what is measured: *holds*, *holds in "
     "shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*. A claim "
-    "about times on a GPU, or about a scene that is not public, is *not comparable*: its number is given, and nothing is "
-    "judged. What a technique cannot do otherwise is *by construction*.\n";
+    "about times on a GPU, about a scene that is not public, or without a value is *not comparable*: its number is given, "
+    "and nothing is judged. What a technique cannot do otherwise is *by construction*.\n";
+
+constexpr const char* former_introduction =
+    "The first report judged some claims *holds in shape* or *does not hold here*, by rules that differed from claim to "
+    "claim.\n\n";
 
 std::string rules_table() {
     std::vector<std::vector<std::string>> rows;
@@ -45,10 +50,7 @@ void add_paper(std::string& out, const PaperReport& report) {
     }
     for (const Plot& plot : report.plots) out += fmt::format("![{}](plots/{}.svg)\n\n", plot.title, plot.name);
     for (const Sheet& sheet : report.sheets)
-        out += fmt::format(
-            "![{0}](pictures/{1}.png)\n\nAbove the pictures, from left to right: {0}. Below: the reference's "
-            "visibility, then each difference from the reference, times four.\n\n",
-            sheet.caption, sheet.name);
+        out += fmt::format("![{0}](pictures/{0}.png)\n\n{1}.\n\n", sheet.name, sheet.caption);
     out += fmt::format("Scenarios (name, hash): {}. Measured in {:.0f} s.\n\n", fmt::join(report.documents, ", "),
                        report.seconds);
 }
@@ -71,6 +73,8 @@ std::string to_markdown(std::span<const PaperReport> reports, const Conditions& 
         parts.push_back(fmt::format("{} {}", to_string(static_cast<Verdict>(verdict)), count[verdict]));
     out += fmt::format("Of {} claims: {}.\n\n## Rules\n\n", all, fmt::join(parts, ", "));
     out += rules_table();
+    if (const std::string former = former_table(reports); !former.empty())
+        out += fmt::format("## What became of the first verdicts\n\n{}{}", former_introduction, former);
     for (const PaperReport& report : reports) add_paper(out, report);
     return out;
 }

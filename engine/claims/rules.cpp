@@ -43,8 +43,12 @@ constexpr Rule rules[] = {
     {"less", "A is less than B", "A is certainly less", "-", "The paper gives a direction, and no size."},
     {"much less", "A is much less than B, or B shows artifacts that A does not", "A is at most 0.3 of B",
      "A is less than B", "A smaller error of the same order is less, but not much less."},
-    {"alike", "two pictures look alike", "their errors are within 10 % of each other", "within a factor of 1.5",
+    {"alike", "A is as good as B", "their errors are within 10 % of each other", "within a factor of 1.5",
      "Neither may be the better picture: the rule has two sides."},
+    {"likeness", "the picture of A looks like that of B",
+     "they differ by at most 0.3 of the difference that the paper's idea is to remove", "by less than that difference",
+     "The paper compares the pictures with each other, and not with a truth. Without the paper's idea A would be "
+     "another picture. What looks like B must differ from B much less than that one does."},
     {"visible", "a difference is visible", "one error is more than 10 % larger", "-", "The counterpart of alike."},
     {"fit", "a stored function fits almost exactly", "its largest error is at most 0.02", "at most 0.05",
      "0.02 are five grey levels of 8 bits, at the single worst depth."},
@@ -53,8 +57,10 @@ constexpr Rule rules[] = {
      "never exceeded, but not always reached", "Counting is exact."},
     {"construction", "a size or a format", "not judged: the technique cannot do otherwise", "-",
      "Tests check it; measuring it shows nothing about the method."},
-    {"not comparable", "a time on a GPU, or a figure of a scene that is not public", "not judged: the number is given",
-     "-", "A processor's thread cannot test the one, a stand-in cannot test the other."},
+    {"not comparable", "a time on a GPU, a figure of a scene that is not public, or a method without a stated accuracy",
+     "not judged: the number is given", "-",
+     "A processor's thread cannot test a GPU's time, a stand-in cannot test another scene, and a limit that the paper "
+     "does not give would be ours."},
 };
 
 struct Range {
@@ -183,6 +189,10 @@ Judged judge_much_less(const Value& less, const Value& more) {
 
 Judged judge_alike(const Value& one, const Value& other) {
     return judge("alike", one / other, {1.0 / alike, alike}, {1.0 / similar, similar});
+}
+
+Judged judge_likeness(const Value& share) {
+    return judge_at_most("likeness", share, much, 1.0);
 }
 
 Judged judge_visible(const Value& factor) {

@@ -49,6 +49,8 @@ Judged judge_negligible(const Value& share);
 Judged judge_less(const Value& less, const Value& more);
 Judged judge_much_less(const Value& less, const Value& more);
 Judged judge_alike(const Value& one, const Value& other);
+// `share`: the difference of two pictures over that of the picture without the paper's idea from the second.
+Judged judge_likeness(const Value& share);
 Judged judge_visible(const Value& factor);
 Judged judge_fit(const Value& largest_error);
 Judged judge_unnoticed(const Value& difference);

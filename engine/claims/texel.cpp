@@ -1,11 +1,13 @@
 #include "claims/texel.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "bench/contender.h"
 #include "bench/load.h"
 #include "bench/prepared_light.h"
@@ -18,20 +20,33 @@
 namespace shadowbench::claims {
 namespace {
 
-struct Place {
-    std::size_t tile = 0, ray = 0;
-    std::uint64_t segments = 0;
+using base::Error;
+using base::ErrorCode;
+
+struct Candidate {
+    std::int64_t far;  // from the number of nodes that is wished for
+    RayPlace place;
+    int x, y;
 };
 
-Place busiest(const std::vector<rays::LightRays>& tiles, const rays::MapLayout& layout) {
-    const double half = 0.5 * (static_cast<double>(layout.z_min) + layout.z_max);
-    Place best;
+std::uint64_t segments_of(const rays::LightRays& tile, std::size_t ray) {
+    return tile.begin[ray + 1] - tile.begin[ray];
+}
+
+std::vector<Candidate> candidates(const std::vector<rays::LightRays>& tiles, const rays::MapLayout& layout,
+                                  const RayWish& wish) {
+    std::vector<Candidate> found;
     for (std::size_t t = 0; t < tiles.size(); ++t)
         for (std::size_t r = 0; r < tiles[t].rays(); ++r) {
-            const std::uint64_t segments = tiles[t].begin[r + 1] - tiles[t].begin[r];
-            if (segments > best.segments && rays::transmittance(tiles[t], r, 0, half) > 0.3) best = {t, r, segments};
+            const auto nodes = static_cast<std::int64_t>(2 * segments_of(tiles[t], r));
+            if (nodes == 0 || (wish.fits && !wish.fits(tiles[t], r, layout))) continue;
+            found.push_back({wish.nodes > 0 ? std::abs(nodes - wish.nodes) : -nodes,
+                             {t, r},
+                             tiles[t].x0 + static_cast<int>(r) % tiles[t].width,
+                             tiles[t].y0 + static_cast<int>(r) / tiles[t].width});
         }
-    return best;
+    std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.far < b.far; });
+    return found;
 }
 
 Series to_series(const std::string& name, const curves::Curve& curve, const rays::MapLayout& layout) {
@@ -41,44 +56,109 @@ Series to_series(const std::string& name, const curves::Curve& curve, const rays
     return s;
 }
 
-}  // namespace
+// One light of a scenario, captured, and a map of every technique.
+struct Built {
+    Built(const nlohmann::json& document, const scene::SearchPath& data);
+    Built(const Built&) = delete;  // the maps refer to the view
+    Built& operator=(const Built&) = delete;
 
-TexelCurves busiest_texel(const nlohmann::json& document, const scene::SearchPath& data) {
+    std::vector<bench::Contender> contenders;
+    bench::PreparedLight light;
+    std::vector<rays::LightRays> tiles;
+    std::vector<bench::Maps> maps;
+};
+
+Built::Built(const nlohmann::json& document, const scene::SearchPath& data) {
     const std::vector<document::Variant> variants = document::expand(document);
     bench::ScenarioLoader loader(data);
     const scene::Scenario& scenario = loader.load(variants.front());
-    std::vector<bench::Contender> contenders = bench::make_contenders(scenario, variants.front());
-    const auto [view, layout, least] = bench::prepare_light(scenario, 0, contenders, {});
+    contenders = bench::make_contenders(scenario, variants.front());
+    light = bench::prepare_light(scenario, 0, contenders, {});
+    const rays::MapLayout& layout = light.layout;
     if (layout.samples() != 1 || layout.apron > 0)
-        throw base::Error(base::ErrorCode::internal, scenario.name,
-                          "a texel's curve needs one ray a pixel, and filters that are no wider");
-    const rays::Capture capture(scenario.scene, view, layout);
-    std::vector<rays::LightRays> tiles;
-    for (int t = 0; t < layout.tiles(); ++t) tiles.push_back(capture.tile(t));
+        throw Error(ErrorCode::internal, scenario.name,
+                    "a texel's curve needs one ray a pixel, and filters that are no wider");
+    const rays::Capture capture(scenario.scene, light.view, layout);
+    tiles.resize(static_cast<std::size_t>(layout.tiles()));
+    base::parallel_for(tiles.size(), [&](std::size_t t) { tiles[t] = capture.tile(static_cast<int>(t)); });
+    for (const bench::Contender& contender : contenders) {
+        bench::Maps& map =
+            maps.emplace_back(bench::begin_maps(*contender.row, contender.values, {layout, light.view, nullptr}));
+        base::parallel_for(tiles.size(), [&](std::size_t t) { bench::add(map, tiles[t]); });
+        bench::finish(map);
+    }
+}
 
-    const Place place = busiest(tiles, layout);
-    const rays::LightRays& chosen = tiles[place.tile];
+TexelCurves curves_of(const Built& built, const RayPlace& place) {
+    const rays::MapLayout& layout = built.light.layout;
+    const rays::LightRays& tile = built.tiles[place.tile];
     TexelCurves result;
-    result.segments = place.segments;
-    result.x = chosen.x0 + static_cast<int>(place.ray) % chosen.width;
-    result.y = chosen.y0 + static_cast<int>(place.ray) / chosen.width;
+    result.segments = segments_of(tile, place.ray);
+    result.x = tile.x0 + static_cast<int>(place.ray) % tile.width;
+    result.y = tile.y0 + static_cast<int>(place.ray) / tile.width;
     curves::SweepScratch scratch;
     curves::Curve exact, stored;
-    curves::visibility(chosen, place.ray, 1, 1e-5, scratch, exact);
+    curves::visibility(tile, place.ray, 1, 1e-5, scratch, exact);
     std::vector<float> depths;
     for (int i = 0; i <= 400; ++i)
         depths.push_back(layout.z_min + (layout.z_max - layout.z_min) * static_cast<float>(i) / 400.0f);
-    for (const bench::Contender& contender : contenders) {
-        bench::Maps maps = bench::begin_maps(*contender.row, contender.values, {layout, view, nullptr});
-        for (const rays::LightRays& tile : tiles) bench::add(maps, tile);
-        bench::finish(maps);
-        bench::stored(maps, result.x, result.y, 0, depths, stored);
-        result.series.push_back(to_series(results::title(contender.cell), stored, layout));
+    for (std::size_t c = 0; c < built.contenders.size(); ++c) {
+        bench::stored(built.maps[c], result.x, result.y, 0, depths, stored);
+        result.series.push_back(to_series(results::title(built.contenders[c].cell), stored, layout));
         result.error.push_back(curves::distance(stored, exact, layout.z_min, layout.z_max).max);
+        result.stored.push_back(stored);
     }
-    result.series.push_back(to_series(fmt::format("uncompressed ({} segments)", place.segments), exact, layout));
+    result.series.push_back(to_series(fmt::format("uncompressed ({} segments)", result.segments), exact, layout));
     result.error.push_back(0.0);
+    result.stored.push_back(exact);
     return result;
+}
+
+}  // namespace
+
+bool lit_at_half_depth(const rays::LightRays& tile, std::size_t ray, const rays::MapLayout& layout) {
+    const double half = 0.5 * (static_cast<double>(layout.z_min) + layout.z_max);
+    return rays::transmittance(tile, ray, 0, half) > 0.3;
+}
+
+std::vector<RayPlace> choose_rays(const std::vector<rays::LightRays>& tiles, const rays::MapLayout& layout,
+                                  const RayWish& wish, std::size_t count) {
+    const int apart = layout.width / 32;
+    std::vector<Candidate> chosen;
+    for (const Candidate& one : candidates(tiles, layout, wish)) {
+        if (chosen.size() == count) break;
+        if (std::all_of(chosen.begin(), chosen.end(), [&](const Candidate& other) {
+                return std::max(std::abs(one.x - other.x), std::abs(one.y - other.y)) > apart;
+            }))
+            chosen.push_back(one);
+    }
+    if (chosen.size() < count)
+        throw Error(ErrorCode::internal, "light rays",
+                    fmt::format("only {} of {} rays are as the paper describes them", chosen.size(), count));
+    std::vector<RayPlace> places;
+    for (const Candidate& one : chosen) places.push_back(one.place);
+    return places;
+}
+
+std::size_t Texels::series(const std::string& technique, const std::vector<std::string>& parameters) const {
+    return static_cast<std::size_t>(&cell_of(light, technique, parameters) - light.cells.data());
+}
+
+Texels texel_curves(const nlohmann::json& document, const scene::SearchPath& data, const RayWish& wish,
+                    std::size_t count) {
+    const Built built(document, data);
+    Texels result;
+    for (const RayPlace& place : choose_rays(built.tiles, built.light.layout, wish, count))
+        result.curves.push_back(curves_of(built, place));
+    for (std::size_t c = 0; c < built.contenders.size(); ++c) {
+        result.light.cells.push_back(built.contenders[c].cell);
+        result.light.cells.back().bytes = bench::bytes(built.maps[c]);
+    }
+    return result;
+}
+
+TexelCurves busiest_texel(const nlohmann::json& document, const scene::SearchPath& data) {
+    return texel_curves(document, data, {0, lit_at_half_depth}, 1).curves.front();
 }
 
 }  // namespace shadowbench::claims

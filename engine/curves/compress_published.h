@@ -6,7 +6,7 @@
 
 namespace shadowbench::curves {
 
-// Like compress(), except for the guarantees on the output:
+// Like compress(), except that the input may rise, and for the guarantees on the output:
 //
 // The published text. The origin of the first segment is the first vertex. Every further vertex (z, v) narrows the
 // range of slopes from the origin to those that pass between (z, v - tolerance) and (z, v + tolerance). When that would
@@ -19,8 +19,8 @@ namespace shadowbench::curves {
 //    last one's value.
 //  - Slopes are double; the origin is the vertex as written, rounded to float.
 //
-// The output is within the tolerance of the input, up to one rounding, and never above 1; it may rise by up to twice
-// the tolerance and fall below 0 by up to the tolerance.
+// The output is within the tolerance of the input, up to one rounding. That of a visibility function is never above 1;
+// it may rise by up to twice the tolerance and fall below 0 by up to the tolerance.
 std::size_t compress_published(CurveView curve, float tolerance, Vertex* out);
 
 Curve compress_published(CurveView curve, float tolerance);

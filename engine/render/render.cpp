@@ -223,6 +223,7 @@ Rendering render(const nlohmann::json& document, const RenderOptions& options,
     Rendering result = describe(scenario, variant, options);
     const ShadingPoints points = see(scenario, options, result, progress);
     result.points = points.points();
+    result.seen = seen_shares(points);
     result.reference = start_picture(points);
     for (const Contender& contender : contenders)
         result.techniques.push_back({contender.cell, start_picture(points), {}, {}});

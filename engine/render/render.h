@@ -45,6 +45,7 @@ struct Rendering {
     base::Vec2i size{0, 0};
     int rays_per_side = 1;
     std::size_t points = 0;  // number of points at which each technique looks up each light
+    std::vector<float> seen;  // share of each pixel that shows something, mean of the channels
     Picture reference;
     int reference_samples = 0;              // rays a map pixel
     double reference_standard_error = 0.0;  // RMS over the points; the largest of the lights

@@ -163,6 +163,17 @@ ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const sce
     return points;
 }
 
+std::vector<float> seen_shares(const ShadingPoints& points) {
+    std::vector<float> seen;
+    for (std::size_t p = 0; p + 1 < points.begin.size(); ++p) {
+        double sum = 0.0;
+        for (std::size_t i = points.begin[p]; i < points.begin[p + 1]; ++i)
+            for (int c = 0; c < 3; ++c) sum += points.coverage[i][c];
+        seen.push_back(static_cast<float>(std::min(sum / 3.0, 1.0)));
+    }
+    return seen;
+}
+
 Picture start_picture(const ShadingPoints& points) {
     return {Image(points.size, Vec3f(0.0f)), Image(points.size, Vec3f(1.0f))};
 }

@@ -48,6 +48,9 @@ using ViewWatch = std::function<void(std::size_t rows, std::size_t total)>;
 ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const scene::Light> lights,
                                   const ViewSettings& settings, const rays::Tracer& tracer, const ViewWatch& watch);
 
+// Share of each pixel that shows something: the mean of the channels of its coverage.
+std::vector<float> seen_shares(const ShadingPoints& points);
+
 // The pictures of one technique, summed light after light.
 struct Picture {
     Image shaded;  // background black

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -49,25 +50,60 @@ GridChoice grid_choice(const json& from) {
     return grid->get<int>();
 }
 
-bool is_vdb(const std::filesystem::path& file) {
+// The reader of a file, by its extension.
+enum class VolumeKind { raw, vdb, pvm, dds };
+
+VolumeKind kind_of(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return extension == ".vdb";
+    return extension == ".vdb"   ? VolumeKind::vdb
+           : extension == ".pvm" ? VolumeKind::pvm
+           : extension == ".dds" ? VolumeKind::dds
+                                 : VolumeKind::raw;
+}
+
+void refuse_keys(const json& from, const std::string& where, std::initializer_list<const char*> keys,
+                 const std::string& message) {
+    for (const char* key : keys)
+        if (from.contains(key)) refuse(fmt::format("{}/{}", where, key), message);
+}
+
+void need_keys(const json& from, const std::string& where, std::initializer_list<const char*> keys, const char* what) {
+    for (const char* key : keys)
+        if (!from.contains(key)) refuse(where, fmt::format("\"{}\" is missing: {} it", key, what));
 }
 
 GridVolume load_raw(const json& from, const std::filesystem::path& file, const std::string& where) {
-    if (from.contains("grid")) refuse(where + "/grid", "only .vdb files have named grids; remove this key");
-    for (const char* key : {"format", "size", "lower", "upper"})
-        if (!from.contains(key)) refuse(where, fmt::format("\"{}\" is missing: raw values need it", key));
+    need_keys(from, where, {"format", "size", "lower", "upper"}, "raw values need");
     Vec3i size(0, 0, 0);
-    Vec3d lower(0, 0, 0), upper(0, 0, 0);
     read(from, "size", size);
     check_voxels(size, where + "/size");
-    read_box(from, where, lower, upper);
-    GridVolume volume = read_raw_volume(file, size, from["format"].get<std::string>(), negative_of(from));
-    volume.lower = lower;
-    volume.upper = upper;
-    return volume;
+    return read_raw_volume(file, size, from["format"].get<std::string>(), negative_of(from));
+}
+
+GridVolume load_dds(const json& from, const std::filesystem::path& file, const std::string& where) {
+    need_keys(from, where, {"lower", "upper"}, "a .dds file has no world box, so it needs");
+    const std::string channel = from.value("channel", "");
+    return read_dds_volume(file, channel == "red"     ? DdsChannel::red
+                                 : channel == "green" ? DdsChannel::green
+                                 : channel == "blue"  ? DdsChannel::blue
+                                 : channel == "alpha" ? DdsChannel::alpha
+                                                      : DdsChannel::usual);
+}
+
+// The volume with the box of its file, if that has one.
+GridVolume load_file(const json& from, const std::filesystem::path& file, VolumeKind kind, const std::string& where) {
+    switch (kind) {
+        case VolumeKind::vdb:
+            return read_vdb(file, grid_choice(from), negative_of(from));
+        case VolumeKind::pvm:
+            return read_pvm(file);
+        case VolumeKind::dds:
+            return load_dds(from, file, where);
+        case VolumeKind::raw:
+            break;
+    }
+    return load_raw(from, file, where);
 }
 
 // Loads what all procedural grids have: a size, a box and a step.
@@ -86,15 +122,18 @@ GridVolume load_procedural(const json& from, const std::string& where, Parameter
 
 GridVolume load_volume(const json& from, const SearchPath& path, const std::string& where) {
     const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
-    GridVolume volume;
-    if (is_vdb(file)) {
-        for (const char* key : {"format", "size", "lower", "upper"})
-            if (from.contains(key))
-                refuse(fmt::format("{}/{}", where, key), "a .vdb file has its own; remove this key");
-        volume = read_vdb(file, grid_choice(from), negative_of(from));
-    } else {
-        volume = load_raw(from, file, where);
-    }
+    const VolumeKind kind = kind_of(file);
+    if (kind != VolumeKind::vdb)
+        refuse_keys(from, where, {"grid"}, "only .vdb files have named grids; remove this key");
+    if (kind != VolumeKind::dds)
+        refuse_keys(from, where, {"channel"}, "only .dds files have channels; remove this key");
+    if (kind != VolumeKind::raw)
+        refuse_keys(from, where, {"format", "size"},
+                    fmt::format("a {} file has its own; remove this key", file.extension().string()));
+    if (kind == VolumeKind::vdb)
+        refuse_keys(from, where, {"lower", "upper"}, "a .vdb file has its own; remove this key");
+    GridVolume volume = load_file(from, file, kind, where);
+    if (kind != VolumeKind::vdb) read_box(from, where, volume.lower, volume.upper);
     read_step(from, where, volume);
     return volume;
 }

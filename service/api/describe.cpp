@@ -1,6 +1,7 @@
 #include "service/api/describe.h"
 
 #include <map>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -8,7 +9,7 @@
 
 #include "base/read_text.h"
 #include "document/document.h"
-#include "scene/scenario.h"
+#include "scene/named_scenarios.h"
 #include "service/api/file_answer.h"
 #include "service/api/openapi_text.h"
 #include "service/api/problem.h"
@@ -67,30 +68,24 @@ ordered_json describe(const techniques::Technique& row) {
             {"parameters", std::move(parameters)}};
 }
 
-void read_scenario(const fs::path& file, std::map<std::string, ordered_json>& found) {
-    try {
-        const ordered_json document =
-            ordered_json::parse(scene::parse_json(base::read_text(file), file.string()).dump());
-        // As on the command line, the first folder that has a name wins.
-        found.try_emplace(document.at("name").get<std::string>(),
-                          ordered_json{{"name", document.at("name")},
-                                       {"purpose", document.value("purpose", "")},
-                                       {"document", ordered_json::parse(base::read_text(file))}});
-    } catch (const std::exception&) {  // a broken file is skipped
-    }
+// The document under this name, or nothing: the file is broken, or another scenario has the name that it gives itself.
+std::optional<ordered_json> document_of(const scene::NamedScenario& scenario) {
+    if (!scenario.fault.empty()) return std::nullopt;
+    ordered_json document = ordered_json::parse(base::read_text(scenario.file), nullptr, false);
+    const auto name = document.find("name");
+    if (name == document.end() || *name != scenario.name) return std::nullopt;
+    return document;
 }
 
 }  // namespace
 
 std::string read_scenarios(const std::vector<fs::path>& folders) {
     std::map<std::string, ordered_json> found;
-    std::error_code ignored;
-    for (const fs::path& folder : folders)
-        for (fs::recursive_directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
-            if (entry->is_directory(ignored) && entry->path().filename() == "data") entry.disable_recursion_pending();
-            if (entry->is_regular_file(ignored) && entry->path().extension() == ".json")
-                read_scenario(entry->path(), found);
-        }
+    for (const scene::NamedScenario& scenario : scene::list_scenarios(folders))
+        if (std::optional<ordered_json> document = document_of(scenario))
+            found.emplace(scenario.name, ordered_json{{"name", scenario.name},
+                                                      {"purpose", scenario.purpose},
+                                                      {"document", std::move(*document)}});
     ordered_json list = ordered_json::array();
     for (auto& [name, scenario] : found) list.push_back(std::move(scenario));
     return ordered_json{{"scenarios", std::move(list)}}.dump() + "\n";

@@ -7,8 +7,8 @@
 
 namespace shadowbench::service {
 
-// The JSON of /v1/scenarios: every *.json at any depth of these folders that is a scenario, sorted by name. Folders
-// named "data" are skipped. Of scenarios with the same name the one in the first folder counts.
+// The JSON of /v1/scenarios: what scene::list_scenarios() lists of these folders under the name that the scenario gives
+// itself, sorted by name.
 std::string read_scenarios(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace shadowbench::service

@@ -1,13 +1,10 @@
 #include <algorithm>
 #include <ostream>
-#include <set>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/read_text.h"
-#include "scene/scenario.h"
+#include "scene/named_scenarios.h"
 #include "service/cli/commands.h"
 #include "service/cli/scenario_files.h"
 #include "techniques/technique.h"
@@ -16,7 +13,6 @@
 namespace shadowbench::service {
 namespace {
 
-namespace fs = std::filesystem;
 using techniques::Parameter;
 using techniques::ParameterKind;
 
@@ -55,24 +51,6 @@ std::string trades_of(const techniques::Traits& traits) {
     return text;
 }
 
-struct Listed {
-    std::string name, purpose, file;
-};
-
-Listed describe(const fs::path& file) {
-    Listed listed{file.stem().string(), "", file.string()};
-    try {
-        const nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
-        if (document.is_object()) {
-            listed.name = document.value("name", listed.name);
-            listed.purpose = document.value("purpose", "");
-        }
-    } catch (const std::exception& error) {  // one broken file does not hide the others
-        listed.purpose = std::string("cannot be read: ") + error.what();
-    }
-    return listed;
-}
-
 }  // namespace
 
 void list_techniques(std::ostream& out) {
@@ -87,27 +65,18 @@ void list_techniques(std::ostream& out) {
 }
 
 void list_scenarios(std::ostream& out) {
-    std::set<fs::path> files, names;  // names: relative to their folders; the first folder that has a name wins
-    std::error_code ignored;
-    for (const fs::path& folder : scenario_folders())
-        for (fs::recursive_directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
-            if (entry->is_directory(ignored) && entry->path().filename() == "data") entry.disable_recursion_pending();
-            if (!entry->is_regular_file(ignored) || entry->path().extension() != ".json") continue;
-            if (names.insert(entry->path().lexically_relative(folder)).second) files.insert(entry->path());
-        }
-    if (files.empty())
+    const std::vector<scene::NamedScenario> list = scene::list_scenarios(scenario_folders());
+    if (list.empty())
         throw base::Error(
             base::ErrorCode::no_such_file, "scenarios",
             "./scenarios has none, and none was installed with the program; set SHADOWBENCH_SCENARIOS to folders "
             "that have some");
-    std::vector<Listed> list;
     std::size_t width = 0;
-    for (const fs::path& file : files) {
-        list.push_back(describe(file));
-        width = std::max(width, list.back().name.size() + 2);
-    }
-    for (const Listed& listed : list)
-        out << fmt::format("{:<{}}{}\n{:<{}}{}\n", listed.name, width, listed.purpose, "", width, listed.file);
+    for (const scene::NamedScenario& one : list) width = std::max(width, one.name.size() + 2);
+    for (const scene::NamedScenario& one : list)
+        out << fmt::format("{:<{}}{}\n{:<{}}{}\n", one.name, width,
+                           one.fault.empty() ? one.purpose : "cannot be read: " + one.fault, "", width,
+                           one.file.string());
 }
 
 }  // namespace shadowbench::service

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "scene/named_scenarios.h"
 #include "service/cli/this_program.h"
 
 namespace shadowbench::service {
@@ -57,27 +58,13 @@ std::vector<fs::path> scenario_folders() {
     return folders;
 }
 
-fs::path paper_scenarios() {
-    std::error_code ignored;
-    std::string looked_in;
-    for (const fs::path& folder : scenario_folders()) {
-        if (fs::is_directory(folder / "papers", ignored)) return folder / "papers";
-        looked_in += ", " + folder.string();
-    }
-    throw Error(ErrorCode::no_such_file, "papers",
-                "there is no folder of this name in" + looked_in.substr(1) +
-                    "; set SHADOWBENCH_SCENARIOS to its parent folder");
-}
-
 fs::path find_scenario(const std::string& name) {
     std::error_code ignored;
     if (fs::is_regular_file(name, ignored)) return name;
+    const std::vector<fs::path> folders = scenario_folders();
+    if (fs::path found = scene::find_scenario(folders, name); !found.empty()) return found;
     std::string looked_in;
-    for (const fs::path& folder : scenario_folders()) {
-        for (const std::string& file : {name, name + ".json"})
-            if (fs::is_regular_file(folder / file, ignored)) return folder / file;
-        looked_in += ", " + folder.string();
-    }
+    for (const fs::path& folder : folders) looked_in += ", " + folder.string();
     throw Error(ErrorCode::no_such_file, name,
                 "there is no such file, and no scenario of this name in" + looked_in.substr(1));
 }

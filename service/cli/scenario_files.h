@@ -13,10 +13,8 @@ namespace shadowbench::service {
 // program: ../share/shadowbench/scenarios from the folder of its executable, where that is a folder.
 std::vector<std::filesystem::path> scenario_folders();
 
-// The folder papers/ of the first scenario folder that has one. Throws Error{no_such_file}.
-std::filesystem::path paper_scenarios();
-
-// `name` is a path, or the name of a file in the scenario folders, with or without ".json". Throws Error{no_such_file}.
+// `name` is the path of a file, or what scene::find_scenario() finds in the scenario folders: every name that `list`
+// prints. Throws Error{no_such_file}.
 std::filesystem::path find_scenario(const std::string& name);
 
 // The scenarios that a name means: one, or every *.json directly in a folder, sorted by name. A folder is looked for

@@ -40,7 +40,7 @@ TEST(Reference, clips_the_footprint_to_the_map) {
     EXPECT_NEAR(truth.value[0], 0.4, 1e-6);
 }
 
-TEST(Reference, takes_the_nearest_ray_if_the_footprint_holds_none) {
+TEST(Reference, traces_rays_in_a_footprint_that_holds_none) {
     HalfCovered half = half_covered();
     const Query queries[] = {{1.3f, 1.3f, 2.0f, 1e-6f}, {6.3f, 1.3f, 2.0f, 1e-6f}};
     const Truth truth = reference_visibility(half.scene, half.view, half.settings, queries, {});

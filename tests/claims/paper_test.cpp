@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
 
+#include <nlohmann/json.hpp>
+
 #include "base/error.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -47,6 +51,22 @@ TEST(Paper, ACellThatFailedIsNotMeasured) {
         FAIL();
     } catch (const base::Error& error) {
         EXPECT_EQ(error.message(), "it fell over");
+    }
+}
+
+TEST(Paper, DocumentsAreFoundByTheNamesThatListsShow) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path("file.json")) << R"({"name": "own", "purpose": "a"})";
+    Context context;
+    context.scenarios = folder.path();
+    EXPECT_EQ(context.document("own", {"purpose=b"})["purpose"], "b");
+    EXPECT_EQ(context.document("file")["name"], "own");
+    try {
+        context.document("other");
+        FAIL();
+    } catch (const base::Error& error) {
+        EXPECT_EQ(error.code(), base::ErrorCode::no_such_file);
+        EXPECT_EQ(error.where(), "other");
     }
 }
 

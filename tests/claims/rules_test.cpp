@@ -23,8 +23,8 @@ TEST(Rules, AreNamedOnce) {
          {judge_ratio(2, exactly(2)), judge_gain(2, exactly(2)), judge_size(2, 3, exactly(2)), judge_exponent(1, exactly(1)),
           judge_constant(exactly(1)), judge_growth(exactly(3)), judge_negligible(exactly(0)),
           judge_less(exactly(1), exactly(2)), judge_much_less(exactly(1), exactly(2)), judge_alike(exactly(1), exactly(1)),
-          judge_visible(exactly(2)), judge_fit(exactly(0)), judge_unnoticed(exactly(0)), judge_count(1, 0, 1),
-          by_construction(true), not_comparable()})
+          judge_visible(exactly(2)), judge_likeness(exactly(0)), judge_fit(exactly(0)), judge_unnoticed(exactly(0)),
+          judge_count(1, 0, 1), by_construction(true), not_comparable()})
         EXPECT_TRUE(ids.count(judged.rule)) << judged.rule;
 }
 
@@ -89,6 +89,14 @@ TEST(Rules, AlikeHasTwoSides) {
     EXPECT_EQ(verdict(judge_visible(exactly(1.05))), Verdict::fails);
     EXPECT_EQ(verdict(judge_unnoticed({-0.001, -0.003, 0.002})), Verdict::holds);
     EXPECT_EQ(verdict(judge_unnoticed(exactly(-0.01))), Verdict::fails);
+}
+
+TEST(Rules, ALikenessIsMuchLessDifferent) {
+    EXPECT_EQ(verdict(judge_likeness({0.2, 0.15, 0.25})), Verdict::holds);
+    EXPECT_EQ(verdict(judge_likeness({0.6, 0.5, 0.7})), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_likeness({1.3, 1.1, 1.5})), Verdict::fails);
+    EXPECT_EQ(verdict(judge_likeness({0.3, 0.25, 0.35})), Verdict::undecided);
+    EXPECT_EQ(verdict(judge_likeness({0.9, 0.7, 1.1})), Verdict::undecided);
 }
 
 TEST(Rules, TwoHalvesAreAsGoodAsTheWorse) {

@@ -31,6 +31,13 @@ RC_GTEST_PROP(CompressPublished, StaysWithinTheToleranceOnBothSidesOfEveryStep, 
     RC_ASSERT(error(compress_published(c.curve, c.tolerance), c.curve) <= c.tolerance + cases::rounding_of(c.curve));
 }
 
+RC_GTEST_PROP(CompressPublished, StaysWithinTheToleranceOfAFunctionThatRises, ()) {
+    Case c = *cases::any_case();
+    for (Vertex& v : c.curve) v.value = 1.0f - v.value;
+    const double slack = cases::rounding_of({});  // of values up to 1: the largest of these is the last
+    RC_ASSERT(error(compress_published(c.curve, c.tolerance), c.curve) <= c.tolerance + slack);
+}
+
 // The faults that the header names, with their bounds.
 RC_GTEST_PROP(CompressPublished, RisesByTwiceTheToleranceAtMostFallsBelow0ByItAndNeverPasses1, ()) {
     const Case c = *cases::any_case();

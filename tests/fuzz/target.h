@@ -16,12 +16,14 @@ namespace shadowbench::fuzz {
 // Each has a file in targets/ and a folder of the same name in corpus/.
 void alpha(std::string_view bytes);
 void command_line(std::string_view bytes);
+void dds_volume(std::string_view bytes);
 void deep_file(std::string_view bytes);
 void deep_image(std::string_view bytes);
 void functions(std::string_view bytes);
 void hair(std::string_view bytes);
 void obj(std::string_view bytes);
 void ply(std::string_view bytes);
+void pvm(std::string_view bytes);
 void raw_volume(std::string_view bytes);
 void request_head(std::string_view bytes);
 void result(std::string_view bytes);

@@ -228,6 +228,14 @@ TEST(ShadingPoints, have_the_edges_of_a_view_rays_footprint) {
     }
 }
 
+TEST(ShadingPoints, say_what_share_of_a_pixel_shows_something) {
+    ShadingPoints points;
+    points.begin = {0, 2, 2, 3};  // two points, none, and one
+    points.coverage = {base::Vec3f(0.25f), base::Vec3f(0.5f, 0.25f, 0.0f), base::Vec3f(0.6f, 0.9f, 0.0f)};
+    points.place.resize(3);
+    EXPECT_EQ(seen_shares(points), (std::vector<float>{0.5f, 0.0f, 0.5f}));
+}
+
 TEST(Render, is_the_same_on_one_thread_and_on_two) {
     std::ifstream file(std::string(SHADOWBENCH_SOURCE_DIR) + "/scenarios/quickstart.json");
     json document = json::parse(file);

@@ -71,4 +71,24 @@ void expect_cuts_refused(const std::string& bytes, const std::string& name, std:
     }
 }
 
+void expect_changes_survived(const std::string& bytes, const std::string& name,
+                             const std::function<GridVolume(const fs::path&)>& read) {
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+        for (const int change : {0x01, 0x08, 0x10, 0x80, 0xff}) {
+            std::string changed = bytes;
+            changed[i] = static_cast<char>(changed[i] ^ change);
+            const fs::path file = write_file(name, changed);
+            try {
+                const GridVolume volume = read(file);
+                const Vec3i size = volume.size;
+                EXPECT_EQ(volume.density.size(), static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
+                                                     static_cast<std::size_t>(size.z));
+                for (const float density : volume.density)
+                    EXPECT_TRUE(density >= 0.0f && density <= 1.0f) << density << ", byte " << i;
+            } catch (const base::Error& error) {
+                EXPECT_EQ(error.code(), base::ErrorCode::bad_input) << error.what() << ", byte " << i;
+            }
+        }
+}
+
 }  // namespace shadowbench::scene::test

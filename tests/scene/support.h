@@ -33,6 +33,11 @@ base::Error error_of(const std::function<void()>& action);
 void expect_cuts_refused(const std::string& bytes, const std::string& name, std::size_t least,
                          const std::function<void(const std::filesystem::path&)>& read);
 
+// Calls `read` on the file with every byte changed in several ways, one at a time. It must give a volume whose
+// densities are in [0, 1] and as many as its size says, or refuse the file as bad input.
+void expect_changes_survived(const std::string& bytes, const std::string& name,
+                             const std::function<GridVolume(const std::filesystem::path&)>& read);
+
 // Appends the bytes of values as they are in memory.
 template <typename... T>
 std::string bytes_of(T... values) {

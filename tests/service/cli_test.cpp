@@ -412,6 +412,29 @@ TEST_F(Cli, lists_the_scenario_that_a_name_finds) {
     EXPECT_EQ(listed.out.find("second/same.json"), std::string::npos) << listed.out;
 }
 
+TEST_F(Cli, finds_every_scenario_that_it_lists) {
+    nlohmann::json document = nlohmann::json::parse(read(path("tiny.json")));
+    document["name"] = "its_own_name";
+    fs::create_directories(folder_ / "all/below");
+    write("all/below/file.json", document.dump());
+    document["name"] = "other";
+    write("all/first.json", document.dump());
+    write("all/second.json", document.dump());
+    setenv("SHADOWBENCH_SCENARIOS", path("all").c_str(), 1);
+    const Outcome listed = cli({"list", "scenarios"});
+    for (const char* name : {"its_own_name", "other", "second"}) {
+        EXPECT_NE(("\n" + listed.out).find(std::string("\n") + name + "  "), std::string::npos) << listed.out;
+        const Outcome found = cli({"validate", name});
+        EXPECT_EQ(found.code, 0) << found.err;
+    }
+    const Outcome run = cli({"run", "its_own_name", "--out", path("out")});
+    const Outcome rendered = cli({"render", "its_own_name", "--size", "16x12", "--out", path("pictures")});
+    unsetenv("SHADOWBENCH_SCENARIOS");
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(read(path("out/result.json")))["name"], "its_own_name");
+    EXPECT_EQ(rendered.code, 0) << rendered.err;
+}
+
 TEST_F(Cli, lists_every_technique_with_its_parameters) {
     const Outcome outcome = cli({"list", "techniques"});
     EXPECT_EQ(outcome.code, 0);

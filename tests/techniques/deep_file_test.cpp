@@ -134,10 +134,31 @@ TEST(DeepFile, RefusesNodesThatAreNoVisibility) {
     }
 }
 
-// Published compression may leave such values: nothing is written, rather than a file that nobody can read.
-TEST(DeepFile, ValuesOutsideTheUnitRangeAreNotWritten) {
+// Published compression may leave such values. Files without them stay as readers of version 1 know them.
+TEST(DeepFile, ValuesOutsideTheUnitRangeMakeAFileOfVersion2) {
     const TestFile file;
-    for (const float value : {-1e-6f, 1.0f + 1e-6f, std::numeric_limits<float>::quiet_NaN()}) {
+    for (const float value : {0.0f, 1.0f, -1e-6f, 1.0f + 1e-6f, -2.0f, 3.0f}) {
+        std::vector<DeepLevel> levels = {{1, 1, 1, {0, 4}, {1, 2, 1, value}, {}}};
+        levels[0].floats.resize(4 + DeepLevel::padding);
+        write_deep_file(file.path, levels, 16, {});
+        const bool inside = value >= 0.0f && value <= 1.0f;
+        EXPECT_EQ(DeepFile(file.path).unit_range(), inside) << value;
+        EXPECT_EQ(base::read_text(file.path)[12], inside ? 1 : 2) << value;
+        expect_same(read_levels(DeepFile(file.path)), levels);
+        if (inside) continue;
+        std::string changed = base::read_text(file.path);  // says that it is of version 1
+        poke(changed, 12, 1);
+        poke(changed, 60, crc(changed, 0, 60));
+        write_bytes(file.path, changed);
+        expect_refused(file.path, changed.size(), "not in [0, 1]");
+    }
+}
+
+// Nothing is written, rather than a file that nobody can read.
+TEST(DeepFile, ValuesThatNoCompressionLeavesAreNotWritten) {
+    const TestFile file;
+    for (const float value :
+         {-2.001f, 3.001f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
         std::vector<DeepLevel> levels = {{1, 1, 1, {0, 4}, {1, 2, 1, value}, {}}};
         levels[0].floats.resize(4 + DeepLevel::padding);
         try {
@@ -237,6 +258,33 @@ TEST(DeepFile, SeesAFileCutAnywhereOrMadeLonger) {
     expect_refused(file.path, bytes.size() + 1, "appended");
 }
 
+// The file is mapped into memory, where a read behind its end would end the program.
+TEST(DeepFile, SaysThatAnOpenFileWasCut) {
+    const TestFile file;
+    write_deep_file(file.path, random_levels(120, 90, 1, 3, 1), 16, {});
+    const DeepFile open(file.path);
+    std::size_t largest = 0;
+    for (std::size_t tile = 0; tile < open.tiles(); ++tile) largest = std::max(largest, open.tile_bytes(tile));
+    std::vector<float> memory(largest / sizeof(float));
+    auto* const to = reinterpret_cast<std::byte*>(memory.data());
+    const auto code = [&](std::size_t tile) {
+        try {
+            open.read_tile(tile, to);
+        } catch (const base::Error& error) {
+            EXPECT_THAT(error.where(), StartsWith(file.path.string() + ": byte "));
+            return error.code();
+        }
+        return base::ErrorCode{};
+    };
+    const std::size_t last = open.tiles() - 1;
+    EXPECT_EQ(code(last), base::ErrorCode{});
+    std::filesystem::resize_file(file.path, open.file_bytes() / 2);
+    EXPECT_EQ(code(last), base::ErrorCode::io);
+    EXPECT_EQ(code(0), base::ErrorCode{}) << "what is still there can be read";
+    std::filesystem::resize_file(file.path, 0);
+    EXPECT_EQ(code(0), base::ErrorCode::io);
+}
+
 TEST(DeepFile, TakesNoMemoryForSizesThatTheFileCannotHave) {
     const TestFile file;
     write_deep_file(file.path, random_levels(5, 3, 1, 3, 1), 2, {});
@@ -300,9 +348,9 @@ TEST(DeepFile, RefusesOtherFilesVersionsAndByteOrders) {
     write_bytes(file.path, changed);
     expect_refused(file.path, 8, "byte order");
     changed = bytes;
-    changed[12] = 2;
+    changed[12] = 3;
     write_bytes(file.path, changed);
-    expect_refused(file.path, 12, "version 2");
+    expect_refused(file.path, 12, "version 3");
     write_bytes(file.path, std::string(200, 'x'));
     expect_refused(file.path, 0, "not a deep shadow map");
     EXPECT_EQ(fault(::testing::TempDir()).code(), base::ErrorCode::io);

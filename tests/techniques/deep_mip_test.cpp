@@ -30,10 +30,11 @@ scene::RaySettings oblong(int width, int height, int samples) {
     return settings;
 }
 
-DeepMap make_map(const Captured& rays, float tolerance) {
+DeepMap make_map(const Captured& rays, float tolerance, bool levels_of_samples = false) {
     DeepMap map;
     map.compression.tolerance = tolerance;
     map.rule.mip = Mip::blend;
+    map.levels_of_samples = levels_of_samples;
     map.begin(rays.layout);
     for (const auto& tile : rays.tiles) map.add(tile);
     map.finish();
@@ -79,34 +80,73 @@ TEST(DeepMip, SizesGoDownToOnePixel) {
     EXPECT_EQ(mip_size(17, 5), 1);
 }
 
-TEST(DeepMip, EveryLevelStaysWithinTwiceTheToleranceOfTheExactMean) {
+// The largest distance of a level's functions from the exact means in one channel.
+double worst_error(const DeepMap& map, const Captured& rays, const std::vector<curves::Curve>& functions, int number,
+                   int channel) {
+    const DeepLevel& level = map.levels[static_cast<std::size_t>(number)];
+    curves::Curve stored;
+    double worst = 0.0;
+    for (int y = 0; y < level.height; ++y)
+        for (int x = 0; x < level.width; ++x) {
+            read_function(level, level.pixel(x, y), channel, stored);
+            EXPECT_TRUE(curves::is_visibility(stored));
+            const auto exact = exact_mean(functions, rays.layout, number, x, y);
+            worst = std::max(worst, curves::distance(stored, exact, 0, 4).max);
+        }
+    return worst;
+}
+
+// Calls visit(light rays, their uncompressed functions, channel) for grey surfaces and for coloured hair in media.
+template <class Visit>
+void for_each_channel(const Visit& visit) {
     for (const bool coloured : {false, true})
         for (const auto& [width, height] : {std::pair{16, 16}, {21, 13}}) {
             scene::Scene scene = testing::hairy_scene(coloured);
             if (coloured) scene.objects[0].opacity = base::Vec3f(0.7f, 0.3f, 0.5f);
             const Captured rays = capture(scene, directional(), oblong(width, height, 9));
-            const float tolerance = 0.04f;
-            const DeepMap map = make_map(rays, tolerance);
-            ASSERT_EQ(map.levels.size(), static_cast<std::size_t>(mip_levels(width, height)));
-            curves::Curve stored;
-            for (int c = 0; c < rays.layout.channels; ++c) {
-                const auto functions = exact_functions(rays, c);
-                for (std::size_t l = 0; l < map.levels.size(); ++l) {
-                    const DeepLevel& level = map.levels[l];
-                    double worst = 0.0;
-                    for (int y = 0; y < level.height; ++y)
-                        for (int x = 0; x < level.width; ++x) {
-                            read_function(level, level.pixel(x, y), c, stored);
-                            ASSERT_TRUE(curves::is_visibility(stored));
-                            const auto exact = exact_mean(functions, rays.layout, static_cast<int>(l), x, y);
-                            worst = std::max(worst, curves::distance(stored, exact, 0, 4).max);
-                        }
-                    EXPECT_LE(worst, tolerance * (2.0 - std::ldexp(1.0, -static_cast<int>(l))) + 1.2e-5)
-                        << "level " << l << " channel " << c;
-                    EXPECT_GT(worst, 0.0) << "nothing was compressed";
-                }
-            }
+            for (int c = 0; c < rays.layout.channels; ++c) visit(rays, exact_functions(rays, c), c);
         }
+}
+
+TEST(DeepMip, EveryLevelStaysWithinTwiceTheToleranceOfTheExactMean) {
+    const float tolerance = 0.04f;
+    for_each_channel([&](const Captured& rays, const std::vector<curves::Curve>& functions, int channel) {
+        const DeepMap map = make_map(rays, tolerance);
+        ASSERT_EQ(map.levels.size(), static_cast<std::size_t>(mip_levels(rays.layout.width, rays.layout.height)));
+        for (int l = 0; l < static_cast<int>(map.levels.size()); ++l) {
+            const double worst = worst_error(map, rays, functions, l, channel);
+            EXPECT_LE(worst, tolerance * (2.0 - std::ldexp(1.0, -l)) + 1.2e-5) << "level " << l << " of " << channel;
+            EXPECT_GT(worst, 0.0) << "nothing was compressed";
+        }
+    });
+}
+
+// Nothing accumulates, and level 0 is the same map.
+TEST(DeepMip, LevelsOfSamplesEachKeepTheirOwnTolerance) {
+    const float tolerance = 0.04f;
+    for_each_channel([&](const Captured& rays, const std::vector<curves::Curve>& functions, int channel) {
+        const DeepMap map = make_map(rays, tolerance, true), published = make_map(rays, tolerance);
+        ASSERT_EQ(map.levels.size(), published.levels.size());
+        EXPECT_EQ(map.levels[0].floats, published.levels[0].floats);
+        EXPECT_EQ(map.levels[0].offsets, published.levels[0].offsets);
+        for (int l = 1; l < static_cast<int>(map.levels.size()); ++l) {
+            const double worst = worst_error(map, rays, functions, l, channel);
+            const double lines = rays.layout.media ? linearisation_of(tolerance) : 0.0;
+            EXPECT_LE(worst, std::ldexp(tolerance, -l) + lines + 1.2e-5) << "level " << l << " of " << channel;
+            EXPECT_GT(worst, 0.0) << "nothing was compressed";
+        }
+    });
+}
+
+// Without loss both ways give the exact means.
+TEST(DeepMip, LevelsOfSamplesAreThoseOfALosslessMap) {
+    const Captured rays = capture(testing::hairy_scene(false), directional(), oblong(21, 13, 9));
+    const auto functions = exact_functions(rays, 0);
+    for (const bool of_samples : {false, true}) {
+        const DeepMap map = make_map(rays, 0.0f, of_samples);
+        for (int l = 0; l < static_cast<int>(map.levels.size()); ++l)
+            EXPECT_LE(worst_error(map, rays, functions, l, 0), 1e-6 * (l + 1)) << l;
+    }
 }
 
 // The paper's estimate is 1.55 (section 5.3).
@@ -234,8 +274,9 @@ TEST(DeepMip, WideLookupsReadAFewPixelsHoweverWide) {
             for (int l = choice.fine; l <= choice.fine + (choice.coarser > 0.0f); ++l) {
                 int pixels = 0;
                 double weights = 0.0;
-                for_each_pixel(map.levels, l, rule, q, [&](std::size_t pixel, double weight) {
-                    ASSERT_LT(pixel + 1, map.levels[static_cast<std::size_t>(l)].offsets.size());
+                const DeepLevel& level = map.levels[static_cast<std::size_t>(l)];
+                for_each_pixel(64, 43, l, kernel, q, [&](int x, int y, double weight) {
+                    ASSERT_TRUE(x >= 0 && y >= 0 && x < level.width && y < level.height);
                     ++pixels;
                     weights += weight;
                 });

@@ -143,7 +143,8 @@ INSTANTIATE_TEST_SUITE_P(Parameters, DeepSettings,
                          ::testing::Values(R"({})", R"({"filter": "gaussian", "radius": 1.5})",
                                            R"({"mip": "nearest", "search": "linear"})",
                                            R"({"mip": "blend", "kernel": "tent", "search": "cached"})",
-                                           R"({"filter": "tent", "radius": 1.0, "mip": "blend"})"));
+                                           R"({"filter": "tent", "radius": 1.0, "mip": "blend"})",
+                                           R"({"mip": "blend", "mip_from": "samples"})"));
 
 // Duplicated depths are steps; a NaN goes to the front.
 TEST(SegmentSearch, AllFindTheFirstDepthThatIsNotLess) {

@@ -59,7 +59,8 @@ TEST(Parameters, OnlyWhatDiffersFromTheDefaultsIsShown) {
     const ParameterValues values = read_parameters(parameters, {{"tolerance", 0.02}}, "");
     EXPECT_EQ(to_string(values, parameters, false), "tolerance=0.02");
     EXPECT_EQ(to_string(values, parameters, true),
-              "tolerance=0.02 compression=bounded filter=box radius=0.5 mip=none kernel=box search=binary");
+              "tolerance=0.02 compression=bounded filter=box radius=0.5 mip=none mip_from=compressed kernel=box probes=0 "
+              "search=binary storage=memory slots=64");
 }
 
 TEST(Parameters, EveryRowHasASchemaWithItsDefaults) {

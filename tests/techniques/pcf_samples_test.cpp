@@ -83,6 +83,29 @@ TEST(Placement, JitterPutsOneSampleIntoEachPart) {
     }
 }
 
+// The code of figure 4: smin = s - sres + js with js = ds * .5, then iu = s + Rand() * js for s = smin + i * ds. So the
+// samples lie a quarter of a part further up, on average, than the lookup.
+TEST(Placement, PublishedJitterIsThatOfFigure4) {
+    const Region r = box(6.0f);
+    const double sres = 3, tres = 6, ds = 2 * sres / r.ns, dt = 2 * tres / r.nt, s = 30, t = 20;
+    for (std::uint64_t lookup = 0; lookup < 200; ++lookup) {
+        int number = 0;
+        for_each_sample<Placement::published>(r, 30.0f, 20.0f, base::hash(lookup), [&](float x, float y, float) {
+            const double from_x = s - sres + 0.5 * ds + number % r.ns * ds,
+                         from_y = t - tres + 0.5 * dt + number / r.ns * dt;
+            EXPECT_GE(x, from_x - 1e-5);
+            EXPECT_LE(x, from_x + 0.5 * ds + 1e-5);
+            EXPECT_GE(y, from_y - 1e-5);
+            EXPECT_LE(y, from_y + 0.5 * dt + 1e-5);
+            ++number;
+        });
+        EXPECT_EQ(number, r.ns * r.nt);
+    }
+    const Moments m = moments<Placement::published>(r, 30.0f, 20.0f);
+    EXPECT_NEAR(m.x, 0.25 * ds, 0.01);
+    EXPECT_NEAR(m.y, 0.25 * dt, 0.02);
+}
+
 TEST(Placement, NoSampleLeavesTheExtentItIsPromisedTo) {
     const Footprint tilted{3.0f, 1.0f, -1.0f, 2.0f};
     const CellGrid grid{4096, 4096, 4.0f, 4.0f};
@@ -100,6 +123,7 @@ TEST(Placement, NoSampleLeavesTheExtentItIsPromisedTo) {
         for_each_sample<Placement::uniform>(square, x, y, lookup, inside(square));
         for_each_sample<Placement::gaussian>(square, x, y, lookup, inside(square));
         for_each_sample<Placement::jittered>(square, x, y, lookup, inside(square));
+        for_each_sample<Placement::published>(square, x, y, lookup, inside(square));
         for_each_sample<Placement::shape>(shape, x, y, lookup, inside(shape));
     }
 }

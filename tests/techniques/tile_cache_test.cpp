@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <list>
 
 #include "base/error.h"
@@ -18,6 +19,8 @@ namespace {
 using testing::curve_of;
 using testing::random_levels;
 using testing::TestFile;
+
+constexpr std::size_t padding = DeepLevel::padding * sizeof(float);
 
 struct Access {
     int x, y, level;
@@ -90,7 +93,8 @@ TEST_P(Caches, AnswerAsTheMapInMemoryAndKeepTheirSlots) {
         reference.use(file.tile_of(a.x, a.y, a.level));
         ASSERT_EQ(cache.hits(), reference.hits);
         ASSERT_EQ(cache.misses(), reference.misses);
-        ASSERT_LE(cache.tile_bytes(), slots * largest);
+        ASSERT_LE(cache.tile_bytes(), slots * (largest + padding));
+        ASSERT_LE(cache.bytes(), cache.most_bytes());
     }
     EXPECT_GT(cache.misses(), 10u);
     EXPECT_GT(cache.bytes(), cache.tile_bytes());
@@ -108,12 +112,33 @@ TEST(TileCache, ASlotGrowsToTheLargestTileAndNeverShrinks) {
     TileCache cache(file, 1);
     EXPECT_EQ(cache.tile_bytes(), 0u);
     cache.function(0, 0, 0);
-    EXPECT_EQ(cache.tile_bytes(), 4u * (2 + 2));
+    EXPECT_EQ(cache.tile_bytes(), 4u * (2 + 2) + padding);
     cache.function(1, 0, 0);
-    EXPECT_EQ(cache.tile_bytes(), 4u * (2 + 10));
+    EXPECT_EQ(cache.tile_bytes(), 4u * (2 + 10) + padding);
+    EXPECT_EQ(cache.bytes(), cache.most_bytes()) << "the largest tile has been there";
     cache.function(2, 0, 0);
-    EXPECT_EQ(cache.tile_bytes(), 4u * (2 + 10));
+    EXPECT_EQ(cache.tile_bytes(), 4u * (2 + 10) + padding);
     EXPECT_EQ(cache.function(2, 0, 0).nodes, 3u);
+
+    TileCache all(file, 7);
+    EXPECT_EQ(all.slots(), 3u) << "no more than there are tiles";
+    for (int x = 0; x < 3; ++x) all.function(x, 0, 0);
+    EXPECT_EQ(all.tile_bytes(), 4u * (6 + 18) + 3 * padding);
+    EXPECT_EQ(all.bytes(), all.most_bytes()) << "each slot keeps its tile";
+}
+
+// The floor of lookups reads the mapped file, since the memory of a slot may go.
+TEST(TileCache, KnowsWhereAFunctionLiesInTheFile) {
+    const TestFile path;
+    write_deep_file(path.path, random_levels(21, 13, 3, 8), 8, {});
+    const DeepFile file(path.path);
+    TileCache cache(file, 2);
+    for (int y = 0; y < 13; ++y)
+        for (int x = 0; x < 21; ++x) {
+            const DeepFunction f = cache.function(x, y, 0);
+            ASSERT_EQ(cache.last_tile(), file.tile_of(x, y, 0));
+            ASSERT_EQ(std::memcmp(cache.in_file(f.depths), f.depths, f.nodes * sizeof(float)), 0) << x << " " << y;
+        }
 }
 
 TEST(TileCache, GoesOnAfterATileThatIsDamaged) {
@@ -168,7 +193,7 @@ TEST(TileCache, LookupsAverageThePixelsOfALevelUnderTheFootprint) {
         {8, 8, 100, 4},           // behind all
     };
     std::vector<float> v(3 * queries.size());
-    lookup(cache, 0, queries, v);
+    lookup(cache, {}, queries, {}, v);
     for (std::size_t c = 0; c < 3; ++c) {
         const int channel = static_cast<int>(c);
         const float* answer = v.data() + c * queries.size();
@@ -178,10 +203,11 @@ TEST(TileCache, LookupsAverageThePixelsOfALevelUnderTheFootprint) {
         EXPECT_EQ(answer[3], 1.0f);
         EXPECT_NEAR(answer[4], mean(0, 6, 10, 6, 10, channel, 100), 1e-6);
     }
-    lookup(cache, 2, queries, v);  // a pixel of level 2 covers 4 x 4
-    EXPECT_EQ(v[0], curves::evaluate(curve_of(levels[2], 1, 0, 0), 0.8f));
-    EXPECT_NEAR(v[1], mean(2, 1, 3, 1, 3, 0, 0.8f), 1e-6);  // a quarter of each of four
-    EXPECT_EQ(v[3], 1.0f);
+    const std::vector<Query> wide = {{8, 8, 0.8f, 8}, {-1, 3, 0.8f, 8}};  // a pixel of level 2 covers 4 x 4
+    std::vector<float> w(3 * wide.size());
+    lookup(cache, {.mip = Mip::nearest}, wide, {}, w);
+    EXPECT_NEAR(w[0], mean(2, 1, 3, 1, 3, 0, 0.8f), 1e-6);
+    EXPECT_EQ(w[1], 1.0f);
 }
 
 TEST(TileCache, AnswersAsTheMapThatWasWritten) {
@@ -198,9 +224,9 @@ TEST(TileCache, AnswersAsTheMapThatWasWritten) {
         queries.push_back({static_cast<float>(random.uniform(-1, 25)), static_cast<float>(random.uniform(-1, 25)),
                            static_cast<float>(random.uniform(0, 2)), i % 2 == 0 ? 1.0f : 4.0f});
     std::vector<float> read(queries.size()), kept(queries.size());
-    lookup(cache, 0, queries, read);
+    lookup(cache, {}, queries, {}, read);
     b.map->lookup(queries, kept);
-    for (std::size_t i = 0; i < queries.size(); ++i) EXPECT_NEAR(read[i], kept[i], i % 2 == 0 ? 0.0f : 1e-6f);
+    for (std::size_t i = 0; i < queries.size(); ++i) EXPECT_EQ(read[i], kept[i]);
     EXPECT_TRUE(levels(*testing::build(find("avsm", ""), testing::hairy_scene(false), rays::testing::directional(),
                                        rays::testing::rays(4, 1))
                             .map)

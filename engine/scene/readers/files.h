@@ -45,6 +45,20 @@ enum class Negative { clamp, refuse };
 GridVolume read_raw_volume(const std::filesystem::path& file, Vec3i size, const std::string& type,
                            Negative negative = Negative::clamp);
 
+// A volume of the V3 library (.pvm: PVM, PVM2 or PVM3, packed or not): densities of 8 bits, or of 16 with the high byte
+// first, scaled to [0, 1]. The box begins at the origin; a voxel's edges are the spacing of the file, or 1 without one.
+// The caller sets the step. A small file can unpack to a large volume: more than `most_voxels` are bad input.
+GridVolume read_pvm(const std::filesystem::path& file, std::uint64_t most_voxels = max_voxels);
+
+// The channel of a texture that holds the density. usual: alpha or, in a texture of a single channel, that one.
+// Luminance is red, green and blue.
+enum class DdsChannel { usual, red, green, blue, alpha };
+
+// The largest mip level of a DDS volume texture: BC3 blocks (DXT5), or channels of 8 bits without compression. Values
+// are scaled to [0, 1]. The caller sets the box and step.
+GridVolume read_dds_volume(const std::filesystem::path& file, DdsChannel channel = DdsChannel::usual,
+                           std::uint64_t most_voxels = max_voxels);
+
 // A grid by its name ("density[1]" if several have that name) or by its number from 0 on. Without either: "density" or,
 // if no grid has that name, the file's only grid of float values.
 using GridChoice = std::variant<std::monostate, std::string, int>;

@@ -1,12 +1,12 @@
 // A deep shadow map as a file of tiles, so that a lookup loads only the tiles that it needs (Lokovic and Veach 2000,
 // section 5.4).
 //
-// The format, version 1. All numbers are little-endian; offsets count bytes from the start of the file.
+// The format. All numbers are little-endian; offsets count bytes from the start of the file.
 //
 //   header, 64 bytes
 //        0  8 bytes   53 42 44 53 4d 0d 0a 1a ("SBDSM", then CR LF SUB: shows a transfer as text)
 //        8  uint32    0x01020304: the byte order
-//       12  uint32    version
+//       12  uint32    version: 1; 2 if values lie outside [0, 1], as published compression leaves them
 //       16  uint64    length of the file in bytes
 //       24  uint32 x2 width and height of level 0, pixels
 //       32  uint32    channels, 1 or 3
@@ -25,7 +25,8 @@
 //        n + 1 uint32 index of each pixel's first float among the tile's floats; last, their number
 //        uint32s      3 channels only: bit p % 32 of word p / 32 is set if pixel p holds three channels
 //        floats       a function of k nodes: k depths, finite and not decreasing, then k values of each channel that
-//                     the pixel holds, in [0, 1]
+//                     the pixel holds, in [0, 1]; in version 2 in [-2, 3], the range that twice the largest tolerance
+//                     allows
 //
 // Checksums are the CRC-32 of zlib and PNG (polynomial 0xedb88320).
 #pragma once
@@ -52,7 +53,7 @@ inline constexpr int max_deep_tile = 1024;  // pixels a side
 
 // Writes level 0 and its mip levels, if any: all of it, or nothing. Throws Error: internal for levels that are
 // incomplete or not each half of the one before; bad_input for a tile size outside [1, max_deep_tile], a text that is
-// too long, or values outside [0, 1], as published compression leaves them; io.
+// too long, or values outside [-2, 3]; io.
 void write_deep_file(const std::filesystem::path& file, std::span<const DeepLevel> levels, int tile_size,
                      const DeepFileNotes& notes);
 
@@ -79,8 +80,9 @@ struct DeepTiling {
     std::size_t tiles() const { return static_cast<std::size_t>(tiles_x) * tiles_y; }
 };
 
-// A file that is open for reading. All faults of the file are Error{bad_input} whose place is "file: byte 17"; memory
-// is allocated only for what the file is long enough for. Thread-safe.
+// A file that is open for reading, mapped into memory. All faults of the file are Error{bad_input} whose place is
+// "file: byte 17"; a part that can no longer be read, as of a file that was cut after it was opened, is Error{io}.
+// Memory is allocated only for what the file is long enough for. Thread-safe.
 class DeepFile {
 public:
     // Reads and checks header and directory. Throws Error: no_such_file, io, bad_input.
@@ -92,11 +94,12 @@ public:
     int channels() const { return channels_; }
     int tile_size() const { return tile_size_; }
     std::uint64_t file_bytes() const { return file_bytes_; }
+    bool unit_range() const { return unit_range_; }  // all values are in [0, 1]
     const DeepFileNotes& notes() const { return notes_; }
     std::span<const DeepTiling> levels() const { return levels_; }
     std::size_t tiles() const { return directory_.size(); }
     std::size_t tile_bytes(std::size_t tile) const { return std::size_t{directory_[tile].words} * 4; }
-    std::size_t bytes() const;  // held: text and directory
+    std::size_t bytes() const;  // held: text and directory. Pages of the file that the system keeps do not count.
 
     // The number of the tile that holds pixel (x, y) of a level.
     std::size_t tile_of(int x, int y, int level) const {
@@ -110,6 +113,8 @@ public:
     // Reads a tile as it is in the file, and checks it; `to` has tile_bytes(tile) bytes and the alignment of float.
     // Throws Error: bad_input, io.
     void read_tile(std::size_t tile, std::byte* to) const;
+    // Where the tile lies in the mapped file. Reading there is safe only while nobody else can change the file.
+    const std::byte* mapped_tile(std::size_t tile) const { return mapped_ + directory_[tile].offset; }
 
 private:
     struct Entry {
@@ -117,6 +122,9 @@ private:
         std::uint32_t words, checksum;
     };
     [[noreturn]] void fail(std::uint64_t offset, const std::string& message) const;
+    void map_file();
+    void close_file();
+    void load_pages(std::uint64_t offset, std::size_t bytes) const;
     void read(std::uint64_t offset, void* to, std::size_t bytes) const;
     void read_header();
     void read_directory();
@@ -125,8 +133,10 @@ private:
 
     std::filesystem::path name_;
     int descriptor_ = -1;
+    const std::byte* mapped_ = nullptr;
     std::uint64_t file_bytes_ = 0;
     int channels_ = 1, tile_size_ = 1;
+    bool unit_range_ = true;
     DeepFileNotes notes_;
     std::uint32_t text_bytes_ = 0;
     std::vector<DeepTiling> levels_;

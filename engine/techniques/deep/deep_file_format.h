@@ -15,7 +15,8 @@ static_assert(std::endian::native == std::endian::little, "numbers are read and 
 
 constexpr std::array<unsigned char, 8> magic{0x53, 0x42, 0x44, 0x53, 0x4d, 0x0d, 0x0a, 0x1a};
 constexpr std::uint32_t byte_order = 0x01020304;
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t unit_version = 1, wide_version = 2;  // of files whose values are in these ranges
+constexpr float unit_least = 0.0f, unit_most = 1.0f, wide_least = -2.0f, wide_most = 3.0f;
 constexpr std::uint32_t max_side = 1u << 20;  // pixels
 constexpr std::uint32_t max_text = 1u << 16;  // bytes
 

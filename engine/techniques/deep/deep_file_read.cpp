@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -56,15 +57,30 @@ DeepFile::DeepFile(const std::filesystem::path& file) : name_(file) {
         if (::fstat(descriptor_, &facts) != 0 || !S_ISREG(facts.st_mode))
             throw Error(ErrorCode::io, file.string(), "only a regular file can be read tile by tile");
         file_bytes_ = static_cast<std::uint64_t>(facts.st_size);
+        map_file();
         read_header();
         read_directory();
     } catch (...) {
-        ::close(descriptor_);
+        close_file();
         throw;
     }
 }
 
 DeepFile::~DeepFile() {
+    close_file();
+}
+
+void DeepFile::map_file() {
+    if (file_bytes_ == 0) return;  // nothing can be mapped, and the header will be missed
+    void* const at = ::mmap(nullptr, file_bytes_, PROT_READ, MAP_SHARED, descriptor_, 0);
+    if (at == MAP_FAILED)
+        throw Error(ErrorCode::io, name_.string(),
+                    "cannot be mapped into memory: " + std::generic_category().message(errno));
+    mapped_ = static_cast<const std::byte*>(at);
+}
+
+void DeepFile::close_file() {
+    if (mapped_) ::munmap(const_cast<std::byte*>(mapped_), file_bytes_);
     ::close(descriptor_);
 }
 
@@ -72,17 +88,34 @@ void DeepFile::fail(std::uint64_t offset, const std::string& message) const {
     throw Error(ErrorCode::bad_input, fmt::format("{}: byte {}", name_.string(), offset), message);
 }
 
+// A read of a mapped page that cannot be loaded ends the program. So the pages are first loaded by a call that reports
+// it; systems without that call only compare the file's length.
+void DeepFile::load_pages(std::uint64_t offset, std::size_t bytes) const {
+    const auto fail_io = [&](std::uint64_t place, const std::string& message) {
+        throw Error(ErrorCode::io, fmt::format("{}: byte {}", name_.string(), place), message);
+    };
+    int fault = EINVAL;
+#ifdef MADV_POPULATE_READ
+    const std::uint64_t page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)), first = offset / page * page;
+    do {
+        const bool loaded = ::madvise(const_cast<std::byte*>(mapped_) + first,
+                                      static_cast<std::size_t>(offset + bytes - first), MADV_POPULATE_READ) == 0;
+        fault = loaded ? 0 : errno;
+    } while (fault == EINTR || fault == EAGAIN);
+    if (fault == 0) return;
+#endif
+    struct stat facts {};
+    if (::fstat(descriptor_, &facts) != 0) fail_io(offset, "reading failed: " + std::generic_category().message(errno));
+    const auto length = static_cast<std::uint64_t>(facts.st_size);
+    if (length < offset + bytes) fail_io(length, "the file ends here; it was longer when it was opened");
+    if (fault != EINVAL)  // EFAULT: a read would have ended the program
+        fail_io(offset, "reading failed: " + std::generic_category().message(fault == EFAULT ? EIO : fault));
+}
+
 void DeepFile::read(std::uint64_t offset, void* to, std::size_t bytes) const {
-    for (std::size_t done = 0; done < bytes;) {
-        const ssize_t got =
-            ::pread(descriptor_, static_cast<char*>(to) + done, bytes - done, static_cast<off_t>(offset + done));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0)
-            throw Error(ErrorCode::io, fmt::format("{}: byte {}", name_.string(), offset + done),
-                        got < 0 ? "reading failed: " + std::generic_category().message(errno)
-                                : "the file ends here; it was longer when it was opened");
-        done += static_cast<std::size_t>(got);
-    }
+    if (bytes == 0) return;
+    load_pages(offset, bytes);
+    std::memcpy(to, mapped_ + offset, bytes);
 }
 
 void DeepFile::read_header() {
@@ -91,9 +124,9 @@ void DeepFile::read_header() {
     read(0, &h, sizeof h);
     if (h.magic != magic) fail(0, "not a deep shadow map file, or one damaged by a transfer as text");
     if (h.byte_order != byte_order) fail(offsetof(Header, byte_order), "the byte order is not little-endian");
-    if (h.version != version)
-        fail(offsetof(Header, version),
-             fmt::format("version {} of the format is not supported; version {} is", h.version, version));
+    if (h.version != unit_version && h.version != wide_version)
+        fail(offsetof(Header, version), fmt::format("version {} of the format is not supported; versions {} and {} are",
+                                                    h.version, unit_version, wide_version));
     if (h.checksum != header_checksum(h))
         fail(offsetof(Header, checksum), "the header is damaged: its checksum differs");
     if (const std::string fault = fault_of(h); !fault.empty())
@@ -102,6 +135,7 @@ void DeepFile::read_header() {
         fail(file_bytes_, fmt::format("the file has {} bytes but its header states {}: it was cut, or something "
                                       "was appended",
                                       file_bytes_, h.file_bytes));
+    unit_range_ = h.version == unit_version;
     channels_ = static_cast<int>(h.channels);
     tile_size_ = static_cast<int>(h.tile_size);
     text_bytes_ = h.text_bytes;
@@ -175,9 +209,10 @@ void DeepFile::check_table(const Entry& entry, std::size_t pixels, const std::by
         fail(entry.offset + pixels * 4, fmt::format("the tile has {} floats, but its pixels have {}", floats, begin));
 }
 
-// Lookups search the depths and join the values, and must not leave [0, 1].
+// Lookups search the depths and join the values, and must not leave the range of the version.
 void DeepFile::check_nodes(const Entry& entry, std::size_t pixels, const std::byte* tile) const {
     const auto* first = reinterpret_cast<const float*>(tile);
+    const float least = unit_range_ ? unit_least : wide_least, most = unit_range_ ? unit_most : wide_most;
     const auto place = [&](const float& number) {
         return entry.offset + static_cast<std::uint64_t>(&number - first) * 4;
     };
@@ -192,9 +227,9 @@ void DeepFile::check_nodes(const Entry& entry, std::size_t pixels, const std::by
             before = depth;
         }
         for (const float& value : std::span(f.depths + f.nodes, std::size_t{f.nodes} * f.channels))
-            if (!(value >= 0.0f && value <= 1.0f))
-                fail(place(value),
-                     fmt::format("pixel {} of the tile has the visibility {}, which is not in [0, 1]", p, value));
+            if (!(value >= least && value <= most))
+                fail(place(value), fmt::format("pixel {} of the tile has the visibility {}, which is not in [{}, {}]",
+                                               p, value, least, most));
     }
 }
 

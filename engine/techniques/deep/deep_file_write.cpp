@@ -57,13 +57,23 @@ void check(const std::filesystem::path& file, std::span<const DeepLevel> levels,
         if (!fault.empty())
             throw Error(ErrorCode::internal, file.string(), fmt::format("level {} cannot be written: {}", i, fault));
     }
+}
+
+// The version of the format that can hold all values.
+std::uint32_t version_for(const std::filesystem::path& file, std::span<const DeepLevel> levels) {
+    std::uint32_t version = unit_version;
     for (const DeepLevel& level : levels)
         for (std::size_t p = 0; p + 1 < level.offsets.size(); ++p)
-            for (std::size_t i = std::size_t{level.offsets[p]} + level.nodes(p); i < level.offsets[p + 1]; ++i)
-                if (!(level.floats[i] >= 0.0f && level.floats[i] <= 1.0f))
-                    throw Error(ErrorCode::bad_input, file.string(),
-                                fmt::format("pixel {} has the visibility {}, but the file holds only values in [0, 1]",
-                                            p, level.floats[i]));
+            for (std::size_t i = std::size_t{level.offsets[p]} + level.nodes(p); i < level.offsets[p + 1]; ++i) {
+                const float value = level.floats[i];
+                if (value >= unit_least && value <= unit_most) continue;
+                version = wide_version;
+                if (value >= wide_least && value <= wide_most) continue;
+                throw Error(ErrorCode::bad_input, file.string(),
+                            fmt::format("pixel {} has the visibility {}, but a file holds only values in [{}, {}]", p,
+                                        value, wide_least, wide_most));
+            }
+    return version;
 }
 
 // Appends the words of one tile to `words`.
@@ -115,7 +125,7 @@ std::vector<Entry> put_tiles(std::ostream& stream, std::span<const DeepLevel> le
     return directory;
 }
 
-Header make_header(std::span<const DeepLevel> levels, int tile_size, const DeepFileNotes& notes,
+Header make_header(std::span<const DeepLevel> levels, int tile_size, const DeepFileNotes& notes, std::uint32_t version,
                    std::uint64_t file_bytes) {
     Header header{magic,
                   byte_order,
@@ -140,6 +150,7 @@ Header make_header(std::span<const DeepLevel> levels, int tile_size, const DeepF
 void write_deep_file(const std::filesystem::path& file, std::span<const DeepLevel> levels, int tile_size,
                      const DeepFileNotes& notes) {
     check(file, levels, tile_size, notes);
+    const std::uint32_t version = version_for(file, levels);
     const DeepTiling last =
         tilings(levels[0].width, levels[0].height, static_cast<int>(levels.size()), tile_size).back();
     const std::uint64_t start =
@@ -149,7 +160,7 @@ void write_deep_file(const std::filesystem::path& file, std::span<const DeepLeve
     stream.seekp(static_cast<std::streamoff>(start));
     const std::vector<Entry> directory = put_tiles(stream, levels, tile_size, start, file);
     const std::uint64_t end = directory.back().offset + std::uint64_t{directory.back().words} * 4;
-    const Header header = make_header(levels, tile_size, notes, end);
+    const Header header = make_header(levels, tile_size, notes, version, end);
     const std::uint32_t sum =
         checksum(directory.data(), directory.size() * sizeof(Entry), checksum(notes.text.data(), notes.text.size()));
     stream.seekp(0);

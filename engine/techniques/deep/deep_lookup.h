@@ -35,12 +35,16 @@ struct LookupRule {
     Kernel kernel = Kernel::box;
     Mip mip = Mip::none;
     Search search = Search::binary;
+    // The most probes over a known footprint (probes.h): then its answer is the mean of theirs, each weighted as a
+    // lookup of its own, those outside the map left out. 0: footprints do not count, and the query's width does.
+    int probes = 0;
 };
 
-// See Map::lookup and Map::touched; levels[0] is the map, each further one half as wide.
+// See Map::lookup_shaped and Map::touched_shaped; levels[0] is the map, each further one half as wide. There may be no
+// footprints.
 void lookup(std::span<const DeepLevel> levels, const LookupRule& rule, std::span<const Query> queries,
-            std::span<float> visibility);
-void touched(std::span<const DeepLevel> levels, const LookupRule& rule, const Query& query,
+            std::span<const Footprint> footprints, std::span<float> visibility);
+void touched(std::span<const DeepLevel> levels, const LookupRule& rule, const Query& query, const Footprint& footprint,
              std::vector<const void*>& lines);
 
 }  // namespace shadowbench::techniques

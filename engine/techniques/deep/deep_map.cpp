@@ -68,60 +68,85 @@ void DeepMap::begin(const rays::MapLayout& map_layout) {
                           fmt::format("a pixel filter of radius {:g} needs an apron of {} pixels; the rays have {}",
                                       filter.radius, filter.apron(), map_layout.apron));
     layout_ = map_layout;
-    runs_.assign(layout_.tiles(), {});
+    begin_tiles(static_cast<std::size_t>(layout_.tiles()));
     scratch_bytes_.assign(layout_.tiles(), 0);
 }
 
+void DeepMap::begin_tiles(std::size_t count) {
+    runs_.assign(count, {});
+    lossless_.assign(rule.mip != Mip::none && levels_of_samples ? count : 0, {});
+}
+
+void DeepMap::place(std::size_t tile, int x0, int y0, int width, int channels) {
+    const auto set = [&](PixelRun& run) {
+        run.x0 = x0;
+        run.y0 = y0;
+        run.width = width;
+        run.channels = channels;
+    };
+    set(runs_[tile]);
+    if (!lossless_.empty()) set(lossless_[tile]);
+}
+
+void DeepMap::append(std::size_t tile, PixelScratch& scratch, int functions, const Compression& how) {
+    if (!lossless_.empty()) append_lossless(lossless_[tile], scratch, functions);
+    techniques::append(runs_[tile], scratch, functions, how);
+}
+
 void DeepMap::add(const rays::LightRays& tile) {
-    PixelRun& run = runs_[tile.tile];
-    run.x0 = tile.tile % layout_.tiles_x() * layout_.tile_width;
-    run.y0 = tile.tile / layout_.tiles_x() * layout_.tile_height;
-    run.width = std::min(layout_.tile_width, layout_.width - run.x0);
-    run.channels = layout_.channels;
+    const auto number = static_cast<std::size_t>(tile.tile);
+    const int x0 = tile.tile % layout_.tiles_x() * layout_.tile_width;
+    const int y0 = tile.tile / layout_.tiles_x() * layout_.tile_height;
+    const int width = std::min(layout_.tile_width, layout_.width - x0);
+    place(number, x0, y0, width, layout_.channels);
     const double linearisation = layout_.media ? linearisation_of(compression.tolerance) : 0.0;
     const Compression rest{static_cast<float>(std::max(0.0, compression.tolerance - linearisation)),
                            compression.published};
     TileScratch scratch;
     if (!filter.is_pixel())
         for (std::size_t ray = 0; ray < tile.rays(); ++ray) scratch.offsets.push_back(ray_offset(layout_, tile, ray));
-    const int y1 = std::min(run.y0 + layout_.tile_height, layout_.height);
-    for (int y = run.y0; y < y1; ++y)
-        for (int x = run.x0; x < run.x0 + run.width; ++x)
-            append(run, scratch.pixel, make_functions(filter, tile, x, y, linearisation, scratch), rest);
-    scratch_bytes_[tile.tile] = scratch.bytes();
+    const int y1 = std::min(y0 + layout_.tile_height, layout_.height);
+    for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x0 + width; ++x)
+            append(number, scratch.pixel, make_functions(filter, tile, x, y, linearisation, scratch), rest);
+    scratch_bytes_[number] = scratch.bytes();
 }
 
 void DeepMap::finish() {
     const std::size_t scratch = *std::max_element(scratch_bytes_.begin(), scratch_bytes_.end());
-    put_together(runs_, scratch, layout_.width, layout_.height, layout_.channels);
-    runs_ = {};
     scratch_bytes_ = {};
-    add_coarser_levels();
+    put_together(scratch, layout_.width, layout_.height, layout_.channels);
 }
 
 void DeepMap::make(std::span<const curves::Curve> functions) {
-    PixelRun run;
-    run.width = static_cast<int>(functions.size());
+    const int width = static_cast<int>(functions.size());
+    begin_tiles(1);
+    place(0, 0, 0, width, 1);
     PixelScratch scratch;
     for (const curves::Curve& function : functions) {
         scratch.function[0] = function;
-        append(run, scratch, 1, compression);
+        append(0, scratch, 1, compression);
     }
-    put_together({&run, 1}, scratch.bytes(), run.width, 1, 1);
-    run = {};
-    add_coarser_levels();
+    put_together(scratch.bytes(), width, 1, 1);
 }
 
-void DeepMap::put_together(std::span<const PixelRun> runs, std::size_t scratch_bytes, int width, int height,
-                           int channels) {
-    levels.push_back(assemble(width, height, channels, runs));
-    peak_bytes = scratch_bytes + bytes();
-    for (const PixelRun& run : runs) peak_bytes += run.bytes();
-}
-
-void DeepMap::add_coarser_levels() {
+void DeepMap::put_together(std::size_t scratch_bytes, int width, int height, int channels) {
+    const auto bytes_of = [](const std::vector<PixelRun>& runs) {
+        std::size_t sum = 0;
+        for (const PixelRun& run : runs) sum += run.bytes();
+        return sum;
+    };
+    levels.push_back(assemble(width, height, channels, runs_));
+    peak_bytes = scratch_bytes + bytes() + bytes_of(runs_) + bytes_of(lossless_);
+    runs_ = {};
     if (rule.mip == Mip::none) return;
-    const std::size_t working = add_mip_levels(levels, compression);
+    std::optional<DeepLevel> uncompressed;
+    if (!lossless_.empty()) {
+        uncompressed = assemble(width, height, channels, lossless_);
+        peak_bytes = std::max(peak_bytes, bytes() + bytes_of(lossless_) + uncompressed->bytes());
+        lossless_ = {};
+    }
+    const std::size_t working = add_mip_levels(levels, compression, std::move(uncompressed));
     peak_bytes = std::max(peak_bytes, working + bytes());
 }
 

@@ -17,7 +17,8 @@ struct DeepMap {
     Compression compression;  // of the map's functions; see mip.h for those of coarser levels
     PixelFilter filter;
     LookupRule rule;
-    std::vector<DeepLevel> levels;  // the map, then its mip levels if the rule asks for them
+    bool levels_of_samples = false;  // coarser levels are made of the functions before they are compressed
+    std::vector<DeepLevel> levels;   // the map, then its mip levels if the rule asks for them
     std::size_t peak_bytes = 0;
 
     // Throws Error{bad_input} if the layout's apron is narrower than the filter's.
@@ -34,11 +35,14 @@ struct DeepMap {
     NodeStats stats() const;  // of the map's own functions, without mip levels
 
 private:
-    void put_together(std::span<const PixelRun> runs, std::size_t scratch_bytes, int width, int height, int channels);
-    void add_coarser_levels();
+    void begin_tiles(std::size_t count);
+    void place(std::size_t tile, int x0, int y0, int width, int channels);
+    void append(std::size_t tile, PixelScratch& scratch, int functions, const Compression& how);
+    void put_together(std::size_t scratch_bytes, int width, int height, int channels);
 
     rays::MapLayout layout_;
     std::vector<PixelRun> runs_;              // one for each tile
+    std::vector<PixelRun> lossless_;          // the same uncompressed, if coarser levels are made of them
     std::vector<std::size_t> scratch_bytes_;  // for each tile
 };
 

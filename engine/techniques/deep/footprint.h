@@ -29,10 +29,6 @@ inline LevelChoice choose_levels(const LookupRule& rule, float width, std::size_
     return {fine, rule.mip == Mip::blend ? l - static_cast<float>(fine) : 0.0f};
 }
 
-inline CellGrid grid_of(const DeepLevel& level) {
-    return {level.width, level.height, 1.0f, 1.0f};
-}
-
 // Along one side of a level: pixels [begin, end) and the weights that a kernel gives their centres.
 class Side {
 public:
@@ -72,15 +68,6 @@ void for_each_pixel(int map_width, int map_height, int number, Kernel kernel, co
     if (kernel == Kernel::box) return for_each_of(stretch(x, width, filled_x), stretch(y, width, filled_y), visit);
     const float wide = kernel == Kernel::tent ? std::max(1.0f, width) : width;
     for_each_of(Side(kernel, x, wide, filled_x), Side(kernel, y, wide, filled_y), visit);
-}
-
-// Calls visit(pixel of the level, weight) for each pixel of level `number`.
-template <class Visit>
-void for_each_pixel(std::span<const DeepLevel> levels, int number, const LookupRule& rule, const Query& q,
-                    const Visit& visit) {
-    const DeepLevel& level = levels[static_cast<std::size_t>(number)];
-    for_each_pixel(levels[0].width, levels[0].height, number, rule.kernel, q,
-                   [&](int x, int y, double weight) { visit(level.pixel(x, y), weight); });
 }
 
 // The weighted mean of values in each channel.

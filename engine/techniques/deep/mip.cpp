@@ -31,8 +31,8 @@ Children children_of(const DeepLevel& below, int level, const DeepLevel& map, in
     return children;
 }
 
-void average(const DeepLevel& below, const Children& children, const Compression& compression, PixelScratch& scratch,
-             PixelRun& run) {
+// Makes the functions of the scratch the means of those of the children. Returns how many: 1 or 3.
+int average(const DeepLevel& below, const Children& children, PixelScratch& scratch) {
     bool coloured = false;
     for (std::size_t i = 0; i < children.count; ++i) coloured = coloured || below.has_colour(children.pixel[i]);
     const int functions = coloured ? 3 : 1;
@@ -44,7 +44,14 @@ void average(const DeepLevel& below, const Children& children, const Compression
         }
         curves::weighted_sum({terms.data(), children.count}, scratch.sweep, scratch.function[c]);
     }
-    append(run, scratch, functions, compression);
+    return functions;
+}
+
+PixelRun run_of(int width, int channels) {
+    PixelRun run;
+    run.width = width;
+    run.channels = channels;
+    return run;
 }
 
 }  // namespace
@@ -55,22 +62,31 @@ int mip_levels(int width, int height) {
     return levels;
 }
 
-std::size_t add_mip_levels(std::vector<DeepLevel>& levels, const Compression& compression) {
+std::size_t add_mip_levels(std::vector<DeepLevel>& levels, const Compression& compression,
+                           std::optional<DeepLevel> uncompressed) {
     const int count = mip_levels(levels[0].width, levels[0].height);
     levels.reserve(static_cast<std::size_t>(count));
     PixelScratch scratch;
     std::size_t peak = 0;
     for (int l = 1; l < count; ++l) {
-        const DeepLevel &map = levels[0], &below = levels.back();
-        const int width = mip_size(map.width, l), height = mip_size(map.height, l);
-        PixelRun run;
-        run.width = width;
-        run.channels = map.channels;
+        const DeepLevel &map = levels[0], &below = uncompressed ? *uncompressed : levels.back();
+        const int width = mip_size(map.width, l), height = mip_size(map.height, l), channels = map.channels;
+        PixelRun run = run_of(width, channels), lossless = run_of(width, channels);
         const Compression finer{std::ldexp(compression.tolerance, -l), compression.published};
         for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) average(below, children_of(below, l, map, x, y), finer, scratch, run);
-        peak = std::max(peak, run.bytes() + scratch.bytes());
-        levels.push_back(assemble(width, height, map.channels, {&run, 1}));
+            for (int x = 0; x < width; ++x) {
+                const int functions = average(below, children_of(below, l, map, x, y), scratch);
+                if (uncompressed) append_lossless(lossless, scratch, functions);
+                append(run, scratch, functions, finer);
+            }
+        std::size_t held = run.bytes() + scratch.bytes();
+        levels.push_back(assemble(width, height, channels, {&run, 1}));  // ends the life of `map` and `below`
+        if (uncompressed) {
+            DeepLevel next = assemble(width, height, channels, {&lossless, 1});
+            held += lossless.bytes() + uncompressed->bytes() + next.bytes();
+            *uncompressed = std::move(next);
+        }
+        peak = std::max(peak, held);
     }
     levels.shrink_to_fit();
     return peak;

@@ -48,6 +48,7 @@ void append_three(PixelRun& run, PixelScratch& scratch, const Compression& how) 
 std::size_t PixelScratch::bytes() const {
     std::size_t vertices = 0;
     for (const curves::Curve& curve : function) vertices += curve.capacity();
+    for (const curves::Curve& curve : kept) vertices += curve.capacity();
     for (const curves::Curve& curve : children) vertices += curve.capacity();
     return vertices * sizeof(curves::Vertex) + colour.capacity() * sizeof(curves::ColourVertex) + sweep.bytes();
 }
@@ -63,6 +64,12 @@ void append(PixelRun& run, PixelScratch& scratch, int functions, const Compressi
     run.begin.push_back(static_cast<std::uint32_t>(run.floats.size()));
 }
 
+void append_lossless(PixelRun& run, PixelScratch& scratch, int functions) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(functions); ++c) scratch.kept[c] = scratch.function[c];
+    append(run, scratch, functions, {});
+    for (std::size_t c = 0; c < static_cast<std::size_t>(functions); ++c) scratch.function[c].swap(scratch.kept[c]);
+}
+
 DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun> runs) {
     DeepLevel level;
     level.width = width;
@@ -74,7 +81,8 @@ DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun
     if (total > std::numeric_limits<std::uint32_t>::max())
         throw base::Error(
             base::ErrorCode::bad_input, "/techniques",
-            "a level of a deep map holds at most 2^32 numbers: raise the tolerance or lower the resolution");
+            "a level of a deep map holds at most 2^32 numbers: raise the tolerance, lower the resolution, or make mip "
+            "levels with mip_from=compressed");
     level.offsets.assign(pixels + 1, 0);
     if (channels == 3) level.coloured.assign((pixels + 63) / 64, 0);
     for (const PixelRun& run : runs)

@@ -28,7 +28,7 @@ struct PixelRun {
 
 // One pixel before it is compressed, and the memory for making it; each thread has its own.
 struct PixelScratch {
-    std::array<curves::Curve, 3> function;
+    std::array<curves::Curve, 3> function, kept;
     std::vector<curves::ColourVertex> colour;
     curves::SweepScratch sweep;
     std::array<curves::Curve, 4> children;
@@ -45,6 +45,9 @@ struct Compression {
 // Compresses the first `functions` (1 or 3) of the scratch and appends them as the run's next pixel. Three equal ones
 // are stored as one.
 void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression);
+
+// The same without loss, and the scratch keeps its functions.
+void append_lossless(PixelRun& run, PixelScratch& scratch, int functions);
 
 // Puts together runs that fill the level. Throws Error{bad_input} if it would hold more than 2^32 floats.
 DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun> runs);

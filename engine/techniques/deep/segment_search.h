@@ -1,6 +1,7 @@
 // Finds the segment of a stored function that holds a depth. All searches give the same answer.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -19,7 +20,6 @@ enum class Search {
 
 // Each returns the first of n sorted depths that is not less than z, or n if there is none; n > 0. A NaN returns 0.
 // `depths` may be read up to DeepLevel::padding floats further.
-// number. `depths` may be read as far as DeepLevel::padding floats.
 
 struct BinarySearch {
     static constexpr std::uint32_t lanes = DeepLevel::padding;  // depths that are compared at once
@@ -60,7 +60,7 @@ public:
     }
     std::uint32_t operator()(const float* depths, std::uint32_t n, float z) {
         Entry& entry = entries_[reinterpret_cast<std::uintptr_t>(depths) * 0x9e3779b97f4a7c15u >> 32 & mask_];
-        std::uint32_t i = entry.next;
+        std::uint32_t i = std::min(entry.next, n);  // another function may have taken this one's place in memory
         if (entry.depths != depths) {
             i = BinarySearch()(depths, n, z);
         } else {

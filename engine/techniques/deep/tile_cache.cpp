@@ -1,20 +1,33 @@
 #include "techniques/deep/tile_cache.h"
 
 #include <algorithm>
-#include <array>
-
-#include "techniques/deep/footprint.h"
+#include <cstring>
 
 namespace shadowbench::techniques {
+namespace {
+
+constexpr std::size_t padding_bytes = DeepLevel::padding * sizeof(float);
+
+}  // namespace
 
 TileCache::TileCache(const DeepFile& file, std::size_t slots)
     : file_(&file), slots_(std::clamp<std::size_t>(slots, 1, file.tiles())), slot_of_(file.tiles(), none) {
     for (std::size_t i = slots_.size(); i > 0; --i) free_.push_back(static_cast<std::uint32_t>(i - 1));
 }
 
-std::size_t TileCache::bytes() const {
-    return tile_bytes_ + slots_.capacity() * sizeof(Slot) +
-           (free_.capacity() + slot_of_.capacity()) * sizeof(std::uint32_t);
+std::size_t TileCache::table_bytes() const {
+    return slots_.capacity() * sizeof(Slot) + (free_.capacity() + slot_of_.capacity()) * sizeof(std::uint32_t);
+}
+
+std::size_t TileCache::most_bytes() const {
+    std::size_t largest = 0, all = 0;
+    for (std::size_t tile = 0; tile < file_->tiles(); ++tile) {
+        const std::size_t bytes = file_->tile_bytes(tile) + padding_bytes;
+        largest = std::max(largest, bytes);
+        all += bytes;
+    }
+    // With a slot for every tile none is replaced.
+    return table_bytes() + (slots_.size() == file_->tiles() ? all : slots_.size() * largest);
 }
 
 void TileCache::unlink(std::uint32_t slot) {
@@ -49,55 +62,23 @@ std::uint32_t TileCache::load(std::size_t tile) {
     }
     const std::uint32_t slot = free_.back();
     Slot& s = slots_[slot];
-    const std::size_t bytes = file_->tile_bytes(tile);
-    if (s.capacity < bytes) {
+    const std::size_t bytes = file_->tile_bytes(tile), needed = bytes + padding_bytes;
+    if (s.capacity < needed) {
         tile_bytes_ -= s.capacity;
         s.capacity = 0;
         s.memory.reset();  // before the larger one is allocated
-        s.memory = std::make_unique_for_overwrite<std::byte[]>(bytes);
-        s.capacity = bytes;
-        tile_bytes_ += bytes;
+        s.memory = std::make_unique_for_overwrite<std::byte[]>(needed);
+        s.capacity = needed;
+        tile_bytes_ += needed;
     }
     file_->read_tile(tile, s.memory.get());
+    std::memset(s.memory.get() + bytes, 0, padding_bytes);
     free_.pop_back();
     s.tile = tile;
     s.pixels = file_->tile_pixels(tile);
     slot_of_[tile] = slot;
     make_newest(slot);
     return slot;
-}
-
-namespace {
-
-template <int channels>
-void lookup_channels(TileCache& cache, int level, std::span<const Query> queries, std::span<float> visibility) {
-    const DeepTiling& map = cache.file().levels()[0];
-    const CellGrid grid{map.width, map.height, 1.0f, 1.0f};
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-        const Query& q = queries[i];
-        std::array<float, channels> values;
-        values.fill(1.0f);
-        int cx, cy;
-        if (grid.find(q.x, q.y, cx, cy)) {
-            WeightedMean<channels> mean;  // the same bits as the map in memory
-            for_each_pixel(map.width, map.height, level, Kernel::box, q, [&](int x, int y, double weight) {
-                const DeepFunction function = cache.function(x, y, level);
-                for (int c = 0; c < channels; ++c) values[c] = evaluate(function, c, q.z);
-                mean.add(values, weight);
-            });
-            values = mean.value();
-        }
-        for (int c = 0; c < channels; ++c) visibility[static_cast<std::size_t>(c) * queries.size() + i] = values[c];
-    }
-}
-
-}  // namespace
-
-void lookup(TileCache& cache, int level, std::span<const Query> queries, std::span<float> visibility) {
-    if (cache.file().channels() == 3)
-        lookup_channels<3>(cache, level, queries, visibility);
-    else
-        lookup_channels<1>(cache, level, queries, visibility);
 }
 
 }  // namespace shadowbench::techniques

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "techniques/deep/deep_file.h"
+#include "techniques/deep/deep_lookup.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::techniques {
@@ -15,8 +16,8 @@ namespace shadowbench::techniques {
 // Holds up to `slots` tiles of all levels together; a new tile replaces the one used longest ago. A slot's memory grows
 // to the largest tile that it has held and never shrinks.
 //
-// Deliberately not thread-safe: a function is valid only while its tile is held, which another thread could end. Each
-// thread has a cache of its own; they share the DeepFile, which must outlive them.
+// Deliberately not thread-safe: a function is valid only while its tile is held, which another thread could end. A
+// cache serves one thread at a time; several caches may share the DeepFile, which must outlive them.
 class TileCache {
 public:
     // Makes at least one slot, and none beyond the number of the file's tiles. Opens and reads nothing yet.
@@ -24,21 +25,34 @@ public:
 
     const DeepFile& file() const { return *file_; }
 
-    // The function of pixel (x, y) of a level, which must exist. Valid until the next call that misses. Throws what
-    // DeepFile::read_tile throws; the cache stays usable then.
+    // The function of pixel (x, y) of a level, which must exist. Valid until the next call that misses; the
+    // DeepLevel::padding floats behind its tile may be read. Throws what DeepFile::read_tile throws; the cache stays
+    // usable then.
     DeepFunction function(int x, int y, int level) {
         const std::size_t tile = file_->tile_of(x, y, level);
         const Slot& slot = slots_[newest_ != none && slots_[newest_].tile == tile ? hit() : find(tile)];
+        return function_of(slot.memory.get(), slot.pixels, file_->channels(), pixel_in_tile(x, y, level));
+    }
+    // The number of pixel (x, y) of a level among those of its tile.
+    std::size_t pixel_in_tile(int x, int y, int level) const {
         const int size = file_->tile_size();
-        const std::size_t pixel =
-            static_cast<std::size_t>(y % size) * file_->tile_width(x, level) + static_cast<std::size_t>(x % size);
-        return function_of(slot.memory.get(), slot.pixels, file_->channels(), pixel);
+        return static_cast<std::size_t>(y % size) * file_->tile_width(x, level) + static_cast<std::size_t>(x % size);
     }
 
-    std::uint64_t hits() const { return hits_; }
-    std::uint64_t misses() const { return misses_; }
-    std::size_t tile_bytes() const { return tile_bytes_; }  // memory of the slots
-    std::size_t bytes() const;                              // everything that the cache holds
+    // The tile of the last call of function(): its number, and the address in the mapped file of what lies at `place`
+    // in the cache's memory of it.
+    std::size_t last_tile() const { return slots_[newest_].tile; }
+    const std::byte* in_file(const void* place) const {
+        const Slot& slot = slots_[newest_];
+        return file_->mapped_tile(slot.tile) + (static_cast<const std::byte*>(place) - slot.memory.get());
+    }
+
+    std::size_t slots() const { return slots_.size(); }
+    std::uint64_t hits() const { return hits_; }                       // functions whose tile was held
+    std::uint64_t misses() const { return misses_; }                   // the others: each loads a tile
+    std::size_t tile_bytes() const { return tile_bytes_; }             // memory of the slots
+    std::size_t bytes() const { return tile_bytes_ + table_bytes(); }  // everything that the cache holds
+    std::size_t most_bytes() const;                                    // the same when all slots have grown
 
 private:
     static constexpr std::uint32_t none = 0xffffffff;
@@ -55,6 +69,7 @@ private:
     std::uint32_t load(std::size_t tile);
     void unlink(std::uint32_t slot);
     void make_newest(std::uint32_t slot);
+    std::size_t table_bytes() const;
 
     const DeepFile* file_;
     std::vector<Slot> slots_;
@@ -65,10 +80,13 @@ private:
     std::size_t tile_bytes_ = 0;
 };
 
-// Answers queries, which are in pixels of level 0, from one level: the mean over the level's pixels that the footprint
-// covers, each weighted by the part that is covered (Kernel::box in deep_lookup.h). Channel after channel:
-// visibility[c * queries.size() + i] is the answer to queries[i]. Outside the map: lit. Throws what TileCache::function
+// Answer queries, which are in pixels of level 0, with the same bits as the map in memory from which the file was
+// written: see deep_lookup.h. The file must have the levels that the rule asks for. Throw what TileCache::function
 // throws.
-void lookup(TileCache& cache, int level, std::span<const Query> queries, std::span<float> visibility);
+void lookup(TileCache& cache, const LookupRule& rule, std::span<const Query> queries,
+            std::span<const Footprint> footprints, std::span<float> visibility);
+// Addresses in the mapped file: what a lookup reads there if it reads nothing else.
+void touched(TileCache& cache, const LookupRule& rule, const Query& query, const Footprint& footprint,
+             std::vector<const void*>& lines);
 
 }  // namespace shadowbench::techniques

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "techniques/depth/cell_subset.h"
 #include "techniques/depth/pcf_samples.h"
 #include "techniques/store/depth_map.h"
 
@@ -17,18 +18,22 @@ const Parameter parameters[] = {
     {"num_samples", ParameterKind::integer, "number of depths compared in one lookup, about (NumSamples)", 16, 1, 4096},
     {"res_factor", ParameterKind::number, "widens the region (ResFactor); below 1 the map's aliases show", 3, 1, 1000},
     {"min_size", ParameterKind::number, "least half-size of the region in cells (MinSize)", 2, 0, 10000},
-    {"min_samples", ParameterKind::integer, "least samples along each side of the region (MinSamples)", 2, 1, 64},
+    {"min_samples", ParameterKind::integer,
+     "least samples along each side of the region (MinSamples); a subset ignores it", 2, 1, 64},
     {"bias0", ParameterKind::number, "least bias of a sample, world length (Bias0)", 0, 0, 1e6},
     {"bias1", ParameterKind::number, "largest bias of a sample, world length (Bias1); at least bias0", 0, 0, 1e6},
     {"placement",
      ParameterKind::choice,
      "where the samples lie (figure 3): anywhere in the region's bounding box, Gaussian in it, jittered in it, or "
-     "jittered in the region's own shape",
+     "jittered in the region's own shape; published: jittered in the upper half of each part of the bounding box, as "
+     "figure 4 prints it, which moves every shadow by a quarter of a part; subset: a random subset of the cells with "
+     "their middles in the bounding box, each at most once, all if they are no more than num_samples (Lokovic, Veach "
+     "2000, section 6)",
      0,
      0,
      0,
      "jittered",
-     {"uniform", "gaussian", "jittered", "shape"}},
+     {"uniform", "gaussian", "jittered", "shape", "published", "subset"}},
     {"region",
      ParameterKind::number_or_word,
      "the region of the filter: a square of the query's width, the receiver's pixel mapped into the map (or that "
@@ -46,6 +51,8 @@ Placement read_placement(const ParameterValues& values) {
     const std::string& word = values.word("placement");
     if (word == "uniform") return Placement::uniform;
     if (word == "gaussian") return Placement::gaussian;
+    if (word == "published") return Placement::published;
+    if (word == "subset") return Placement::subset;
     return word == "shape" ? Placement::shape : Placement::jittered;
 }
 
@@ -111,10 +118,10 @@ public:
 private:
     // One lookup, before it samples.
     struct Place {
-        float x, y;       // cells
-        CellRange range;  // that its samples lie in
-        bool inside;      // no sample leaves the map
-        int known = -1;   // the number of samples in shadow, if it is known without sampling; else -1
+        float x, y;           // cells
+        CellRange range;      // that its samples lie in
+        bool inside;          // no sample leaves the map
+        float known = -1.0f;  // the visibility, if it is known without sampling; else -1
     };
 
     const CellGrid& grid() const { return depths_.store.grid(); }
@@ -132,6 +139,10 @@ private:
                     return visit(depths, constant<Placement::jittered>);
                 case Placement::shape:
                     return visit(depths, constant<Placement::shape>);
+                case Placement::published:
+                    return visit(depths, constant<Placement::published>);
+                case Placement::subset:
+                    return visit(depths, constant<Placement::subset>);
             }
         });
     }
@@ -161,9 +172,9 @@ private:
                        static_cast<int>(std::max(e.y0, 0.0f)), static_cast<int>(std::min(e.y1, top - 1.0f)) + 1};
             const DepthBounds bounds = depths.bounds(p.range);
             if (!(q.z > bounds.least + settings_.bias0))
-                p.known = 0;
+                p.known = 1.0f;
             else if (p.inside && q.z > bounds.greatest + (settings_.bias0 + bias_range_))
-                p.known = region.ns * region.nt;
+                p.known = 0.0f;
         }
         return true;
     }
@@ -172,27 +183,38 @@ private:
         return x >= 0.0f && y >= 0.0f && x < static_cast<float>(grid().width) && y < static_cast<float>(grid().height);
     }
 
-    // Samples spread over their whole parts of the region. The printed code moves them by half a part in one direction
-    // only, which would shift every shadow. Samples outside the map are lit.
+    // visit(x, y, u) for each sample; returns their number. Samples spread over their whole parts of the region,
+    // unless they are placed as published.
+    template <Placement placement, class Visit>
+    int visit_samples(const Region& region, const Query& q, const Place& p, const Visit& visit) const {
+        if constexpr (placement == Placement::subset)
+            return for_each_in_subset(extent(region, p.x, p.y), p.x, p.y, static_cast<int>(settings_.num_samples),
+                                      key_of(q), visit);
+        else
+            for_each_sample<placement>(region, p.x, p.y, key_of(q), visit);
+        return region.ns * region.nt;
+    }
+
     template <Placement placement, class Depths>
-    int count_shadowed(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
-        if (p.known >= 0) return p.known;
+    float visible(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
+        if (p.known >= 0.0f) return p.known;
         if (DepthWindow window; p.inside && depths.window(p.range, window))
             return bias_range_ > 0.0f ? sample<placement, true, true>(window, region, q, p)
                                       : sample<placement, true, false>(window, region, q, p);
         return sample<placement, false, true>(depths, region, q, p);
     }
 
-    // If `drawn`, each sample draws its bias; otherwise all have one.
+    // The share of the samples that are lit; those outside the map are. If `drawn`, each sample draws its bias;
+    // otherwise all have one.
     template <Placement placement, bool inside, bool drawn, class Depths>
-    int sample(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
+    float sample(const Depths& depths, const Region& region, const Query& q, const Place& p) const {
         int shadowed = 0;
-        for_each_sample<placement>(region, p.x, p.y, key_of(q), [&](float x, float y, float u) {
+        const int samples = visit_samples<placement>(region, q, p, [&](float x, float y, float u) {
             if (!inside && !holds(x, y)) return;
             const float bias = drawn ? settings_.bias0 + u * bias_range_ : settings_.bias0;
             shadowed += q.z > *depths.at(static_cast<int>(x), static_cast<int>(y)) + bias;
         });
-        return shadowed;
+        return 1.0f - static_cast<float>(shadowed) / static_cast<float>(samples);
     }
 
     template <Placement placement, class Depths>
@@ -208,10 +230,7 @@ private:
                 width = q.width;
             }
             Place p;
-            visibility[i] = 1.0f;
-            if (!find(depths, region, q, p)) continue;
-            const int shadowed = count_shadowed<placement>(depths, region, q, p);
-            visibility[i] = 1.0f - static_cast<float>(shadowed) / static_cast<float>(region.ns * region.nt);
+            visibility[i] = find(depths, region, q, p) ? visible<placement>(depths, region, q, p) : 1.0f;
         }
     }
 
@@ -222,8 +241,8 @@ private:
         Place p;
         if (!find(depths, region, q, p)) return;
         if constexpr (Depths::bounded) depths.touch_bounds(p.range, lines);
-        if (p.known >= 0) return;
-        for_each_sample<placement>(region, p.x, p.y, key_of(q), [&](float x, float y, float) {
+        if (p.known >= 0.0f) return;
+        visit_samples<placement>(region, q, p, [&](float x, float y, float) {
             if (holds(x, y)) depths.touch(static_cast<int>(x), static_cast<int>(y), lines);
         });
     }
@@ -239,7 +258,7 @@ private:
 // `min_size` is a length in cells: the filter would depend on the map's resolution instead of the query alone.
 // `min_samples` would hide the smallest numbers of samples. Not traded: the biases and `cells`, for the reasons of
 // shadow_map; `region`, as the query asks for one; `placement`, since of those that fill the query's square jittered
-// samples have the least noise.
+// samples have the least noise for their time.
 std::vector<Trade> pcf_trades() {
     return {{"num_samples", Trade::Scale::logarithmic, 1, 256, {}, true},
             {.parameter = "res_factor", .choices = {1.0, 3.0}, .only_lookups = true},

@@ -1,5 +1,5 @@
 // Places the samples of percentage closer filtering in the depth map: the region of a lookup, its partition, and the
-// four ways to place samples. Reeves, Salesin, Cook 1987, figures 3 and 4.
+// four ways of figure 3 to place samples. Reeves, Salesin, Cook 1987, figures 3 and 4.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,12 @@
 namespace shadowbench::techniques {
 
 enum class Placement {
-    uniform,   // (a) anywhere in the bounding box of the region
-    gaussian,  // (b) in the bounding box, a Gaussian cut at two standard deviations, where the box ends
-    jittered,  // (c) one anywhere in each part of the bounding box
-    shape,     // (d) one anywhere in each part of the region's own shape, a parallelogram
+    uniform,    // (a) anywhere in the bounding box of the region
+    gaussian,   // (b) in the bounding box, a Gaussian cut at two standard deviations, where the box ends
+    jittered,   // (c) one anywhere in each part of the bounding box
+    shape,      // (d) one anywhere in each part of the region's own shape, a parallelogram
+    published,  // (c) as figure 4 prints it: one in the upper half of each part of the bounding box
+    subset,     // cells of the bounding box, drawn at random without replacement: cell_subset.h
 };
 
 // The parameters of figure 4.
@@ -96,6 +98,9 @@ void for_each_sample(const Region& r, float x, float y, std::uint64_t key, const
             } else if constexpr (placement == Placement::gaussian) {
                 s = ns * table->at(s);
                 t = nt * table->at(t);
+            } else if constexpr (placement == Placement::published) {
+                s = i + 0.5f + 0.5f * s;
+                t = j + 0.5f + 0.5f * t;
             } else {
                 s += i;
                 t += j;

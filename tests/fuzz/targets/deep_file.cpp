@@ -39,7 +39,7 @@ void repair(std::string& file) {
     auto header = get<deep_format::Header>(file, 0);
     header.magic = deep_format::magic;
     header.byte_order = deep_format::byte_order;
-    header.version = deep_format::version;
+    if (header.version != deep_format::wide_version) header.version = deep_format::unit_version;
     header.file_bytes = file.size();
     header.checksum = deep_format::header_checksum(header);
     put(file, 0, header);
@@ -99,17 +99,19 @@ void read_all(const std::string& bytes) {
         for (const DeepLevel& level : levels) expect_sound(level);
         const std::vector<Query> queries = queries_of(deep, levels);
         std::vector<float> visibility(queries.size() * static_cast<std::size_t>(deep.channels()));
+        const std::vector<Footprint> footprints(queries.size(), Footprint{5.0f, 1.0f, -0.5f, 2.0f});
+        const float least = deep.unit_range() ? deep_format::unit_least : deep_format::wide_least;
+        const float most = deep.unit_range() ? deep_format::unit_most : deep_format::wide_most;
         TileCache cache(deep, 2);
-        for (int level = 0; level < static_cast<int>(levels.size()); ++level) {
-            lookup(cache, level, queries, visibility);
-            expect_in(visibility, 0.0f, 1.0f, "lookups through tiles are in [0, 1]");
-        }
-        for (const LookupRule& rule : {LookupRule{}, LookupRule{Kernel::tent, Mip::blend, Search::linear},
-                                       LookupRule{Kernel::pixels, Mip::nearest, Search::binary},
-                                       LookupRule{Kernel::box, Mip::nearest, Search::cached}}) {
+        std::vector<float> of_tiles(visibility.size());
+        for (const LookupRule& rule : {LookupRule{}, LookupRule{Kernel::tent, Mip::blend, Search::linear, 0},
+                                       LookupRule{Kernel::pixels, Mip::nearest, Search::binary, 0},
+                                       LookupRule{Kernel::box, Mip::nearest, Search::cached, 4}}) {
             if (rule.mip != Mip::none && levels.size() == 1) continue;
-            lookup(levels, rule, queries, visibility);
-            expect_in(visibility, 0.0f, 1.0f, "lookups are in [0, 1]");
+            lookup(levels, rule, queries, footprints, visibility);
+            expect_in(visibility, least, most, "lookups stay in the range of the stored values");
+            lookup(cache, rule, queries, footprints, of_tiles);
+            expect(of_tiles == visibility, "lookups through tiles give the same");
         }
     });
 }

@@ -1,0 +1,18 @@
+// Intervals of fits and of means.
+#pragma once
+
+#include <span>
+#include <utility>
+
+#include "claims/value.h"
+
+namespace shadowbench::claims {
+
+// The exponent of the power law that is fitted to at least three points, with the 95 % interval of its standard error:
+// Student's t with two degrees of freedom fewer than points.
+Value fitted_exponent(std::span<const std::pair<double, double>> points);
+
+// The mean of a sample of at least two, with the 95 % interval of its expectation.
+Value mean_of(std::span<const double> sample);
+
+}  // namespace shadowbench::claims

@@ -1,0 +1,251 @@
+// Lokovic and Veach, Deep Shadow Maps, 2000: section 5.3, the size and the error of mip levels.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "claims/intervals.h"
+#include "claims/lokovic.h"
+#include "claims/lokovic_filtering.h"
+#include "claims/seeded_light.h"
+#include "curves/norms.h"
+#include "metrics/statistics.h"
+#include "techniques/deep/deep.h"
+#include "techniques/deep/pixel_run.h"
+
+namespace shadowbench::claims::lokovic {
+namespace {
+
+using techniques::DeepLevel;
+
+constexpr const char* at_64_samples = "rays.samples_per_pixel=64";
+
+// Ways to make levels: the paper's compression and the program's, each from compressed functions, as the paper does,
+// and from the uncompressed ones.
+struct Way {
+    const char* compression;
+    const char* from;
+};
+constexpr Way ways[] = {
+    {"published", "compressed"}, {"published", "samples"}, {"bounded", "compressed"}, {"bounded", "samples"}};
+constexpr std::size_t papers = 0;                  // the paper's way among them
+constexpr std::size_t lossless = std::size(ways);  // the last map
+
+std::string technique(const Way& way) {
+    return fmt::format(R"({{"type":"deep","mip":"nearest","compression":"{}","mip_from":"{}"}})", way.compression,
+                       way.from);
+}
+
+std::span<const DeepLevel> levels_of(const bench::Maps& maps) {
+    return techniques::levels(*maps.parts.front());
+}
+
+// One way's levels, each with a value for every seed.
+struct Levels {
+    std::vector<std::vector<double>> nodes, size, error;  // [level][seed]; see add()
+    std::vector<double> all;                              // [seed] bytes of all levels over those of the map
+
+    // nodes: for each pixel that holds something; size: bytes over those of level 0; error: the largest of any
+    // function, in tolerances of level 0.
+    void add(std::span<const DeepLevel> levels, std::span<const DeepLevel> exact, double tolerance,
+             const rays::MapLayout& layout) {
+        nodes.resize(levels.size());
+        size.resize(levels.size());
+        error.resize(levels.size());
+        double bytes = 0.0;
+        for (std::size_t l = 0; l < levels.size(); ++l) {
+            nodes[l].push_back(nodes_of(levels[l]));
+            size[l].push_back(static_cast<double>(levels[l].bytes()) / static_cast<double>(levels[0].bytes()));
+            error[l].push_back(error_of(levels[l], exact[l], layout) / tolerance);
+            bytes += static_cast<double>(levels[l].bytes());
+        }
+        all.push_back(bytes / static_cast<double>(levels[0].bytes()));
+    }
+
+private:
+    static double nodes_of(const DeepLevel& level) {
+        double nodes_in_all = 0.0, pixels = 0.0;
+        for (std::size_t p = 0; p + 1 < level.offsets.size(); ++p) {
+            nodes_in_all += level.nodes(p);
+            pixels += level.nodes(p) > 0;
+        }
+        return nodes_in_all / std::max(pixels, 1.0);
+    }
+    static double error_of(const DeepLevel& level, const DeepLevel& exact, const rays::MapLayout& layout) {
+        curves::Curve stored, truth;
+        double worst = 0.0;
+        for (std::size_t p = 0; p + 1 < level.offsets.size(); ++p) {
+            techniques::read_function(level, p, 0, stored);
+            techniques::read_function(exact, p, 0, truth);
+            worst = std::max(worst, curves::distance(stored, truth, layout.z_min, layout.z_max).max);
+        }
+        return worst;
+    }
+};
+
+std::vector<Levels> measure_levels(const Context& context) {
+    std::string list;
+    for (const Way& way : ways) list += technique(way) + ",";
+    list += R"({"type":"deep","mip":"nearest","mip_from":"samples","tolerance":0})";
+    const SeededLight light(context, ball_scene, {at_64_samples, "rays.resolution=128", set_techniques(list)},
+                            {"rays.resolution=64"});
+    const double tolerance = 0.25 / std::sqrt(64.0);
+    std::vector<Levels> found(std::size(ways));
+    for (int seed = 0; seed < ray_seeds; ++seed) {
+        const std::vector<bench::Maps> maps = light.build(seed);
+        base::parallel_for(found.size(), [&](std::size_t way) {
+            found[way].add(levels_of(maps[way]), levels_of(maps[lossless]), tolerance, light.layout());
+        });
+    }
+    return found;
+}
+
+// A row for each level: the number of each way, then that of the paper's law.
+Table level_table(const std::string& title, const std::vector<Levels>& found,
+                  std::vector<std::vector<double>> Levels::*number, double (*law)(double level)) {
+    Table table{title, {"level"}, {}};
+    for (const Way& way : ways)
+        table.header.push_back(fmt::format("compression={}, from {}", way.compression,
+                                           way.from == std::string("samples") ? "samples" : "compressed functions"));
+    table.header.push_back("the paper's law");
+    const double first = mean_of((found[papers].*number)[0]).value;
+    for (std::size_t l = 0; l < (found[papers].*number).size(); ++l) {
+        std::vector<std::string> row{std::to_string(l)};
+        for (const Levels& way : found) row.push_back(fmt::format("{:.3g}", mean_of((way.*number)[l]).value));
+        row.push_back(fmt::format("{:.3g}", first * law(static_cast<double>(l))));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+void add_level_tables(PaperReport& report, const std::vector<Levels>& found) {
+    report.tables.push_back(
+        level_table("Section 5.3: nodes of the functions in mip levels of the ball scene, 64 samples "
+                    "a pixel, for each pixel that holds something",
+                    found, &Levels::nodes, [](double level) { return std::exp2(0.5 * level); }));
+    Table sizes = level_table("Section 5.3: bytes of the same levels over those of level 0", found, &Levels::size,
+                              [](double level) { return std::exp2(-1.5 * level); });
+    std::vector<std::string> all{"all"};
+    for (const Levels& way : found) all.push_back(to_text(mean_of(way.all)));
+    all.push_back("1.55");
+    sizes.rows.push_back(std::move(all));
+    report.tables.push_back(std::move(sizes));
+}
+
+// The exponent of the nodes over the side of a level's pixel, from level 0 to one of at least 8 x 8 pixels.
+Value node_exponent(const Levels& found) {
+    std::vector<std::pair<double, double>> points;
+    for (std::size_t l = 0; l + 3 < found.nodes.size(); ++l)
+        points.emplace_back(std::exp2(static_cast<double>(l)), mean_of(found.nodes[l]).value);
+    return fitted_exponent(points);
+}
+
+// The largest over the levels; its interval is the range over the seeds.
+Value largest_error(const Levels& found) {
+    std::vector<double> of_seed(ray_seeds, 0.0);
+    for (const std::vector<double>& level : found.error)
+        for (std::size_t seed = 0; seed < level.size(); ++seed) of_seed[seed] = std::max(of_seed[seed], level[seed]);
+    const auto [low, high] = std::minmax_element(of_seed.begin(), of_seed.end());
+    return {*high, *low, *high};
+}
+
+// The map without loss, and maps whose lookups are compared with it.
+struct Filter {
+    const char* name;
+    const char* mip;
+    const char* from;
+};
+constexpr Filter filters[] = {{"no levels", "none", "compressed"},
+                              {"nearest", "nearest", "compressed"},
+                              {"blend", "blend", "compressed"},
+                              {"nearest, from samples", "nearest", "samples"},
+                              {"blend, from samples", "blend", "samples"}};
+constexpr int filter_widths[] = {1, 2, 4, 8, 16, 32};
+
+double rms_difference(std::span<const float> a, std::span<const float> b) {
+    std::vector<double> differences(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) differences[i] = static_cast<double>(a[i]) - b[i];
+    return metrics::error_norms(differences).rms;
+}
+
+}  // namespace
+
+void levels(const Context& context) {
+    const base::ThreadLimit threads(context.threads);
+    PaperReport& report = *context.report;
+    const std::vector<Levels> found = measure_levels(context);
+    add_level_tables(report, found);
+    const Levels &published = found[papers], &of_samples = found[papers + 1];
+    const Value size = mean_of(published.all), size_of_samples = mean_of(of_samples.all);
+    report.claims.push_back(
+        {"section 5.3",
+         "all mip levels together are about 1.55 times as large as the base",
+         fmt::format("{} times; {} times if the levels are averaged from the uncompressed functions", to_text(size),
+                     to_text(size_of_samples)),
+         judge_size(1.55, 4.0 / 3.0, size),
+         "Judged as published: each level is averaged from the compressed functions of the one before, with half its "
+         "tolerance.",
+         {size, size_of_samples}});
+    const Value exponent = node_exponent(published), exponent_of_samples = node_exponent(of_samples);
+    report.claims.push_back(
+        {"section 5.3",
+         "the vertices of a function double once for every two mip levels: they grow as the square root of the "
+         "width of its pixel",
+         fmt::format("as width^{}; as width^{} if the levels are averaged from the uncompressed functions",
+                     to_text(exponent), to_text(exponent_of_samples)),
+         judge_exponent(0.5, exponent),
+         "Of pixels that hold something. The means of compressed functions have few vertices to begin with: level 1 "
+         "often needs fewer than level 0.",
+         {exponent, exponent_of_samples}});
+    const Value error = largest_error(published);
+    report.claims.push_back(
+        {"section 5.3",
+         "if the tolerance is halved for each level, the total error is at most twice that of the highest "
+         "resolution",
+         fmt::format("the largest error of any function of any level is {} tolerances", to_text(error)),
+         by_construction(error.high <= 2.0 + 1e-4),
+         "The tolerances are a geometric series. The interval is the range over seeds.",
+         {error}});
+}
+
+void blends(const Context& context) {
+    const base::ThreadLimit threads(context.threads);
+    std::string list = R"({"type":"deep","tolerance":0})";
+    for (const Filter& filter : filters)
+        list += fmt::format(R"(,{{"type":"deep","mip":"{}","mip_from":"{}"}})", filter.mip, filter.from);
+    const SeededLight light(context, ball_scene, {at_64_samples, "rays.resolution=128", set_techniques(list)},
+                            {"rays.resolution=64"});
+    const bench::QuerySet all = light.queries();
+    bench::QuerySet judged = bench::pick(all.asked(), bench::choose_judged(all.queries.size(), 8192, 1));
+    std::vector<std::vector<std::vector<double>>> errors(  // [width][filter][seed]
+        std::size(filter_widths), std::vector<std::vector<double>>(std::size(filters)));
+    for (int seed = 0; seed < ray_seeds; ++seed) {
+        const std::vector<bench::Maps> maps = light.build(seed);
+        for (std::size_t w = 0; w < std::size(filter_widths); ++w) {
+            for (techniques::Query& query : judged.queries) query.width = static_cast<float>(filter_widths[w]);
+            const std::vector<float> truth = bench::lookup_all(maps[0], judged.queries);
+            for (std::size_t f = 0; f < std::size(filters); ++f)
+                errors[w][f].push_back(rms_difference(bench::lookup_all(maps[f + 1], judged.queries), truth));
+        }
+    }
+    Table table{
+        "Section 5.3: RMS error of mip-mapped lookups over the filter width, in pixels, against the exact mean of "
+        "the uncompressed functions under the filter",
+        {"width"},
+        {}};
+    for (const Filter& filter : filters) table.header.push_back(filter.name);
+    table.header.push_back("blend / nearest");
+    for (std::size_t w = 0; w < std::size(filter_widths); ++w) {
+        std::vector<std::string> row{std::to_string(filter_widths[w])};
+        for (const std::vector<double>& of_seeds : errors[w]) row.push_back(to_text(mean_of(of_seeds)));
+        std::vector<double> ratio;
+        for (std::size_t seed = 0; seed < errors[w][1].size(); ++seed)
+            ratio.push_back(errors[w][2][seed] / errors[w][1][seed]);
+        row.push_back(to_text(mean_of(ratio)));
+        table.rows.push_back(std::move(row));
+    }
+    context.report->tables.push_back(std::move(table));
+}
+
+}  // namespace shadowbench::claims::lokovic

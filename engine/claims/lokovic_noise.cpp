@@ -1,0 +1,141 @@
+// Lokovic and Veach, Deep Shadow Maps, 2000: the errors of sections 2 and 4.
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/random.h"
+#include "claims/fit.h"
+#include "claims/intervals.h"
+#include "claims/lokovic.h"
+#include "claims/lokovic_cover.h"
+
+namespace shadowbench::claims::lokovic {
+namespace {
+
+// The errors over numbers of samples, once for each seed.
+struct Experiment {
+    std::string name;
+    std::vector<int> samples;
+    std::vector<std::vector<double>> errors;  // [seed][number of samples]
+
+    Value error(std::size_t number) const {
+        std::vector<double> sample;
+        for (const std::vector<double>& of_seed : errors) sample.push_back(of_seed[number]);
+        return mean_of(sample);
+    }
+    // The mean over seeds of a number that is read off the law fitted to the errors of each.
+    Value of_laws(const std::function<double(const PowerLaw&)>& read) const {
+        std::vector<double> sample;
+        for (const std::vector<double>& of_seed : errors) {
+            std::vector<std::pair<double, double>> points;
+            for (std::size_t i = 0; i < samples.size(); ++i) points.emplace_back(samples[i], of_seed[i]);
+            sample.push_back(read(fit_power(points)));
+        }
+        return mean_of(sample);
+    }
+    Value exponent() const {
+        return of_laws([](const PowerLaw& law) { return law.exponent; });
+    }
+    Value samples_for(double error) const {
+        return of_laws([error](const PowerLaw& law) { return std::pow(error / law.factor, 1.0 / law.exponent); });
+    }
+};
+
+constexpr std::uint64_t seeds = 8;
+
+Experiment at_silhouette(int lookups) {
+    Experiment experiment{"one silhouette", {4, 16, 36, 64, 100, 144, 196, 256, 400, 576}, {}};
+    const Cover cover = silhouette(256);
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        std::vector<double>& errors = experiment.errors.emplace_back();
+        for (const int n : experiment.samples)
+            errors.push_back(filtering_error(cover, 128, n, lookups, base::hash(seed, static_cast<std::uint64_t>(n))));
+    }
+    return experiment;
+}
+
+Experiment in_fur(int lookups) {
+    Experiment experiment{"fur", {16, 64, 144, 256, 576, 1024, 1600, 2500, 3600}, {}};
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        const Cover cover = fur(1024, seed);
+        std::vector<double>& errors = experiment.errors.emplace_back();
+        for (const int n : experiment.samples)
+            errors.push_back(filtering_error(cover, 512, n, lookups, base::hash(seed, static_cast<std::uint64_t>(n))));
+    }
+    return experiment;
+}
+
+void plot_errors(const Experiment& edge, const Experiment& hair, PaperReport& report) {
+    Plot plot{"lokovic2000_section2", "Error of filtering N jittered samples", "N", "error rms", true, true, {}};
+    for (const Experiment* experiment : {&edge, &hair}) {
+        Series measured{experiment->name, {}, false};
+        for (std::size_t i = 0; i < experiment->samples.size(); ++i)
+            measured.points.emplace_back(experiment->samples[i], experiment->error(i).value);
+        plot.series.push_back(std::move(measured));
+    }
+    Series edge_theory{"N^(-3/4) / sqrt 6", {}, true}, fur_theory{"N^(-1/2) / 2", {}, true};
+    for (const double n : {4.0, 576.0}) edge_theory.points.emplace_back(n, std::pow(n, -0.75) / std::sqrt(6.0));
+    for (const double n : {16.0, 3600.0}) fur_theory.points.emplace_back(n, 0.5 / std::sqrt(n));
+    plot.series.push_back(std::move(edge_theory));
+    plot.series.push_back(std::move(fur_theory));
+    report.plots.push_back(std::move(plot));
+}
+
+std::string whole(const Value& value) {
+    return fmt::format("{:.0f} [{:.0f}, {:.0f}]", value.value, value.low, value.high);
+}
+
+}  // namespace
+
+void noise(const Context& context) {
+    PaperReport& report = *context.report;
+    const int lookups = context.quick ? 500 : 2000;
+    const Experiment edge = at_silhouette(lookups), hair = in_fur(lookups);
+    plot_errors(edge, hair, report);
+
+    const Value edge_exponent = edge.exponent(), hair_exponent = hair.exponent();
+    report.claims.push_back({"section 2, figure 2a",
+                             "at an isolated silhouette the expected error of N jittered samples is O(N^(-3/4))",
+                             fmt::format("as N^{}", to_text(edge_exponent)),
+                             judge_exponent(-0.75, edge_exponent),
+                             "A horizontal silhouette at a random height; only the parts that it crosses are in doubt.",
+                             {edge_exponent}});
+    report.claims.push_back({"section 2, figure 2b",
+                             "in hair or fur it is O(N^(-1/2)): stratified samples are no better than others",
+                             fmt::format("as N^{}", to_text(hair_exponent)),
+                             judge_exponent(-0.5, hair_exponent),
+                             "Hairs one cell wide cover half of the map and cross all parts of the region.",
+                             {hair_exponent}});
+    const Value edge_samples = edge.samples_for(0.01), hair_samples = hair.samples_for(0.01);
+    report.claims.push_back({"section 2",
+                             "an expected error of 1 % takes about 140 samples at an isolated silhouette",
+                             whole(edge_samples) + " samples",
+                             judge_ratio(140.0, edge_samples),
+                             "From the law that is fitted to the errors from 4 to 576 samples. The paper's constant is "
+                             "1 / sqrt 6.",
+                             {edge_samples}});
+    report.claims.push_back({"section 2",
+                             "it takes 2,500 samples where dense fur covers 50 %",
+                             whole(hair_samples) + " samples",
+                             judge_ratio(2500.0, hair_samples),
+                             "From the law that is fitted to the errors from 16 to 3,600 samples. The paper's constant "
+                             "is 1 / 2.",
+                             {hair_samples}});
+    std::vector<double> sample;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed)
+        sample.push_back(deep_error(fur(2048, seed), 250, 10.0, lookups, seed));
+    const Value deep = mean_of(sample);
+    report.claims.push_back({"section 4",
+                             "10 pixels of a deep map with 250 samples a pixel give an expected error of 1 % in dense "
+                             "hair",
+                             fmt::format("error rms {}", to_text(deep)),
+                             judge_ratio(0.01, deep),
+                             "Squares of 10 pixels' area at random places; the map is compressed as always.",
+                             {deep}});
+}
+
+}  // namespace shadowbench::claims::lokovic

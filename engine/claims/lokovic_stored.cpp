@@ -1,0 +1,51 @@
+// Lokovic and Veach, Deep Shadow Maps, 2000: sections 5.2 and 5.5.
+#include <fmt/format.h>
+
+#include "claims/lokovic.h"
+
+namespace shadowbench::claims::lokovic {
+using results::Cell;
+
+void channels(const Context& context) {
+    PaperReport& report = *context.report;
+    const std::string deep = set_techniques(pixels), seeds = "reference.spread_seeds=2";
+    const results::Result grey = context.run(hair_ball, {deep}, {"rays.resolution=128"});
+    const results::Result colour =
+        context.run(hair_ball, {"/scene/objects/0/opacity=[0.9,0.6,0.35]", seeds, deep}, {"rays.resolution=128"});
+    const results::Result one_channel =
+        context.run(hair_ball, {"/scene/objects/0/opacity=0.6", seeds, deep}, {"rays.resolution=128"});
+    const Cell &three = cell_of(light_of(colour), "deep"), &single = cell_of(light_of(one_channel), "deep");
+    const Value size = bytes_of(three) / bytes_of(single);
+    report.claims.push_back({"section 5.2",
+                             "three-channel maps are only twice as large as one-channel maps",
+                             to_text(size) + " times",
+                             judge_size(2.0, 3.0, size),
+                             "Hair of opacity (0.9, 0.6, 0.35) against hair of opacity 0.6 in one channel.",
+                             {size}});
+    const bool grey_is_one = light_of(grey).layout.channels == 1;
+    report.claims.push_back(
+        {"section 5.2",
+         "monochrome maps store one channel",
+         grey_is_one ? "a grey scene makes a map of one channel" : "a grey scene makes three channels",
+         by_construction(grey_is_one),
+         "This holds for single pixels too: if the three functions are equal, one is kept.",
+         {}});
+}
+
+void motion(const Context& context) {
+    PaperReport& report = *context.report;
+    const results::Result moving = context.run("lokovic2000_motion", {}, {"rays.resolution=96"});
+    const results::Result still =
+        context.run("lokovic2000_motion", {"/scene/objects/0/motion=[0,0,0]"}, {"rays.resolution=96"});
+    const Cell &a = cell_of(light_of(moving), "deep"), &b = cell_of(light_of(still), "deep");
+    const Value cost = time_of(a) / time_of(b);
+    report.claims.push_back(
+        {"section 5.5, figure 12",
+         "motion blur costs no more at lookup",
+         fmt::format("{} times the time of the still sphere; {} against {} bytes", to_text(cost), a.bytes, b.bytes),
+         judge_constant(cost),
+         "A blurred pixel stores a function of more steps, and is searched in the same way.",
+         {cost}});
+}
+
+}  // namespace shadowbench::claims::lokovic

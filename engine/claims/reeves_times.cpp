@@ -1,0 +1,209 @@
+// Reeves, Salesin, Cook 1987: table 1, and the parts of the time that shadows add (section 5).
+#include <array>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/parallel.h"
+#include "bench/clock.h"
+#include "bench/contender.h"
+#include "bench/load.h"
+#include "bench/prepared_light.h"
+#include "claims/reeves.h"
+#include "claims/seen.h"
+#include "document/document.h"
+#include "rays/capture.h"
+#include "rays/tracer.h"
+#include "render/shading_points.h"
+
+namespace shadowbench::claims::reeves {
+namespace {
+
+constexpr int repetitions = 7;
+
+// What the paper's second pass does for a region, with the values of its figure 4 and section 4.2.
+constexpr const char* filter =
+    R"(techniques=[{"type":"pcf","num_samples":16,"res_factor":3,"min_size":2,"min_samples":2,"bias0":0.3,"bias1":0.4,)"
+    R"("region":"pixel"}])";
+
+// Seconds of each repetition on one thread: finding and shading what the camera sees; the depth maps; mapping the
+// regions into light space; filtering the depth maps over them. The second pass is all but the depth maps.
+struct Passes {
+    std::vector<double> image, first, mapping, filtering;
+    std::size_t lights = 0;
+
+    Value of_each(double (*figure)(double image, double first, double mapping, double filtering)) const {
+        std::vector<double> figures;
+        for (std::size_t r = 0; r < image.size(); ++r)
+            figures.push_back(figure(image[r], first[r], mapping[r], filtering[r]));
+        return of(results::summarise(figures));
+    }
+};
+
+class Timed {
+public:
+    Timed(const scene::Scenario& scenario, const bench::Contender& contender)
+        : scenario_(scenario), contender_(contender), tracer_(scenario.scene, false) {
+        view_.camera = scenario.receivers.camera.value();
+        view_.size = scenario.receivers.resolution;
+        view_.rays_per_side = 4;
+        passes_.lights = scenario.lights.size();
+    }
+
+    void repeat() {
+        const bench::Stopwatch stopwatch;
+        const render::ShadingPoints points =
+            render::find_shading_points(scenario_.scene, scenario_.lights, view_, tracer_, {});
+        render::Picture picture = render::start_picture(points);
+        const std::vector<float> lit(points.points(), 1.0f);
+        for (std::size_t light = 0; light < passes_.lights; ++light) render::add_light(points, light, lit, picture);
+        passes_.image.push_back(stopwatch.seconds());
+        for (std::vector<double>* part : {&passes_.first, &passes_.mapping, &passes_.filtering}) part->push_back(0.0);
+        for (std::size_t light = 0; light < passes_.lights; ++light) shadow(light, points);
+    }
+    const Passes& passes() const { return passes_; }
+
+private:
+    void shadow(std::size_t light, const render::ShadingPoints& points) {
+        const bench::Stopwatch first;
+        const auto [view, layout, least] = bench::prepare_light(scenario_, light, {}, {});
+        const rays::Capture capture(scenario_.scene, view, layout);
+        bench::Maps maps = bench::begin_maps(*contender_.row, contender_.values, {layout, view, nullptr});
+        for (int tile = 0; tile < layout.tiles(); ++tile) bench::add(maps, capture.tile(tile));
+        bench::finish(maps);
+        passes_.first.back() += first.seconds();
+
+        const bench::Stopwatch mapping;
+        const PointQueries regions = map_points(points, scenario_.receivers, view);
+        passes_.mapping.back() += mapping.seconds();
+
+        const bench::Stopwatch filtering;
+        bench::lookup_all(maps, {regions.queries, regions.footprints});
+        passes_.filtering.back() += filtering.seconds();
+    }
+
+    const scene::Scenario& scenario_;
+    const bench::Contender& contender_;
+    rays::Tracer tracer_;
+    render::ViewSettings view_;
+    Passes passes_;
+};
+
+Passes time_passes(const Context& context, const char* name) {
+    std::vector<std::string> set{"rays.resolution=384", "receivers.resolution=[384,288]", "receivers.bias=0", filter};
+    if (context.quick) set.insert(set.end(), {"rays.resolution=192", "receivers.resolution=[192,144]"});
+    const nlohmann::json document = context.document(name, set);
+    note_document(context, name, document);
+    const document::Variant variant = document::expand(document).front();
+    bench::ScenarioLoader loader(context.data);
+    const scene::Scenario& scenario = loader.load(variant);
+    const std::vector<bench::Contender> contenders = bench::make_contenders(scenario, variant);
+    const base::ThreadLimit one_thread(1);
+    Timed timed(scenario, contenders.front());
+    for (int repetition = 0; repetition < repetitions; ++repetition) timed.repeat();
+    return timed.passes();
+}
+
+Value percent_added(const Passes& passes) {
+    return passes.of_each([](double image, double first, double mapping, double filtering) {
+        return 100.0 * (first + mapping + filtering) / image;
+    });
+}
+
+// Percent of the time that shadows add: the depth maps, mapping, filtering.
+std::array<Value, 3> split(const Passes& passes) {
+    return {passes.of_each([](double, double first, double mapping, double filtering) {
+                return 100.0 * first / (first + mapping + filtering);
+            }),
+            passes.of_each([](double, double first, double mapping, double filtering) {
+                return 100.0 * mapping / (first + mapping + filtering);
+            }),
+            passes.of_each([](double, double first, double mapping, double filtering) {
+                return 100.0 * filtering / (first + mapping + filtering);
+            })};
+}
+
+// The image with shadows over that of an image for each light and one more.
+Value share_of_naive(const Passes& passes) {
+    return (1.0 / (1.0 + static_cast<double>(passes.lights))) *
+           passes.of_each([](double image, double first, double mapping, double filtering) {
+               return (image + first + mapping + filtering) / image;
+           });
+}
+
+// The paper's minutes.
+struct Row {
+    const char* scenario;
+    const char* title;
+    bool rebuilt;  // from the paper's figures, and no stand-in for a scene that is not public
+    double without, first, total, percent;
+};
+constexpr Row rows[] = {{sphere, "Sphere and plane", true, 42.0, 9.7, 57.7, 37.3},
+                        {lights, "Coloured lights", true, 64.4, 14.2, 95.0, 47.6},
+                        {store, "Red's Dream (a room full of things)", false, 261.3, 55.3, 387.4, 48.4}};
+
+void add_image(const Row& row, const Passes& passes, Table& table, Table& parts, PaperReport& report) {
+    const Value increase = percent_added(passes);
+    const auto ms = [](const Value& seconds) { return to_text(1e3 * seconds); };
+    table.rows.push_back({row.title, ms(of(results::summarise(passes.image))), std::to_string(passes.lights),
+                          ms(of(results::summarise(passes.first))),
+                          ms(passes.of_each([](double image, double, double mapping, double filtering) {
+                              return image + mapping + filtering;
+                          })),
+                          to_text(increase) + " %", fmt::format("{:.1f} %", row.percent)});
+    const auto [depth_maps, mapping, filtering] = split(passes);
+    parts.rows.push_back({row.title, to_text(depth_maps) + " %",
+                          fmt::format("{:.0f} %", 100.0 * row.first / (row.total - row.without)),
+                          to_text(mapping) + " %", to_text(filtering) + " %"});
+    report.claims.push_back({"section 5, table 1",
+                             fmt::format("{}: shadows add {:.1f} % to the time of the image", row.title, row.percent),
+                             to_text(increase) + " %",
+                             row.rebuilt ? judge_ratio(0.01 * row.percent, 0.01 * increase) : not_comparable(),
+                             "The shading that shadows are compared with is one dot product here.",
+                             {increase}});
+}
+
+}  // namespace
+
+void times(const Context& context) {
+    PaperReport& report = *context.report;
+    Table table{"Table 1: milliseconds",
+                {"image", "without shadows", "lights", "first pass", "second pass", "increase", "theirs"},
+                {}};
+    Table parts{"Parts of the time that shadows add",
+                {"image", "depth maps", "theirs", "mapping regions into light space", "filtering"},
+                {}};
+    std::vector<Judged> less;
+    std::vector<Value> shares;
+    std::string measured;
+    for (const Row& row : rows) {
+        const Passes passes = time_passes(context, row.scenario);
+        add_image(row, passes, table, parts, report);
+        if (row.rebuilt) {
+            const Value share = share_of_naive(passes);
+            less.push_back(judge_less(share, exactly(1.0)));
+            shares.push_back(share);
+            measured += (measured.empty() ? "" : ", ") + to_text(share);
+        }
+        if (row.scenario != lights) continue;
+        const auto [depth_maps, mapping, filtering] = split(passes);
+        report.claims.push_back(
+            {"section 5",
+             "Luxo Jr. (three lights): of the time that shadows add, the depth maps take 50 %, filtering 28 % and "
+             "mapping regions into light space 22 %",
+             fmt::format("coloured lights: {} %, {} %, {} %", to_text(depth_maps), to_text(filtering),
+                         to_text(mapping)),
+             not_comparable(),
+             "Their map is interpreted by the light tree, ours is compiled; Luxo Jr. is not public.",
+             {depth_maps, filtering, mapping}});
+    }
+    parts.rows.push_back({"Luxo Jr., theirs", "", "50 %", "22 %", "28 %"});
+    report.claims.push_back({"section 5, table 1",
+                             "an image with shadows costs significantly less than 1 + lights images without",
+                             fmt::format("sphere and plane, coloured lights: {} of that", measured), in_all(less),
+                             "The paper's own images take 0.69 and 0.37 of it.", shares});
+    report.tables.push_back(std::move(table));
+    report.tables.push_back(std::move(parts));
+}
+
+}  // namespace shadowbench::claims::reeves

@@ -1,0 +1,67 @@
+// Pictures of one scenario through maps of the same light rays, as the figures of Salvi et al. 2010 compare them: with
+// the picture through the uncompressed map.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/contender.h"
+#include "bench/load.h"
+#include "bench/prepared_light.h"
+#include "claims/paper.h"
+#include "render/shading_points.h"
+
+namespace shadowbench::claims::salvi {
+
+// Two pictures as a display of 8 bits shows them.
+struct Difference {
+    double rms = 0.0;   // over the channels of all pixels that see anything; 1 is the range of the display
+    double flip = 0.0;  // mean FLIP over the picture
+};
+
+// What the camera of a scenario sees, and the light rays of its first light, captured once.
+class View {
+public:
+    View(const nlohmann::json& document, const Context& context);
+    View(const View&) = delete;
+    View& operator=(const View&) = delete;
+
+    const rays::MapLayout& layout() const { return light_.layout; }
+    const std::vector<rays::LightRays>& tiles() const { return tiles_; }
+    // The technique of the scenario whose parameters have these values, found as cell_of() does.
+    const bench::Contender& contender(const std::string& technique,
+                                      const std::vector<std::string>& parameters = {}) const;
+
+    // A map of these tiles: those captured, or the same rays with their segments in another order of submission.
+    bench::Maps build(const bench::Contender& contender, std::span<const rays::LightRays> tiles) const;
+    render::Image picture(const bench::Maps& maps) const;
+    render::Image picture(const std::string& technique, const std::vector<std::string>& parameters = {}) const {
+        return picture(build(contender(technique, parameters), tiles_));
+    }
+
+    Difference difference(const render::Image& a, const render::Image& b) const;
+
+private:
+    bench::ScenarioLoader loader_;
+    const scene::Scenario* scenario_;
+    std::vector<bench::Contender> contenders_;
+    results::LightResult listed_;  // its cells are those of the contenders
+    bench::PreparedLight light_;
+    std::vector<rays::LightRays> tiles_;
+    render::ShadingPoints points_;
+    std::vector<techniques::Query> queries_;
+    std::vector<std::uint32_t> point_;  // of each query
+};
+
+// The scenario with the seeds of its procedural objects replaced: each k gives another scene of the same kind, and 0
+// the scenario as it is.
+nlohmann::json with_seeds(nlohmann::json document, int k);
+
+// The median with its 95 % interval, results::summarise().
+Value median_of(std::vector<double> values);
+
+// The number of seeds over which pictures are compared: the range of six values holds the median with 97 %.
+inline constexpr int seeds = 6;
+
+}  // namespace shadowbench::claims::salvi

@@ -1,0 +1,65 @@
+#include "claims/panels.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace shadowbench::claims {
+namespace {
+
+using base::Vec3f;
+using render::Image;
+
+TEST(Panels, TheBrightestOfWhatIsSeenIsNearlyWhite) {
+    Image picture({10, 20}, Vec3f(0.1f, 0.3f, 0.2f));
+    std::vector<float> seen(200, 1.0f);
+    EXPECT_NEAR(print_exposure(picture, seen), 3.0, 1e-6);
+    picture.at(0, 0) = Vec3f(50.0f);  // one highlight of 200 pixels does not darken the print
+    EXPECT_NEAR(print_exposure(picture, seen), 3.0, 1e-6);
+    for (std::size_t i = 0; i < 20; ++i) picture.pixels[i] = Vec3f(50.0f), seen[i] = 0.0f;  // not seen: does not count
+    EXPECT_NEAR(print_exposure(picture, seen), 3.0, 1e-6);
+    EXPECT_EQ(print_exposure(Image({2, 2}, Vec3f(0.0f)), std::vector<float>(4, 1.0f)), 1.0);
+    EXPECT_EQ(print_exposure(picture, std::vector<float>(200, 0.0f)), 1.0);
+}
+
+TEST(Panels, WhatIsNotSeenIsGreyAndExposureLeavesItSo) {
+    Image picture({2, 1}, Vec3f(0.2f));
+    picture.at(1, 0) = Vec3f(0.1f);  // half of this pixel shows something
+    const Image dim = on_grey(picture, std::vector<float>{0.0f, 0.5f}, 1.0),
+                bright = on_grey(picture, std::vector<float>{1.0f, 0.5f}, 2.0);
+    EXPECT_FLOAT_EQ(dim.at(1, 0).x, 0.1f + 0.15f);
+    EXPECT_FLOAT_EQ(bright.at(0, 0).x, 0.4f);
+    EXPECT_FLOAT_EQ(bright.at(1, 0).x, 0.2f + 0.15f);
+}
+
+TEST(Panels, DifferencesAreDarkOnWhite) {
+    Image difference({3, 1}, Vec3f(0.0f));
+    difference.at(1, 0) = Vec3f(0.25f, 0.0f, 2.0f);
+    const Image printed = dark_on_white(difference);
+    EXPECT_EQ(printed.at(0, 0), Vec3f(1.0f));
+    EXPECT_EQ(printed.at(1, 0), Vec3f(0.75f, 1.0f, 0.0f));
+}
+
+TEST(Panels, StandSideBySideWithTheirNumbers) {
+    std::vector<Panel> panels;
+    for (const float value : {0.25f, 0.5f})
+        panels.push_back({Image({60, 50}, Vec3f(value)), Image({60, 50}, Vec3f(value / 2))});
+    const Image sheet = side_by_side(panels);
+    ASSERT_EQ(sheet.width, 124);
+    ASSERT_EQ(sheet.height, 104);
+    for (int i = 0; i < 2; ++i) {
+        const float value = i == 0 ? 0.25f : 0.5f;
+        EXPECT_EQ(sheet.at(64 * i + 40, 10), Vec3f(value));
+        EXPECT_EQ(sheet.at(64 * i + 40, 100), Vec3f(value / 2));
+        EXPECT_EQ(sheet.at(64 * i, 49), Vec3f(1.0f)) << "the field of the number";
+        EXPECT_EQ(sheet.at(64 * i, 103), Vec3f(value / 2)) << "only the upper picture has a number";
+    }
+    EXPECT_EQ(sheet.at(62, 20), Vec3f(1.0f)) << "between the panels";
+    bool differ = false;
+    for (int y = 23; y < 50; ++y)
+        for (int x = 0; x < 20; ++x) differ = differ || sheet.at(x, y) != sheet.at(64 + x, y);
+    EXPECT_TRUE(differ) << "1 and 2 look alike";
+}
+
+}  // namespace
+}  // namespace shadowbench::claims

@@ -1,0 +1,103 @@
+// Pictures through maps of one set of light rays. What `render` makes of the same scenario is the oracle.
+#include "claims/salvi_view.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "claims/salvi_streams.h"
+#include "render/image_file.h"
+#include "render/render.h"
+
+namespace shadowbench::claims::salvi {
+namespace {
+
+nlohmann::json smoke() {
+    return nlohmann::json::parse(R"({
+        "name": "view",
+        "scene": {"objects": [
+            {"type": "smoke_column", "particles": 200, "extinction": 0.5, "seed": 3},
+            {"type": "quad", "corner": [-3, 0, -3], "edge_u": [0, 0, 6], "edge_v": [6, 0, 0], "casts_shadow": false}]},
+        "lights": [{"type": "directional", "direction": [-1, -1, -0.3]}],
+        "rays": {"resolution": 64, "samples_per_pixel": 1, "pattern": "regular"},
+        "receivers": {"type": "camera", "position": [1, 2, 7], "target": [0, 1.2, 0], "bias": 0.01},
+        "reference": {"samples_per_pixel": 1, "queries": 16, "spread_seeds": 0},
+        "techniques": [
+            {"type": "avsm", "cells": "sample", "nodes": 4, "filter": "bilinear", "order": "captured"},
+            {"type": "avsm", "cells": "sample", "nodes": 12, "filter": "bilinear"},
+            {"type": "uncompressed", "filter": "bilinear"}]})");
+}
+
+struct Measuring {
+    PaperReport report;
+    Context context;
+
+    Measuring() {
+        context.quick = true;
+        context.report = &report;
+    }
+};
+
+TEST(SalviView, ShowsWhatRenderShows) {
+    Measuring measuring;
+    const View view(smoke(), measuring.context);
+    render::RenderOptions options;
+    options.size = base::Vec2i(128, 96);
+    const render::Rendering rendering = render::render(smoke(), options, {});
+    const render::Image pictures[] = {view.picture("avsm", {"nodes=4"}), view.picture("avsm", {"nodes=12"}),
+                                      view.picture("uncompressed")};
+    ASSERT_EQ(rendering.techniques.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const render::Image& expected = rendering.techniques[i].picture.shaded;
+        ASSERT_EQ(pictures[i].pixels.size(), expected.pixels.size());
+        for (std::size_t p = 0; p < expected.pixels.size(); ++p)
+            for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(pictures[i].pixels[p][c], expected.pixels[p][c]);
+    }
+}
+
+// By definition, over the pixels that are not the black background: here all of the lit ground and smoke.
+TEST(SalviView, ADifferenceIsThatOfTheDisplayOverThePixelsThatSeeAnything) {
+    Measuring measuring;
+    const View view(smoke(), measuring.context);
+    const render::Image a = view.picture("avsm", {"nodes=4"}), b = view.picture("uncompressed");
+    double squares = 0.0;
+    for (std::size_t p = 0; p < a.pixels.size(); ++p)
+        for (int c = 0; c < 3; ++c)
+            squares += std::pow(render::to_display(a.pixels[p][c]) - render::to_display(b.pixels[p][c]), 2.0);
+    const double all = std::sqrt(squares / (3.0 * static_cast<double>(a.pixels.size())));
+    EXPECT_GT(view.difference(a, b).rms, all) << "the background counts as equal";
+    EXPECT_LT(view.difference(a, b).rms, 3.0 * all);
+    EXPECT_EQ(view.difference(a, a).rms, 0.0);
+    EXPECT_EQ(view.difference(a, a).flip, 0.0);
+}
+
+TEST(SalviView, AFrameInTheCapturedOrderIsTheCapturedMap) {
+    Measuring measuring;
+    const View view(smoke(), measuring.context);
+    const bench::Contender& streamed = view.contender("avsm", {"nodes=4"});
+    const render::Image captured = view.picture("avsm", {"nodes=4"});
+    const auto frame = [&](std::uint32_t window) {
+        return view.picture(view.build(streamed, shuffled(view.tiles(), window, 1)));
+    };
+    EXPECT_EQ(view.difference(frame(1), captured).rms, 0.0);
+    EXPECT_GT(view.difference(frame(~0u), captured).rms, 0.0);
+}
+
+TEST(SalviView, SeedsOfProceduralObjectsAreReplaced) {
+    EXPECT_EQ(with_seeds(smoke(), 0), smoke());
+    const nlohmann::json other = with_seeds(smoke(), 2);
+    EXPECT_EQ(other["scene"]["objects"][0]["seed"], 2003);
+    EXPECT_FALSE(other["scene"]["objects"][1].contains("seed"));
+}
+
+TEST(SalviView, AScenarioIsNotedOnce) {
+    Measuring measuring;
+    const View first(smoke(), measuring.context), other(with_seeds(smoke(), 1), measuring.context);
+    ASSERT_EQ(measuring.report.documents.size(), 1u);
+    EXPECT_TRUE(measuring.report.documents[0].starts_with("view "));
+}
+
+}  // namespace
+}  // namespace shadowbench::claims::salvi
