@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/digits.h"
+#include "render/image_file.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -57,7 +58,10 @@ Image on_grey(const Image& picture, std::span<const float> seen, double exposure
 Image dark_on_white(const Image& difference) {
     Image result = difference;
     for (base::Vec3f& pixel : result.pixels)
-        for (int c = 0; c < 3; ++c) pixel[c] = 1.0f - std::clamp(pixel[c], 0.0f, 1.0f);
+        for (int c = 0; c < 3; ++c) {
+            const double shown = render::to_display(std::clamp<double>(pixel[c], 0.0, 1.0));
+            pixel[c] = static_cast<float>(render::from_display(1.0 - shown));
+        }
     return result;
 }
 

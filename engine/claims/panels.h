@@ -14,7 +14,8 @@ double print_exposure(const render::Image& picture, std::span<const float> seen)
 // The picture times `exposure`; what is not seen is grey instead of black, so that both bright and dark outlines show.
 render::Image on_grey(const render::Image& picture, std::span<const float> seen, double exposure);
 
-// White where a difference is 0, black where it is 1 or more.
+// White where a difference is 0, black where it is 1 or more: the negative of the picture that a display would show, so
+// that small differences show as well as in bright on black.
 render::Image dark_on_white(const render::Image& difference);
 
 // Two pictures, one above the other.

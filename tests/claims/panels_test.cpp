@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "render/image_file.h"
+
 namespace shadowbench::claims {
 namespace {
 
@@ -34,10 +36,14 @@ TEST(Panels, WhatIsNotSeenIsGreyAndExposureLeavesItSo) {
 
 TEST(Panels, DifferencesAreDarkOnWhite) {
     Image difference({3, 1}, Vec3f(0.0f));
-    difference.at(1, 0) = Vec3f(0.25f, 0.0f, 2.0f);
+    difference.at(1, 0) = Vec3f(0.01f, 0.0f, 2.0f);
     const Image printed = dark_on_white(difference);
     EXPECT_EQ(printed.at(0, 0), Vec3f(1.0f));
-    EXPECT_EQ(printed.at(1, 0), Vec3f(0.75f, 1.0f, 0.0f));
+    EXPECT_EQ(printed.at(1, 0).y, 1.0f);
+    EXPECT_NEAR(printed.at(1, 0).z, 0.0f, 1e-6f);
+    // A hundredth is a tenth of the way from black to white on a display, and from white to black in print.
+    EXPECT_NEAR(render::to_display(printed.at(1, 0).x), 1.0 - render::to_display(0.01), 1e-6);
+    EXPECT_LT(render::to_display(printed.at(1, 0).x), 0.91);
 }
 
 TEST(Panels, StandSideBySideWithTheirNumbers) {

@@ -76,5 +76,13 @@ TEST(ImageFile, transfer_function_meets_at_its_joint) {
     EXPECT_NEAR(to_display(1.0), 1.0, 1e-12);
 }
 
+TEST(ImageFile, TheDisplaysCurveHasItsInverse) {
+    for (int i = 0; i <= 1000; ++i) {
+        const double linear = i / 1000.0;
+        EXPECT_NEAR(from_display(to_display(linear)), linear, 1e-6);
+    }
+    EXPECT_NEAR(from_display(0.5), 0.2140411, 1e-6) << "IEC 61966-2-1";
+}
+
 }  // namespace
 }  // namespace shadowbench::render
