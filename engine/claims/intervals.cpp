@@ -17,4 +17,8 @@ Value mean_of(std::span<const double> sample) {
     return {metrics::mean_and_variance(sample).mean, interval.low, interval.high};
 }
 
+Value median_of(std::vector<double> values) {
+    return of(results::summarise(std::move(values)));
+}
+
 }  // namespace shadowbench::claims

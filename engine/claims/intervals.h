@@ -1,8 +1,9 @@
-// Intervals of fits and of means.
+// Intervals of fits, of means and of medians.
 #pragma once
 
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "claims/value.h"
 
@@ -14,5 +15,8 @@ Value fitted_exponent(std::span<const std::pair<double, double>> points);
 
 // The mean of a sample of at least two, with the 95 % interval of its expectation.
 Value mean_of(std::span<const double> sample);
+
+// The median with its 95 % interval, results::summarise().
+Value median_of(std::vector<double> values);
 
 }  // namespace shadowbench::claims

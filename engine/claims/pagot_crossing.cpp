@@ -13,6 +13,7 @@
 #include "bench/load.h"
 #include "bench/prepared_light.h"
 #include "bench/queries.h"
+#include "claims/intervals.h"
 #include "claims/pagot.h"
 #include "claims/seen.h"
 #include "document/document.h"
@@ -105,7 +106,7 @@ Crossing crossing_in(const std::vector<Image>& images, std::size_t repetition) {
 Value median_of(const std::vector<Crossing>& crossings, double Crossing::*member, double scale) {
     std::vector<double> values;
     for (const Crossing& one : crossings) values.push_back(scale * one.*member);
-    return of(results::summarise(values));
+    return claims::median_of(std::move(values));
 }
 
 void add_plot(const std::vector<Image>& images, PaperReport& report) {

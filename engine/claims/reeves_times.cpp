@@ -14,6 +14,7 @@
 #include "document/document.h"
 #include "rays/capture.h"
 #include "rays/tracer.h"
+#include "render/point_queries.h"
 #include "render/shading_points.h"
 
 namespace shadowbench::claims::reeves {
@@ -74,7 +75,7 @@ private:
         passes_.first.back() += first.seconds();
 
         const bench::Stopwatch mapping;
-        const PointQueries regions = map_points(points, scenario_.receivers, view);
+        const render::PointQueries regions = render::point_queries(points, scenario_.receivers, view);
         passes_.mapping.back() += mapping.seconds();
 
         const bench::Stopwatch filtering;

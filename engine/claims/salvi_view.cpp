@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/hash_text.h"
 #include "base/parallel.h"
-#include "bench/queries.h"
+#include "claims/seen.h"
 #include "rays/capture.h"
 #include "rays/tracer.h"
 #include "render/image_file.h"
@@ -17,20 +15,18 @@
 namespace shadowbench::claims::salvi {
 namespace {
 
-using base::Vec3d;
-
 // Notes the scenario in the report, once.
-void note(const nlohmann::json& document, PaperReport& report) {
+void note(const nlohmann::json& document, const Context& context) {
     const std::string name = document.at("name").get<std::string>();
-    for (const std::string& noted : report.documents)
+    for (const std::string& noted : context.report->documents)
         if (noted.starts_with(name + " ")) return;
-    report.documents.push_back(fmt::format("{} {}", name, base::hash_text(document.dump())));
+    note_document(context, name, document);
 }
 
 }  // namespace
 
 View::View(const nlohmann::json& document, const Context& context) : loader_(context.data) {
-    note(document, *context.report);
+    note(document, context);
     const std::vector<document::Variant> variants = document::expand(document);
     scenario_ = &loader_.load(variants.front());
     contenders_ = bench::make_contenders(*scenario_, variants.front());
@@ -45,13 +41,7 @@ View::View(const nlohmann::json& document, const Context& context) : loader_(con
     settings.camera = scenario_->receivers.camera.value();
     settings.size = context.quick ? base::Vec2i(128, 96) : base::Vec2i(256, 192);
     points_ = render::find_shading_points(scenario_->scene, scenario_->lights, settings, tracer, {});
-    for (std::size_t i = 0; i < points_.points(); ++i) {
-        const bench::CameraPoint point{points_.place[i], Vec3d(points_.across[i]), Vec3d(points_.down[i])};
-        if (const auto query = bench::query_of_point(point, scenario_->receivers, light_.view)) {
-            queries_.push_back(*query);
-            point_.push_back(static_cast<std::uint32_t>(i));
-        }
-    }
+    asked_ = render::point_queries(points_, scenario_->receivers, light_.view);
 }
 
 const bench::Contender& View::contender(const std::string& technique,
@@ -67,14 +57,8 @@ bench::Maps View::build(const bench::Contender& contender, std::span<const rays:
 }
 
 render::Image View::picture(const bench::Maps& maps) const {
-    const std::vector<float> answers = bench::lookup_all(maps, queries_);
-    const std::size_t points = points_.points(), channels = maps.channels();
-    std::vector<float> visibility(points * channels, 1.0f);
-    for (std::size_t c = 0; c < channels; ++c)
-        for (std::size_t q = 0; q < queries_.size(); ++q)
-            visibility[c * points + point_[q]] = std::clamp(answers[c * queries_.size() + q], 0.0f, 1.0f);
     render::Picture picture = render::start_picture(points_);
-    render::add_light(points_, 0, visibility, picture);
+    render::add_answers(points_, 0, asked_, bench::lookup_all(maps, {asked_.queries, {}}), picture);
     return picture.shaded;
 }
 
@@ -103,10 +87,6 @@ nlohmann::json with_seeds(nlohmann::json document, int k) {
         object["seed"] = object.value("seed", 1) + 1000 * k;
     }
     return document;
-}
-
-Value median_of(std::vector<double> values) {
-    return of(results::summarise(std::move(values)));
 }
 
 }  // namespace shadowbench::claims::salvi

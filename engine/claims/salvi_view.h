@@ -9,8 +9,9 @@
 #include "bench/contender.h"
 #include "bench/load.h"
 #include "bench/prepared_light.h"
+#include "claims/intervals.h"
 #include "claims/paper.h"
-#include "render/shading_points.h"
+#include "render/point_queries.h"
 
 namespace shadowbench::claims::salvi {
 
@@ -50,16 +51,12 @@ private:
     bench::PreparedLight light_;
     std::vector<rays::LightRays> tiles_;
     render::ShadingPoints points_;
-    std::vector<techniques::Query> queries_;
-    std::vector<std::uint32_t> point_;  // of each query
+    render::PointQueries asked_;
 };
 
 // The scenario with the seeds of its procedural objects replaced: each k gives another scene of the same kind, and 0
 // the scenario as it is.
 nlohmann::json with_seeds(nlohmann::json document, int k);
-
-// The median with its 95 % interval, results::summarise().
-Value median_of(std::vector<double> values);
 
 // The number of seeds over which pictures are compared: the range of six values holds the median with 97 %.
 inline constexpr int seeds = 6;

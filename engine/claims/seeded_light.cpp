@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "bench/camera_points.h"
 #include "bench/lookup_timing.h"
+#include "claims/intervals.h"
 #include "claims/seen.h"
 #include "document/document.h"
 #include "rays/tracer.h"
@@ -59,7 +60,7 @@ std::vector<Value> lookup_times(std::span<const TimedLookups> all) {
             if (pass > 0) ns[i].push_back(1e9 * seconds / static_cast<double>(asked.queries.size()));
         }
     std::vector<Value> times;
-    for (std::vector<double>& raw : ns) times.push_back(of(results::summarise(std::move(raw))));
+    for (std::vector<double>& raw : ns) times.push_back(median_of(std::move(raw)));
     return times;
 }
 

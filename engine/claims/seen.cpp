@@ -16,6 +16,7 @@
 #include "document/document.h"
 #include "rays/capture.h"
 #include "rays/tracer.h"
+#include "render/point_queries.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -51,7 +52,7 @@ void Seen::find_queries() {
     const rays::Tracer all(scenario_->scene, false);
     const render::ShadingPoints points =
         render::find_shading_points(scenario_->scene, scenario_->lights, settings, all, {});
-    PointQueries found = map_points(points, scenario_->receivers, view_);
+    render::PointQueries found = render::point_queries(points, scenario_->receivers, view_);
     std::uint32_t pixel = 0;
     for (const std::uint32_t point : found.point) {
         while (points.begin[pixel + 1] <= point) ++pixel;
@@ -73,23 +74,6 @@ render::Image Seen::picture(std::span<const float> values) const {
     render::Image image(size_, base::Vec3f(1.0f));
     for (std::size_t q = 0; q < pixel_.size(); ++q) image.pixels[pixel_[q]] = base::Vec3f(values[q]);
     return image;
-}
-
-PointQueries map_points(const render::ShadingPoints& points, const scene::Receivers& receivers,
-                        const rays::LightView& view) {
-    PointQueries result;
-    result.queries.reserve(points.points());
-    result.footprints.reserve(points.points());
-    result.point.reserve(points.points());
-    for (std::size_t i = 0; i < points.points(); ++i) {
-        const bench::CameraPoint point{points.place[i], base::Vec3d(points.across[i]), base::Vec3d(points.down[i])};
-        const auto query = bench::query_of_point(point, receivers, view);
-        if (!query) continue;
-        result.queries.push_back(*query);
-        result.footprints.push_back(bench::footprint_of(point, view));
-        result.point.push_back(static_cast<std::uint32_t>(i));
-    }
-    return result;
 }
 
 nlohmann::json with_moved_map(nlohmann::json document, std::uint64_t seed) {

@@ -58,15 +58,6 @@ private:
     std::vector<std::vector<float>> visibility_;
 };
 
-// A pixel's points as queries: all points that lie inside the light's map, in order, with their indices.
-struct PointQueries {
-    std::vector<techniques::Query> queries;
-    std::vector<techniques::Footprint> footprints;
-    std::vector<std::uint32_t> point;
-};
-PointQueries map_points(const render::ShadingPoints& points, const scene::Receivers& receivers,
-                        const rays::LightView& view);
-
 // The document with the target of its first light, a spot of a given angle, moved by up to half a cell of its map along
 // each axis of the world. So the cells lie at random places of the same scene.
 nlohmann::json with_moved_map(nlohmann::json document, std::uint64_t seed);

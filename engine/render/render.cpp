@@ -14,13 +14,13 @@
 #include "bench/contender.h"
 #include "bench/load.h"
 #include "bench/prepared_light.h"
-#include "bench/queries.h"
 #include "bench/ray_source.h"
 #include "bench/reference.h"
 #include "document/document.h"
 #include "metrics/statistics.h"
 #include "rays/capture.h"
 #include "render/heat_map.h"
+#include "render/point_queries.h"
 
 namespace shadowbench::render {
 namespace {
@@ -29,7 +29,6 @@ using base::Error;
 using base::ErrorCode;
 using base::Vec3d;
 using bench::Contender;
-using techniques::Query;
 
 constexpr std::size_t reference_chunk = std::size_t{1} << 19;  // points: limits the memory for their truth
 constexpr float rounding = 1e-6f;                              // by which an answer may leave [0, 1]
@@ -48,43 +47,8 @@ auto watch(const Work& work, const scene::Light& light, const char* stage, std::
     };
 }
 
-// The shading points inside a light's map.
-struct LightQueries {
-    std::vector<Query> queries;
-    std::vector<techniques::Footprint> footprints;
-    std::vector<std::uint32_t> point;  // index of each query's point
-};
-
-LightQueries make_queries(const Work& work, const rays::LightView& view) {
-    LightQueries result;
-    const ShadingPoints& points = work.points;
-    for (std::size_t i = 0; i < points.points(); ++i) {
-        const bench::CameraPoint point{points.place[i], Vec3d(points.across[i]), Vec3d(points.down[i])};
-        if (const auto query = bench::query_of_point(point, work.scenario.receivers, view)) {
-            result.queries.push_back(*query);
-            result.footprints.push_back(bench::footprint_of(point, view));
-            result.point.push_back(static_cast<std::uint32_t>(i));
-        }
-    }
-    return result;
-}
-
-// Adds a light to a picture; points without an answer are lit.
-template <class Values>
-void add_answers(const Work& work, std::size_t light, const LightQueries& asked, const Values& answers,
-                 Picture& picture) {
-    const std::size_t points = work.points.points(), queries = asked.queries.size();
-    const std::size_t channels = queries ? answers.size() / queries : 1;
-    std::vector<float> visibility(points * channels, 1.0f);
-    for (std::size_t c = 0; c < channels; ++c)
-        for (std::size_t q = 0; q < queries; ++q)
-            visibility[c * points + asked.point[q]] =
-                std::clamp(static_cast<float>(answers[c * queries + q]), 0.0f, 1.0f);
-    add_light(work.points, light, visibility, picture);
-}
-
 bench::Truth find_truth(const Work& work, const scene::Light& light, const rays::LightView& view,
-                        const LightQueries& asked) {
+                        const PointQueries& asked) {
     const std::size_t total = asked.queries.size();
     const scene::RaySettings settings = bench::reference_settings(work.scenario);
     std::vector<bench::Truth> parts;
@@ -127,7 +91,7 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
 
     result.lights.push_back({light.name, {layout.width, layout.height}, light_map(source, layout)});
 
-    const LightQueries asked = make_queries(work, view);
+    const PointQueries asked = point_queries(work.points, scenario.receivers, view);
     const auto looked_up = watch(work, light, "lookup", contenders.size());
     for (std::size_t i = 0; i < contenders.size(); ++i) {
         TechniquePictures& out = result.techniques[i];
@@ -135,7 +99,7 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
         if (contenders[i].ok()) {
             const std::vector<float> answers = bench::lookup_all(contenders[i].maps, {asked.queries, asked.footprints});
             check_answers(contenders[i], answers);
-            if (contenders[i].ok()) add_answers(work, index, asked, answers, out.picture);
+            if (contenders[i].ok()) add_answers(work.points, index, asked, answers, out.picture);
         }
         out.cell = contenders[i].cell;
         if (!contenders[i].ok()) out.picture = {};
@@ -143,7 +107,7 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
         looked_up(i + 1);
     }
     const bench::Truth truth = find_truth(work, light, view, asked);
-    add_answers(work, index, asked, truth.value, result.reference);
+    add_answers(work.points, index, asked, truth.value, result.reference);
     result.reference_standard_error =
         std::max(result.reference_standard_error, metrics::error_norms(truth.standard_error).rms);
 }
