@@ -17,6 +17,9 @@ constexpr double safe = 0.95;
 // How many are confirmed in one round. Trials rank bytes well, and times only roughly.
 constexpr std::array<std::size_t, costs> most_leaders{3, 1, 3}, most_followers{2, 1, 2};
 constexpr std::size_t most_doubtful = 1;
+// Lookups are timed again whose trials took at most this times the least: trials of a quiet machine are off by up to a
+// tenth, and a cache that another process used makes one slower still.
+constexpr double hardly_told = 1.3;
 
 struct Candidate {
     Point point;
@@ -100,6 +103,25 @@ std::vector<Point> to_confirm(std::span<const Family> families, std::span<const 
     for (const Point& point : chosen)
         if (std::find(unique.begin(), unique.end(), point) == unique.end()) unique.push_back(point);
     return unique;
+}
+
+std::vector<Point> to_time_again(std::span<const Family> families, std::span<const Knowledge> known,
+                                 const Incumbents& incumbents) {
+    constexpr std::size_t k = static_cast<std::size_t>(Cost::lookup);
+    std::vector<Candidate> alike;
+    bool all_timed = true;
+    for (std::size_t f = 0; f < known.size(); ++f)
+        for (const Record& record : known[f].records()) {
+            if (families[f].mapless || record.confirmed || !known[f].acceptable(record)) continue;
+            if (record.cost[k] > hardly_told * incumbents.least[k]) continue;
+            alike.push_back({Point{f, record.step}, record.cost[k], known[f].excess(record), false});
+            all_timed = all_timed && record.timed_again;
+        }
+    std::stable_sort(alike.begin(), alike.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+    std::vector<Point> points;
+    if (!all_timed)
+        for (Candidate& candidate : alike) points.push_back(std::move(candidate.point));
+    return points;
 }
 
 double growth(const Exploration& found) {

@@ -44,6 +44,11 @@ Incumbents find_incumbents(std::span<const Family> families, std::span<const Kno
 std::vector<Point> to_confirm(std::span<const Family> families, std::span<const Knowledge> known,
                               const std::array<bool, costs>& asked, const Incumbents& incumbents);
 
+// The settings whose lookups trials hardly tell from the fastest acceptable one's, with it, fastest first; confirmed ones
+// are left out. Empty if none of them is left to be timed again.
+std::vector<Point> to_time_again(std::span<const Family> families, std::span<const Knowledge> known,
+                                 const Incumbents& incumbents);
+
 // How much the upper ends of confirmed errors exceed the errors of the trials: the median of the ratios, at least 1.
 double growth(const Exploration& found);
 

@@ -65,7 +65,7 @@ std::vector<double> Knowledge::position(const std::vector<int>& step) const {
 void Knowledge::add(const Point& point, const Trial& trial) {
     const std::size_t index = lattice_.index(point.step);
     measured_[index] = 1;
-    records_.push_back({index, point.step, trial.failed, trial.error, trial.cost, false, trial.cost});
+    records_.push_back({index, point.step, trial.failed, trial.error, trial.cost, false, false, trial.cost});
     trials_.push_back(trial);
 }
 
@@ -78,6 +78,16 @@ void Knowledge::confirm(const Point& point, const Confirmed& confirmed) {
         record.error = confirmed.error.high;
         record.cost = confirmed.cost;
         for (std::size_t k = 0; k < costs; ++k) record.upper_cost[k] = confirmed.interval[k].high;
+    }
+}
+
+void Knowledge::time_again(const Point& point, double lookup_ns) {
+    constexpr std::size_t k = static_cast<std::size_t>(Cost::lookup);
+    const std::size_t index = lattice_.index(point.step);
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        if (records_[i].index != index) continue;
+        records_[i].timed_again = true;
+        records_[i].cost[k] = records_[i].upper_cost[k] = trials_[i].cost[k] = lookup_ns;
     }
 }
 
@@ -216,7 +226,7 @@ void Knowledge::fit() {
         Record& record = records_[i];
         if (record.confirmed || !record.failed.empty()) continue;
         for (std::size_t k = 0; k < costs; ++k)
-            if (cost_noise[k] > 1.0)
+            if (cost_noise[k] > 1.0 && !(record.timed_again && all_costs[k] == Cost::lookup))
                 record.cost[k] = record.upper_cost[k] = std::exp(cost_models_[k].at(position(record.step)).mean);
     }
 }

@@ -34,6 +34,7 @@ struct Record {
     double error = 0.0;               // the upper end of its interval, if it is confirmed; else of the trial
     std::array<double, costs> cost{};  // short measurements are smoothed by the model
     bool confirmed = false;
+    bool timed_again = false;  // its lookups: their time is not smoothed
     std::array<double, costs> upper_cost{};  // for limits: the upper ends of intervals, if it is confirmed; else as cost
 };
 
@@ -52,6 +53,7 @@ public:
     std::span<const Record> records() const { return records_; }
     void add(const Point& point, const Trial& trial);
     void confirm(const Point& point, const Confirmed& confirmed);
+    void time_again(const Point& point, double lookup_ns);
     // What light rays leave of any function counts for this family too.
     void bound_by(const std::vector<Floor>& floors) { floors_ = floors; }
     // What other families reached with light rays that this one was not built from tells about its error there.

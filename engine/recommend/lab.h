@@ -90,6 +90,9 @@ public:
     // A lower bound of a cost that is known without measuring; 0 if nothing is known.
     virtual double at_least(const Point& point, Cost cost) const = 0;
     virtual Trial measure(const Point& point) = 0;
+    // The lookup times of measured points again, in turns, so that a disturbance hits all alike: their ratios hold better
+    // than those of trials. Nothing for a point that cannot be timed now.
+    virtual std::vector<std::optional<double>> time_again(std::span<const Point> points) = 0;
     // `error`: what the points are judged by; those that clearly err more or less need fewer seeds. It takes about
     // `most_seconds` at most, but never less than the least that an interval rests on.
     virtual std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) = 0;

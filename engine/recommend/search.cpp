@@ -18,6 +18,10 @@ constexpr int confirm_rounds = 8;
 constexpr double first_round_share = 0.6;  // of the time left to confirm: other rounds may follow
 // A point that is not the best known is confirmed only if it takes at most this share of the round's time.
 constexpr double other_share = 0.2;
+// Of the whole time, that timing lookups again may take, but at most this share of the time left; and how many are.
+constexpr double again_share = 0.1, again_share_left = 0.3;
+constexpr std::size_t most_again = 12;
+constexpr double seconds_again = 1.0;  // of one, besides building its map
 // If time is limited, trials are asked to err so many times less before anything is confirmed: the upper ends of confirmed
 // errors lie above the errors of trials by about this much, and there may be no time for another round.
 constexpr double first_growth = 1.02;
@@ -118,6 +122,30 @@ void Search::share_floors(std::size_t family) {
     update_one(family);
 }
 
+// Trials time one map at a time, so that they rank lookups by chance that differ by less than the machine's noise. The
+// fastest are timed again in turns before a few of them are confirmed.
+void Search::time_again() {
+    if (!found_.goal.asked[static_cast<std::size_t>(Cost::lookup)] || stopped(1.0)) return;
+    double most_seconds = std::min(again_share * (found_.goal.budget - began_), again_share_left * left(1.0));
+    std::vector<Point> points;
+    for (const Point& point : to_time_again(found_.families, families_, incumbents_)) {
+        const double seconds = lab_.effort(point) + seconds_again;
+        if (points.size() == most_again || seconds > most_seconds) continue;
+        most_seconds -= seconds;
+        points.push_back(point);
+    }
+    if (points.size() < 2) return;
+    report(Stage::confirming, points.size());
+    const std::vector<std::optional<double>> times = lab_.time_again(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!times[i]) continue;
+        families_[points[i].family].time_again(points[i], *times[i]);
+        for (Measured& measured : found_.measured)
+            if (measured.point == points[i]) measured.trial.cost[static_cast<std::size_t>(Cost::lookup)] = *times[i];
+    }
+    update_all();
+}
+
 bool Search::is_best(const Point& point) const {
     for (std::size_t k = 0; k < costs; ++k)
         if (found_.goal.asked[k] && incumbents_.best[k] == point) return true;
@@ -153,12 +181,15 @@ void Search::confirm() {
         wanted_.trial_error = found_.goal.error / growth(found_);
         update_all();
         refine();
+        time_again();
     }
 }
 
 Exploration Search::run() {
     climb();
     probe();
+    refine();
+    time_again();
     refine();
     confirm();
     return std::move(found_);

@@ -52,6 +52,7 @@ private:
     std::optional<Point> open_neighbour(bool& too_long) const;
     void refine();
 
+    void time_again();
     bool is_best(const Point& point) const;
     void confirm();
 

@@ -169,6 +169,11 @@ void Trials::keep_map(const Setting& setting, Attempt attempt) {
     }
 }
 
+// A kept map that this setting stores too, or the end.
+std::list<Trials::Kept>::iterator Trials::find_kept(const Setting& setting) {
+    return std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) { return same_map(kept.setting, setting); });
+}
+
 // The kept map, with the lookups of this setting.
 Trials::Attempt Trials::take_kept(std::list<Kept>::iterator kept, const Setting& setting) {
     Attempt attempt = std::move(kept->attempt);
@@ -274,8 +279,7 @@ void Trials::check_some(Attempt& attempt) const {
 Trial Trials::measure(const Point& point) {
     const Stopwatch stopwatch;
     const Setting setting = space_->setting(point);
-    const auto there = std::find_if(kept_.begin(), kept_.end(),
-                                    [&](const Kept& kept) { return same_map(kept.setting, setting); });
+    const auto there = find_kept(setting);
     const bool built = there == kept_.end();
     Attempt attempt = built ? build(setting, 0, true) : take_kept(there, setting);
     const Contender& contender = attempt.contender;

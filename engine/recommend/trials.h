@@ -49,6 +49,7 @@ public:
     double confirm_effort(const Point& point) const override;
     double at_least(const Point& point, Cost cost) const override;
     Trial measure(const Point& point) override;
+    std::vector<std::optional<double>> time_again(std::span<const Point> points) override;
     std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) override;
 
     const Space& space() const { return *space_; }
@@ -70,6 +71,7 @@ private:
     const rays::MapLayout& layout(const Setting& setting) const;
     std::string refusal(const Setting& setting, const bench::Contender& contender) const;
     void keep_map(const Setting& setting, Attempt attempt);
+    std::list<Kept>::iterator find_kept(const Setting& setting);
     Attempt take_kept(std::list<Kept>::iterator kept, const Setting& setting);
     Attempt build(const Setting& setting, int seed, bool timed);
     void judge_lookups(Attempt& attempt) const;
@@ -82,7 +84,7 @@ private:
     int seeds_of(const Point& point, double error) const;
     std::size_t lookups_of(const Point& point) const;
     bool time_builds(std::vector<Timed>& timed, const bench::Stopwatch& stopwatch, double most_seconds);
-    void time_lookups(std::vector<Timed>& timed);
+    void time_lookups(std::vector<Timed>& timed, double longest);
     results::LightResult* recorded(const Setting& setting);
     results::LightResult& record(const Setting& setting, const bench::StoredRays& rays);
     void keep(results::LightResult& light, const bench::Contender& contender) const;

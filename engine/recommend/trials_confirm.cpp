@@ -26,6 +26,7 @@ constexpr int least_repetitions = 7, most_repetitions = 21;
 constexpr double longest_pass = 0.05;    // seconds of lookups in one order
 constexpr int fewer_builds = 3;          // repetitions, if time runs out
 constexpr double longest_timing = 15.0;  // seconds, after the least repetitions
+constexpr double longest_again = 2.0;    // the same, of what is only timed again
 // Shares of a confirmation's time after which it goes on with fewer seeds, and with fewer builds.
 constexpr double seeds_share = 0.5, builds_share = 0.85;
 
@@ -69,8 +70,8 @@ bool Trials::time_builds(std::vector<Timed>& timed, const Stopwatch& stopwatch, 
     return all;
 }
 
-// Lookups in turns: every point once, then every point again, until the times are settled.
-void Trials::time_lookups(std::vector<Timed>& timed) {
+// Lookups in turns: every point once, then every point again, until the times are settled, or for about `longest` seconds.
+void Trials::time_lookups(std::vector<Timed>& timed, double longest) {
     const base::ThreadLimit one_thread(1);
     for (Timed& one : timed)
         one.plan = bench::plan_lookups(one.attempt.contender.maps, asked(all_, one.attempt.frame->view).asked(),
@@ -82,12 +83,36 @@ void Trials::time_lookups(std::vector<Timed>& timed) {
     const Stopwatch stopwatch;
     for (int r = 0; r < most_repetitions; ++r) {
         if (r >= least_repetitions &&
-            (stopwatch.seconds() > longest_timing || std::all_of(timed.begin(), timed.end(), settled)))
+            (stopwatch.seconds() > longest || std::all_of(timed.begin(), timed.end(), settled)))
             return;
         if (progress_)
             progress_({"", "timing", static_cast<std::size_t>(r), static_cast<std::size_t>(most_repetitions)});
         for (Timed& one : timed) bench::time_repetition(one.attempt.contender.maps, one.plan, r % 2 == 1);
     }
+}
+
+// Maps that would not fit into memory together are left out.
+std::vector<std::optional<double>> Trials::time_again(std::span<const Point> points) {
+    const Stopwatch stopwatch;
+    std::vector<Timed> timed;
+    double bytes = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        bytes += trial_of(points[i])->cost[static_cast<std::size_t>(Cost::bytes)];
+        if (!timed.empty() && bytes > static_cast<double>(options_.limits.kept_rays / 4)) break;
+        const Setting setting = space_->setting(points[i]);
+        const auto kept = find_kept(setting);
+        Attempt attempt = kept == kept_.end() ? build(setting, 0, false) : take_kept(kept, setting);
+        attempt.rays = nullptr;
+        if (attempt.contender.ok()) timed.push_back({i, setting, lookups_of(points[i]), std::move(attempt)});
+    }
+    time_lookups(timed, longest_again);
+    std::vector<std::optional<double>> answers(points.size());
+    for (Timed& one : timed) {
+        answers[one.index] = metrics::median(one.plan.random.ns);
+        keep_map(one.setting, std::move(one.attempt));
+    }
+    seconds_ += stopwatch.seconds();
+    return answers;
 }
 
 // Every seed has light rays of its own.
@@ -163,7 +188,7 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double err
     }
     std::erase_if(timed, [&](const Timed& one) { return !answers[one.index].failed.empty(); });
     cut = !time_builds(timed, stopwatch, builds_share * most_seconds) || cut;
-    time_lookups(timed);
+    time_lookups(timed, longest_timing);
     for (Timed& one : timed) {
         Contender& contender = one.attempt.contender;
         for (const bench::LookupOrder* order : {&one.plan.image, &one.plan.random})

@@ -93,6 +93,29 @@ TEST(Search, CostsThatAreEqualOverSeveralSteps) {
     }
 }
 
+// Lookup times of 48 settings and more lie within a fifth, and a trial's is off by an eighth.
+TEST(Search, LookupsThatTrialsHardlyTellApartAreTimedAgain) {
+    Law law = usual("nearly constant");
+    const auto cost = law.cost;
+    law.cost = [cost](const Step& step, Cost of) {
+        return of == Cost::lookup ? product_law(10.0, {0.02, 0.03, 0.05}, step) : cost(step, of);
+    };
+    Goal goal = goal_of(0.1);
+    goal.asked = {true, false, false};
+    int missed = 0, off = 0;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        SyntheticLab lab({law}, {0.12, 0.0, 0.0}, seed);
+        const Exploration found = explore(lab, goal, {});
+        missed += found_cost(lab, found, Cost::lookup) > 1.05 * cheapest(lab, goal, Cost::lookup);
+        for (const Answered& answered : found.confirmed)
+            for (const Measured& measured : found.measured)
+                if (measured.point == answered.point)
+                    off += std::abs(measured.trial.cost[0] / lab.cost(answered.point, Cost::lookup) - 1.0) > 0.1;
+    }
+    EXPECT_LE(missed, 2);
+    EXPECT_EQ(off, 0);  // what is confirmed was timed again
+}
+
 // Twelve families whose errors are mostly those of the same light rays. All but the first two cost more.
 std::vector<Law> of_the_same_rays(bool faithful) {
     std::vector<Law> laws;

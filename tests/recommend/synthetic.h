@@ -26,7 +26,7 @@ struct Law {
 };
 
 struct Noise {
-    double time = 0.0;      // standard deviation of the logarithm of a trial's times
+    double time = 0.0;      // standard deviation of the logarithm of a trial's times; of those timed again a fifth
     double error = 0.0;     // of a trial's error
     double interval = 0.0;  // half the width of confirmed intervals, as a share; times are confirmed to within a third
 };
@@ -41,6 +41,7 @@ public:
     double confirm_effort(const Point& point) const override;
     double at_least(const Point& point, Cost cost) const override;
     Trial measure(const Point& point) override;
+    std::vector<std::optional<double>> time_again(std::span<const Point> points) override;
     std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) override;
 
     // What the answer rests on: errors without noise, with the upper end of their interval.
@@ -63,7 +64,7 @@ private:
     std::optional<std::size_t> scout_;
     std::set<std::pair<int, int>> captured_;
     double seconds_ = 0.0;
-    std::size_t trials_ = 0, confirmed_ = 0;
+    std::size_t trials_ = 0, confirmed_ = 0, timed_again_ = 0;
 };
 
 Axis axis(const std::string& name, int steps, int stride);

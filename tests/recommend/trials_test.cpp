@@ -89,6 +89,25 @@ TEST(Trials, AtAnotherResolutionAgreeWithARunThere) {
     }
 }
 
+// Two settings of one map, another map, and a setting that stores none.
+TEST(Trials, TimeLookupsAgainInTurns) {
+    Trials trials = trials_of(two_layers(), {"deep", "pcf", "ray_traced"});
+    const std::vector<Point> points{point_of(trials, "pcf res_factor=1 storage=raw", {16, 4, 4}),
+                                    point_of(trials, "pcf res_factor=1 storage=raw", {16, 4, 256}),
+                                    point_of(trials, "deep kernel=box mip=none", {32, 16, 0.0501}),
+                                    point_of(trials, "ray_traced", {16, 4, 16})};
+    for (const Point& point : points) ASSERT_EQ(trials.measure(point).failed, "");
+    const std::vector<std::optional<double>> ns = trials.time_again(points);
+    ASSERT_EQ(ns.size(), points.size());
+    for (const auto& one : ns) {
+        ASSERT_TRUE(one);
+        EXPECT_GT(*one, 0.0);
+    }
+    // Their maps are kept, and answer as before.
+    const Trial before = trials.measure(points[2]), after = trials.measure(points[2]);
+    EXPECT_EQ(before.error, after.error);
+}
+
 TEST(Trials, CaptureTheRaysOfAResolutionOnce) {
     Trials trials = trials_of(two_layers(), {"deep", "variance"});
     const Point deep = point_of(trials, "deep kernel=box mip=none", {256, 64, 0.1});
