@@ -165,8 +165,8 @@ void figure_6(const Context& context) {
     Pictures pictures(context, flat, {{1, 2}, {1, 3}, {1, 4}, {3, 2}, {3, 3}});
     looks_like(pictures, "section 5, figure 6", {3, 2}, {1, 3}, *context.report);
     looks_like(pictures, "section 5, figure 6", {3, 3}, {1, 4}, *context.report);
-    context.report->tables.push_back(pictures.difference_table("Figure 6: how the pictures differ"));
-    context.report->tables.push_back(pictures.error_table("Figure 6: error rms against the truth over this width"));
+    context.report->tables.push_back(pictures.difference_table("Figure 6: how the pictures differ; means over three places of the map's cells"));
+    context.report->tables.push_back(pictures.error_table("Figure 6: error rms against the truth over this width; means over three places of the map's cells"));
 }
 
 void figure_7(const Context& context) {
@@ -193,8 +193,8 @@ void figure_7(const Context& context) {
          judge_less(thin, wide),
          "The area of the transitions, by which their widths are compared.",
          {thin, wide}});
-    report.tables.push_back(pictures.difference_table("Figure 7: how the pictures differ"));
-    report.tables.push_back(pictures.error_table("Figure 7: error rms against the truth over this width"));
+    report.tables.push_back(pictures.difference_table("Figure 7: how the pictures differ; means over three places of the map's cells"));
+    report.tables.push_back(pictures.error_table("Figure 7: error rms against the truth over this width; means over three places of the map's cells"));
 }
 
 }  // namespace

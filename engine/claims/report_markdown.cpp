@@ -11,8 +11,14 @@ namespace {
 
 constexpr const char* introduction =
     "Every number is measured with the scenarios and on the machine named below. Absolute times cannot be compared "
-    "between machines, so times are given as ratios within one run. Numbers in brackets are 95 % intervals: of medians "
-    "for times, and for errors of the RMS expected over seeds of the light rays against the exact truth.\n\n"
+    "between machines, so claims are about ratios of times. Numbers in brackets are 95 % intervals. Of a time, the number "
+    "is the median over repetitions. Of a ratio of times, it is the median of the ratios of each repetition: what is "
+    "compared takes turns, so that a machine that slows down slows both. Repetitions go on until such an interval is "
+    "within 5 % of the ratio, or a limit of time is reached. Of an error rms, the number is what is expected over seeds of "
+    "the light rays against the exact truth: the noise of the truth, which is a mean of rays too, is taken off. The "
+    "interval covers both noises; if the light rays are regular, only that of the truth. Of an exponent, it is that of the "
+    "fit. Where numbers in brackets are something else, as medians over scenes or means over places of the map, the "
+    "paper's introduction and the titles of its tables say so.\n\n"
     "Each claim is judged by one rule of the table below, by the whole interval of what is measured: *holds*, *holds in "
     "shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*. A claim "
     "about times on a GPU, about a scene that is not public, or without a value is *not comparable*: its number is given, "

@@ -46,7 +46,7 @@ void figure_4(const Context& context) {
             flip[m].push_back(difference.flip);
         }
     }
-    Table table{"Figure 4: pictures of three smoke columns beside the uncompressed one",
+    Table table{"Figure 4: pictures of three smoke columns beside the uncompressed one; medians over six scenes",
                 {"method", "difference rms", "mean FLIP"},
                 {}};
     for (std::size_t m = 0; m < methods; ++m)
@@ -150,7 +150,7 @@ std::vector<Range> measure_ranges(const Context& context, const Smoke& smoke, Ta
 }
 
 void over_range(const Context& context) {
-    Table table{"Section 5.1: curve error rms over the depth range of three smoke columns",
+    Table table{"Section 5.1: curve error rms over the depth range of three smoke columns; medians over six scenes",
                 {"smoke", "depth range", names[0], names[1], names[2], "AVSM 8 over the better of the others"},
                 {}};
     Plot plot{

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/random.h"
@@ -134,8 +135,8 @@ TEST(Repeat, IntervalsHoldTheMedianInMoreThan93PercentAfterStopping) {
     std::uint64_t seed = 0;
     for (const Noise& noise : noises)
         for (const double goal : {0.02, 0.03, 0.05, 0.1})
-            for (const std::size_t least : {5u, 7u, 9u})
-                EXPECT_GE(coverage(noise, {least, 31, 1e9}, goal, ++seed), 0.93)
+            for (const auto& [least, most] : {std::pair(5u, 31u), {7u, 31u}, {9u, 31u}, {15u, 39u}})
+                EXPECT_GE(coverage(noise, {least, most, 1e9}, goal, ++seed), 0.93)
                     << noise.name << ", series " << seed << ", goal " << goal << ", least " << least;
 }
 
