@@ -162,8 +162,8 @@ void footprints(const Context& context) {
         {"filter", "probes a lookup", "ns a lookup", "error rms"},
         {}};
     for (std::size_t m = 0; m < std::size(most_probes); ++m)
-        table.rows.push_back({name_of(most_probes[m]), fmt::format("{:.3g}", found.probes[m]), to_text(found.ns.time(m)),
-                              to_text(found.error[m])});
+        table.rows.push_back({name_of(most_probes[m]), fmt::format("{:.3g}", found.probes[m]),
+                              to_text(found.ns.time(m)), to_text(found.error[m])});
     report.tables.push_back(std::move(table));
     const Value &anisotropic = found.error[most], &wide = found.error[long_axis], &square = found.error[same_area];
     const Value slower = found.ns.ratio(most, same_area);

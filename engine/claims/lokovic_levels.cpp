@@ -124,8 +124,8 @@ void add_level_tables(PaperReport& report, const std::vector<Levels>& found) {
         level_table("Section 5.3: nodes of the functions in mip levels of the ball scene, 64 samples "
                     "a pixel, for each pixel that holds something; means over three seeds of the light rays",
                     found, &Levels::nodes, [](double level) { return std::exp2(0.5 * level); }));
-    Table sizes = level_table("Section 5.3: bytes of the same levels over those of level 0; means over three seeds of the light rays", found, &Levels::size,
-                              [](double level) { return std::exp2(-1.5 * level); });
+    Table sizes = level_table("Section 5.3: bytes of the same levels over those of level 0; means over the same seeds",
+                              found, &Levels::size, [](double level) { return std::exp2(-1.5 * level); });
     std::vector<std::string> all{"all"};
     for (const Levels& way : found) all.push_back(to_text(mean_of(way.all)));
     all.push_back("1.55");

@@ -30,7 +30,18 @@ struct ThreeMaps {
     Turns ns;                                              // a lookup in each map
 };
 // The places of the maps among the turns: those of the scenarios, one after the other.
-enum Place { coarse, fine, fine_subset, as_printed, with_64_samples, with_256_pixels, cached, whole, tent_over, standard };
+enum Place {
+    coarse,
+    fine,
+    fine_subset,
+    as_printed,
+    with_64_samples,
+    with_256_pixels,
+    cached,
+    whole,
+    tent_over,
+    standard
+};
 
 // A quantity for each reading of the deep map.
 struct Readings {

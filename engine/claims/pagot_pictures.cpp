@@ -18,6 +18,7 @@ namespace shadowbench::claims::pagot {
 namespace {
 
 constexpr std::uint64_t repeats = 3;    // with the cells of the map at other places
+const std::string over_places = "; means over three places of the map's cells";  // for titles of tables
 constexpr double widths[] = {2, 3, 4};  // cells, of the truth's footprints
 constexpr std::size_t judged = 4096;    // receivers compared with the truth
 
@@ -165,8 +166,8 @@ void figure_6(const Context& context) {
     Pictures pictures(context, flat, {{1, 2}, {1, 3}, {1, 4}, {3, 2}, {3, 3}});
     looks_like(pictures, "section 5, figure 6", {3, 2}, {1, 3}, *context.report);
     looks_like(pictures, "section 5, figure 6", {3, 3}, {1, 4}, *context.report);
-    context.report->tables.push_back(pictures.difference_table("Figure 6: how the pictures differ; means over three places of the map's cells"));
-    context.report->tables.push_back(pictures.error_table("Figure 6: error rms against the truth over this width; means over three places of the map's cells"));
+    context.report->tables.push_back(pictures.difference_table("Figure 6: how the pictures differ" + over_places));
+    context.report->tables.push_back(pictures.error_table("Figure 6: error rms against the truth over this width" + over_places));
 }
 
 void figure_7(const Context& context) {
@@ -193,8 +194,8 @@ void figure_7(const Context& context) {
          judge_less(thin, wide),
          "The area of the transitions, by which their widths are compared.",
          {thin, wide}});
-    report.tables.push_back(pictures.difference_table("Figure 7: how the pictures differ; means over three places of the map's cells"));
-    report.tables.push_back(pictures.error_table("Figure 7: error rms against the truth over this width; means over three places of the map's cells"));
+    report.tables.push_back(pictures.difference_table("Figure 7: how the pictures differ" + over_places));
+    report.tables.push_back(pictures.error_table("Figure 7: error rms against the truth over this width" + over_places));
 }
 
 }  // namespace

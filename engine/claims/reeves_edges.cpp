@@ -104,8 +104,8 @@ Edges edges_of(double res_factor, const char* placement) {
 void figures_4_and_8(PaperReport& report) {
     constexpr double factors[] = {1, 3, 8};
     std::vector<Value> widths;
-    Table table{"Figure 4: where a shadow's straight edge lies, in cells from its true place; means over eight places along the "
-                "edge",
+    Table table{"Figure 4: where a shadow's straight edge lies, in cells from its true place; means over eight places "
+                "along the edge",
                 {"ResFactor", "width (10 to 90 %)", "samples anywhere in their parts", "samples as printed"},
                 {}};
     for (const double factor : factors) {

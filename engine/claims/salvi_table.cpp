@@ -43,8 +43,8 @@ std::string ratio_text(double theirs, const Value& ours) {
 // Every column as a ratio to AVSM 8, the paper's value beside ours.
 void ratios(const LightResult& light, PaperReport& report) {
     const Cell& eight = avsm(light, 8);
-    Table table{fmt::format("Table 1: ratios to AVSM 8, theirs / ours ({} x {} texels); ratios of times are medians over repetitions",
-                            light.layout.width, light.layout.height),
+    Table table{fmt::format("Table 1: ratios to AVSM 8, theirs / ours ({} x {} texels)", light.layout.width,
+                            light.layout.height),
                 {"", "lookup", "build", "bytes", "ns a lookup here", "x floor", "ms a build here", "MiB here",
                  "error rms", "curve error max"},
                 {}};

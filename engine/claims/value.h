@@ -21,10 +21,11 @@ Value absolute(const Value& a);
 Value least(const Value& a, const Value& b);
 Value largest(const Value& a, const Value& b);
 
-// The RMS lookup error of a cell that is expected over seeds of the light rays against the exact truth, and its interval.
-// The value is the middle of the interval of the mean square: that of all seeds less the noise of the truth, unless the
-// interval ends at 0 or the noise is only known to be below a bound. If the rays are regular or only one seed was
-// measured, the interval covers the truth's uncertainty only. Exact if the result has no interval.
+// The RMS lookup error of a cell that is expected over seeds of the light rays against the exact truth, with its
+// interval. The value is the middle of the interval of the mean square: the mean of all seeds less the noise of the
+// truth. (If the interval was cut at 0, or the noise is only known to be below a bound, it is the middle of what remains.)
+// If the rays are regular or only one seed was measured, the interval covers the truth's uncertainty only. Exact if the
+// result has no interval.
 Value error_of(const results::Cell& cell);
 
 // "14.2 [13.9, 14.6]", or "14.2" if nothing varies.

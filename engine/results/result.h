@@ -183,7 +183,8 @@ struct LightResult {
     std::optional<Agreement> agreement;
     ReferenceReport reference;
     CaptureTimes times;
-    std::optional<TimingReport> timing;  // absent from portable baselines, results of earlier programs, runs without times
+    // Absent from portable baselines, from results of earlier programs, and if the run took no times.
+    std::optional<TimingReport> timing;
     std::vector<Cell> cells;
 };
 

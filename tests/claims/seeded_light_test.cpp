@@ -60,8 +60,8 @@ TEST(TimedMaps, AreTimedInTheOrderOfScenariosAndTechniques) {
     PaperReport report;
     const Context context = small_context(report);
     TimedMaps timed;
-    timed.add(context, "lokovic2000_ball", small_ball(R"(techniques=[{"type":"shadow_map"}])"), {"rays.resolution=16"},
-              200);
+    timed.add(context, "lokovic2000_ball", small_ball(R"(techniques=[{"type":"pcf","num_samples":4}])"),
+              {"rays.resolution=16"}, 200);
     timed.add(context, "lokovic2000_ball", small_ball(two_deep_maps), {"rays.resolution=16"}, 200);
     EXPECT_EQ(report.documents.size(), 2u);
     const Turns turns = timed.take({});
