@@ -133,7 +133,7 @@ void sampling(const Context& context) {
                              "Fitted over N from 16 to 256; the interval is that of the fit (Student's t).",
                              {exponent}});
     const Value overhead = build_over_capture(context);
-    report.claims.push_back({"section 6",
+    report.claims.push_back({"section 6, figure 7",
                              "compression overhead is negligible beside sampling",
                              fmt::format("at N = 256 sweep and compression take {} of the capture's time (one thread)",
                                          to_text(overhead)),

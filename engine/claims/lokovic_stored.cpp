@@ -47,7 +47,7 @@ void motion(const Context& context) {
     const Compared compared[] = {{0, 1}};
     const Value cost = timed.take(compared).ratio(0, 1);
     report.claims.push_back(
-        {"section 5.5, figure 12",
+        {"section 6, figure 12",
          "motion blur costs no more at lookup",
          fmt::format("{} times the time of the still sphere; {} against {} bytes", to_text(cost), a.bytes, b.bytes),
          judge_constant(cost),

@@ -154,12 +154,12 @@ void costs(const ThreeMaps& maps, PaperReport& report) {
          "deep map over 512 map, times: " + slower.text(), judge_ratio(37.0 / 19.0, slower.all()),
          "Judged over the three readings. A search costs more than a depth test.", slower.values()});
     const Value depths = bytes_of(cell_of(light_of(maps.large), "pcf", {"placement=jittered"}));
-    const Readings smaller = readings(maps, [&](const Cell& deep) { return depths / bytes_of(deep); });
+    const Readings share = readings(maps, [&](const Cell& deep) { return bytes_of(deep) / depths; });
     report.claims.push_back(
         {"section 6, figure 6", "the deep map needs one sixth of the 4096 map's storage",
-         "4096 map over deep map, bytes: " + smaller.text(), judge_gain(6.0, smaller.all()),
+         "deep map over 4096 map, bytes: " + share.text(), judge_size(1.0 / 6.0, 1.0, share.all()),
          "Judged over the three readings, bytes held. As printed the deep map has four times as many depth samples.",
-         smaller.values()});
+         share.values()});
 }
 
 void qualities(const ThreeMaps& maps, PaperReport& report) {

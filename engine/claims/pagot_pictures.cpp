@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -64,7 +65,7 @@ public:
     }
 
     // How the picture of each kernel on several depths, a row, differs from that of each on one depth.
-    Table difference_table(const char* title_of_table) {
+    Table difference_table(const std::string& title_of_table) {
         Table table{title_of_table, {"kernel"}, {}};
         for (const Kernel& standard : kernels_)
             if (standard.n == 1) table.header.push_back(title(standard) + ": rms, FLIP");
@@ -82,7 +83,7 @@ public:
     }
 
     // A row for each kernel: the RMS error against the truth over each width.
-    Table error_table(const char* title_of_table) const {
+    Table error_table(const std::string& title_of_table) const {
         Table table{title_of_table, {"kernel"}, {}};
         for (const double width : widths) table.header.push_back(fmt::format("{:g} cells", width));
         for (const Kernel& kernel : kernels_) {
@@ -167,7 +168,8 @@ void figure_6(const Context& context) {
     looks_like(pictures, "section 5, figure 6", {3, 2}, {1, 3}, *context.report);
     looks_like(pictures, "section 5, figure 6", {3, 3}, {1, 4}, *context.report);
     context.report->tables.push_back(pictures.difference_table("Figure 6: how the pictures differ" + over_places));
-    context.report->tables.push_back(pictures.error_table("Figure 6: error rms against the truth over this width" + over_places));
+    context.report->tables.push_back(
+        pictures.error_table("Figure 6: error rms against the truth over this width" + over_places));
 }
 
 void figure_7(const Context& context) {
@@ -195,7 +197,8 @@ void figure_7(const Context& context) {
          "The area of the transitions, by which their widths are compared.",
          {thin, wide}});
     report.tables.push_back(pictures.difference_table("Figure 7: how the pictures differ" + over_places));
-    report.tables.push_back(pictures.error_table("Figure 7: error rms against the truth over this width" + over_places));
+    report.tables.push_back(
+        pictures.error_table("Figure 7: error rms against the truth over this width" + over_places));
 }
 
 }  // namespace

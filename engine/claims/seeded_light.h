@@ -29,8 +29,8 @@ public:
     // The map of every technique of the scenario, in its order. Seed 0 is the scenario's own.
     std::vector<bench::Maps> build(int seed) const;
 
-    // Milliseconds of one thread: building the map of each technique from rays that are captured already, then capturing
-    // them.
+    // Milliseconds of one thread: building the map of each technique from rays that are captured already, and last,
+    // capturing them.
     Turns build_turns(std::span<const Compared> compared) const;
     std::size_t capture_place() const { return first_.contenders.size(); }  // of the capture among these turns
 

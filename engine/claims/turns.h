@@ -12,9 +12,9 @@
 
 namespace shadowbench::claims {
 
-// Rounds go on until half the interval of every ratio that a claim judges is at most this share of the ratio. The limits
-// of the rules for times are a factor of 1.25 apart or more: see rules.cpp. So a claim stays undecided only if its ratio
-// is at a limit.
+// Rounds go on until half the interval of every ratio that a claim judges is at most this share of the ratio. Limits of
+// one rule for times are a factor of 1.25 apart or more: see rules.cpp. So a claim stays undecided only if its ratio is
+// at a limit.
 inline constexpr double ratio_goal = 0.05;
 
 // Of lookups, a round of which takes a fraction of a second, and of builds, a round of which takes seconds. After that

@@ -23,7 +23,8 @@ Value largest(const Value& a, const Value& b);
 
 // The RMS lookup error of a cell that is expected over seeds of the light rays against the exact truth, with its
 // interval. The value is the middle of the interval of the mean square: the mean of all seeds less the noise of the
-// truth. (If the interval was cut at 0, or the noise is only known to be below a bound, it is the middle of what remains.)
+// truth. (If the interval was cut at 0, or the noise is only known to be below a bound, it is the middle of what is
+// left.)
 // If the rays are regular or only one seed was measured, the interval covers the truth's uncertainty only. Exact if the
 // result has no interval.
 Value error_of(const results::Cell& cell);
