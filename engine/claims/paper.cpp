@@ -101,10 +101,6 @@ const results::Cell& cell_of(const results::LightResult& light, const std::strin
                 fmt::format("no cell has the parameters {}", fmt::join(parameters, ", ")));
 }
 
-Value time_of(const results::Cell& cell) {
-    return of(cell.times->image_order.ns);
-}
-
 Value time_ratio(const results::Cell& one, const results::Cell& other) {
     return ratio_of(one.times->image_order.ns.raw, other.times->image_order.ns.raw);
 }

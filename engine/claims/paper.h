@@ -47,9 +47,8 @@ const results::LightResult& light_of(const results::Result& result, const std::v
 const results::Cell& cell_of(const results::LightResult& light, const std::string& technique,
                              const std::vector<std::string>& parameters = {});
 
-// Nanoseconds per lookup in image order, of a run whose times were taken.
-Value time_of(const results::Cell& cell);
-// The ratio of two of them, or of two builds, of one run: its repetitions pass over all cells.
+// The ratio of two cells' times of lookups in image order, or of builds, in one run whose times were taken: its
+// repetitions pass over all cells.
 Value time_ratio(const results::Cell& one, const results::Cell& other);
 Value build_ratio(const results::Cell& one, const results::Cell& other);
 
