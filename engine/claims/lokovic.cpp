@@ -54,8 +54,8 @@ void measure_lokovic(const Context& context) {
         "Its filter is 4 / 512 of the map wide, as 16 and 400 samples demand. Lookups are of the whole picture; the "
         "paper magnifies the shadow. The paper's times are of whole images less the time without shadows, on one "
         "processor of its day; here they are of lookups in image order, on one thread. Errors are against exact rays "
-        "over the footprint that is asked for. Sizes, and the errors of sections 5.3 and 5.4, are means over three seeds "
-        "of the light rays; those of sections 2 and 4 over eight.";
+        "over the footprint that is asked for. Sizes, and the errors of sections 5.3 and 5.4, are means over three "
+        "seeds of the light rays; those of sections 2 and 4 over eight.";
     noise(context);
     three_maps(context);
     sampling(context);

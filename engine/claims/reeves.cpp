@@ -28,7 +28,7 @@ void add_storage(const Context& context, const char* name, const char* title, bo
         name,
         {R"(techniques=[{"type":"shadow_map","storage":"raw"},{"type":"shadow_map","storage":"bounding_box"},)"
          R"({"type":"shadow_map","storage":"tiles"}])",
-         "timing.repetitions=1", "timing.lookups=64", "reference.queries=64"},
+         "reference.queries=64"},
         {});
     const double raw = stored_bytes(result, "raw"), box = stored_bytes(result, "bounding_box") / raw,
                  tiles = stored_bytes(result, "tiles") / raw;
