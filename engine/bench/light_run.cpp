@@ -83,7 +83,7 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
     check_functions(contenders, source, layout, stage(job, "check", layout));
     check_lookups(contenders, judged.asked(), truth);
     if (results::sees_nothing(result)) check_lit(contenders);
-    result.timing = time_light(job, contenders, source, input, set.asked());
+    if (job.times) result.timing = time_light(job, contenders, source, input, set.asked());
 
     for (Contender& contender : contenders) {
         judge(contender.cell, contender.promises, result.reference.noise_tolerance);

@@ -24,6 +24,7 @@ struct LightJob {
     std::span<const CameraPoint> seen;  // the camera's receivers in the world; none without a camera
     MemoryLimits limits;
     StageWatch watch;
+    bool times = true;  // whether builds and lookups are timed
 };
 
 // Throws Error{bad_input} if no receiver is in the light's map, the memory limit is exceeded, or a technique cannot

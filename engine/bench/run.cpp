@@ -102,7 +102,8 @@ results::Result run(const nlohmann::json& document, const RunOptions& options, c
             std::vector<Contender> fresh;
             for (const Contender& c : contenders) fresh.push_back(unbuilt(c));
             out.lights.push_back(
-                run_light({scenario, l, shared.casters.get(), shared.seen, options.limits, watch}, std::move(fresh)));
+                run_light({scenario, l, shared.casters.get(), shared.seen, options.limits, watch, options.times},
+                          std::move(fresh)));
         }
     }
     result.times.seconds = stopwatch.seconds();

@@ -18,6 +18,7 @@ struct RunOptions {
     std::vector<std::string> only;  // technique ids; empty: all
     int threads = 0;                // 0: all processors
     MemoryLimits limits;
+    bool times = true;  // whether builds and lookups are timed; cells have no times otherwise
 };
 
 // Expands the document, then captures, checks and times every variant, light and technique. Throws Error: bad_input,

@@ -1,5 +1,7 @@
 #include "claims/intervals.h"
 
+#include <algorithm>
+
 #include "claims/fit.h"
 #include "metrics/student.h"
 
@@ -19,6 +21,13 @@ Value mean_of(std::span<const double> sample) {
 
 Value median_of(std::vector<double> values) {
     return of(results::summarise(std::move(values)));
+}
+
+Value ratio_of(std::span<const double> one, std::span<const double> other) {
+    std::vector<double> ratios;
+    for (std::size_t round = 0; round < std::min(one.size(), other.size()); ++round)
+        ratios.push_back(one[round] / other[round]);
+    return median_of(std::move(ratios));
 }
 
 }  // namespace shadowbench::claims

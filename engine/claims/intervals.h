@@ -19,4 +19,8 @@ Value mean_of(std::span<const double> sample);
 // The median with its 95 % interval, results::summarise().
 Value median_of(std::vector<double> values);
 
+// The median of the ratios of two samples whose values were measured in the same rounds, with its interval. What the
+// machine did to a whole round is not in it.
+Value ratio_of(std::span<const double> one, std::span<const double> other);
+
 }  // namespace shadowbench::claims

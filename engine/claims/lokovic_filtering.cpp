@@ -26,11 +26,12 @@ std::string all_maps() {
     return set_techniques(deep("none") + "," + deep("nearest") + "," + pcf(64, "sample"));
 }
 
-// Nanoseconds a lookup: [map][width].
-using Times = std::vector<std::vector<Value>>;
+std::size_t place(Map map, std::size_t width) {
+    return width * map_count + map;
+}
 
-// Receivers in image order, in runs of neighbours.
-Times measure_widths(const Context& context) {
+// Nanoseconds a lookup of receivers in image order, in runs of neighbours; see place().
+Turns measure_widths(const Context& context) {
     const SeededLight light(context, ball_scene, {"rays.samples_per_pixel=64", all_maps()}, {"rays.resolution=128"});
     const std::vector<bench::Maps> maps = light.build(0);
     const bench::QuerySet image = light.queries();
@@ -42,13 +43,13 @@ Times measure_widths(const Context& context) {
             query.width = static_cast<float>(all_widths[w] / 256.0 * light.layout().width);
         for (const bench::Maps& map : maps) timed.push_back({&map, of_width[w]});
     }
-    const std::vector<Value> ns = lookup_times(timed);
-    Times times(map_count);
-    for (std::size_t i = 0; i < ns.size(); ++i) times[i % map_count].push_back(ns[i]);
-    return times;
+    const Compared compared[] = {{place(depth, widest), place(depth, narrowest)},
+                                 {place(levelled, widest), place(levelled, narrowest)},
+                                 {place(levelled, widest), place(plain, widest)}};
+    return lookup_turns(timed, compared);
 }
 
-Plot plot_of(const Times& times) {
+Plot plot_of(const Turns& times) {
     Plot plot{"lokovic2000_figure9",
               "Lookup time over filter width",
               "filter width, share of the map",
@@ -59,18 +60,18 @@ Plot plot_of(const Times& times) {
     for (const Map map : {depth, plain, levelled}) {
         Series series{map_names[map], {}, true};
         for (std::size_t w = 0; w < std::size(all_widths); ++w)
-            series.points.emplace_back(all_widths[w] / 256.0, times[map][w].value);
+            series.points.emplace_back(all_widths[w] / 256.0, times.time(place(map, w)).value);
         plot.series.push_back(std::move(series));
     }
     return plot;
 }
 
-Table table_of(const Times& times) {
+Table table_of(const Turns& times) {
     Table table{"Figure 9: ns a lookup over the filter width", {"width, share of the map"}, {}};
     for (const char* name : map_names) table.header.push_back(name);
     for (std::size_t w = 0; w < std::size(all_widths); ++w) {
         std::vector<std::string> row{fmt::format("{:.3g}", all_widths[w] / 256.0)};
-        for (const std::vector<Value>& of_map : times) row.push_back(to_text(of_map[w]));
+        for (const Map map : {plain, levelled, depth}) row.push_back(to_text(times.time(place(map, w))));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -81,12 +82,12 @@ Table table_of(const Times& times) {
 void widths(const Context& context) {
     PaperReport& report = *context.report;
     const base::ThreadLimit threads(context.threads);
-    const Times times = measure_widths(context);
+    const Turns times = measure_widths(context);
     report.plots.push_back(plot_of(times));
     report.tables.push_back(table_of(times));
-    const Value of_depth = times[depth][widest] / times[depth][narrowest];
-    const Value of_levels = times[levelled][widest] / times[levelled][narrowest];
-    const Value saved = times[levelled][widest] / times[plain][widest];
+    const Value of_depth = times.ratio(place(depth, widest), place(depth, narrowest)),
+                of_levels = times.ratio(place(levelled, widest), place(levelled, narrowest)),
+                saved = times.ratio(place(levelled, widest), place(plain, widest));
     report.claims.push_back(
         {"section 6, figure 9",
          "depth map filtering time grows rapidly with width, at 8 x 8 samples",
@@ -106,7 +107,7 @@ void widths(const Context& context) {
          "mip-mapping can dramatically reduce lookup costs over a wide range of scales",
          fmt::format("at the widest filter, an eighth of the map, {} times the time of the same map without levels",
                      to_text(saved)),
-         judge_much_less(times[levelled][widest], times[plain][widest]),
+         judge_much_less(saved, exactly(1.0)),
          "Without levels a lookup reads every pixel under the filter.",
          {saved}});
 }

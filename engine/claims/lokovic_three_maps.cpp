@@ -13,7 +13,9 @@
 
 #include <fmt/format.h>
 
+#include "base/parallel.h"
 #include "claims/lokovic.h"
+#include "claims/seeded_light.h"
 
 namespace shadowbench::claims::lokovic {
 namespace {
@@ -21,9 +23,24 @@ namespace {
 using results::Cell;
 using results::LightResult;
 
+// The scenarios of the maps, and what runs and turns of lookups make of them.
 struct ThreeMaps {
     results::Result small, large;
     results::Result printed, fewer_samples, fewer_pixels;  // the readings of the deep map
+    Turns ns;                                              // a lookup in each map
+};
+// The places of the maps among the turns: those of the scenarios, one after the other.
+enum Place {
+    coarse,
+    fine,
+    fine_subset,
+    as_printed,
+    with_64_samples,
+    with_256_pixels,
+    cached,
+    whole,
+    tent_over,
+    standard
 };
 
 // A quantity for each reading of the deep map.
@@ -56,7 +73,6 @@ std::vector<std::string> settings(int resolution, int samples, int reference, co
             fmt::format("rays.samples_per_pixel={}", samples),
             fmt::format("reference.samples_per_pixel={}", reference),
             R"(receivers.footprint={"share":0.0078125})",  // 4 / 512
-            "timing.repetitions=7",
             set_techniques(techniques)};
 }
 
@@ -67,80 +83,95 @@ std::vector<std::string> smaller(int reference) {
 
 ThreeMaps run(const Context& context) {
     const std::string deep = published_deep();
-    return {context.run(ball_scene, settings(512, 1, 64, placed_pcf(16, "jittered")), smaller(16)),
-            context.run(ball_scene, settings(4096, 1, 4, placed_pcf(400, "jittered") + "," + placed_pcf(400, "subset")),
-                        smaller(2)),
-            context.run(ball_scene, settings(512, 256, 128, deep), smaller(16)),
-            context.run(ball_scene, settings(512, 64, 128, deep), smaller(16)),
-            context.run(ball_scene,
-                        settings(256, 256, 512,
-                                 deep + "," + published_deep("box", "cached") + "," + published_deep("pixels") + "," +
-                                     published_deep("tent") + R"(,{"type":"deep"})"),
-                        smaller(64))};
+    TimedMaps timed;
+    const auto run_and_build = [&](int resolution, int samples, int reference, int quick_reference,
+                                   const std::string& techniques) {
+        const std::vector<std::string> set = settings(resolution, samples, reference, techniques);
+        timed.add(context, ball_scene, set, smaller(quick_reference), 4096);
+        return context.run(ball_scene, set, smaller(quick_reference));
+    };
+    ThreeMaps maps;
+    maps.small = run_and_build(512, 1, 64, 16, placed_pcf(16, "jittered"));
+    maps.large = run_and_build(4096, 1, 4, 2, placed_pcf(400, "jittered") + "," + placed_pcf(400, "subset"));
+    maps.printed = run_and_build(512, 256, 128, 16, deep);
+    maps.fewer_samples = run_and_build(512, 64, 128, 16, deep);
+    maps.fewer_pixels = run_and_build(256, 256, 512, 64,
+                                      deep + "," + published_deep("box", "cached") + "," + published_deep("pixels") +
+                                          "," + published_deep("tent") + R"(,{"type":"deep"})");
+    std::vector<Compared> compared;
+    for (const Place deep_map : {as_printed, with_64_samples, with_256_pixels})
+        compared.insert(compared.end(), {{fine, deep_map}, {deep_map, coarse}});
+    maps.ns = timed.take(compared);
+    return maps;
 }
 
 void add_table(const ThreeMaps& maps, PaperReport& report) {
     Table table{"Figure 6: hair and its shadow by three maps, over 4 / 512 of their width",
                 {"map", "ns a lookup", "bytes", "error rms", "error max"},
                 {}};
-    const auto add = [&](const std::string& map, const Cell& cell) {
-        table.rows.push_back({map, to_text(time_of(cell)), bytes_text(static_cast<double>(cell.bytes)),
+    const auto add = [&](Place place, const std::string& map, const Cell& cell) {
+        table.rows.push_back({map, to_text(maps.ns.time(place)), bytes_text(static_cast<double>(cell.bytes)),
                               to_text(error_of(cell)), fmt::format("{:.3g}", cell.lookup->norms.max)});
     };
-    const auto add_depths = [&](const results::Result& result, const char* how, const char* placement) {
+    const auto add_depths = [&](Place place, const results::Result& result, const char* how, const char* placement) {
         const LightResult& light = light_of(result);
-        add(fmt::format("depth map {}, {}", light.layout.width, how), cell_of(light, "pcf", {placement}));
+        add(place, fmt::format("depth map {}, {}", light.layout.width, how), cell_of(light, "pcf", {placement}));
     };
-    const auto add_deep = [&](const results::Result& result, const char* how, const Cell& cell) {
+    const auto add_deep = [&](Place place, const results::Result& result, const char* how, const Cell& cell) {
         const results::MapDescription& layout = light_of(result).layout;
-        add(fmt::format("deep map {}, {} samples a pixel, {}", layout.width, layout.samples(), how), cell);
+        add(place, fmt::format("deep map {}, {} samples a pixel, {}", layout.width, layout.samples(), how), cell);
     };
-    const auto other = [&](const char* parameter) { return cell_of(light_of(maps.fewer_pixels), "deep", {parameter}); };
+    const auto add_other = [&](Place place, const char* how, const char* parameter) {
+        add_deep(place, maps.fewer_pixels, how, cell_of(light_of(maps.fewer_pixels), "deep", {parameter}));
+    };
     constexpr const char* covered = "pixels weighted by their covered part";
-    add_depths(maps.small, "16 jittered samples", "placement=jittered");
-    add_depths(maps.large, "400 jittered samples", "placement=jittered");
-    add_depths(maps.large, "a random subset of 400 depths", "placement=subset");
-    add_deep(maps.printed, covered, published(maps.printed));
-    add_deep(maps.fewer_samples, covered, published(maps.fewer_samples));
-    add_deep(maps.fewer_pixels, covered, published(maps.fewer_pixels));
-    add_deep(maps.fewer_pixels, "the same, from the segment that each pixel used last", other("search=cached"));
-    add_deep(maps.fewer_pixels, "whole pixels inside the filter", other("kernel=pixels"));
-    add_deep(maps.fewer_pixels, "a tent over whole pixels", other("kernel=tent"));
-    add_deep(maps.fewer_pixels, "the program's defaults", other("compression=bounded"));
+    add_depths(coarse, maps.small, "16 jittered samples", "placement=jittered");
+    add_depths(fine, maps.large, "400 jittered samples", "placement=jittered");
+    add_depths(fine_subset, maps.large, "a random subset of 400 depths", "placement=subset");
+    add_deep(as_printed, maps.printed, covered, published(maps.printed));
+    add_deep(with_64_samples, maps.fewer_samples, covered, published(maps.fewer_samples));
+    add_deep(with_256_pixels, maps.fewer_pixels, covered, published(maps.fewer_pixels));
+    add_other(cached, "the same, from the segment that each pixel used last", "search=cached");
+    add_other(whole, "whole pixels inside the filter", "kernel=pixels");
+    add_other(tent_over, "a tent over whole pixels", "kernel=tent");
+    add_other(standard, "the program's defaults", "compression=bounded");
     report.tables.push_back(std::move(table));
 }
 
-void costs(const ThreeMaps& maps, const Cell& coarse, const Cell& fine, PaperReport& report) {
-    const Readings faster = readings(maps, [&](const Cell& deep) { return time_of(fine) / time_of(deep); });
+void costs(const ThreeMaps& maps, PaperReport& report) {
+    const auto over = [&](Place one, Place other) { return maps.ns.ratio(one, other); };
+    const Readings faster{over(fine, as_printed), over(fine, with_64_samples), over(fine, with_256_pixels)};
     report.claims.push_back(
         {"section 6, figure 6",
          "deep map lookups take 37 s where the 4096 map with 400 samples takes 559 s: 15 times faster",
          "4096 map over deep map, times: " + faster.text(), judge_gain(15.0, faster.all()),
          "Judged over the three readings of the deep map's size. A lookup searches 25 functions, or 9 of 256 x 256.",
          faster.values()});
-    const Readings slower = readings(maps, [&](const Cell& deep) { return time_of(deep) / time_of(coarse); });
+    const Readings slower{over(as_printed, coarse), over(with_64_samples, coarse), over(with_256_pixels, coarse)};
     report.claims.push_back(
         {"section 6, figure 6",
          "deep map lookups take 37 s where the 512 map with 16 samples takes 19 s: 1.9 times slower",
          "deep map over 512 map, times: " + slower.text(), judge_ratio(37.0 / 19.0, slower.all()),
          "Judged over the three readings. A search costs more than a depth test.", slower.values()});
-    const Readings smaller = readings(maps, [&](const Cell& deep) { return bytes_of(fine) / bytes_of(deep); });
+    const Value depths = bytes_of(cell_of(light_of(maps.large), "pcf", {"placement=jittered"}));
+    const Readings share = readings(maps, [&](const Cell& deep) { return bytes_of(deep) / depths; });
     report.claims.push_back(
         {"section 6, figure 6", "the deep map needs one sixth of the 4096 map's storage",
-         "4096 map over deep map, bytes: " + smaller.text(), judge_gain(6.0, smaller.all()),
+         "deep map over 4096 map, bytes: " + share.text(), judge_size(1.0 / 6.0, 1.0, share.all()),
          "Judged over the three readings, bytes held. As printed the deep map has four times as many depth samples.",
-         smaller.values()});
+         share.values()});
 }
 
-void qualities(const ThreeMaps& maps, const Cell& coarse, const Cell& fine, PaperReport& report) {
-    const Value jittered = error_of(fine),
+void qualities(const ThreeMaps& maps, PaperReport& report) {
+    const Value small = error_of(cell_of(light_of(maps.small), "pcf")),
+                jittered = error_of(cell_of(light_of(maps.large), "pcf", {"placement=jittered"})),
                 subset = error_of(cell_of(light_of(maps.large), "pcf", {"placement=subset"}));
     report.claims.push_back({"section 6, figure 6",
                              "the 4096 map with 400 samples has much less noise than the 512 map with 16",
-                             fmt::format("error rms {} against {}", to_text(jittered), to_text(error_of(coarse))),
-                             judge_much_less(jittered, error_of(coarse)),
+                             fmt::format("error rms {} against {}", to_text(jittered), to_text(small)),
+                             judge_much_less(jittered, small),
                              "The noise of the filter's samples and that of the map's own together.",
-                             {jittered, error_of(coarse)}});
+                             {jittered, small}});
     const Readings stored = readings(maps, [](const Cell& deep) { return error_of(deep); });
     std::vector<Value> values = stored.values();
     values.insert(values.end(), {jittered, subset});
@@ -156,12 +187,11 @@ void qualities(const ThreeMaps& maps, const Cell& coarse, const Cell& fine, Pape
 }  // namespace
 
 void three_maps(const Context& context) {
+    const base::ThreadLimit threads(context.threads);
     const ThreeMaps maps = run(context);
     add_table(maps, *context.report);
-    const Cell& coarse = cell_of(light_of(maps.small), "pcf");
-    const Cell& fine = cell_of(light_of(maps.large), "pcf", {"placement=jittered"});
-    costs(maps, coarse, fine, *context.report);
-    qualities(maps, coarse, fine, *context.report);
+    costs(maps, *context.report);
+    qualities(maps, *context.report);
 }
 
 }  // namespace shadowbench::claims::lokovic

@@ -53,11 +53,12 @@ struct Caching {
 };
 
 struct Counted {
-    std::vector<Caching> caching;            // one for each number of slots
-    std::vector<double> memory;              // bytes of the map in memory, for every seed
-    bool bounded = true;                     // no map held more than all its slots at the largest tile
-    std::vector<Value> image_ns, random_ns;  // a lookup: in memory, then for each number of slots
+    std::vector<Caching> caching;  // one for each number of slots
+    std::vector<double> memory;    // bytes of the map in memory, for every seed
+    bool bounded = true;           // no map held more than all its slots at the largest tile
+    Turns ns;                      // a lookup: in memory, then for each number of slots; in image order, then in random
 };
+constexpr std::size_t maps_in_all = 1 + std::size(all_slots);
 
 // `most` of `count` indices.
 std::vector<std::size_t> in_random_order(std::size_t count, std::size_t most) {
@@ -94,9 +95,8 @@ void time_lookups(const std::vector<bench::Maps>& built, const bench::QuerySet& 
     std::vector<TimedLookups> timed;
     for (const bench::QuerySet* set : {&ordered, &shuffled})
         for (const bench::Maps& map : built) timed.push_back({&map, set->queries});
-    const std::vector<Value> ns = lookup_times(timed);
-    counted.image_ns.assign(ns.begin(), ns.begin() + static_cast<std::ptrdiff_t>(built.size()));
-    counted.random_ns.assign(ns.begin() + static_cast<std::ptrdiff_t>(built.size()), ns.end());
+    const Compared compared[] = {{few + 1, 0}};
+    counted.ns = lookup_turns(timed, compared);
 }
 
 Counted count_tiles(const Context& context) {
@@ -146,16 +146,17 @@ Table tile_table(const Counted& counted) {
     const std::string memory = bytes_text(mean_of(counted.memory).value);
     Table table{
         fmt::format("Section 5.4: lookups through tiles of 16 x 16 pixels of a file of {}; the map in memory has "
-                    "{}. Hits are pixels read whose tile was held",
+                    "{}. Hits are pixels read whose tile was held, means over three seeds of the light rays",
                     file, memory),
         {"slots", "ns a lookup, image order", "random order", "hits, image order", "random order", "bytes held"},
         {}};
-    table.rows.push_back({"in memory", to_text(counted.image_ns[0]), to_text(counted.random_ns[0]), "-", "-", memory});
+    const auto ns = [&](std::size_t map) { return to_text(counted.ns.time(map)); };
+    table.rows.push_back({"in memory", ns(0), ns(maps_in_all), "-", "-", memory});
     for (std::size_t i = 0; i < std::size(all_slots); ++i) {
         const Caching& caching = counted.caching[i];
         const bool all = all_slots[i] >= caching.tiles.front();
-        table.rows.push_back({all ? "all" : std::to_string(all_slots[i]), to_text(counted.image_ns[i + 1]),
-                              to_text(counted.random_ns[i + 1]), percent(caching.image_hits),
+        table.rows.push_back({all ? "all" : std::to_string(all_slots[i]), ns(i + 1), ns(maps_in_all + i + 1),
+                              percent(caching.image_hits),
                               percent(caching.random_hits), bytes_text(mean_of(caching.held).value)});
         if (all) break;
     }
@@ -184,7 +185,7 @@ void tiles(const Context& context) {
          {of_scene, in_file, of_detail}});
     const Caching& fixed = counted.caching[few];
     const Value held = mean_of(fixed.held), memory = mean_of(counted.memory), hits = 100.0 * mean_of(fixed.image_hits);
-    const Value slower = counted.image_ns[few + 1] / counted.image_ns[0];
+    const Value slower = counted.ns.ratio(few + 1, 0);
     report.claims.push_back(
         {"section 5.4",
          "caching needs a fixed number of tile slots, each of which grows to the largest tile that it has seen",

@@ -100,7 +100,7 @@ std::vector<Column> columns_of(const Experiment& e) {
 }
 
 void add_table(const std::vector<Column>& columns, PaperReport& report) {
-    Table table{"Figure 8: vertices a pixel", {"N"}, {}};
+    Table table{"Figure 8: vertices a pixel; intervals are those of the fits", {"N"}, {}};
     for (const Column& column : columns) table.header.emplace_back(column.name);
     for (std::size_t i = 0; i < columns.front().points.size(); ++i) {
         std::vector<std::string> row{fmt::format("{:.0f}", columns.front().points[i].first)};

@@ -9,15 +9,10 @@
 
 #include "base/parallel.h"
 #include "bench/clock.h"
-#include "bench/contender.h"
-#include "bench/load.h"
-#include "bench/prepared_light.h"
 #include "bench/queries.h"
+#include "claims/first_light.h"
 #include "claims/intervals.h"
 #include "claims/pagot.h"
-#include "claims/seen.h"
-#include "document/document.h"
-#include "rays/capture.h"
 #include "rays/tracer.h"
 
 namespace shadowbench::claims::pagot {
@@ -35,18 +30,11 @@ struct Image {
     std::array<std::vector<double>, kernels.size()> seconds;
 };
 
-// The map's rays without their capture, which both kernels share.
-struct Captured {
-    rays::LightView view;
-    rays::MapLayout layout;
-    std::vector<rays::LightRays> tiles;
-    std::vector<bench::Contender> contenders;
-};
-
-void time_kernel(const Captured& captured, const bench::Contender& contender, const Image& image,
-                 std::vector<double>& seconds) {
-    bench::Maps maps = bench::begin_maps(*contender.row, contender.values, {captured.layout, captured.view, nullptr});
-    for (const rays::LightRays& tile : captured.tiles) bench::add(maps, tile);
+// Capturing the map's rays is not timed, since both kernels share it.
+void time_kernel(const FirstLight& first, std::span<const rays::LightRays> tiles, const bench::Contender& contender,
+                 const Image& image, std::vector<double>& seconds) {
+    bench::Maps maps = bench::begin_maps(*contender.row, contender.values, first.input());
+    for (const rays::LightRays& tile : tiles) bench::add(maps, tile);
     std::vector<float> answers(image.queries.queries.size());
     const bench::Stopwatch stopwatch;
     bench::finish(maps);
@@ -55,16 +43,16 @@ void time_kernel(const Captured& captured, const bench::Contender& contender, co
 }
 
 // Camera images of the scene with more and more pixels.
-std::vector<Image> make_images(const scene::Scenario& scenario, const Captured& captured) {
-    const rays::Tracer all(scenario.scene, false);
-    const double cells = static_cast<double>(captured.layout.width) * captured.layout.height;
+std::vector<Image> make_images(const FirstLight& first) {
+    const rays::Tracer all(first.scenario.scene, false);
+    const double cells = static_cast<double>(first.light.layout.width) * first.light.layout.height;
     std::vector<Image> images;
     for (const double fragments : fragments_a_cell) {
-        scene::Receivers receivers = scenario.receivers;
+        scene::Receivers receivers = first.scenario.receivers;
         const int side = static_cast<int>(std::lround(std::sqrt(fragments * cells)));
         receivers.resolution = {side, side};
         Image& image = images.emplace_back();
-        image.queries = bench::queries_of_points(bench::camera_points(receivers, all), receivers, captured.view);
+        image.queries = bench::queries_of_points(bench::camera_points(receivers, all), receivers, first.light.view);
         image.fragments = static_cast<double>(image.queries.queries.size()) / cells;
     }
     return images;
@@ -75,23 +63,15 @@ std::vector<Image> time_images(const Context& context) {
     if (context.quick) set.push_back("rays.resolution=256");
     const nlohmann::json document = context.document(flat, set);
     note_document(context, flat, document);
-    const document::Variant variant = document::expand(document).front();
-    bench::ScenarioLoader loader(context.data);
-    const scene::Scenario& scenario = loader.load(variant);
-    Captured captured;
-    captured.contenders = bench::make_contenders(scenario, variant);
-    const bench::PreparedLight light = bench::prepare_light(scenario, 0, captured.contenders, {});
-    captured.view = light.view;
-    captured.layout = light.layout;
-    const rays::Capture capture(scenario.scene, captured.view, captured.layout);
-    for (int tile = 0; tile < captured.layout.tiles(); ++tile) captured.tiles.push_back(capture.tile(tile));
-    std::vector<Image> images = make_images(scenario, captured);
+    const FirstLight first(document, context.data);
+    const std::vector<rays::LightRays> tiles = first.tiles();
+    std::vector<Image> images = make_images(first);
     const base::ThreadLimit one_thread(1);
     for (int repetition = -1; repetition < repetitions; ++repetition)  // the first one warms up
         for (Image& image : images)
             for (std::size_t k = 0; k < kernels.size(); ++k) {
                 std::vector<double> warm;
-                time_kernel(captured, captured.contenders[k], image, repetition < 0 ? warm : image.seconds[k]);
+                time_kernel(first, tiles, first.contenders[k], image, repetition < 0 ? warm : image.seconds[k]);
             }
     return images;
 }

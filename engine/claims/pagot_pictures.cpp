@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@ namespace shadowbench::claims::pagot {
 namespace {
 
 constexpr std::uint64_t repeats = 3;    // with the cells of the map at other places
+const std::string over_places = "; means over three places of the map's cells";  // for titles of tables
 constexpr double widths[] = {2, 3, 4};  // cells, of the truth's footprints
 constexpr std::size_t judged = 4096;    // receivers compared with the truth
 
@@ -63,7 +65,7 @@ public:
     }
 
     // How the picture of each kernel on several depths, a row, differs from that of each on one depth.
-    Table difference_table(const char* title_of_table) {
+    Table difference_table(const std::string& title_of_table) {
         Table table{title_of_table, {"kernel"}, {}};
         for (const Kernel& standard : kernels_)
             if (standard.n == 1) table.header.push_back(title(standard) + ": rms, FLIP");
@@ -81,7 +83,7 @@ public:
     }
 
     // A row for each kernel: the RMS error against the truth over each width.
-    Table error_table(const char* title_of_table) const {
+    Table error_table(const std::string& title_of_table) const {
         Table table{title_of_table, {"kernel"}, {}};
         for (const double width : widths) table.header.push_back(fmt::format("{:g} cells", width));
         for (const Kernel& kernel : kernels_) {
@@ -165,8 +167,9 @@ void figure_6(const Context& context) {
     Pictures pictures(context, flat, {{1, 2}, {1, 3}, {1, 4}, {3, 2}, {3, 3}});
     looks_like(pictures, "section 5, figure 6", {3, 2}, {1, 3}, *context.report);
     looks_like(pictures, "section 5, figure 6", {3, 3}, {1, 4}, *context.report);
-    context.report->tables.push_back(pictures.difference_table("Figure 6: how the pictures differ"));
-    context.report->tables.push_back(pictures.error_table("Figure 6: error rms against the truth over this width"));
+    context.report->tables.push_back(pictures.difference_table("Figure 6: how the pictures differ" + over_places));
+    context.report->tables.push_back(
+        pictures.error_table("Figure 6: error rms against the truth over this width" + over_places));
 }
 
 void figure_7(const Context& context) {
@@ -193,8 +196,9 @@ void figure_7(const Context& context) {
          judge_less(thin, wide),
          "The area of the transitions, by which their widths are compared.",
          {thin, wide}});
-    report.tables.push_back(pictures.difference_table("Figure 7: how the pictures differ"));
-    report.tables.push_back(pictures.error_table("Figure 7: error rms against the truth over this width"));
+    report.tables.push_back(pictures.difference_table("Figure 7: how the pictures differ" + over_places));
+    report.tables.push_back(
+        pictures.error_table("Figure 7: error rms against the truth over this width" + over_places));
 }
 
 }  // namespace

@@ -6,9 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/hash_text.h"
 #include "base/read_text.h"
 #include "bench/clock.h"
 #include "bench/run.h"
+#include "claims/intervals.h"
 #include "document/document.h"
 #include "scene/named_scenarios.h"
 
@@ -63,16 +65,22 @@ json Context::document(const std::string& name, const std::vector<std::string>& 
 }
 
 results::Result Context::run(const std::string& name, const std::vector<std::string>& set,
-                             const std::vector<std::string>& smaller) const {
+                             const std::vector<std::string>& smaller, Times times) const {
     json changed = document(name, set);
     if (quick)
         for (const std::string& assignment : smaller) document::set_value(changed, assignment);
     bench::RunOptions options;
     options.data = data;
     options.threads = threads;
-    results::Result result = bench::run(changed, options, progress);
-    report->documents.push_back(fmt::format("{} {}", name, result.hash));
-    return result;
+    options.times = times == Times::taken;
+    note_document(*this, name, changed);
+    return bench::run(changed, options, progress);
+}
+
+void note_document(const Context& context, const std::string& name, const json& document) {
+    std::vector<std::string>& noted = context.report->documents;
+    std::string note = fmt::format("{} {}", name, base::hash_text(document.dump()));
+    if (std::find(noted.begin(), noted.end(), note) == noted.end()) noted.push_back(std::move(note));
 }
 
 const results::LightResult& light_of(const results::Result& result, const std::vector<std::string>& settings) {
@@ -93,8 +101,12 @@ const results::Cell& cell_of(const results::LightResult& light, const std::strin
                 fmt::format("no cell has the parameters {}", fmt::join(parameters, ", ")));
 }
 
-Value time_of(const results::Cell& cell) {
-    return of(cell.times->image_order.ns);
+Value time_ratio(const results::Cell& one, const results::Cell& other) {
+    return ratio_of(one.times->image_order.ns.raw, other.times->image_order.ns.raw);
+}
+
+Value build_ratio(const results::Cell& one, const results::Cell& other) {
+    return ratio_of(one.times->build_ms.raw, other.times->build_ms.raw);
 }
 
 std::span<const Paper> all_papers() {

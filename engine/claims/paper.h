@@ -15,6 +15,9 @@
 
 namespace shadowbench::claims {
 
+// Whether a run times builds and lookups. Claims whose ratios need narrow intervals time them in turn: see turns.h.
+enum class Times { skipped, taken };
+
 // The input of a paper's measurements.
 struct Context {
     std::filesystem::path scenarios;  // folder of the papers' scenarios
@@ -27,10 +30,13 @@ struct Context {
     // The scenario of this name in the folder, with these changes ("path=value"). Throws Error{no_such_file}.
     nlohmann::json document(const std::string& name, const std::vector<std::string>& set = {}) const;
 
-    // Runs that document, and also with `smaller` if quick.
+    // Runs that document, and also with `smaller` if quick. Cells have no times if they are skipped.
     results::Result run(const std::string& name, const std::vector<std::string>& set,
-                        const std::vector<std::string>& smaller) const;
+                        const std::vector<std::string>& smaller, Times times = Times::skipped) const;
 };
+
+// Notes in the report, once, that this scenario was measured.
+void note_document(const Context& context, const std::string& name, const nlohmann::json& document);
 
 // The light of the only variant whose settings begin with these values ("pointer=value"), or the first if there are
 // several. Throws Error{internal} if there is none.
@@ -41,8 +47,10 @@ const results::LightResult& light_of(const results::Result& result, const std::v
 const results::Cell& cell_of(const results::LightResult& light, const std::string& technique,
                              const std::vector<std::string>& parameters = {});
 
-// Nanoseconds per lookup in image order.
-Value time_of(const results::Cell& cell);
+// The ratio of two cells' times of lookups in image order, or of builds, in one run whose times were taken: its
+// repetitions pass over all cells.
+Value time_ratio(const results::Cell& one, const results::Cell& other);
+Value build_ratio(const results::Cell& one, const results::Cell& other);
 
 struct Paper {
     const char* id;  // "lokovic2000"

@@ -134,7 +134,7 @@ void bias(const Context& context) {
     std::vector<Effects> effects(settings);
     for (std::uint64_t repeat = 0; repeat < repeats; ++repeat)
         measure(Seen(with_moved_map(document, repeat), context.data), effects);
-    Table table{"Figure 9: what the bias does",
+    Table table{"Figure 9: what the bias does; means over four places of the map's cells",
                 {"bias", "false shadow on lit surfaces", "area that shadows lose at their boundaries", "mean error"},
                 {}};
     for (std::size_t setting = 0; setting < settings; ++setting)

@@ -23,7 +23,7 @@ std::string printed(int samples) {
 void figures_6_and_7(const Context& context) {
     const results::Result result = context.run(
         sphere, {fmt::format(R"(techniques=[{{"type":"shadow_map"}},{},{},{}])", printed(1), printed(4), printed(16))},
-        {});
+        {}, Times::taken);
     const LightResult& light = light_of(result);
     const auto pcf = [&](int samples) -> const Cell& {
         return cell_of(light, "pcf", {fmt::format("num_samples={}", samples)});
@@ -37,7 +37,7 @@ void figures_6_and_7(const Context& context) {
          judge_much_less(sixteen, hard),
          "Against the exact visibility over the same region.",
          {sixteen, hard}});
-    const Value cost = time_of(pcf(16)) / time_of(pcf(1));
+    const Value cost = time_ratio(pcf(16), pcf(1));
     context.report->claims.push_back(
         {"section 4.2, figure 7",
          "more samples make edges less noisy and cost more",
@@ -104,7 +104,8 @@ Edges edges_of(double res_factor, const char* placement) {
 void figures_4_and_8(PaperReport& report) {
     constexpr double factors[] = {1, 3, 8};
     std::vector<Value> widths;
-    Table table{"Figure 4: where a shadow's straight edge lies, in cells from its true place",
+    Table table{"Figure 4: where a shadow's straight edge lies, in cells from its true place; means over eight places "
+                "along the edge",
                 {"ResFactor", "width (10 to 90 %)", "samples anywhere in their parts", "samples as printed"},
                 {}};
     for (const double factor : factors) {

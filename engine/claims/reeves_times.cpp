@@ -6,12 +6,8 @@
 
 #include "base/parallel.h"
 #include "bench/clock.h"
-#include "bench/contender.h"
-#include "bench/load.h"
-#include "bench/prepared_light.h"
+#include "claims/first_light.h"
 #include "claims/reeves.h"
-#include "claims/seen.h"
-#include "document/document.h"
 #include "rays/capture.h"
 #include "rays/tracer.h"
 #include "render/point_queries.h"
@@ -95,12 +91,9 @@ Passes time_passes(const Context& context, const char* name) {
     if (context.quick) set.insert(set.end(), {"rays.resolution=192", "receivers.resolution=[192,144]"});
     const nlohmann::json document = context.document(name, set);
     note_document(context, name, document);
-    const document::Variant variant = document::expand(document).front();
-    bench::ScenarioLoader loader(context.data);
-    const scene::Scenario& scenario = loader.load(variant);
-    const std::vector<bench::Contender> contenders = bench::make_contenders(scenario, variant);
+    const FirstLight all(document, context.data);  // and the scenario's other lights
     const base::ThreadLimit one_thread(1);
-    Timed timed(scenario, contenders.front());
+    Timed timed(all.scenario, all.contenders.front());
     for (int repetition = 0; repetition < repetitions; ++repetition) timed.repeat();
     return timed.passes();
 }

@@ -46,7 +46,7 @@ void figure_4(const Context& context) {
             flip[m].push_back(difference.flip);
         }
     }
-    Table table{"Figure 4: pictures of three smoke columns beside the uncompressed one",
+    Table table{"Figure 4: pictures of three smoke columns beside the uncompressed one; medians over six scenes",
                 {"method", "difference rms", "mean FLIP"},
                 {}};
     for (std::size_t m = 0; m < methods; ++m)
@@ -100,21 +100,18 @@ struct Range {
 
 // Adds the curve errors of one scene, the RMS over texels of each texel's largest error, and returns its depth range.
 double curve_errors(const nlohmann::json& document, const Context& context, OverSeeds& rms) {
-    const std::vector<document::Variant> variants = document::expand(document);
-    bench::ScenarioLoader loader(context.data);
-    const scene::Scenario& scenario = loader.load(variants.front());
-    std::vector<bench::Contender> contenders = bench::make_contenders(scenario, variants.front());
-    const bench::PreparedLight light = bench::prepare_light(scenario, 0, contenders, {});
-    const rays::Capture capture(scenario.scene, light.view, light.layout);
+    FirstLight first(document, context.data);
+    const rays::MapLayout& layout = first.light.layout;
+    const rays::Capture capture(first.scenario.scene, first.light.view, layout);
     const auto unwatched = [](std::size_t) {};
     const bench::MemoryLimits limits;
-    const bench::RaySource source(capture, light.layout, limits.kept_rays, unwatched);
-    bench::build_all(contenders, source, {light.layout, light.view, nullptr}, limits.all, unwatched);
-    bench::check_functions(contenders, source, light.layout, unwatched);
+    const bench::RaySource source(capture, layout, limits.kept_rays, unwatched);
+    bench::build_all(first.contenders, source, first.input(), limits.all, unwatched);
+    bench::check_functions(first.contenders, source, layout, unwatched);
     results::LightResult result;
-    for (bench::Contender& contender : contenders) result.cells.push_back(std::move(contender.cell));
+    for (bench::Contender& contender : first.contenders) result.cells.push_back(std::move(contender.cell));
     for (std::size_t m = 0; m < methods; ++m) rms[m].push_back(cell_of(result, techniques[m]).curve.value().norms.rms);
-    return static_cast<double>(light.layout.z_max) - light.layout.z_min;
+    return static_cast<double>(layout.z_max) - layout.z_min;
 }
 
 Range measure_range(const Context& context, double spacing, const Smoke& smoke) {
@@ -150,7 +147,7 @@ std::vector<Range> measure_ranges(const Context& context, const Smoke& smoke, Ta
 }
 
 void over_range(const Context& context) {
-    Table table{"Section 5.1: curve error rms over the depth range of three smoke columns",
+    Table table{"Section 5.1: curve error rms over the depth range of three smoke columns; medians over six scenes",
                 {"smoke", "depth range", names[0], names[1], names[2], "AVSM 8 over the better of the others"},
                 {}};
     Plot plot{

@@ -63,7 +63,7 @@ void streaming_times(const Context& context) {
     const Times times = measure_times(view, context.quick ? 3 : 9);
     PaperReport& report = *context.report;
     report.tables.push_back(
-        {"Section 5.3: sorting and streaming, AVSM 8, one thread",
+        {"Section 5.3: sorting and streaming, AVSM 8, one thread; medians over repetitions",
          {"work", "ms"},
          {{fmt::format("insertion sort, {:.3g} moves a segment", times.moves), to_text(times.sort_ms)},
           {"compression of sorted segments", to_text(times.sorted_ms)},

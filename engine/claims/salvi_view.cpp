@@ -5,9 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/parallel.h"
-#include "claims/seen.h"
-#include "rays/capture.h"
 #include "rays/tracer.h"
 #include "render/image_file.h"
 #include "render/render.h"
@@ -25,35 +22,23 @@ void note(const nlohmann::json& document, const Context& context) {
 
 }  // namespace
 
-View::View(const nlohmann::json& document, const Context& context) : loader_(context.data) {
+View::View(const nlohmann::json& document, const Context& context)
+    : first_(document, context.data), tiles_(first_.tiles()) {
     note(document, context);
-    const std::vector<document::Variant> variants = document::expand(document);
-    scenario_ = &loader_.load(variants.front());
-    contenders_ = bench::make_contenders(*scenario_, variants.front());
-    for (const bench::Contender& one : contenders_) listed_.cells.push_back(one.cell);
-    light_ = bench::prepare_light(*scenario_, 0, contenders_, {});
-    const rays::Capture capture(scenario_->scene, light_.view, light_.layout);
-    tiles_.resize(static_cast<std::size_t>(light_.layout.tiles()));
-    base::parallel_for(tiles_.size(), [&](std::size_t t) { tiles_[t] = capture.tile(static_cast<int>(t)); });
-
-    const rays::Tracer tracer(scenario_->scene, false);
+    for (const bench::Contender& one : first_.contenders) listed_.cells.push_back(one.cell);
+    const scene::Scenario& scenario = first_.scenario;
+    const rays::Tracer tracer(scenario.scene, false);
     render::ViewSettings settings;
-    settings.camera = scenario_->receivers.camera.value();
+    settings.camera = scenario.receivers.camera.value();
     settings.size = context.quick ? base::Vec2i(128, 96) : base::Vec2i(256, 192);
-    points_ = render::find_shading_points(scenario_->scene, scenario_->lights, settings, tracer, {});
-    asked_ = render::point_queries(points_, scenario_->receivers, light_.view);
+    points_ = render::find_shading_points(scenario.scene, scenario.lights, settings, tracer, {});
+    asked_ = render::point_queries(points_, scenario.receivers, first_.light.view);
 }
 
 const bench::Contender& View::contender(const std::string& technique,
                                         const std::vector<std::string>& parameters) const {
-    return contenders_[static_cast<std::size_t>(&cell_of(listed_, technique, parameters) - listed_.cells.data())];
-}
-
-bench::Maps View::build(const bench::Contender& contender, std::span<const rays::LightRays> tiles) const {
-    bench::Maps maps = bench::begin_maps(*contender.row, contender.values, {light_.layout, light_.view, nullptr});
-    base::parallel_for(tiles.size(), [&](std::size_t t) { bench::add(maps, tiles[t]); });
-    bench::finish(maps);
-    return maps;
+    const results::Cell& cell = cell_of(listed_, technique, parameters);
+    return first_.contenders[static_cast<std::size_t>(&cell - listed_.cells.data())];
 }
 
 render::Image View::picture(const bench::Maps& maps) const {

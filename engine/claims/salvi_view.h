@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/contender.h"
-#include "bench/load.h"
-#include "bench/prepared_light.h"
+#include "claims/first_light.h"
 #include "claims/intervals.h"
 #include "claims/paper.h"
 #include "render/point_queries.h"
@@ -28,14 +26,16 @@ public:
     View(const View&) = delete;
     View& operator=(const View&) = delete;
 
-    const rays::MapLayout& layout() const { return light_.layout; }
+    const rays::MapLayout& layout() const { return first_.light.layout; }
     const std::vector<rays::LightRays>& tiles() const { return tiles_; }
     // The technique of the scenario whose parameters have these values, found as cell_of() does.
     const bench::Contender& contender(const std::string& technique,
                                       const std::vector<std::string>& parameters = {}) const;
 
     // A map of these tiles: those captured, or the same rays with their segments in another order of submission.
-    bench::Maps build(const bench::Contender& contender, std::span<const rays::LightRays> tiles) const;
+    bench::Maps build(const bench::Contender& contender, std::span<const rays::LightRays> tiles) const {
+        return first_.build(contender, tiles);
+    }
     render::Image picture(const bench::Maps& maps) const;
     render::Image picture(const std::string& technique, const std::vector<std::string>& parameters = {}) const {
         return picture(build(contender(technique, parameters), tiles_));
@@ -44,11 +44,8 @@ public:
     Difference difference(const render::Image& a, const render::Image& b) const;
 
 private:
-    bench::ScenarioLoader loader_;
-    const scene::Scenario* scenario_;
-    std::vector<bench::Contender> contenders_;
+    FirstLight first_;
     results::LightResult listed_;  // its cells are those of the contenders
-    bench::PreparedLight light_;
     std::vector<rays::LightRays> tiles_;
     render::ShadingPoints points_;
     render::PointQueries asked_;

@@ -7,13 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/contender.h"
-#include "bench/load.h"
 #include "bench/maps.h"
-#include "bench/prepared_light.h"
 #include "bench/queries.h"
+#include "claims/first_light.h"
 #include "claims/paper.h"
-#include "claims/value.h"
+#include "claims/turns.h"
 #include "rays/capture.h"
 
 namespace shadowbench::claims {
@@ -24,29 +22,47 @@ public:
     // Context::run() takes them. Notes the scenario in the report.
     SeededLight(const Context& context, const std::string& name, const std::vector<std::string>& set,
                 const std::vector<std::string>& smaller);
-    SeededLight(const SeededLight&) = delete;
-    SeededLight& operator=(const SeededLight&) = delete;
 
-    const rays::MapLayout& layout() const { return light_.layout; }
+    const rays::MapLayout& layout() const { return first_.light.layout; }
     // The queries of the scenario's receivers.
     bench::QuerySet queries() const;
     // The map of every technique of the scenario, in its order. Seed 0 is the scenario's own.
     std::vector<bench::Maps> build(int seed) const;
 
+    // Milliseconds of one thread: building the map of each technique from rays that are captured already, and last,
+    // capturing them.
+    Turns build_turns(std::span<const Compared> compared) const;
+    std::size_t capture_place() const { return first_.contenders.size(); }  // of the capture among these turns
+
 private:
-    bench::ScenarioLoader loader_;
-    const scene::Scenario* scenario_ = nullptr;
-    std::vector<bench::Contender> contenders_;
-    bench::PreparedLight light_;
-    std::unique_ptr<rays::Capture> capture_;
+    FirstLight first_;
+    rays::Capture capture_;
 };
 
 struct TimedLookups {
     const bench::Maps* maps;
     bench::Asked asked;  // must outlive the timing
 };
-// Nanoseconds a lookup, on this thread: medians of passes over all queries, after one untimed pass. The passes of all
-// go in turn, so that a disturbance hits all alike.
-std::vector<Value> lookup_times(std::span<const TimedLookups> all);
+// Nanoseconds a lookup, on this thread. An untimed pass over the queries goes before each timed one, so that the caches
+// hold of a map what fits into them, whatever was looked up before.
+Turns lookup_turns(std::span<const TimedLookups> all, std::span<const Compared> compared);
+
+// The maps of several scenarios, for timing their lookups in turn.
+class TimedMaps {
+public:
+    TimedMaps();
+    ~TimedMaps();
+
+    // Adds the maps of a scenario, as SeededLight takes it, in the order of its techniques. Lookups are those of its
+    // receivers in image order: this many, in runs of neighbours.
+    void add(const Context& context, const std::string& name, const std::vector<std::string>& set,
+             const std::vector<std::string>& smaller, std::size_t lookups);
+
+    Turns take(std::span<const Compared> compared) const;
+
+private:
+    struct Built;
+    std::vector<std::unique_ptr<const Built>> built_;
+};
 
 }  // namespace shadowbench::claims

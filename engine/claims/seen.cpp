@@ -3,17 +3,14 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/hash_text.h"
 #include "base/random.h"
 #include "bench/contender.h"
-#include "bench/prepared_light.h"
+#include "bench/memory.h"
 #include "bench/queries.h"
 #include "bench/ray_source.h"
-#include "document/document.h"
 #include "rays/capture.h"
 #include "rays/tracer.h"
 #include "render/point_queries.h"
@@ -27,32 +24,29 @@ base::Vec3d read_vector(const nlohmann::json& value) {
 
 }  // namespace
 
-Seen::Seen(const nlohmann::json& document, const scene::SearchPath& data) : loader_(data) {
-    const document::Variant variant = document::expand(document).front();
-    scenario_ = &loader_.load(variant);
-    std::vector<bench::Contender> contenders = bench::make_contenders(*scenario_, variant);
-    const bench::MemoryLimits limits;
-    const auto [view, layout, least] = bench::prepare_light(*scenario_, 0, contenders, limits);
-    view_ = view;
+Seen::Seen(const nlohmann::json& document, const scene::SearchPath& data) : first_(document, data) {
     find_queries();
-    const rays::Capture capture(scenario_->scene, view_, layout);
-    const bench::RaySource source(capture, layout, limits.kept_rays, {});
-    bench::build_all(contenders, source, {layout, view_, nullptr}, limits.all, {});
-    for (const bench::Contender& contender : contenders) {
+    const bench::MemoryLimits limits;
+    const rays::Capture capture(first_.scenario.scene, first_.light.view, first_.light.layout);
+    const bench::RaySource source(capture, first_.light.layout, limits.kept_rays, {});
+    bench::build_all(first_.contenders, source, first_.input(), limits.all, {});
+    for (bench::Contender& contender : first_.contenders) {
         if (!contender.ok())
             throw base::Error(base::ErrorCode::internal, contender.cell.technique, contender.cell.reason);
         visibility_.push_back(bench::lookup_all(contender.maps, {queries_, footprints_}));
+        contender.maps = {};
     }
 }
 
 void Seen::find_queries() {
     render::ViewSettings settings;
-    settings.camera = scenario_->receivers.camera.value();
-    settings.size = size_ = scenario_->receivers.resolution;
-    const rays::Tracer all(scenario_->scene, false);
+    const scene::Scenario& scenario = first_.scenario;
+    settings.camera = scenario.receivers.camera.value();
+    settings.size = size_ = scenario.receivers.resolution;
+    const rays::Tracer all(scenario.scene, false);
     const render::ShadingPoints points =
-        render::find_shading_points(scenario_->scene, scenario_->lights, settings, all, {});
-    render::PointQueries found = render::point_queries(points, scenario_->receivers, view_);
+        render::find_shading_points(scenario.scene, scenario.lights, settings, all, {});
+    render::PointQueries found = render::point_queries(points, scenario.receivers, first_.light.view);
     std::uint32_t pixel = 0;
     for (const std::uint32_t point : found.point) {
         while (points.begin[pixel + 1] <= point) ++pixel;
@@ -63,11 +57,12 @@ void Seen::find_queries() {
 }
 
 std::vector<std::size_t> Seen::chosen(std::size_t count) const {
-    return bench::choose_judged(queries_.size(), count, scenario_->reference.seed);
+    return bench::choose_judged(queries_.size(), count, first_.scenario.reference.seed);
 }
 
 bench::Truth Seen::truth(std::span<const techniques::Query> queries) const {
-    return bench::reference_visibility(scenario_->scene, view_, bench::reference_settings(*scenario_), queries, {});
+    return bench::reference_visibility(first_.scenario.scene, first_.light.view,
+                                       bench::reference_settings(first_.scenario), queries, {});
 }
 
 render::Image Seen::picture(std::span<const float> values) const {
@@ -88,10 +83,6 @@ nlohmann::json with_moved_map(nlohmann::json document, std::uint64_t seed) {
     for (int axis = 0; axis < 3; ++axis) moved.push_back(target[axis] + cell * random.uniform(-0.5, 0.5));
     light["target"] = std::move(moved);
     return document;
-}
-
-void note_document(const Context& context, const std::string& name, const nlohmann::json& document) {
-    context.report->documents.push_back(fmt::format("{} {}", name, base::hash_text(document.dump())));
 }
 
 }  // namespace shadowbench::claims

@@ -10,10 +10,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "bench/load.h"
 #include "bench/reference.h"
-#include "claims/paper.h"
-#include "rays/light_view.h"
+#include "claims/first_light.h"
 #include "render/image.h"
 #include "render/shading_points.h"
 #include "techniques/technique.h"
@@ -48,9 +46,7 @@ public:
 private:
     void find_queries();
 
-    bench::ScenarioLoader loader_;
-    const scene::Scenario* scenario_ = nullptr;
-    rays::LightView view_;
+    FirstLight first_;
     base::Vec2i size_{0, 0};
     std::vector<techniques::Query> queries_;
     std::vector<techniques::Footprint> footprints_;
@@ -61,8 +57,5 @@ private:
 // The document with the target of its first light, a spot of a given angle, moved by up to half a cell of its map along
 // each axis of the world. So the cells lie at random places of the same scene.
 nlohmann::json with_moved_map(nlohmann::json document, std::uint64_t seed);
-
-// Notes in the report that this scenario was measured.
-void note_document(const Context& context, const std::string& name, const nlohmann::json& document);
 
 }  // namespace shadowbench::claims

@@ -7,15 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/parallel.h"
-#include "bench/contender.h"
-#include "bench/load.h"
-#include "bench/prepared_light.h"
+#include "claims/first_light.h"
 #include "curves/norms.h"
 #include "curves/sweep.h"
-#include "document/document.h"
-#include "rays/capture.h"
-#include "rays/light_view.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -59,38 +53,23 @@ Series to_series(const std::string& name, const curves::Curve& curve, const rays
 // One light of a scenario, captured, and a map of every technique.
 struct Built {
     Built(const nlohmann::json& document, const scene::SearchPath& data);
-    Built(const Built&) = delete;  // the maps refer to the view
-    Built& operator=(const Built&) = delete;
 
-    std::vector<bench::Contender> contenders;
-    bench::PreparedLight light;
+    FirstLight first;
     std::vector<rays::LightRays> tiles;
     std::vector<bench::Maps> maps;
 };
 
-Built::Built(const nlohmann::json& document, const scene::SearchPath& data) {
-    const std::vector<document::Variant> variants = document::expand(document);
-    bench::ScenarioLoader loader(data);
-    const scene::Scenario& scenario = loader.load(variants.front());
-    contenders = bench::make_contenders(scenario, variants.front());
-    light = bench::prepare_light(scenario, 0, contenders, {});
-    const rays::MapLayout& layout = light.layout;
+Built::Built(const nlohmann::json& document, const scene::SearchPath& data) : first(document, data) {
+    const rays::MapLayout& layout = first.light.layout;
     if (layout.samples() != 1 || layout.apron > 0)
-        throw Error(ErrorCode::internal, scenario.name,
+        throw Error(ErrorCode::internal, first.scenario.name,
                     "a texel's curve needs one ray a pixel, and filters that are no wider");
-    const rays::Capture capture(scenario.scene, light.view, layout);
-    tiles.resize(static_cast<std::size_t>(layout.tiles()));
-    base::parallel_for(tiles.size(), [&](std::size_t t) { tiles[t] = capture.tile(static_cast<int>(t)); });
-    for (const bench::Contender& contender : contenders) {
-        bench::Maps& map =
-            maps.emplace_back(bench::begin_maps(*contender.row, contender.values, {layout, light.view, nullptr}));
-        base::parallel_for(tiles.size(), [&](std::size_t t) { bench::add(map, tiles[t]); });
-        bench::finish(map);
-    }
+    tiles = first.tiles();
+    for (const bench::Contender& contender : first.contenders) maps.push_back(first.build(contender, tiles));
 }
 
 TexelCurves curves_of(const Built& built, const RayPlace& place) {
-    const rays::MapLayout& layout = built.light.layout;
+    const rays::MapLayout& layout = built.first.light.layout;
     const rays::LightRays& tile = built.tiles[place.tile];
     TexelCurves result;
     result.segments = segments_of(tile, place.ray);
@@ -102,9 +81,9 @@ TexelCurves curves_of(const Built& built, const RayPlace& place) {
     std::vector<float> depths;
     for (int i = 0; i <= 400; ++i)
         depths.push_back(layout.z_min + (layout.z_max - layout.z_min) * static_cast<float>(i) / 400.0f);
-    for (std::size_t c = 0; c < built.contenders.size(); ++c) {
+    for (std::size_t c = 0; c < built.maps.size(); ++c) {
         bench::stored(built.maps[c], result.x, result.y, 0, depths, stored);
-        result.series.push_back(to_series(results::title(built.contenders[c].cell), stored, layout));
+        result.series.push_back(to_series(results::title(built.first.contenders[c].cell), stored, layout));
         result.error.push_back(curves::distance(stored, exact, layout.z_min, layout.z_max).max);
         result.stored.push_back(stored);
     }
@@ -148,10 +127,10 @@ Texels texel_curves(const nlohmann::json& document, const scene::SearchPath& dat
                     std::size_t count) {
     const Built built(document, data);
     Texels result;
-    for (const RayPlace& place : choose_rays(built.tiles, built.light.layout, wish, count))
+    for (const RayPlace& place : choose_rays(built.tiles, built.first.light.layout, wish, count))
         result.curves.push_back(curves_of(built, place));
-    for (std::size_t c = 0; c < built.contenders.size(); ++c) {
-        result.light.cells.push_back(built.contenders[c].cell);
+    for (std::size_t c = 0; c < built.maps.size(); ++c) {
+        result.light.cells.push_back(built.first.contenders[c].cell);
         result.light.cells.back().bytes = bench::bytes(built.maps[c]);
     }
     return result;

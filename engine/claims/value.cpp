@@ -46,9 +46,10 @@ Value largest(const Value& a, const Value& b) {
 }
 
 Value error_of(const results::Cell& cell) {
-    const double rms = cell.lookup->norms.rms;
-    if (!cell.lookup->interval) return exactly(rms);
-    return {rms, cell.lookup->interval->low, cell.lookup->interval->high};
+    if (!cell.lookup->interval) return exactly(cell.lookup->norms.rms);
+    const double low = cell.lookup->interval->low, high = cell.lookup->interval->high;
+    const double middle = std::sqrt(0.5 * (low * low + high * high));
+    return {std::clamp(middle, low, high), low, high};  // a rounding would else put it outside a narrow interval
 }
 
 std::string to_text(const Value& value) {

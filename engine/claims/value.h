@@ -21,9 +21,12 @@ Value absolute(const Value& a);
 Value least(const Value& a, const Value& b);
 Value largest(const Value& a, const Value& b);
 
-// The RMS lookup error of a cell. Its interval is that of the RMS expected over seeds of the light rays against the
-// exact truth, so it need not hold the value of this run. If the rays are regular or only one seed was measured, it
-// covers the truth's uncertainty only. Exact if the result has no interval.
+// The RMS lookup error of a cell that is expected over seeds of the light rays against the exact truth, with its
+// interval. The value is the middle of the interval of the mean square: the mean of all seeds less the noise of the
+// truth. (If the interval was cut at 0, or the noise is only known to be below a bound, it is the middle of what is
+// left.)
+// If the rays are regular or only one seed was measured, the interval covers the truth's uncertainty only. Exact if the
+// result has no interval.
 Value error_of(const results::Cell& cell);
 
 // "14.2 [13.9, 14.6]", or "14.2" if nothing varies.

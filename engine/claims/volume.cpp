@@ -6,8 +6,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/parallel.h"
 #include "base/read_text.h"
+#include "bench/lookup_timing.h"
 #include "claims/paper.h"
+#include "claims/seeded_light.h"
 #include "claims/sheet.h"
 #include "claims/texel.h"
 #include "claims/volume.h"
@@ -26,10 +29,12 @@ using volume::PassTimes;
 constexpr double image_pixels = 512.0 * 512.0;  // of a frame; the paper gives only the map's size
 
 // The results of one data set: all techniques with receivers in the volume and on the plane, and some with receivers
-// only on the plane.
+// only on the plane. Times are of all techniques.
 struct Measured {
     const char* name;
     results::Result both, plane;
+    Turns builds, lookups;  // in ms, in ns
+    std::size_t march;      // the place of the capture among the builds
 
     const LightResult& light() const { return light_of(both); }
     const LightResult& behind() const { return light_of(plane); }
@@ -46,8 +51,9 @@ const Cell& avsm(const LightResult& light, int nodes) {
     return cell_of(light, "avsm", {fmt::format("nodes={}", nodes)});
 }
 
-double rms(const Cell& cell) {
-    return cell.lookup->norms.rms;
+// The place of a cell among the techniques.
+std::size_t place_of(const Cell& cell, const LightResult& light) {
+    return static_cast<std::size_t>(&cell - light.cells.data());
 }
 double bytes_a_texel(const Cell& cell, const LightResult& light) {
     return static_cast<double>(cell.bytes) / (static_cast<double>(light.layout.width) * light.layout.height);
@@ -83,10 +89,11 @@ void table_of_techniques(const Sets& sets, PaperReport& report) {
     for (const Measured& m : sets)
         for (const Cell& cell : m.light().cells) {
             if (cell.status == results::CellStatus::failed) continue;  // a claim that needs it will report it
-            table.rows.push_back({m.name, results::title(cell), to_text(of(cell.times->build_ms)),
-                                  to_text(time_of(cell)), fmt::format("{:.3g}", bytes_a_texel(cell, m.light())),
+            const std::size_t place = place_of(cell, m.light());
+            table.rows.push_back({m.name, results::title(cell), to_text(m.builds.time(place)),
+                                  to_text(m.lookups.time(place)), fmt::format("{:.3g}", bytes_a_texel(cell, m.light())),
                                   fmt::format("{:.2g}", cell.curve->norms.max),
-                                  fmt::format("{:.2g}", cell.curve->norms.rms), fmt::format("{:.2g}", rms(cell)),
+                                  fmt::format("{:.2g}", cell.curve->norms.rms), to_text(error_of(cell)),
                                   fmt::format("{:.2g}", cell.lookup->norms.max)});
         }
     report.tables.push_back(std::move(table));
@@ -103,8 +110,8 @@ struct Frame {
 Frame frame_of(const Measured& m, const PassTimes& passes) {
     const Cell& point = volume_deep(m.light(), "smooth", volume::map_steps, "point");  // the paper's lookup: one texel
     const double pixels = 1e-6 * image_pixels;                                         // and from ns to ms
-    return {exactly(1e3 * results::capture_seconds_on_one_thread(m.light())), of(point.times->build_ms),
-            pixels * passes.colour, pixels * passes.opacity};
+    return {m.builds.time(m.march), m.builds.time(place_of(point, m.light())), pixels * passes.colour,
+            pixels * passes.opacity};
 }
 
 void frames_a_second(const Sets& sets, const std::vector<PassTimes>& passes, PaperReport& report) {
@@ -143,8 +150,8 @@ void bucket(const Sets& sets, PaperReport& report) {
         return fmt::format("{} ({:+.2g})", to_text(error_of(cell)), cell.lookup->signed_mean);
     };
     const auto faster = [](const Measured& m) {
-        return of(volume_deep(m.light(), "smooth").times->build_ms) /
-               of(volume_deep(m.light(), "bucket").times->build_ms);
+        return m.builds.ratio(place_of(volume_deep(m.light(), "smooth"), m.light()),
+                              place_of(volume_deep(m.light(), "bucket"), m.light()));
     };
     report.claims.push_back(
         {"section Implementation",
@@ -233,6 +240,33 @@ void memory(const Sets& sets, PaperReport& report) {
          values(sets, ours)});
 }
 
+Measured measure_set(const Context& context, const DataSet& set) {
+    const char* plane_alone = "receivers.media_lookups=0";
+    const char* plane_techniques = R"(techniques=[{"type":"volume_deep","cells":"sample"}])";
+    const std::vector<std::string> smaller = {"rays.resolution=128", "receivers.resolution=64"};
+    Measured m{set.name,
+               context.run(set.scenario, {}, smaller),
+               context.run(set.scenario, {plane_alone, plane_techniques}, smaller),
+               {},
+               {},
+               0};
+    const base::ThreadLimit threads(context.threads);
+    const SeededLight light(context, set.scenario, {}, smaller);
+    {
+        const std::vector<bench::Maps> maps = light.build(0);
+        const bench::QuerySet all = light.queries();
+        const bench::QuerySet asked = bench::pick(all.asked(), bench::choose_runs(all.queries.size(), 32768));
+        std::vector<TimedLookups> timed;
+        for (const bench::Maps& map : maps) timed.push_back({&map, asked.asked()});
+        m.lookups = lookup_turns(timed, {});
+    }
+    const Compared compared[] = {{place_of(volume_deep(m.light(), "smooth"), m.light()),
+                                  place_of(volume_deep(m.light(), "bucket"), m.light())}};
+    m.builds = light.build_turns(compared);
+    m.march = light.capture_place();
+    return m;
+}
+
 // The function of one ray beside what maps keep of it.
 void curve_figure(const Context& context, const DataSet& set) {
     const std::filesystem::path file = context.scenarios / (std::string(set.scenario) + ".json");
@@ -257,14 +291,8 @@ void measure_volume(const Context& context) {
         "one texel. Figure 3 is drawn by the paper's renderer of two passes; its errors are of view rays through "
         "random places of the pixels, with the median over six seeds and their range.",
         std::size(data_sets));
-    const char* plane_alone = "receivers.media_lookups=0";
-    const char* plane_techniques = R"(techniques=[{"type":"volume_deep","cells":"sample"}])";
-    const std::vector<std::string> smaller = {"rays.resolution=128", "receivers.resolution=64", "timing.lookups=8192",
-                                              "timing.repetitions=3"};
     Sets sets;
-    for (const DataSet& set : data_sets)
-        sets.push_back({set.name, context.run(set.scenario, {}, smaller),
-                        context.run(set.scenario, {plane_alone, plane_techniques}, smaller)});
+    for (const DataSet& set : data_sets) sets.push_back(measure_set(context, set));
     table_of_techniques(sets, *context.report);
     const std::vector<PassTimes> passes = volume::two_pass_renderer(context);
     frames_a_second(sets, passes, *context.report);

@@ -6,12 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/parallel.h"
-#include "bench/load.h"
-#include "bench/prepared_light.h"
+#include "claims/first_light.h"
 #include "claims/volume.h"
-#include "document/document.h"
-#include "rays/capture.h"
 #include "render/image_file.h"
 
 namespace shadowbench::claims::volume {
@@ -31,18 +27,10 @@ void with_map(const Context& context, const char* name, int resolution,
         name, {fmt::format("rays.resolution={}", resolution),
                fmt::format(R"(techniques=[{{"type":"volume_deep","cells":"sample","filter":"point","steps":{}}}])",
                            map_steps)});
-    const std::vector<document::Variant> variants = document::expand(document);
-    bench::ScenarioLoader loader(context.data);
-    const scene::Scenario& scenario = loader.load(variants.front());
-    const std::vector<bench::Contender> contenders = bench::make_contenders(scenario, variants.front());
-    const bench::PreparedLight light = bench::prepare_light(scenario, 0, contenders, {});
-    const rays::Capture capture(scenario.scene, light.view, light.layout);
-    bench::Maps maps = bench::begin_maps(*contenders[0].row, contenders[0].values, {light.layout, light.view, nullptr});
-    base::parallel_for(static_cast<std::size_t>(light.layout.tiles()),
-                       [&](std::size_t tile) { bench::add(maps, capture.tile(static_cast<int>(tile))); });
-    bench::finish(maps);
-    const scene::Object& object = volume_of(scenario);
-    use({scenario, object, std::get<scene::GridVolume>(object.shape), light.view, maps});
+    const FirstLight first(document, context.data);
+    const bench::Maps maps = first.build(first.contenders.front(), first.tiles());
+    const scene::Object& object = volume_of(first.scenario);
+    use({first.scenario, object, std::get<scene::GridVolume>(object.shape), first.light.view, maps});
 }
 
 Sheet sheet_of(const std::string& name, const std::string& caption, std::span<const render::Image> pictures,

@@ -130,7 +130,8 @@ void add_pictures(const VolumeMap& map, const render::ColourPass& pass, const sc
 }
 
 void add_table(const std::vector<Measured>& sets, PaperReport& report) {
-    Table table{"Figure 3: light on the view rays, 128 lookups each",
+    Table table{"Figure 3: light on the view rays, 128 lookups each; medians over six seeds of the view rays, with "
+                "their range; times are medians over repetitions",
                 {"data", "average opacity", "exact opacity of what is seen", "rms difference",
                  "picture rms, not shadowed", "picture rms, darkened", "ns of a first pass", "ns of a second pass"},
                 {}};

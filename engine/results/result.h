@@ -119,7 +119,7 @@ struct Cell {
     Verdict verdict = Verdict::kept;
     std::string verdict_why;                                 // the figures, and why a degraded cell has no bound
     metrics::OnFront on_bytes_front = metrics::OnFront::no;  // of bytes and error: see fronts.h
-    std::optional<CellTimes> times;                          // absent for a failed cell
+    std::optional<CellTimes> times;  // absent for a failed cell, and if the run took none
 };
 
 // "deep tolerance=0.02": a technique and its parameters, which may be empty.
@@ -183,7 +183,8 @@ struct LightResult {
     std::optional<Agreement> agreement;
     ReferenceReport reference;
     CaptureTimes times;
-    std::optional<TimingReport> timing;  // absent from portable baselines and results of earlier programs
+    // Absent from portable baselines, from results of earlier programs, and if the run took no times.
+    std::optional<TimingReport> timing;
     std::vector<Cell> cells;
 };
 

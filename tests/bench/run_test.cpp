@@ -52,6 +52,26 @@ nlohmann::ordered_json without_times(const json& document, const RunOptions& opt
     return result;
 }
 
+TEST(Run, without_times_measures_everything_else_alike) {
+    RunOptions untimed;
+    untimed.times = false;
+    const results::Result result = run(two_layers(), untimed, {});
+    const results::LightResult& light = result.variants.at(0).lights.at(0);
+    EXPECT_FALSE(light.timing.has_value());
+    ASSERT_EQ(light.cells.size(), 2u);
+    const results::Result timed = run(two_layers(), {}, {});
+    for (std::size_t c = 0; c < light.cells.size(); ++c) {
+        const results::Cell &cell = light.cells[c], &other = timed.variants.at(0).lights.at(0).cells[c];
+        EXPECT_TRUE(cell.status == results::CellStatus::ok);
+        EXPECT_FALSE(cell.times.has_value());
+        EXPECT_TRUE(other.times.has_value());
+        EXPECT_EQ(cell.bytes, other.bytes);
+        EXPECT_EQ(cell.lookup->norms.rms, other.lookup->norms.rms);
+        EXPECT_EQ(cell.curve->norms.max, other.curve->norms.max);
+        EXPECT_EQ(cell.verdict_why, other.verdict_why);
+    }
+}
+
 TEST(Run, names_every_value_of_a_sweep_even_the_default) {
     json document = two_layers();
     document["techniques"] = {{{"type", "avsm"}, {"cells", "centre"}}, {{"type", "deep"}, {"kernel", "tent"}}};

@@ -7,20 +7,29 @@
 namespace shadowbench::claims {
 namespace {
 
+constexpr const char* two_deep_maps =
+    R"(techniques=[{"type":"deep","tolerance":0},{"type":"deep","tolerance":0.2}])";
+
+Context small_context(PaperReport& report) {
+    Context context;
+    context.scenarios = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios/papers";
+    context.quick = true;
+    context.report = &report;
+    return context;
+}
+
+std::vector<std::string> small_ball(const char* techniques) {
+    return {"/scene/objects/0/strands=500", "rays.samples_per_pixel=4", "receivers.resolution=[24,18]", techniques};
+}
+
 std::vector<float> answers(const bench::Maps& maps, const std::vector<techniques::Query>& queries) {
     return bench::lookup_all(maps, queries);
 }
 
 TEST(SeededLight, BuildsTheSameMapsForASeedAndOthersForAnother) {
     PaperReport report;
-    Context context;
-    context.scenarios = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios/papers";
-    context.quick = true;
-    context.report = &report;
-    const SeededLight light(context, "lokovic2000_ball",
-                            {"/scene/objects/0/strands=500", "rays.samples_per_pixel=4", "receivers.resolution=[24,18]",
-                             R"(techniques=[{"type":"deep","tolerance":0},{"type":"deep","tolerance":0.2}])"},
-                            {"rays.resolution=32"});
+    const Context context = small_context(report);
+    const SeededLight light(context, "lokovic2000_ball", small_ball(two_deep_maps), {"rays.resolution=32"});
     EXPECT_EQ(light.layout().width, 32);
     ASSERT_EQ(report.documents.size(), 1u);
     EXPECT_EQ(report.documents[0].rfind("lokovic2000_ball ", 0), 0u);
@@ -32,6 +41,35 @@ TEST(SeededLight, BuildsTheSameMapsForASeedAndOthersForAnother) {
     EXPECT_EQ(answers(first[0], asked.queries), answers(again[0], asked.queries));
     EXPECT_NE(answers(first[0], asked.queries), answers(other[0], asked.queries));
     EXPECT_LT(bench::nodes(first[1]).total, bench::nodes(first[0]).total);
+}
+
+TEST(SeededLight, TimesEachBuildAndThenTheCapture) {
+    PaperReport report;
+    const Context context = small_context(report);
+    const SeededLight light(context, "lokovic2000_ball", small_ball(two_deep_maps), {"rays.resolution=16"});
+    ASSERT_EQ(light.capture_place(), 2u);
+    const Turns turns = light.build_turns({});
+    ASSERT_EQ(turns.times.size(), 3u);
+    for (const std::vector<double>& ms : turns.times) {
+        EXPECT_EQ(ms.size(), build_rounds.least);
+        for (const double one : ms) EXPECT_GT(one, 0.0);
+    }
+}
+
+TEST(TimedMaps, AreTimedInTheOrderOfScenariosAndTechniques) {
+    PaperReport report;
+    const Context context = small_context(report);
+    TimedMaps timed;
+    timed.add(context, "lokovic2000_ball", small_ball(R"(techniques=[{"type":"pcf","num_samples":4}])"),
+              {"rays.resolution=16"}, 200);
+    timed.add(context, "lokovic2000_ball", small_ball(two_deep_maps), {"rays.resolution=16"}, 200);
+    EXPECT_EQ(report.documents.size(), 2u);
+    const Turns turns = timed.take({});
+    ASSERT_EQ(turns.times.size(), 3u);
+    for (const std::vector<double>& ns : turns.times) {
+        EXPECT_EQ(ns.size(), lookup_rounds.least);
+        for (const double one : ns) EXPECT_GT(one, 0.0);
+    }
 }
 
 }  // namespace
