@@ -1,7 +1,5 @@
 #include "bench/repeat.h"
 
-#include <optional>
-
 #include "bench/clock.h"
 
 namespace shadowbench::bench {
@@ -15,20 +13,21 @@ bool is_look(std::size_t done) {
 
 }  // namespace
 
-bool goes_on(const RepeatRule& rule, std::size_t done, double seconds_beyond, const std::function<bool()>& all_narrow) {
+bool goes_on(const RepeatRule& rule, std::size_t done, double seconds_with_next,
+             const std::function<bool()>& all_narrow) {
     if (done < rule.least) return true;
-    if (done >= rule.most || seconds_beyond >= rule.seconds) return false;
+    if (done >= rule.most || seconds_with_next >= rule.seconds) return false;
     return !(is_look(done) && all_narrow());
 }
 
 void repeat(const RepeatRule& rule, const std::function<void(std::size_t round)>& round,
             const std::function<bool()>& all_narrow) {
-    std::optional<Stopwatch> beyond;
-    std::size_t done = 0;
-    for (;; ++done) {
-        if (done == rule.least) beyond.emplace();
-        if (!goes_on(rule, done, beyond ? beyond->seconds() : 0.0, all_narrow)) return;
+    double beyond = 0.0, last = 0.0;  // seconds
+    for (std::size_t done = 0; goes_on(rule, done, beyond + last, all_narrow); ++done) {
+        const Stopwatch stopwatch;
         round(done);
+        last = stopwatch.seconds();
+        if (done >= rule.least) beyond += last;
     }
 }
 

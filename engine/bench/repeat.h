@@ -6,8 +6,8 @@
 
 namespace shadowbench::bench {
 
-// At least `least` rounds and at most `most`; between the two, until all intervals are narrow enough, or the rounds
-// beyond the least ones have taken `seconds`.
+// At least `least` rounds and at most `most`; between the two, until all intervals are narrow enough, or until another
+// round as long as the last would make those beyond the least ones take `seconds` or more.
 //
 // A round passes over all techniques, also over those whose intervals are narrow already. So all techniques are
 // measured in the same rounds, a machine that changes its speed changes it for all, and their ratios stay fair; and a
@@ -21,9 +21,9 @@ struct RepeatRule {
     double seconds = 0.0;
 };
 
-// Whether another round follows `done` rounds, of which those beyond the least ones took `seconds_beyond`.
+// Whether another round follows `done` rounds. With it, those beyond the least ones would take `seconds_with_next`.
 // `all_narrow` is asked only when it matters.
-bool goes_on(const RepeatRule& rule, std::size_t done, double seconds_beyond, const std::function<bool()>& all_narrow);
+bool goes_on(const RepeatRule& rule, std::size_t done, double seconds_with_next, const std::function<bool()>& all_narrow);
 
 // Makes the rounds 0, 1, ... of the rule.
 void repeat(const RepeatRule& rule, const std::function<void(std::size_t round)>& round,

@@ -21,7 +21,7 @@ constexpr double other_share = 0.2;
 // Of the whole time, that timing lookups again may take, but at most this share of the time left; and how many are.
 constexpr double again_share = 0.1, again_share_left = 0.3;
 constexpr std::size_t most_again = 12;
-constexpr double seconds_again = 1.0;  // of one, besides building its map
+constexpr double seconds_again = 0.2;  // of one, besides building its map
 // If time is limited, trials are asked to err so many times less before anything is confirmed: the upper ends of confirmed
 // errors lie above the errors of trials by about this much, and there may be no time for another round.
 constexpr double first_growth = 1.02;

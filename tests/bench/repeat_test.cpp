@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "bench/clock.h"
 #include "results/settled.h"
 
 namespace shadowbench::bench {
@@ -52,6 +53,20 @@ TEST(Repeat, StopsWhenItsTimeIsOver) {
     EXPECT_TRUE(goes_on({7, 31, 2.0}, 8, 1.9, wide));
     EXPECT_FALSE(goes_on({7, 31, 2.0}, 8, 2.0, wide));
     EXPECT_TRUE(goes_on({7, 31, 2.0}, 6, 3.0, narrow)) << "the least rounds are always made";
+}
+
+// A round of a minute does not follow if five seconds are allowed.
+TEST(Repeat, MakesNoRoundThatIsLongerThanTheTimeLeft) {
+    std::size_t rounds = 0;
+    repeat(
+        {5, 31, 1e-3},
+        [&](std::size_t) {
+            for (const Stopwatch stopwatch; stopwatch.seconds() < 2e-3;) {
+            }
+            ++rounds;
+        },
+        wide);
+    EXPECT_EQ(rounds, 5u);
 }
 
 // Times with a known median. `median` takes the number of rounds made: for a machine that slows down, it is that of the
