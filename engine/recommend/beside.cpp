@@ -57,6 +57,12 @@ std::optional<Rival> rival(const Recommendation& of, const std::optional<Cheapes
 }
 
 metrics::Interval ratio_of(const Confirmed& ours, const Confirmed& theirs, std::size_t k) {
+    if (static_cast<Cost>(k) == Cost::lookup) {
+        std::vector<double> ratios;
+        for (std::size_t r = 0; r < ours.lookup_rounds.size(); ++r)
+            ratios.push_back(ours.lookup_rounds[r] / theirs.lookup_rounds[r]);
+        return metrics::median_interval(ratios);
+    }
     return {ours.interval[k].low / theirs.interval[k].high, ours.interval[k].high / theirs.interval[k].low};
 }
 
@@ -100,7 +106,7 @@ std::vector<Contest> hold_beside(const json& document, const bench::RunOptions& 
                 parts.push_back((*one)->part);
                 points.push_back(trials.add(json::parse(parts.back())));
             }
-    const std::vector<Confirmed> measured = trials.confirm(points, goal.error, seconds);
+    const std::vector<Confirmed> measured = trials.confirm(points, goal.error, goal.asked[static_cast<std::size_t>(Cost::build)], seconds);
     for (Contest& contest : contests) {
         for (std::optional<Rival>* one : {&contest.ours, &contest.theirs})
             if (*one)

@@ -25,7 +25,8 @@ struct Rival {
 struct Contest {
     Cost cost = Cost::lookup;
     std::optional<Rival> ours, theirs;
-    // Of both: our cost over theirs, with 95 % confidence for each of the two costs.
+    // Of both: our cost over theirs. Of lookups the 95 % interval of the median over rounds, each of which times both; else
+    // from the two costs' intervals.
     std::optional<metrics::Interval> ratio;
 };
 

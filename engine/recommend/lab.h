@@ -73,6 +73,7 @@ struct Confirmed {
     double mean_error = 0.0;
     std::array<double, costs> cost{};  // medians
     std::array<metrics::Interval, costs> interval{};
+    std::vector<double> lookup_rounds = {};  // ns a lookup in each round; a round times all points of the same call
 };
 
 class Lab {
@@ -93,9 +94,11 @@ public:
     // The lookup times of measured points again, in turns, so that a disturbance hits all alike: their ratios hold better
     // than those of trials. Nothing for a point that cannot be timed now.
     virtual std::vector<std::optional<double>> time_again(std::span<const Point> points) = 0;
-    // `error`: what the points are judged by; those that clearly err more or less need fewer seeds. It takes about
-    // `most_seconds` at most, but never less than the least that an interval rests on.
-    virtual std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) = 0;
+    // `error`: what the points are judged by; those that clearly err more or less need fewer seeds. `builds_asked`: whether
+    // build times answer something, or are only shown. It takes about `most_seconds` at most, but never less than the
+    // least that an interval rests on.
+    virtual std::vector<Confirmed> confirm(std::span<const Point> points, double error, bool builds_asked,
+                                           double most_seconds) = 0;
 };
 
 }  // namespace shadowbench::recommend

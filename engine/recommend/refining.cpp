@@ -13,6 +13,9 @@ constexpr double leader_chance = 0.03, follower_chance = 0.15;
 // Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
 constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
 constexpr double follower_gain = 0.1;
+// How much a gain of a runner-up counts beside the same gain of the best: it is no answer, only what another technique
+// would cost.
+constexpr double follower_weight = 0.25;
 // Refining ends if going on for as long as everything has taken so far promises to gain less than this, as a share of
 // the costs.
 constexpr double least_promise = 0.03;
@@ -41,8 +44,15 @@ double Search::gain(std::size_t family, std::size_t index, bool likely) const {
         const double share = limit.leads ? least_gain[k] : follower_gain;
         const double chance = limit.leads ? lead : chance_below(limit.cost, share);
         if (likely && lead < leader_chance && (limit.leads || chance < follower_chance)) continue;
-        const bool known_size = std::isfinite(limit.cost) && std::isfinite(estimate.sd);
-        sum += chance * (known_size ? std::clamp(std::log(limit.cost) - estimate.mean, share, 1.0) : 1.0);
+        // `size`: the logarithm of how much cheaper the point may be than a bound.
+        const auto size = [&](double bound, double least) {
+            const bool known_size = std::isfinite(bound) && std::isfinite(estimate.sd);
+            return known_size ? std::clamp(std::log(bound) - estimate.mean, least, 1.0) : 1.0;
+        };
+        if (limit.leads)
+            sum += chance * size(limit.cost, share);
+        else
+            sum += lead * size(incumbents_.least[k], least_gain[k]) + follower_weight * chance * size(limit.cost, share);
     }
     return sum;
 }

@@ -50,7 +50,8 @@ public:
     double at_least(const Point& point, Cost cost) const override;
     Trial measure(const Point& point) override;
     std::vector<std::optional<double>> time_again(std::span<const Point> points) override;
-    std::vector<Confirmed> confirm(std::span<const Point> points, double error, double most_seconds) override;
+    std::vector<Confirmed> confirm(std::span<const Point> points, double error, bool builds_asked,
+                                   double most_seconds) override;
 
     const Space& space() const { return *space_; }
     // One more setting to measure: see Space::add.
@@ -83,7 +84,8 @@ private:
     const Trial* trial_of(const Point& point) const;
     int seeds_of(const Point& point, double error) const;
     std::size_t lookups_of(const Point& point) const;
-    bool time_builds(std::vector<Timed>& timed, const bench::Stopwatch& stopwatch, double most_seconds);
+    bool time_builds(std::vector<Timed>& timed, int repetitions, const bench::Stopwatch& stopwatch,
+                     double most_seconds);
     void time_lookups(std::vector<Timed>& timed, double longest);
     results::LightResult* recorded(const Setting& setting);
     results::LightResult& record(const Setting& setting, const bench::StoredRays& rays);

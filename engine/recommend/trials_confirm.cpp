@@ -23,24 +23,26 @@ constexpr double capture_share = 0.1;  // seconds of capturing that one repetiti
 // A confirmation repeats its times until the interval of each lookup time is this narrow, as a share of the time.
 constexpr double narrow = 0.03;
 constexpr int least_repetitions = 7, most_repetitions = 21;
-constexpr double longest_pass = 0.05;    // seconds of lookups in one order
-constexpr int fewer_builds = 3;          // repetitions, if time runs out
+constexpr double longest_pass = 0.025;   // seconds of lookups in one order
+constexpr int fewer_builds = 3;          // repetitions, if time runs out or build times are only shown
 constexpr double longest_timing = 15.0;  // seconds, after the least repetitions
 constexpr double longest_again = 2.0;    // the same, of what is only timed again
 // Shares of a confirmation's time after which it goes on with fewer seeds, and with fewer builds.
 constexpr double seeds_share = 0.5, builds_share = 0.85;
+constexpr double timing_share = 0.1;  // of it, for lookups after their least repetitions
 
 }  // namespace
 
 // The builds of all points with the same light rays in turns: rays of several choices may not fit into memory together.
 // Returns false if there was time for the fewest repetitions only.
-bool Trials::time_builds(std::vector<Timed>& timed, const Stopwatch& stopwatch, double most_seconds) {
+bool Trials::time_builds(std::vector<Timed>& timed, int repetitions, const Stopwatch& stopwatch,
+                         double most_seconds) {
     bool all = true;
     for (auto first = timed.begin(); first != timed.end();) {
         const bench::RayChoice rays_of_all = choice(first->setting, 0);
         const auto last = std::find_if(first, timed.end(),
                                        [&](const Timed& one) { return !(choice(one.setting, 0) == rays_of_all); });
-        for (int r = 0; r < least_repetitions; ++r) {
+        for (int r = 0; r < repetitions; ++r) {
             if (r >= fewer_builds && stopwatch.seconds() > most_seconds) {
                 all = false;
                 break;
@@ -145,7 +147,8 @@ std::size_t Trials::lookups_of(const Point& point) const {
     return std::min(most, static_cast<std::size_t>(std::max(enough, 256.0)));
 }
 
-std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double error, double most_seconds) {
+std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double error, bool builds_asked,
+                                       double most_seconds) {
     const Stopwatch stopwatch;
     // Points with the same light rays stand together.
     std::vector<std::size_t> by_rays(points.size());
@@ -187,8 +190,9 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double err
         }
     }
     std::erase_if(timed, [&](const Timed& one) { return !answers[one.index].failed.empty(); });
-    cut = !time_builds(timed, stopwatch, builds_share * most_seconds) || cut;
-    time_lookups(timed, longest_timing);
+    cut = !time_builds(timed, builds_asked ? least_repetitions : fewer_builds, stopwatch, builds_share * most_seconds) ||
+          cut;
+    time_lookups(timed, std::min(longest_timing, timing_share * most_seconds));
     for (Timed& one : timed) {
         Contender& contender = one.attempt.contender;
         for (const bench::LookupOrder* order : {&one.plan.image, &one.plan.random})
@@ -199,6 +203,7 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double err
         answer.error = error_interval(errors[one.index], measure_, truth_doubt_);
         answer.mean_error = metrics::mean_and_variance(errors[one.index]).mean;
         answer.cut = cut;
+        answer.lookup_rounds = one.plan.random.ns;
         std::vector<double> whole(one.build_ms);
         for (std::size_t r = 0; r < whole.size(); ++r) whole[r] += one.capture_ms[r];
         results::CellTimes& times = contender.cell.times.emplace();

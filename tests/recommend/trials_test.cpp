@@ -138,7 +138,7 @@ TEST(Trials, ConfirmWithIntervalsThatHoldTheMean) {
     Trials trials = trials_of(two_layers(), {"deep", "avsm"});
     const std::vector<Point> points{point_of(trials, "deep kernel=tent mip=none", {32, 16, 0.1}),
                                     point_of(trials, "avsm sampling=linear filter=footprint", {32, 16, 8})};
-    const std::vector<Confirmed> answers = trials.confirm(points, 0.05, infinity);
+    const std::vector<Confirmed> answers = trials.confirm(points, 0.05, true, infinity);
     ASSERT_EQ(answers.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(answers[i].failed, "");
@@ -159,7 +159,7 @@ TEST(Trials, OfRegularRaysHaveAnExactError) {
     Trials trials = trials_of(document, {"deep"}, Measure::p99);
     const std::vector<Point> points{point_of(trials, "deep kernel=box mip=none", {32, 16, 0.1})};
     const Trial trial = trials.measure(points[0]);
-    const Confirmed confirmed = trials.confirm(points, 0.05, infinity)[0];
+    const Confirmed confirmed = trials.confirm(points, 0.05, true, infinity)[0];
     EXPECT_DOUBLE_EQ(confirmed.error.high, trial.error);
     EXPECT_DOUBLE_EQ(confirmed.mean_error, trial.error);
 }
@@ -193,7 +193,7 @@ TEST(Trials, AreWrittenAsTheResultOfARun) {
     Trials trials = trials_of(two_layers(), {"deep"});
     const Point point = point_of(trials, "deep kernel=box mip=none", {32, 16, 0.1});
     trials.measure(point);
-    trials.confirm(std::vector<Point>{point}, 0.05, infinity);
+    trials.confirm(std::vector<Point>{point}, 0.05, true, infinity);
     const auto written = results::to_json(trials.result());
     const results::Result read = results::from_json(json::parse(written.dump()), "result.json");
     ASSERT_EQ(read.variants.size(), 1u);
