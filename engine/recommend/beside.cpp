@@ -20,6 +20,8 @@ using base::Error;
 using base::ErrorCode;
 using nlohmann::json;
 
+constexpr double most_for_lookups = 0.6;  // of the time: what is compared there is the closest
+
 // The receivers without the width of their footprints, and that width as a share of the map.
 json places_of(const json& document) {
     json receivers = document.value("receivers", json::object());
@@ -106,7 +108,8 @@ std::vector<Contest> hold_beside(const json& document, const bench::RunOptions& 
                 parts.push_back((*one)->part);
                 points.push_back(trials.add(json::parse(parts.back())));
             }
-    const std::vector<Confirmed> measured = trials.confirm(points, goal.error, goal.asked[static_cast<std::size_t>(Cost::build)], seconds);
+    const std::vector<Confirmed> measured = trials.confirm(
+        points, {goal.error, goal.asked[static_cast<std::size_t>(Cost::build)], seconds, most_for_lookups});
     for (Contest& contest : contests) {
         for (std::optional<Rival>* one : {&contest.ours, &contest.theirs})
             if (*one)

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -76,6 +77,14 @@ struct Confirmed {
     std::vector<double> lookup_rounds = {};  // ns a lookup in each round; a round times all points of the same call
 };
 
+struct Confirming {
+    double error;  // what the points are judged by; those that clearly err more or less need fewer seeds
+    bool builds_asked = true;  // whether build times answer something, or are only shown
+    // It takes about so many seconds at most, but never less than the least that an interval rests on.
+    double most_seconds = std::numeric_limits<double>::infinity();
+    double lookups_share = 0.1;  // of these seconds, for rounds of lookups after the least ones
+};
+
 class Lab {
 public:
     virtual ~Lab() = default;
@@ -94,11 +103,7 @@ public:
     // The lookup times of measured points again, in turns, so that a disturbance hits all alike: their ratios hold better
     // than those of trials. Nothing for a point that cannot be timed now.
     virtual std::vector<std::optional<double>> time_again(std::span<const Point> points) = 0;
-    // `error`: what the points are judged by; those that clearly err more or less need fewer seeds. `builds_asked`: whether
-    // build times answer something, or are only shown. It takes about `most_seconds` at most, but never less than the
-    // least that an interval rests on.
-    virtual std::vector<Confirmed> confirm(std::span<const Point> points, double error, bool builds_asked,
-                                           double most_seconds) = 0;
+    virtual std::vector<Confirmed> confirm(std::span<const Point> points, const Confirming& how) = 0;
 };
 
 }  // namespace shadowbench::recommend

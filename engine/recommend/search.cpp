@@ -171,8 +171,8 @@ void Search::confirm() {
         report(Stage::confirming, points.size());
         const double before = left(1.0);
         const std::vector<Confirmed> answers =
-            lab_.confirm(points, found_.goal.error, found_.goal.asked[static_cast<std::size_t>(Cost::build)],
-                         round_share * std::max(before, 0.0));
+            lab_.confirm(points, {found_.goal.error, found_.goal.asked[static_cast<std::size_t>(Cost::build)],
+                                  round_share * std::max(before, 0.0)});
         if (std::isfinite(before)) seconds_a_point = (before - left(1.0)) / static_cast<double>(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             families_[points[i].family].confirm(points[i], answers[i]);

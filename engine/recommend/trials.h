@@ -50,8 +50,7 @@ public:
     double at_least(const Point& point, Cost cost) const override;
     Trial measure(const Point& point) override;
     std::vector<std::optional<double>> time_again(std::span<const Point> points) override;
-    std::vector<Confirmed> confirm(std::span<const Point> points, double error, bool builds_asked,
-                                   double most_seconds) override;
+    std::vector<Confirmed> confirm(std::span<const Point> points, const Confirming& how) override;
 
     const Space& space() const { return *space_; }
     // One more setting to measure: see Space::add.

@@ -1,5 +1,6 @@
 // How Trials confirms settings: several seeds, all checks of a run, and times in turns.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -22,14 +23,13 @@ constexpr double clear_of = 1.25;      // a trial's RMS that is this factor larg
 constexpr double capture_share = 0.1;  // seconds of capturing that one repetition times
 // A confirmation repeats its times until the interval of each lookup time is this narrow, as a share of the time.
 constexpr double narrow = 0.03;
-constexpr int least_repetitions = 7, most_repetitions = 21;
+constexpr int least_repetitions = 7, most_repetitions = 101;
 constexpr double longest_pass = 0.025;   // seconds of lookups in one order
 constexpr int fewer_builds = 3;          // repetitions, if time runs out or build times are only shown
-constexpr double longest_timing = 15.0;  // seconds, after the least repetitions
+constexpr double longest_timing = 15.0;  // seconds, after the least repetitions, if time is not limited
 constexpr double longest_again = 2.0;    // the same, of what is only timed again
 // Shares of a confirmation's time after which it goes on with fewer seeds, and with fewer builds.
 constexpr double seeds_share = 0.5, builds_share = 0.85;
-constexpr double timing_share = 0.1;  // of it, for lookups after their least repetitions
 
 }  // namespace
 
@@ -147,8 +147,7 @@ std::size_t Trials::lookups_of(const Point& point) const {
     return std::min(most, static_cast<std::size_t>(std::max(enough, 256.0)));
 }
 
-std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double error, bool builds_asked,
-                                       double most_seconds) {
+std::vector<Confirmed> Trials::confirm(std::span<const Point> points, const Confirming& how) {
     const Stopwatch stopwatch;
     // Points with the same light rays stand together.
     std::vector<std::size_t> by_rays(points.size());
@@ -164,13 +163,13 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double err
     std::vector<Timed> timed;
     bool cut = false;
     for (int seed = 0; seed < seeds; ++seed) {
-        if (seed >= fewer_seeds && stopwatch.seconds() > seeds_share * most_seconds * seed / (seed + 1)) {
+        if (seed >= fewer_seeds && stopwatch.seconds() > seeds_share * how.most_seconds * seed / (seed + 1)) {
             cut = true;
             break;
         }
         for (std::size_t done = 0; done < by_rays.size(); ++done) {
             const std::size_t i = by_rays[done];
-            if (!answers[i].failed.empty() || seed >= seeds_of(points[i], error)) continue;
+            if (!answers[i].failed.empty() || seed >= seeds_of(points[i], how.error)) continue;
             if (progress_)
                 progress_({"", "checking", static_cast<std::size_t>(seed) * points.size() + done, seeds * points.size()});
             const Setting setting = space_->setting(points[i]);
@@ -190,9 +189,10 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, double err
         }
     }
     std::erase_if(timed, [&](const Timed& one) { return !answers[one.index].failed.empty(); });
-    cut = !time_builds(timed, builds_asked ? least_repetitions : fewer_builds, stopwatch, builds_share * most_seconds) ||
+    cut = !time_builds(timed, how.builds_asked ? least_repetitions : fewer_builds, stopwatch,
+                       builds_share * how.most_seconds) ||
           cut;
-    time_lookups(timed, std::min(longest_timing, timing_share * most_seconds));
+    time_lookups(timed, std::isfinite(how.most_seconds) ? how.lookups_share * how.most_seconds : longest_timing);
     for (Timed& one : timed) {
         Contender& contender = one.attempt.contender;
         for (const bench::LookupOrder* order : {&one.plan.image, &one.plan.random})

@@ -197,9 +197,8 @@ TEST(Search, AFailureThatOnlyConfirmingShowsIsNotTheAnswer) {
     class Late : public SyntheticLab {
     public:
         using SyntheticLab::SyntheticLab;
-        std::vector<Confirmed> confirm(std::span<const Point> points, double error, bool builds_asked,
-                                       double most_seconds) override {
-            std::vector<Confirmed> answers = SyntheticLab::confirm(points, error, builds_asked, most_seconds);
+        std::vector<Confirmed> confirm(std::span<const Point> points, const Confirming& how) override {
+            std::vector<Confirmed> answers = SyntheticLab::confirm(points, how);
             for (std::size_t i = 0; i < points.size(); ++i)
                 if (points[i].family == 0 && points[i].step[2] >= 4) answers[i].failed = "broke its promise with seed 3";
             return answers;

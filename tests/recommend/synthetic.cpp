@@ -69,7 +69,7 @@ std::vector<std::optional<double>> SyntheticLab::time_again(std::span<const Poin
     return times;
 }
 
-std::vector<Confirmed> SyntheticLab::confirm(std::span<const Point> points, double, bool, double) {
+std::vector<Confirmed> SyntheticLab::confirm(std::span<const Point> points, const Confirming&) {
     std::vector<Confirmed> answers;
     for (const Point& point : points) {
         ++confirmed_;

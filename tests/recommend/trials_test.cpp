@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -18,8 +17,6 @@ namespace shadowbench::recommend {
 namespace {
 
 using nlohmann::json;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bench::RunOptions only(std::vector<std::string> ids) {
     bench::RunOptions options;
@@ -138,7 +135,7 @@ TEST(Trials, ConfirmWithIntervalsThatHoldTheMean) {
     Trials trials = trials_of(two_layers(), {"deep", "avsm"});
     const std::vector<Point> points{point_of(trials, "deep kernel=tent mip=none", {32, 16, 0.1}),
                                     point_of(trials, "avsm sampling=linear filter=footprint", {32, 16, 8})};
-    const std::vector<Confirmed> answers = trials.confirm(points, 0.05, true, infinity);
+    const std::vector<Confirmed> answers = trials.confirm(points, {0.05, true, 20.0});
     ASSERT_EQ(answers.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(answers[i].failed, "");
@@ -159,7 +156,7 @@ TEST(Trials, OfRegularRaysHaveAnExactError) {
     Trials trials = trials_of(document, {"deep"}, Measure::p99);
     const std::vector<Point> points{point_of(trials, "deep kernel=box mip=none", {32, 16, 0.1})};
     const Trial trial = trials.measure(points[0]);
-    const Confirmed confirmed = trials.confirm(points, 0.05, true, infinity)[0];
+    const Confirmed confirmed = trials.confirm(points, {0.05, true, 20.0})[0];
     EXPECT_DOUBLE_EQ(confirmed.error.high, trial.error);
     EXPECT_DOUBLE_EQ(confirmed.mean_error, trial.error);
 }
@@ -193,7 +190,7 @@ TEST(Trials, AreWrittenAsTheResultOfARun) {
     Trials trials = trials_of(two_layers(), {"deep"});
     const Point point = point_of(trials, "deep kernel=box mip=none", {32, 16, 0.1});
     trials.measure(point);
-    trials.confirm(std::vector<Point>{point}, 0.05, true, infinity);
+    trials.confirm(std::vector<Point>{point}, {0.05, true, 20.0});
     const auto written = results::to_json(trials.result());
     const results::Result read = results::from_json(json::parse(written.dump()), "result.json");
     ASSERT_EQ(read.variants.size(), 1u);
