@@ -60,7 +60,8 @@ constexpr Rule rules[] = {
      "never exceeded, but not always reached", "Counting is exact."},
     {"construction", "a size or a format", "not judged: the technique cannot do otherwise", "-",
      "Tests check it; measuring it shows nothing about the method."},
-    {"not comparable", "a time on a GPU, a figure of a scene that is not public, or a method without a stated accuracy",
+    {"not comparable",
+     "the size of a GPU's time, a figure of a scene that is not public, or a method without a stated accuracy",
      "not judged: the number is given", "-",
      "A processor's thread cannot test a GPU's time, a stand-in cannot test another scene, and a limit that the paper "
      "does not give would be ours."},
