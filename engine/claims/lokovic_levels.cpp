@@ -121,8 +121,9 @@ Table level_table(const std::string& title, const std::vector<Levels>& found,
 
 void add_level_tables(PaperReport& report, const std::vector<Levels>& found) {
     report.tables.push_back(
-        level_table("Section 5.3: nodes of the functions in mip levels of the ball scene, 64 samples "
-                    "a pixel, for each pixel that holds something; means over three seeds of the light rays",
+        level_table("Section 5.3: nodes of the functions in mip levels of a map of 128 x 128 pixels of the ball "
+                    "scene, 64 samples a pixel, for each pixel that holds something; means over three seeds of the "
+                    "light rays",
                     found, &Levels::nodes, [](double level) { return std::exp2(0.5 * level); }));
     Table sizes = level_table("Section 5.3: bytes of the same levels over those of level 0; means over the same seeds",
                               found, &Levels::size, [](double level) { return std::exp2(-1.5 * level); });
@@ -231,7 +232,8 @@ void blends(const Context& context) {
     }
     Table table{
         "Section 5.3: RMS error of mip-mapped lookups over the filter width, in pixels, against the exact mean of "
-        "the uncompressed functions under the filter; means over three seeds of the light rays",
+        "the uncompressed functions under the filter; a map of 128 x 128 pixels, means over three seeds of the light "
+        "rays",
         {"width"},
         {}};
     for (const Filter& filter : filters) table.header.push_back(filter.name);

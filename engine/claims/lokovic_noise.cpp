@@ -134,7 +134,8 @@ void noise(const Context& context) {
                              "hair",
                              fmt::format("error rms {}", to_text(deep)),
                              judge_ratio(0.01, deep),
-                             "Squares of 10 pixels' area at random places; the map is compressed as always.",
+                             "Squares of 10 pixels' area at random places; all hairs lie at one depth. The map is "
+                             "compressed as by default.",
                              {deep}});
 }
 

@@ -34,6 +34,6 @@ inline constexpr double never = 1e6;  // fragments a cell
 Crossing crossing_of(std::span<const std::pair<double, double>> differences);
 
 void pictures(const Context& context);  // figures 6 and 7
-void crossing(const Context& context);  // equation 6
+void crossing(const Context& context);  // section 6
 
 }  // namespace shadowbench::claims::pagot

@@ -136,6 +136,11 @@ constexpr Row rows[] = {{sphere, "Sphere and plane", true, 42.0, 9.7, 57.7, 37.3
                         {lights, "Coloured lights", true, 64.4, 14.2, 95.0, 47.6},
                         {store, "Red's Dream (a room full of things)", false, 261.3, 55.3, 387.4, 48.4}};
 
+std::string depth_maps_text(const Row& row, const Value& depth_maps) {
+    return fmt::format("The split differs, too: depth maps take {} % of the added time here, {:.0f} % there.",
+                       to_text(depth_maps), 100.0 * row.first / (row.total - row.without));
+}
+
 void add_image(const Row& row, const Passes& passes, Table& table, Table& parts, PaperReport& report) {
     const Value increase = percent_added(passes);
     const auto ms = [](const Value& seconds) { return to_text(1e3 * seconds); };
@@ -153,7 +158,10 @@ void add_image(const Row& row, const Passes& passes, Table& table, Table& parts,
                              fmt::format("{}: shadows add {:.1f} % to the time of the image", row.title, row.percent),
                              to_text(increase) + " %",
                              row.rebuilt ? judge_ratio(0.01 * row.percent, 0.01 * increase) : not_comparable(),
-                             "The shading that shadows are compared with is one dot product here.",
+                             "The denominator is the time of the image without shadows, whose shading is one dot "
+                             "product here. Each of 16 rays a pixel is filtered by itself; a renderer of "
+                             "micropolygons, which the paper names, filters once for each of them. " +
+                                 depth_maps_text(row, depth_maps),
                              {increase}});
 }
 
@@ -188,7 +196,8 @@ void times(const Context& context) {
              fmt::format("coloured lights: {} %, {} %, {} %", to_text(depth_maps), to_text(filtering),
                          to_text(mapping)),
              not_comparable(),
-             "Their map is interpreted by the light tree, ours is compiled; Luxo Jr. is not public.",
+             "Their mapping is interpreted, in the light tree, and ours is compiled; Luxo Jr. is not public. Their "
+             "depth maps come from their renderer, and ours from projecting the casters.",
              {depth_maps, filtering, mapping}});
     }
     parts.rows.push_back({"Luxo Jr., theirs", "", "50 %", "22 %", "28 %"});

@@ -22,14 +22,14 @@ constexpr const char* introduction =
     "- Of an exponent: the interval is that of the fit.\n"
     "- Elsewhere, as for medians over scenes or means over places of the map, the paper's introduction or the title of "
     "the table says what the numbers are over.\n\n"
-    "Each claim is judged by one rule of the table below, by the whole interval of what is measured: *holds*, *holds in "
-    "shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*. A claim "
-    "about times on a GPU, about a scene that is not public, or without a value is *not comparable*: its number is given, "
-    "and nothing is judged. What a technique cannot do otherwise is *by construction*.\n";
+    "Each claim is judged by one rule of the table below, by the whole interval of what is measured: *holds*, *holds "
+    "in shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*. A "
+    "claim about the size of a GPU's times, about a scene that is not public, or without a value is *not comparable*: "
+    "its number is given, and nothing is judged. What a technique cannot do otherwise is *by construction*.\n";
 
 constexpr const char* former_introduction =
-    "The first report judged some claims *holds in shape* or *does not hold here*, by rules that differed from claim to "
-    "claim.\n\n";
+    "The first report judged some claims *holds in shape* or *does not hold here*, by rules that differed from claim "
+    "to claim.\n\n";
 
 std::string rules_table() {
     std::vector<std::vector<std::string>> rows;

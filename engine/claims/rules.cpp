@@ -28,14 +28,17 @@ constexpr Rule rules[] = {
      "another effect."},
     {"gain", "A is r times better than B", "the gain is at least r / 1.5", "at least r / 3, and a gain",
      "As for a ratio, but a larger gain than the paper's fulfils its claim."},
-    {"size", "a map is s times as large as another", "within 10 % of s",
+    {"size", "a map is s times as large as another",
+     "within 10 % of s, or of a value that rounds to s as the paper prints it",
      "nearer to s than to the size without the paper's idea (their geometric mean), at most 1.35 times off on the other "
      "side",
      "Sizes follow from the method and do not depend on the machine."},
     {"exponent", "a quantity grows as x^p", "the fitted exponent is within 0.05 of p", "within 0.25 of p",
      "0.25 separates the laws that the papers compare: 1/4, 1/2, 1."},
-    {"constant", "a time does not change", "it grows by at most a factor of 1.25", "by at most a factor of 2",
-     "What is compared changes by a factor of 16 to 32 meanwhile."},
+    {"constant", "a time does not change, or only slightly", "it grows by at most a factor of 1.25",
+     "by at most a factor of 2",
+     "Another compiler or cache explains 1.25. A time that followed the samples, the width, the steps of a blurred "
+     "function or the depths of a cell would at least double."},
     {"growth", "a time or a width grows", "by a factor of at least 2", "by a factor of at least 1.25",
      "The counterpart of constant."},
     {"negligible", "one cost is negligible beside another", "it is at most a tenth", "at most a third",
@@ -57,7 +60,8 @@ constexpr Rule rules[] = {
      "never exceeded, but not always reached", "Counting is exact."},
     {"construction", "a size or a format", "not judged: the technique cannot do otherwise", "-",
      "Tests check it; measuring it shows nothing about the method."},
-    {"not comparable", "a time on a GPU, a figure of a scene that is not public, or a method without a stated accuracy",
+    {"not comparable",
+     "the size of a GPU's time, a figure of a scene that is not public, or a method without a stated accuracy",
      "not judged: the number is given", "-",
      "A processor's thread cannot test a GPU's time, a stand-in cannot test another scene, and a limit that the paper "
      "does not give would be ours."},
@@ -152,10 +156,14 @@ Judged judge_gain(double paper, const Value& measured) {
 }
 
 Judged judge_size(double paper, double without, const Value& measured) {
-    const double between = std::sqrt(paper * without);
-    const Range near{paper / near_size, paper * near_size};
-    const Range far = without > paper ? Range{paper / far_size, std::max(between, near.high)}
-                                      : Range{std::min(between, near.low), paper * far_size};
+    return judge_size(exactly(paper), without, measured);
+}
+
+Judged judge_size(const Value& paper, double without, const Value& measured) {
+    const Range near{paper.low / near_size, paper.high * near_size};
+    const Range far = without > paper.value
+                          ? Range{paper.low / far_size, std::max(std::sqrt(paper.high * without), near.high)}
+                          : Range{std::min(std::sqrt(paper.low * without), near.low), paper.high * far_size};
     return judge("size", measured, near, far);
 }
 

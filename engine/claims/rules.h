@@ -42,6 +42,8 @@ struct Judged {
 Judged judge_ratio(double paper, const Value& measured);
 Judged judge_gain(double paper, const Value& measured);
 Judged judge_size(double paper, double without, const Value& measured);
+// The interval of the paper's value holds what is rounded to the digits that it prints.
+Judged judge_size(const Value& paper, double without, const Value& measured);
 Judged judge_exponent(double paper, const Value& measured);
 Judged judge_constant(const Value& factor);
 Judged judge_growth(const Value& factor);

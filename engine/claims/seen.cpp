@@ -51,6 +51,7 @@ void Seen::find_queries() {
     for (const std::uint32_t point : found.point) {
         while (points.begin[pixel + 1] <= point) ++pixel;
         pixel_.push_back(pixel);
+        place_.push_back(points.place[point]);
     }
     queries_ = std::move(found.queries);
     footprints_ = std::move(found.footprints);

@@ -28,7 +28,8 @@ public:
 
     // One query for each pixel that sees a surface inside the light's map.
     std::span<const techniques::Query> queries() const { return queries_; }
-    std::uint32_t pixel(std::size_t query) const { return pixel_[query]; }  // row after row
+    std::uint32_t pixel(std::size_t query) const { return pixel_[query]; }       // row after row
+    const base::Vec3d& place(std::size_t query) const { return place_[query]; }  // on the surface, in the world
     base::Vec2i size() const { return size_; }                              // pixels
 
     // The answers of the technique with this place in the document, one a query.
@@ -51,6 +52,7 @@ private:
     std::vector<techniques::Query> queries_;
     std::vector<techniques::Footprint> footprints_;
     std::vector<std::uint32_t> pixel_;
+    std::vector<base::Vec3d> place_;
     std::vector<std::vector<float>> visibility_;
 };
 

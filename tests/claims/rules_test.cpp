@@ -70,6 +70,20 @@ TEST(Rules, ASizeIsNearerToThePapersThanToThatWithoutItsIdea) {
     EXPECT_EQ(verdict(judge_size(1.55, 4.0 / 3.0, exactly(1.45))), Verdict::holds);
 }
 
+// 0.4 of 4.0, printed with one decimal, may be anything from 0.0875 to 0.1125.
+TEST(Rules, ASizeMayBeAnythingThatRoundsToThePrintedOne) {
+    const Value printed{0.1, 0.0875, 0.1125};
+    EXPECT_EQ(verdict(judge_size(printed, 1, exactly(0.113))), Verdict::holds);
+    EXPECT_EQ(verdict(judge_size(0.1, 1, exactly(0.113))), Verdict::in_shape) << "as if more digits were printed";
+    EXPECT_EQ(verdict(judge_size(printed, 1, exactly(0.123))), Verdict::holds);
+    EXPECT_EQ(verdict(judge_size(printed, 1, exactly(0.125))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_size(printed, 1, exactly(0.08))), Verdict::holds);
+    EXPECT_EQ(verdict(judge_size(printed, 1, exactly(0.079))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_size(printed, 1, exactly(0.064))), Verdict::fails) << "1.35 times less than 0.0875";
+    EXPECT_EQ(verdict(judge_size(printed, 1, exactly(0.34))), Verdict::fails) << "nearer to 1 than to 0.1125";
+    EXPECT_EQ(judge_size(exactly(0.5), 1, exactly(0.5)).limits, judge_size(0.5, 1, exactly(0.5)).limits);
+}
+
 TEST(Rules, DirectionsNeedIntervalsThatDoNotMeet) {
     EXPECT_EQ(verdict(judge_less({1, 0.9, 1.1}, {2, 1.5, 2.5})), Verdict::holds);
     EXPECT_EQ(verdict(judge_less({1, 0.9, 1.6}, {2, 1.5, 2.5})), Verdict::undecided);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -44,6 +45,23 @@ TEST(Seen, LooksUpWhatEachPixelSees) {
     EXPECT_GT(shadowed, 30u);
     EXPECT_LT(other, seen.queries().size() / 50) << "a fine shadow map errs only along the edges of the shadow";
     EXPECT_GT(soft, 10u) << "a wide filter has soft edges";
+}
+
+TEST(Seen, PlacesLieOnTheSurfacesThatPixelsSee) {
+    const Seen seen(document(), {});
+    std::size_t sphere = 0, ground = 0;
+    for (std::size_t q = 0; q < seen.queries().size(); ++q) {
+        const base::Vec3d& place = seen.place(q);
+        if (std::abs(place.y) < 1e-4) {
+            ++ground;
+            EXPECT_LE(std::max(std::abs(place.x), std::abs(place.z)), 4.0 + 1e-4);
+        } else {
+            ++sphere;
+            EXPECT_NEAR((place - base::Vec3d(0, 1, 0)).length(), 0.5, 1e-4);
+        }
+    }
+    EXPECT_GT(sphere, 30u);
+    EXPECT_GT(ground, 300u);
 }
 
 TEST(Seen, MakesPicturesOfValues) {
