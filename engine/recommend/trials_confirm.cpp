@@ -25,10 +25,12 @@ constexpr double capture_share = 0.1;  // seconds of capturing that one repetiti
 constexpr double narrow = 0.03;
 constexpr int least_repetitions = 7, most_repetitions = 101;
 constexpr double longest_pass = 0.025;   // seconds of lookups in one order
-constexpr int fewer_builds = 3;          // repetitions, if time runs out or build times are only shown
+constexpr int fewer_builds = 3;          // repetitions, if time runs out
+constexpr int shown_builds = 1;          // if build times are only shown
 constexpr double longest_timing = 15.0;  // seconds, after the least repetitions, if time is not limited
 constexpr double longest_again = 2.0;    // the same, of what is only timed again
-// Shares of a confirmation's time after which it goes on with fewer seeds, and with fewer builds.
+// Shares of a confirmation's time after which it goes on with fewer seeds, if builds are asked for, and with fewer
+// builds.
 constexpr double seeds_share = 0.5, builds_share = 0.85;
 
 }  // namespace
@@ -160,16 +162,18 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, const Conf
                      [&](std::size_t a, std::size_t b) { return rays_of(a) < rays_of(b); });
     std::vector<Confirmed> answers(points.size());
     std::vector<std::vector<double>> errors(points.size());
+    std::vector<double> seconds_a_seed(points.size());
     std::vector<Timed> timed;
-    bool cut = false;
+    const double seeds_until = (how.builds_asked ? seeds_share : builds_share) * how.most_seconds;
     for (int seed = 0; seed < seeds; ++seed) {
-        if (seed >= fewer_seeds && stopwatch.seconds() > seeds_share * how.most_seconds * seed / (seed + 1)) {
-            cut = true;
-            break;
-        }
         for (std::size_t done = 0; done < by_rays.size(); ++done) {
             const std::size_t i = by_rays[done];
-            if (!answers[i].failed.empty() || seed >= seeds_of(points[i], how.error)) continue;
+            if (!answers[i].failed.empty() || answers[i].cut || seed >= seeds_of(points[i], how.error)) continue;
+            const Stopwatch of_seed;
+            if (seed >= fewer_seeds && stopwatch.seconds() + seconds_a_seed[i] > seeds_until) {
+                answers[i].cut = true;
+                continue;
+            }
             if (progress_)
                 progress_({"", "checking", static_cast<std::size_t>(seed) * points.size() + done, seeds * points.size()});
             const Setting setting = space_->setting(points[i]);
@@ -182,6 +186,7 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, const Conf
                 bench::fail(attempt.contender, no_curve);
             answers[i].failed = attempt.failed();
             if (attempt.contender.ok()) errors[i].push_back(error_of(attempt.contender.cell));
+            seconds_a_seed[i] = of_seed.seconds();
             if (seed > 0 || !attempt.contender.ok()) continue;
             record(setting, *attempt.rays);
             attempt.rays = nullptr;  // many points' rays may not fit into memory together
@@ -189,9 +194,8 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, const Conf
         }
     }
     std::erase_if(timed, [&](const Timed& one) { return !answers[one.index].failed.empty(); });
-    cut = !time_builds(timed, how.builds_asked ? least_repetitions : fewer_builds, stopwatch,
-                       builds_share * how.most_seconds) ||
-          cut;
+    const bool builds_cut = !time_builds(timed, how.builds_asked ? least_repetitions : shown_builds, stopwatch,
+                                         builds_share * how.most_seconds);
     time_lookups(timed, std::isfinite(how.most_seconds) ? how.lookups_share * how.most_seconds : longest_timing);
     for (Timed& one : timed) {
         Contender& contender = one.attempt.contender;
@@ -202,7 +206,7 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, const Conf
         if (!answer.failed.empty()) continue;
         answer.error = error_interval(errors[one.index], measure_, truth_doubt_);
         answer.mean_error = metrics::mean_and_variance(errors[one.index]).mean;
-        answer.cut = cut;
+        answer.cut = answer.cut || builds_cut;
         answer.lookup_rounds = one.plan.random.ns;
         std::vector<double> whole(one.build_ms);
         for (std::size_t r = 0; r < whole.size(); ++r) whole[r] += one.capture_ms[r];
