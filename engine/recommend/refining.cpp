@@ -13,8 +13,8 @@ constexpr double leader_chance = 0.03, follower_chance = 0.15;
 // Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
 constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
 constexpr double follower_gain = 0.1;
-// How much a gain of a runner-up counts beside the same gain of the best: it is no answer, only what another technique
-// would cost.
+// If time is limited, how much a gain of a runner-up counts beside the same gain of the best: it is no answer, only what
+// another technique would cost.
 constexpr double follower_weight = 0.25;
 // Refining ends if going on for as long as everything has taken so far promises to gain less than this, as a share of
 // the costs.
@@ -27,6 +27,7 @@ constexpr double coarse_share = 0.35;  // of the time, after which points betwee
 // logarithm, times the chance of that. If it must be `likely`, chances that are too small do not count.
 double Search::gain(std::size_t family, std::size_t index, bool likely) const {
     const Knowledge& known = families_[family];
+    const double weight = std::isfinite(found_.goal.budget) ? follower_weight : 1.0;
     double sum = 0.0;
     for (std::size_t k = 0; k < costs; ++k) {
         if (!found_.goal.asked[k]) continue;
@@ -52,7 +53,7 @@ double Search::gain(std::size_t family, std::size_t index, bool likely) const {
         if (limit.leads)
             sum += chance * size(limit.cost, share);
         else
-            sum += lead * size(incumbents_.least[k], least_gain[k]) + follower_weight * chance * size(limit.cost, share);
+            sum += weight * chance * size(limit.cost, share) + (1.0 - weight) * lead * size(incumbents_.least[k], least_gain[k]);
     }
     return sum;
 }
