@@ -75,7 +75,7 @@ std::optional<std::size_t> Search::next_climb(std::size_t family) const {
 
 // The scout climbs first: the others begin where its light rays may do.
 void Search::climb() {
-    while (!stopped(exploring_share)) {
+    while (!exploring_over()) {
         std::optional<std::size_t> chosen;
         double least = infinity;
         std::size_t climbing = 0;
@@ -85,7 +85,7 @@ void Search::climb() {
             if (!rung) continue;
             ++climbing;
             const double seconds = lab_.effort(climbs_[i].rungs[*rung]);
-            if (!fits(seconds) || (answered() && seconds > probe_share * left(exploring_share))) {
+            if (!fits(seconds) || (answered() && seconds > probe_share * left_to_explore())) {
                 too_long = true;
                 continue;
             }
@@ -153,7 +153,7 @@ void Search::probe() {
             const std::size_t index = families_[from->family].lattice().index(point.step);
             if (families_[from->family].measured(index) || families_[from->family].ruled_out(index)) continue;
             const double seconds = lab_.effort(point);
-            if (seconds > probe_share * left(exploring_share) || stopped(exploring_share)) continue;
+            if (seconds > probe_share * left_to_explore() || exploring_over()) continue;
             report(Stage::refining, 1);
             measure(point);
         }

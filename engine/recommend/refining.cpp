@@ -131,11 +131,11 @@ std::optional<Point> Search::open_neighbour(bool& too_long) const {
 }
 
 void Search::refine() {
-    while (!stopped(exploring_share)) {
+    while (!exploring_over()) {
         std::size_t open = 0;
         bool too_long = false;
         std::optional<Point> next = most_promising(open, too_long);
-        if (!fine_ && (!next || (left(coarse_share) <= 0.0 && answered()))) {
+        if (!fine_ && (!next || (left() < (1.0 - coarse_share) * whole_time() && answered()))) {
             fine_ = true;
             update_all();
             continue;

@@ -22,6 +22,9 @@ constexpr double other_share = 0.2;
 constexpr double again_share = 0.1, again_share_left = 0.3;
 constexpr std::size_t most_again = 12;
 constexpr double seconds_again = 0.2;  // of one, besides building its map
+// Of the whole time, that exploring leaves at least and at most; in between it leaves so many times what confirming the
+// best settings takes.
+constexpr double least_reserve = 0.25, most_reserve = 0.45, reserved_rounds = 2.0;
 // If time is limited, trials are asked to err so many times less before anything is confirmed: the upper ends of confirmed
 // errors lie above the errors of trials by about this much, and there may be no time for another round.
 constexpr double first_growth = 1.02;
@@ -43,21 +46,48 @@ Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
     }
 }
 
-bool Search::out_of_time(double share) {
-    if (left(share) > 0.0) return false;
+// Seconds.
+double Search::whole_time() const {
+    return found_.goal.budget - began_;
+}
+
+double Search::left() const {
+    if (!hooks_.seconds || std::isinf(found_.goal.budget)) return infinity;
+    return found_.goal.budget - hooks_.seconds();
+}
+
+// What confirming the best settings takes, and a second round, and timing lookups again.
+double Search::reserve() const {
+    if (std::isinf(left())) return 0.0;
+    std::vector<Point> points;
+    for (std::size_t k = 0; k < costs; ++k) {
+        const std::optional<Point>& best = incumbents_.best[k];
+        if (found_.goal.asked[k] && best && std::find(points.begin(), points.end(), *best) == points.end())
+            points.push_back(*best);
+    }
+    double seconds = again_share * whole_time();
+    for (const Point& point : points) seconds += reserved_rounds * lab_.confirm_effort(point);
+    return std::clamp(seconds, least_reserve * whole_time(), most_reserve * whole_time());
+}
+
+bool Search::cancelled() {
+    if (hooks_.cancelled && hooks_.cancelled()) found_.end = End::cancelled;
+    return found_.end == End::cancelled;
+}
+
+bool Search::stopped() {
+    if (cancelled()) return true;
+    if (left() > 0.0) return false;
     if (found_.end == End::complete) found_.end = End::budget;
     return true;
 }
 
-// Seconds until this share is spent of the budget that was left at the start.
-double Search::left(double share) const {
-    if (!hooks_.seconds || std::isinf(found_.goal.budget)) return infinity;
-    return began_ + share * (found_.goal.budget - began_) - hooks_.seconds();
-}
-
-bool Search::stopped(double share) {
-    if (hooks_.cancelled && hooks_.cancelled()) found_.end = End::cancelled;
-    return found_.end == End::cancelled || out_of_time(share);
+bool Search::exploring_over() {
+    if (cancelled()) return true;
+    reserve_ = reserve();
+    if (left_to_explore() > 0.0) return false;
+    if (found_.end == End::complete) found_.end = End::budget;
+    return true;
 }
 
 void Search::report(Stage stage, std::size_t open) const {
@@ -125,8 +155,8 @@ void Search::share_floors(std::size_t family) {
 // Trials time one map at a time, so that they rank lookups by chance that differ by less than the machine's noise. The
 // fastest are timed again in turns before a few of them are confirmed.
 void Search::time_again() {
-    if (!found_.goal.asked[static_cast<std::size_t>(Cost::lookup)] || stopped(1.0)) return;
-    double most_seconds = std::min(again_share * (found_.goal.budget - began_), again_share_left * left(1.0));
+    if (!found_.goal.asked[static_cast<std::size_t>(Cost::lookup)] || stopped()) return;
+    double most_seconds = std::min(again_share * whole_time(), again_share_left * left());
     std::vector<Point> points;
     for (const Point& point : to_time_again(found_.families, families_, incumbents_)) {
         const double seconds = lab_.effort(point) + seconds_again;
@@ -156,24 +186,24 @@ void Search::confirm() {
     double seconds_a_point = 0.0;
     for (int round = 0; round < confirm_rounds; ++round) {
         // The first round is due even if the budget is spent: without it there is no answer.
-        if (round == 0 ? stopped(infinity) : stopped(1.0)) return;
+        if (round == 0 ? cancelled() : stopped()) return;
         std::vector<Point> points = to_confirm(found_.families, families_, found_.goal.asked, incumbents_);
         const double round_share = round == 0 ? first_round_share : 1.0;
         if (std::erase_if(points, [&](const Point& point) {
-                return !is_best(point) && lab_.confirm_effort(point) > other_share * round_share * left(1.0);
+                return !is_best(point) && lab_.confirm_effort(point) > other_share * round_share * left();
             }) > 0 && found_.end == End::complete)
             found_.end = End::budget;
         if (points.empty()) return;
-        if (static_cast<double>(points.size()) * seconds_a_point > left(1.0)) {
+        if (static_cast<double>(points.size()) * seconds_a_point > left()) {
             found_.end = End::budget;
             return;
         }
         report(Stage::confirming, points.size());
-        const double before = left(1.0);
+        const double before = left();
         const std::vector<Confirmed> answers =
             lab_.confirm(points, {found_.goal.error, found_.goal.asked[static_cast<std::size_t>(Cost::build)],
                                   round_share * std::max(before, 0.0)});
-        if (std::isfinite(before)) seconds_a_point = (before - left(1.0)) / static_cast<double>(points.size());
+        if (std::isfinite(before)) seconds_a_point = (before - left()) / static_cast<double>(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             families_[points[i].family].confirm(points[i], answers[i]);
             std::erase_if(found_.confirmed, [&](const Answered& a) { return a.point == points[i]; });

@@ -36,9 +36,6 @@ struct Hooks {
     std::function<bool()> cancelled;                // may be empty; asked before every measurement
 };
 
-// The share of the time that is left at the start after which exploring stops, so that the rest is left to confirm.
-inline constexpr double exploring_share = 0.6;
-
 // Throws Error usage if no cost is asked, or if the error or the budget is not above 0.
 Exploration explore(Lab& lab, const Goal& goal, const Hooks& hooks);
 

@@ -21,10 +21,14 @@ public:
     Exploration run();
 
 private:
-    bool out_of_time(double share);
-    bool stopped(double share);
-    double left(double share) const;
-    bool fits(double seconds) const { return seconds <= left(exploring_share); }
+    bool cancelled();
+    bool stopped();
+    bool exploring_over();
+    double whole_time() const;
+    double left() const;
+    double left_to_explore() const { return left() - reserve_; }
+    double reserve() const;
+    bool fits(double seconds) const { return seconds <= left_to_explore(); }
     void measure(const Point& point);
     void note_floor(const Point& point, double error);
     std::array<double, costs> limits(std::size_t family) const;
@@ -61,6 +65,7 @@ private:
     Lab& lab_;
     const Hooks& hooks_;
     double began_;
+    double reserve_ = 0.0;  // seconds that exploring leaves for what follows
     double spent_ = 1e-9;  // seconds of measuring, as foreseen
     Exploration found_;
     Wanted wanted_;
