@@ -212,6 +212,7 @@ void Search::confirm() {
         wanted_.trial_error = found_.goal.error / growth(found_);
         update_all();
         refine();
+        try_siblings();
         time_again();
     }
 }
@@ -220,6 +221,7 @@ Exploration Search::run() {
     climb();
     probe();
     refine();
+    try_siblings();
     time_again();
     refine();
     confirm();
