@@ -181,6 +181,7 @@ Answer answer(const Exploration& found, const Goal& goal) {
     result.measured = found.measured.size();
     result.confirmed = found.confirmed.size();
     result.end = found.end;
+    result.steal = found.steal;
     const std::vector<Choice> all = choices(found);
     std::vector<const Choice*> good, allowed;
     for (const Choice& choice : all) {

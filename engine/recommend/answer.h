@@ -69,6 +69,7 @@ struct Answer {
     std::size_t measured = 0, confirmed = 0;
     bool cut = false;  // the time to confirm ran out: intervals are wider than planned
     End end = End::complete;
+    std::optional<double> steal = {};  // see Exploration
 };
 // `goal` may ask for another error, other costs and other limits than the exploration's.
 Answer answer(const Exploration& found, const Goal& goal);

@@ -6,6 +6,7 @@
 #include "base/table.h"
 #include "recommend/answer.h"
 #include "recommend/request.h"
+#include "results/settled.h"
 
 namespace shadowbench::recommend {
 
@@ -137,6 +138,9 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
     std::vector<std::string> last = pasted;
     if (!answer.broken.empty()) last.push_back(broken_line(answer));
     if (answer.cut) last.push_back("the time to confirm ran out: intervals are wider than planned");
+    if (answer.steal && *answer.steal > results::steal_limit)
+        last.push_back(fmt::format("UNSETTLED: the host of this virtual machine took {:.0f} % of the time (steal); measure again",
+                                   100.0 * *answer.steal));
     if (answer.end == End::budget) last.push_back("the budget ended first: a cheaper setting may be left");
     if (answer.end == End::cancelled) last.push_back("cancelled: a cheaper setting may be left");
     std::vector<std::string> held = held_lines(answer);

@@ -47,6 +47,9 @@ struct Exploration {
     std::vector<Measured> measured;   // in the order of measuring, each point once
     std::vector<Answered> confirmed;  // each point once
     End end = End::complete;
+    // Seconds that the host of a virtual machine took from all processors, over those that it took in all; absent if
+    // unknown.
+    std::optional<double> steal = {};
 };
 
 }  // namespace shadowbench::recommend

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "bench/clock.h"
+#include "bench/disturbance.h"
 #include "recommend/answer.h"
 #include "recommend/record.h"
 #include "recommend/trials.h"
@@ -29,8 +30,11 @@ Explored explore(const nlohmann::json& document, const bench::RunOptions& option
     hooks.seconds = [&] { return stopwatch.seconds(); };
     if (watch.exploring)
         hooks.progress = [&](const Progress& progress) { watch.exploring(progress, stopwatch.seconds()); };
+    const std::optional<double> steal_before = bench::steal_seconds();
     Recommendation found{document.at("name").get<std::string>(), trials.light(), request.measure,
                          trials.footprint_share(), explore(trials, request.goal, hooks)};
+    if (const std::optional<double> after = bench::steal_seconds(); after && steal_before)
+        found.exploration.steal = std::max(0.0, *after - *steal_before) / stopwatch.seconds();
     return {std::move(found), trials.result()};
 }
 

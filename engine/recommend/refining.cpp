@@ -19,7 +19,7 @@ constexpr double follower_weight = 0.25;
 // Refining ends if going on for as long as everything has taken so far promises to gain less than this, as a share of
 // the costs.
 constexpr double least_promise = 0.03;
-constexpr double sibling_share = 0.1;   // of the time left, that another choice of words for a best setting may take
+constexpr double variant_share = 0.1;  // of the time left, that a variant of a best setting may take
 constexpr double coarse_share = 0.35;  // of the time, after which points between the coarse ones count too
 
 }  // namespace
@@ -131,30 +131,38 @@ std::optional<Point> Search::open_neighbour(bool& too_long) const {
     return {};
 }
 
-// A best setting with other words of its technique, as another kernel, that nothing measured rules out. Words have no
-// order and each choice has a model of its own, so what is known of one says little of another; but they often share
-// their map, and take little time.
-std::optional<Point> Search::open_sibling() const {
+// A best setting that nothing measured rules out once one thing of it is changed: one of its technique's own parameters
+// by a step to the cheaper side, or its words, as another kernel. Words have no order and each choice has a model of its
+// own, so what is known of one says little of another. The light rays are the same, and often the map, so that this
+// takes little time.
+std::optional<Point> Search::open_variant() const {
+    const auto open = [&](const Point& point) {
+        const Knowledge& known = families_[point.family];
+        const std::size_t index = known.lattice().index(point.step);
+        return !known.measured(index) && !known.ruled_out(index) && lab_.effort(point) <= variant_share * left();
+    };
     for (std::size_t k = 0; k < costs; ++k) {
         if (!found_.goal.asked[k] || !incumbents_.best[k]) continue;
         const Point& best = *incumbents_.best[k];
         const Family& family = found_.families[best.family];
+        for (std::size_t axis = 2; axis < family.axes.size(); ++axis) {
+            Point point = best;
+            if (--point.step[axis] >= 0 && open(point)) return point;
+        }
         for (std::size_t f = 0; f < families_.size(); ++f) {
             const Family& other = found_.families[f];
             const auto same_values = [](const Axis& a, const Axis& b) { return a.values == b.values; };
             if (f == best.family || other.technique != family.technique || families_[f].left_out() ||
                 !std::equal(family.axes.begin(), family.axes.end(), other.axes.begin(), other.axes.end(), same_values))
                 continue;
-            const std::size_t index = families_[f].lattice().index(best.step);
-            if (families_[f].measured(index) || families_[f].ruled_out(index)) continue;
-            if (lab_.effort({f, best.step}) <= sibling_share * left()) return Point{f, best.step};
+            if (open({f, best.step})) return Point{f, best.step};
         }
     }
     return {};
 }
 
-void Search::try_siblings() {
-    for (std::optional<Point> next; !stopped() && (next = open_sibling());) {
+void Search::try_variants() {
+    for (std::optional<Point> next; !stopped() && (next = open_variant());) {
         report(Stage::refining, 1);
         measure(*next);
     }

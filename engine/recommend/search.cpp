@@ -212,7 +212,7 @@ void Search::confirm() {
         wanted_.trial_error = found_.goal.error / growth(found_);
         update_all();
         refine();
-        try_siblings();
+        try_variants();
         time_again();
     }
 }
@@ -221,7 +221,7 @@ Exploration Search::run() {
     climb();
     probe();
     refine();
-    try_siblings();
+    try_variants();
     time_again();
     refine();
     confirm();

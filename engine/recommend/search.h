@@ -8,7 +8,7 @@
 //    1998) says where a cheaper setting may be good enough. The point with the most expected gain for its effort is
 //    measured next, first among points that are coarse steps apart, then among all, until no point is left that has a
 //    chance and is worth its effort. Bounds from measured points rule out the rest: see knowledge.h. The neighbours of
-//    the best settings are measured in any case, and so are the best settings with other words of their techniques.
+//    the best settings are measured in any case, and so are its variants with other words of the technique.
 // 3. The lookups that trials hardly tell from the fastest are timed again, in turns.
 // 4. The best settings, those within noise of them, and the runner-up of another technique are confirmed together. If
 //    one turns out to err too much, step 2 goes on with what was learned.

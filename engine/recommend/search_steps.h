@@ -55,8 +55,8 @@ private:
     std::optional<Point> seemingly_most_promising(std::size_t& open, bool& too_long);
     std::optional<Point> open_neighbour(bool& too_long) const;
     void refine();
-    std::optional<Point> open_sibling() const;
-    void try_siblings();
+    std::optional<Point> open_variant() const;
+    void try_variants();
 
     void time_again();
     bool is_best(const Point& point) const;

@@ -155,6 +155,17 @@ TEST(Answer, SaysIfConfirmingWasCut) {
     EXPECT_THAT(to_text(made.answered(), made.found.families, {"rms", {}}), HasSubstr("ran out"));
 }
 
+TEST(Answer, SaysIfTheHostTookMuchOfTheTime) {
+    Made made({"deep"});
+    made.sure(0, {2, 2, 2}, 0.018, {20, 5000, 9});
+    for (const std::optional<double> little : {std::optional<double>(), std::optional<double>(0.01)}) {
+        made.found.steal = little;
+        EXPECT_THAT(to_text(made.answered(), made.found.families, {"rms", {}}), Not(HasSubstr("steal")));
+    }
+    made.found.steal = 0.144;
+    EXPECT_THAT(to_text(made.answered(), made.found.families, {"rms", {}}), HasSubstr("took 14 % of the time (steal)"));
+}
+
 TEST(Answer, SaysWhatHoldsATechniqueBack) {
     // Of every technique, three points of a climb; the scout is "uncompressed".
     const auto climb = [](Made& made, std::size_t f, double first, double middle, double last) {

@@ -30,6 +30,7 @@ Exploration two_families() {
                           metrics::Interval{0.2, 0.3}};
     found.confirmed = {{{0, {2, 1, 0}}, confirmed}};
     found.end = End::budget;
+    found.steal = 0.125;
     return found;
 }
 
@@ -41,6 +42,10 @@ TEST(Record, IsReadBackAsItWasWritten) {
     EXPECT_EQ(read.goal.asked, found.goal.asked);
     EXPECT_EQ(read.goal.at_most, found.goal.at_most);
     EXPECT_EQ(read.end, End::budget);
+    EXPECT_EQ(read.steal, 0.125);
+    nlohmann::json earlier = written;  // written by a version that did not note it
+    earlier.erase("steal");
+    EXPECT_EQ(exploration_from_json(earlier, "result.json").steal, std::nullopt);
     EXPECT_EQ(read.scout, found.scout);
     EXPECT_EQ(read.families[0].axes[0].values, found.families[0].axes[0].values);
     EXPECT_EQ(read.measured[0].point, found.measured[0].point);

@@ -121,8 +121,8 @@ TEST(Search, LookupsThatTrialsHardlyTellApartAreTimedAgain) {
 }
 
 // Eight kernels of one technique that store the same map: the budget ends before all are explored. Whatever setting is
-// found, no other kernel looks it up in less time.
-TEST(Search, TheBestSettingIsTriedWithAllWordsOfItsTechnique) {
+// found, no other kernel looks it up in less time, and with fewer nodes it errs too much.
+TEST(Search, TheBestSettingIsTriedWithAllWordsAndCoarserParametersOfItsTechnique) {
     std::vector<Law> laws;
     for (int i = 0; i < 8; ++i) {
         Law law = usual("technique");
@@ -147,6 +147,10 @@ TEST(Search, TheBestSettingIsTriedWithAllWordsOfItsTechnique) {
             for (std::size_t f = 0; f < laws.size(); ++f)
                 EXPECT_GE(lab.cost({f, answered.point.step}, Cost::lookup), lab.cost(answered.point, Cost::lookup))
                     << "budget " << budget << ", kernel " << f;
+            Point coarser = answered.point;
+            if (--coarser.step[2] >= 0) {
+                EXPECT_GT(lab.upper_error(coarser), goal.error) << "budget " << budget;
+            }
         }
     }
 }
