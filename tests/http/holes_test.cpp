@@ -211,14 +211,11 @@ TEST_F(Holes, TooManyConnectionsAreTurnedAway) {
     follower.receive_until("queued");
     Raw busy(port());
     busy.send(
-        "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 10\r\n\r\n");
-    std::vector<std::unique_ptr<Raw>> waiting;
-    RawAnswer answer;
-    for (int i = 0; i < 50 && answer.status != 503; ++i) {
-        waiting.push_back(std::make_unique<Raw>(port()));
-        if (i < 3) continue;
-        answer = waiting.back()->receive();
-    }
+        "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nExpect: 100-continue\r\n"
+        "Content-Length: 10\r\n\r\n");
+    ASSERT_EQ(busy.receive().status, 100) << "a thread waits for its body";
+    const Raw first(port()), second(port());  // these wait for a thread
+    const RawAnswer answer = Raw(port()).receive();
     EXPECT_EQ(answer.status, 503);
     EXPECT_TRUE(answer.has("Retry-After"));
 }
