@@ -80,6 +80,7 @@ private:
     bench::QuerySet asked(const bench::QuerySet& set, const rays::LightView& view) const;
     double error_of(const results::Cell& cell) const;
     double build_seconds(const Point& point) const;
+    double judging_seconds(const Point& point) const;
     const Trial* trial_of(const Point& point) const;
     int seeds_of(const Point& point, double error) const;
     std::size_t lookups_of(const Point& point) const;

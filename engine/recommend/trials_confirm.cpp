@@ -119,12 +119,20 @@ std::vector<std::optional<double>> Trials::time_again(std::span<const Point> poi
     return answers;
 }
 
+// What comparing the answers of a measured point with the truth takes on one thread. Shadow rays take seconds.
+double Trials::judging_seconds(const Point& point) const {
+    const Trial* trial = trial_of(point);
+    if (!trial) return 0.0;
+    const double ns = trial->cost[static_cast<std::size_t>(Cost::lookup)];
+    return 1e-9 * ns * static_cast<double>(judged_.queries.size());
+}
+
 // Every seed has light rays of its own.
 double Trials::confirm_effort(const Point& point) const {
     const bench::RayChoice own{space_->resolution(point), space_->samples(point), scenario_->rays.seed};
     const double build = build_seconds(point),
                  capture = space_->uses_rays(point.family) ? store_->estimate_seconds(own) : 0.0;
-    return seeds * (capture + build + rest_of_a_trial) + fewer_builds * build;
+    return seeds * (capture + build + judging_seconds(point) + rest_of_a_trial) + fewer_builds * build;
 }
 
 const Trial* Trials::trial_of(const Point& point) const {

@@ -149,6 +149,15 @@ TEST(Trials, ConfirmWithIntervalsThatHoldTheMean) {
     }
 }
 
+// Otherwise shadow rays, which are slow, would take the time that confirming the best setting needs.
+TEST(Trials, KnowThatConfirmingSlowLookupsTakesLonger) {
+    Trials trials = trials_of(two_layers(), {"ray_traced"});
+    const Point point = point_of(trials, "ray_traced", {16, 4, 64});
+    const double unknown = trials.confirm_effort(point);
+    const double ns = trials.measure(point).cost[static_cast<std::size_t>(Cost::lookup)];
+    EXPECT_NEAR(trials.confirm_effort(point) - unknown, 5 * 500 * 1e-9 * ns, 1e-9 * ns) << "5 seeds of 500 queries";
+}
+
 // Regular rays have no seed: every repetition errs by the same.
 TEST(Trials, OfRegularRaysHaveAnExactError) {
     json document = two_layers();
