@@ -259,7 +259,22 @@ Judged in_all(const std::vector<Judged>& cases) {
     for (const Judged& one : cases)
         if (badness(one.verdict) > badness(judged.verdict)) judged.verdict = one.verdict;
     judged.limits = among("in all", cases.front());
-    if (judged.verdict == Verdict::fails && in_most(cases).verdict == Verdict::holds) judged.verdict = Verdict::in_shape;
+    if (judged.verdict != Verdict::fails) return judged;
+    std::vector<Judged> at_best = cases;
+    for (Judged& one : at_best)
+        if (one.verdict == Verdict::undecided) one.verdict = Verdict::holds;
+    if (in_most(cases).verdict == Verdict::holds)
+        judged.verdict = Verdict::in_shape;
+    else if (in_most(at_best).verdict == Verdict::holds)
+        judged.verdict = Verdict::undecided;
+    return judged;
+}
+
+Judged in_readings(const std::vector<Judged>& readings) {
+    Judged judged = readings.front();
+    judged.limits = among("in all readings", readings.front());
+    for (const Judged& one : readings)
+        if (one.verdict != judged.verdict) judged.verdict = Verdict::undecided;
     return judged;
 }
 
