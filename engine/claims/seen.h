@@ -20,9 +20,9 @@ namespace shadowbench::claims {
 
 class Seen {
 public:
-    // For a document with a camera and opaque surfaces. Its first variant counts. Throws Error{internal} for a
-    // technique that fails.
-    Seen(const nlohmann::json& document, const scene::SearchPath& data);
+    // For a document with a camera and opaque surfaces. Its first variant counts. `moved`: cells by which the whole map
+    // lies further along its own axes, in the plane that it divides. Throws Error{internal} for a technique that fails.
+    Seen(const nlohmann::json& document, const scene::SearchPath& data, const base::Vec2d& moved = {0.0, 0.0});
     Seen(const Seen&) = delete;
     Seen& operator=(const Seen&) = delete;
 

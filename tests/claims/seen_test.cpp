@@ -87,6 +87,20 @@ TEST(Seen, ChoosesDifferentQueriesOverTheWholePicture) {
     EXPECT_GT(chosen.back(), seen.queries().size() - seen.queries().size() / 50);
 }
 
+TEST(Seen, LiesInAMapThatIsMovedByCells) {
+    const Seen still(document(), {}), moved(document(), {}, {0.5, 0.25});
+    std::size_t both = 0, m = 0;
+    for (std::size_t q = 0; q < still.queries().size(); ++q) {
+        while (m < moved.queries().size() && moved.pixel(m) < still.pixel(q)) ++m;
+        if (m == moved.queries().size() || moved.pixel(m) != still.pixel(q)) continue;  // at the border of the map
+        ++both;
+        EXPECT_NEAR(moved.queries()[m].x, still.queries()[q].x - 0.5f, 1e-3f);
+        EXPECT_NEAR(moved.queries()[m].y, still.queries()[q].y - 0.25f, 1e-3f);
+        EXPECT_EQ(moved.queries()[m].z, still.queries()[q].z);
+    }
+    EXPECT_GT(both, still.queries().size() * 9 / 10);
+}
+
 TEST(Seen, RefusesATechniqueThatFails) {
     json with_tracer = document();
     with_tracer["techniques"] = json::parse(R"([{"type": "ray_traced"}])");
