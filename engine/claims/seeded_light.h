@@ -31,7 +31,7 @@ public:
 
     // Milliseconds of one thread: building the map of each technique from rays that are captured already, and last,
     // capturing them.
-    Turns build_turns(std::span<const Compared> compared) const;
+    Turns build_turns(std::span<const Compared> compared, const bench::RepeatRule& rule = build_rounds) const;
     std::size_t capture_place() const { return first_.contenders.size(); }  // of the capture among these turns
 
 private:
@@ -45,7 +45,8 @@ struct TimedLookups {
 };
 // Nanoseconds a lookup, on this thread. An untimed pass over the queries goes before each timed one, so that the caches
 // hold of a map what fits into them, whatever was looked up before.
-Turns lookup_turns(std::span<const TimedLookups> all, std::span<const Compared> compared);
+Turns lookup_turns(std::span<const TimedLookups> all, std::span<const Compared> compared,
+                   const bench::RepeatRule& rule = lookup_rounds);
 
 // The maps of several scenarios, for timing their lookups in turn.
 class TimedMaps {
@@ -58,7 +59,7 @@ public:
     void add(const Context& context, const std::string& name, const std::vector<std::string>& set,
              const std::vector<std::string>& smaller, std::size_t lookups);
 
-    Turns take(std::span<const Compared> compared) const;
+    Turns take(std::span<const Compared> compared, const bench::RepeatRule& rule = lookup_rounds) const;
 
 private:
     struct Built;
