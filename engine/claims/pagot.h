@@ -33,7 +33,7 @@ inline constexpr double never = 1e6;  // fragments a cell
 // the other one, over the fragments a cell. At least two different numbers of fragments.
 Crossing crossing_of(std::span<const std::pair<double, double>> differences);
 
-void pictures(const Context& context);  // figures 6 and 7
+void pictures(const Context& context);  // figures 1, 6 and 7
 void crossing(const Context& context);  // section 6
 
 }  // namespace shadowbench::claims::pagot
