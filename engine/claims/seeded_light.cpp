@@ -51,6 +51,11 @@ bench::QuerySet SeededLight::queries() const {
     return bench::scenario_queries(scenario, scenario.lights.front(), seen, first_.light.view);
 }
 
+bench::Truth SeededLight::truth(std::span<const techniques::Query> queries) const {
+    return bench::reference_visibility(first_.scenario.scene, first_.light.view,
+                                       bench::reference_settings(first_.scenario), queries, {});
+}
+
 std::vector<bench::Maps> SeededLight::build(int seed) const {
     rays::MapLayout layout = first_.light.layout;
     if (seed > 0) layout.seed = base::hash(layout.seed, static_cast<std::uint64_t>(seed));

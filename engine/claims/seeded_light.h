@@ -9,6 +9,7 @@
 
 #include "bench/maps.h"
 #include "bench/queries.h"
+#include "bench/reference.h"
 #include "claims/first_light.h"
 #include "claims/paper.h"
 #include "claims/turns.h"
@@ -26,6 +27,8 @@ public:
     const rays::MapLayout& layout() const { return first_.light.layout; }
     // The queries of the scenario's receivers.
     bench::QuerySet queries() const;
+    // The truth of the scenario's reference for any queries to the light.
+    bench::Truth truth(std::span<const techniques::Query> queries) const;
     // The map of every technique of the scenario, in its order. Seed 0 is the scenario's own.
     std::vector<bench::Maps> build(int seed) const;
 
