@@ -85,7 +85,8 @@ constexpr Former rows[] = {
      gpu},
     {"salvi2010", "section 5.1, figure 4", "AVSM 8 is much closer than OSM 32 and FOM 16",
      "does not hold here", "0.0219 against 0.0215 and 0.00751", "AVSM 8 matches the uncompressed picture",
-     "The columns' spacing and density are estimated from the axis of figure 7. The verdict depends on both, and curves over both are shown."},
+     "The columns' spacing and density are estimated from figure 7. The verdict depends on both, so it stands only where "
+     "all readings of them agree."},
     {"salvi2010", "section 5.2", "4, 8 and 12 nodes",
      "holds in shape", "0.0672, 0.0184, 0.00894", "curves of 4 nodes show",
      "Judged on curves of several texels, as section 5.2 does, and no longer on lookups."},
