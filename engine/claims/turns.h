@@ -21,6 +21,8 @@ inline constexpr double ratio_goal = 0.05;
 // many looks at them, intervals still hold the median as often as bench/repeat.h says: see its tests. The seconds keep
 // the timing of all papers within a few minutes.
 inline constexpr bench::RepeatRule lookup_rounds{15, 39, 10.0}, build_rounds{7, 31, 10.0};
+// Of what no single ratio tells when to stop, or of a ratio that is only asked to be above or below 1.
+inline constexpr bench::RepeatRule fixed_rounds{31, 31, 0.0};
 
 // Two of the things, by their places, whose ratio a claim judges.
 struct Compared {
