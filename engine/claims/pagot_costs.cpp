@@ -1,5 +1,5 @@
-// Pagot, Comba, Oliveira 2004: what a test on several depths costs (section 6), what selecting them costs (section 4.3),
-// and what they take to store (section 4.4).
+// Pagot, Comba, Oliveira 2004: what a test on several depths costs (section 6), what selecting them costs (section
+// 4.3), and what they take to store (section 4.4).
 #include <string>
 #include <utility>
 

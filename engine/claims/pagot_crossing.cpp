@@ -97,7 +97,7 @@ Measured measure(const Context& context) {
     std::vector<std::function<double()>> works;
     for (const Image& image : measured.images)
         for (const bench::Contender& contender : first.contenders)
-            works.push_back([&first, &tiles, &image, &contender] { return seconds_of(first, tiles, contender, image); });
+            works.push_back([&] { return seconds_of(first, tiles, contender, image); });
     for (const auto& work : works) work();  // warms up
     measured.seconds = take_turns(works, {}, fixed_rounds);
     return measured;
