@@ -50,8 +50,9 @@ TEST(SeededLight, KnowsTheTruthOfAnyQueries) {
     std::vector<std::string> set = small_ball(R"(techniques=[{"type":"deep","tolerance":0}])");
     set.push_back("reference.samples_per_pixel=64");
     const SeededLight light(context, "lokovic2000_ball", set, {"rays.resolution=32"});
+    const bench::QuerySet asked = light.queries();
     std::vector<techniques::Query> behind_all, before_all;
-    for (const techniques::Query& query : light.queries().queries) {
+    for (const techniques::Query& query : asked.queries) {
         behind_all.push_back({query.x, query.y, light.layout().z_max + 1.0f, 1.0f});
         before_all.push_back({query.x, query.y, light.layout().z_min - 1.0f, 1.0f});
     }
