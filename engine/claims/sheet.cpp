@@ -36,8 +36,12 @@ Sheet picture_sheet(const Context& context, const std::string& name, const std::
         sheet.caption += fmt::format("; {} {} (rms {:.2g}, FLIP {:.2g})", panels.size(), label, pictures.shaded.rms,
                                      pictures.shaded.flip_mean);
     }
-    sheet.caption +=
-        ". Below: the reference's visibility, then each difference from the reference, times four, dark on white";
+    sheet.caption += fmt::format(
+        ". Below: the reference's visibility, then each difference from the reference, times four, dark on white. In "
+        "brackets: rms difference of the linear values of the picture above from those of the reference, over all "
+        "pixels, and FLIP's mean; both are of this one picture. The visibility of the reference has a standard error "
+        "of rms {:.2g}",
+        rendering.reference_standard_error);
     sheet.png = render::encode_png(side_by_side(panels));
     return sheet;
 }
