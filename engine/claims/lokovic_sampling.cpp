@@ -157,8 +157,8 @@ void times_over_samples(const Rows& measured, PaperReport& report) {
                              fmt::format("from N = 4 to 256 the slowest takes {} times as long as the fastest",
                                          to_text(spread)),
                              judge_constant(spread),
-                             "Judged over all N of the table but 1: the paper's has rows of fewer than 4 x 4 samples. 64 "
-                             "times the samples would cost 64 times the tests in a depth map.",
+                             "Judged over all N of the table but 1: the paper's has rows of fewer than 4 x 4 samples. "
+                             "64 times the samples would cost 64 times the tests in a depth map.",
                              {spread}});
     const Value growth = measured.ns.ratio(Rows::depth(most), Rows::depth(few));
     report.claims.push_back({"section 6, figure 7",

@@ -20,6 +20,7 @@ constexpr double much = 0.3;                                 // "much less" is a
 constexpr double alike = 1.1, similar = 1.5;                 // factors
 constexpr double fits = 0.02, fits_roughly = 0.05;           // of visibility
 constexpr double grey_step = 1.0 / 255.0;                    // of a picture of 8 bits
+constexpr double edge_step = 1.0;                            // pixels
 
 constexpr Rule rules[] = {
     {"ratio", "A is r times B", "the ratio is within a factor of 1.5 of r",
@@ -56,6 +57,8 @@ constexpr Rule rules[] = {
     {"fit", "a stored function fits almost exactly", "its largest error is at most 0.02", "at most 0.05",
      "0.02 are five grey levels of 8 bits, at the single worst depth."},
     {"unnoticed", "a difference is not noticed", "it is at most 1/255", "-", "One grey level of a picture of 8 bits."},
+    {"offset", "a boundary's offset is not noticed", "the boundary is moved by at most a pixel of the picture, on average",
+     "-", "A picture shows the place of an edge to a pixel."},
     {"count", "a number of outcomes is reached", "it is reached in every entry and never exceeded",
      "never exceeded, but not always reached", "Counting is exact."},
     {"construction", "a size or a format", "not judged: the technique cannot do otherwise", "-",
@@ -213,6 +216,10 @@ Judged judge_fit(const Value& largest_error) {
 
 Judged judge_unnoticed(const Value& difference) {
     return judge("unnoticed", absolute(difference), {-infinity, grey_step});
+}
+
+Judged judge_offset(const Value& pixels) {
+    return judge("offset", absolute(pixels), {-infinity, edge_step});
 }
 
 Judged judge_count(int exact, int over, int entries) {

@@ -56,6 +56,7 @@ Judged judge_likeness(const Value& share);
 Judged judge_visible(const Value& factor);
 Judged judge_fit(const Value& largest_error);
 Judged judge_unnoticed(const Value& difference);
+Judged judge_offset(const Value& pixels);
 Judged judge_count(int exact, int over, int entries);  // entries that reach the number, that exceed it, of all
 Judged by_construction(bool kept);
 Judged not_comparable();

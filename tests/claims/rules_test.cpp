@@ -29,7 +29,7 @@ TEST(Rules, AreNamedOnce) {
           judge_constant(exactly(1)), judge_growth(exactly(3)), judge_negligible(exactly(0)),
           judge_less(exactly(1), exactly(2)), judge_much_less(exactly(1), exactly(2)), judge_alike(exactly(1), exactly(1)),
           judge_visible(exactly(2)), judge_likeness(exactly(0)), judge_fit(exactly(0)), judge_unnoticed(exactly(0)),
-          judge_count(1, 0, 1), by_construction(true), not_comparable()})
+          judge_offset(exactly(0)), judge_count(1, 0, 1), by_construction(true), not_comparable()})
         EXPECT_TRUE(ids.count(judged.rule)) << judged.rule;
 }
 
@@ -108,6 +108,9 @@ TEST(Rules, AlikeHasTwoSides) {
     EXPECT_EQ(verdict(judge_visible(exactly(1.05))), Verdict::fails);
     EXPECT_EQ(verdict(judge_unnoticed({-0.001, -0.003, 0.002})), Verdict::holds);
     EXPECT_EQ(verdict(judge_unnoticed(exactly(-0.01))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_offset({0.8, 0.7, 0.9})), Verdict::holds);
+    EXPECT_EQ(verdict(judge_offset({0.9, 0.7, 1.1})), Verdict::undecided);
+    EXPECT_EQ(verdict(judge_offset({-4.0, -5.0, -3.0})), Verdict::fails) << "to either side";
 }
 
 TEST(Rules, ALikenessIsMuchLessDifferent) {
@@ -177,7 +180,8 @@ TEST(Rules, AWiderIntervalSaysTheSameOrNothing) {
                            [](const Value& v) { return judge_visible(v); },
                            [](const Value& v) { return judge_fit(v); },
                            [](const Value& v) { return judge_unnoticed(v); },
-                           [](const Value& v) { return judge_unnoticed(v - exactly(0.01)); }};
+                           [](const Value& v) { return judge_unnoticed(v - exactly(0.01)); },
+                           [](const Value& v) { return judge_offset(v); }};
     base::Random random(1);
     std::size_t decided = 0;
     for (int i = 0; i < 3000; ++i) {
