@@ -13,12 +13,6 @@ namespace {
 
 const std::string over_lights = "; means over five lights and views";  // for titles of tables
 
-Value ratio(const std::vector<double>& a, const std::vector<double>& b) {
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < a.size(); ++i) ratios.push_back(a[i] / b[i]);
-    return mean_of(ratios);
-}
-
 // A distance of two pictures.
 struct Distance {
     Value rms, flip;
@@ -30,7 +24,7 @@ Distance distance(const Apart& apart) {
     return {mean_of(apart.rms), mean_of(apart.flip)};
 }
 Distance ratio(const Apart& a, const Apart& b) {
-    return {ratio(a.rms, b.rms), ratio(a.flip, b.flip)};
+    return {mean_ratio_of(a.rms, b.rms), mean_ratio_of(a.flip, b.flip)};
 }
 
 // `smaller` on several depths looks like `larger` on one. Without the paper's idea, the smaller kernel on one depth
@@ -109,8 +103,8 @@ void figure_7(Views& views, PaperReport& report) {
          "Both have kernels of 3 x 3, the standard map has 4 x 4.",
          {share.rms, share.flip, in_one.rms, in_one.flip}});
     const std::vector<double>& wide = views.numbers(standard).transition;
-    const Value of_two_share = ratio(views.numbers(two).transition, wide),
-                of_three_share = ratio(views.numbers(three).transition, wide);
+    const Value of_two_share = mean_ratio_of(views.numbers(two).transition, wide),
+                of_three_share = mean_ratio_of(views.numbers(three).transition, wide);
     report.claims.push_back(
         {"section 5, figure 7",
          "the 2-SM's transition is thinner than that of the standard map",
@@ -138,7 +132,7 @@ void better_estimates(const std::vector<Case>& cases, PaperReport& report) {
     std::vector<Value> values;
     for (const Case& one : cases) {
         const std::size_t ours = one.ours().best_width(), plain = one.plain().best_width();
-        const Value share = ratio(one.ours().error[ours], one.plain().error[plain]);
+        const Value share = mean_ratio_of(one.ours().error[ours], one.plain().error[plain]);
         texts.push_back(
             fmt::format("{}: {} ({:g} and {:g} cells)", one.name(), to_text(share), widths[ours], widths[plain]));
         judged.push_back(judge_less(share, exactly(1.0)));
@@ -160,7 +154,7 @@ void less_aliasing(const std::vector<Case>& cases, PaperReport& report) {
     std::vector<Judged> judged;
     std::vector<Value> values;
     for (const Case& one : cases) {
-        const Value share = ratio(one.ours().aliasing, one.plain().aliasing);
+        const Value share = mean_ratio_of(one.ours().aliasing, one.plain().aliasing);
         texts.push_back(fmt::format("{}: {}", one.name(), to_text(share)));
         judged.push_back(judge_much_less(share, exactly(1.0)));
         values.push_back(share);

@@ -25,6 +25,8 @@ public:
                 const std::vector<std::string>& smaller);
 
     const rays::MapLayout& layout() const { return first_.light.layout; }
+    const rays::LightView& view() const { return first_.light.view; }
+    const scene::Scenario& scenario() const { return first_.scenario; }
     // The queries of the scenario's receivers.
     bench::QuerySet queries() const;
     // The truth of the scenario's reference for any queries to the light.
