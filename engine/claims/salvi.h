@@ -11,8 +11,8 @@ inline constexpr const char* columns = "salvi2010_columns";
 inline constexpr const char* hair_in_smoke = "salvi2010_hair";
 inline constexpr const char* level = "salvi2010_level";
 
-// One grey level of a picture of 8 bits: the limit of the rule "unnoticed".
-inline constexpr double grey_level = 1.0 / 255.0;
+// One grey level of a picture of 8 bits: the limit of the rule "unnoticed". And the farthest limit of the rule "fit".
+inline constexpr double grey_level = 1.0 / 255.0, rough_fit = 0.05;
 
 // The settings of a first look: a quarter of the texels.
 nlohmann::json with_size(nlohmann::json document, const Context& context);

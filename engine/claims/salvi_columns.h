@@ -1,12 +1,12 @@
-// The three smoke columns of Salvi et al. 2010, figures 4 and 7, in other arrangements: the paper gives neither their
-// spacing nor their density.
+// The scenes of Salvi et al. 2010 in other arrangements: the paper gives neither the spacing of the three columns of
+// figures 4 and 7, nor how dense smoke and hair are.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 
 namespace shadowbench::claims::salvi {
 
-// Of salvi2010_columns, along the light; estimated from the axis of figure 7. At the other distance a column is a
+// Of the columns, along the light; estimated from the axis of figure 7. At the other distance a column is a
 // 25th of the depth range deep, as a drop of figure 7 that takes much less than a step of the axis would have it.
 inline constexpr double own_spacing = 4.5, far_spacing = 12.0;
 

@@ -7,11 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/ray_source.h"
 #include "claims/salvi.h"
 #include "claims/salvi_columns.h"
 #include "claims/salvi_view.h"
-#include "rays/capture.h"
 
 namespace shadowbench::claims::salvi {
 namespace {
@@ -66,27 +64,11 @@ constexpr Smoke thin = {"estimated from figure 7", 1.0}, dense = {"three times a
 
 struct Range {
     double depth = 0.0;  // that the columns cover
-    OverSeeds rms;
+    OverSeeds rms;       // of curves
 };
 struct Ranges {
     std::vector<Range> thin, dense;
 };
-
-// Adds the curve errors of one scene, the RMS over texels of each texel's largest error, and returns its depth range.
-double curve_errors(const nlohmann::json& document, const Context& context, OverSeeds& rms) {
-    FirstLight first(document, context.data);
-    const rays::MapLayout& layout = first.light.layout;
-    const rays::Capture capture(first.scenario.scene, first.light.view, layout);
-    const auto unwatched = [](std::size_t) {};
-    const bench::MemoryLimits limits;
-    const bench::RaySource source(capture, layout, limits.kept_rays, unwatched);
-    bench::build_all(first.contenders, source, first.input(), limits.all, unwatched);
-    bench::check_functions(first.contenders, source, layout, unwatched);
-    results::LightResult result;
-    for (bench::Contender& contender : first.contenders) result.cells.push_back(std::move(contender.cell));
-    for (std::size_t m = 0; m < methods; ++m) rms[m].push_back(cell_of(result, techniques[m]).curve.value().norms.rms);
-    return static_cast<double>(layout.z_max) - layout.z_min;
-}
 
 Range measure_range(const Context& context, double spacing, const Smoke& smoke) {
     Range range;
@@ -96,7 +78,9 @@ Range measure_range(const Context& context, double spacing, const Smoke& smoke) 
         document["rays"]["resolution"] = context.quick ? 48 : 96;
         document["techniques"] = nlohmann::json::parse(list);
         document["techniques"].erase(methods);  // curves are compared with the rays themselves
-        range.depth = curve_errors(document, context, range.rms);
+        const MapErrors errors = map_errors(document, context);
+        range.depth = errors.depth;
+        for (std::size_t m = 0; m < methods; ++m) range.rms[m].push_back(errors.rms[m]);
     }
     return range;
 }
@@ -116,8 +100,8 @@ std::vector<Range> measure_ranges(const Context& context, const Smoke& smoke, Ta
 }
 
 Ranges over_range(const Context& context) {
-    Table table{"Section 5.1: curve error rms (over texels, of each curve's largest error) over the depth range of three "
-                "smoke columns; medians over six scenes",
+    Table table{"Section 5.1: curve error rms (over texels, of each curve's largest error) over the depth range of "
+                "three smoke columns; medians over six scenes",
                 header_of({"smoke", "depth range"}),
                 {}};
     Plot plot{
