@@ -11,15 +11,12 @@
 #include "render/image_file.h"
 
 namespace shadowbench::claims::volume {
-namespace {
 
 const scene::Object& volume_of(const scene::Scenario& scenario) {
     for (const scene::Object& object : scenario.scene.objects)
         if (std::holds_alternative<scene::GridVolume>(object.shape)) return object;
     throw base::Error(base::ErrorCode::internal, scenario.name, "the scene has no grid volume");
 }
-
-}  // namespace
 
 void with_map(const Context& context, const char* name, int resolution,
               const std::function<void(const VolumeMap&)>& use) {

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "claims/volume_crossings.h"
 #include "claims/volume_map.h"
+#include "claims/volume_rays.h"
 #include "rays/grid_media.h"
 
 namespace shadowbench::claims::volume {
@@ -55,6 +57,42 @@ TEST(VolumeChannels, OfAMapAreThoseOfTheExactLightRays) {
             }
         EXPECT_GT(met, 50);
     });
+}
+
+TEST(VolumeViews, GoAroundTheTarget) {
+    scene::Camera camera;
+    camera.position = {4, 2, 0};
+    camera.target = {1, 1, 0};
+    const base::Vec3d half = turned(camera, 180.0).position, quarter = turned(camera, 90.0).position;
+    EXPECT_LT((half - base::Vec3d(-2, 2, 0)).length(), 1e-12);
+    EXPECT_LT((quarter - base::Vec3d(1, 2, -3)).length(), 1e-12);
+    EXPECT_EQ(turned(camera, 0.0).position, camera.position);
+}
+
+TEST(VolumeViews, NumbersAreOverTheRaysThroughTheBox) {
+    std::vector<render::BoxRay> rays(3);
+    rays[0].back = rays[2].back = 1.0;  // the second misses the box
+    const std::vector<double> a{1.0, 9.0, 2.0}, b{1.0, 0.0, 0.0};
+    EXPECT_DOUBLE_EQ(rms(rays, a, b), std::sqrt(2.0));
+    EXPECT_DOUBLE_EQ(mean(rays, a), 1.5);
+}
+
+TEST(VolumeCrossings, HaveANumberForEachSeed) {
+    PaperReport report;
+    Context context;
+    context.scenarios = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios/papers";
+    context.quick = true;
+    context.report = &report;
+    const Crossings box = measure_crossings(context, data_sets[0]);
+    ASSERT_EQ(box.all.smooth.size(), static_cast<std::size_t>(views));
+    for (std::size_t seed = 0; seed < box.all.smooth.size(); ++seed) {
+        EXPECT_LT(box.all.apart[seed], box.few.apart[seed]) << "a step is at most as long as its map lets it be";
+        EXPECT_LT(box.all.light_apart[seed], box.few.light_apart[seed]);
+        EXPECT_GT(box.all.light_apart[seed], 0.0);
+        EXPECT_LT(box.all.smooth[seed], box.shadow_map[seed]);
+        if (seed > 0) EXPECT_NE(box.all.smooth[seed], box.all.smooth[0]) << "of other rays";
+    }
+    EXPECT_EQ(box.builds.times.size(), 3u);
 }
 
 TEST(VolumeSheet, PutsPicturesInRows) {
