@@ -103,8 +103,8 @@ std::vector<Column> columns_of(const Experiment& e) {
 
 void add_table(const std::vector<Column>& columns, PaperReport& report) {
     const Growth& first = columns.front().vertices;
-    Table table{fmt::format("Figure 8: vertices a pixel; means over {} seeds of the light rays up to N = {:.0f}, then of "
-                            "one seed",
+    Table table{fmt::format("Figure 8: vertices a pixel; means over {} seeds of the light rays up to N = {:.0f}, "
+                            "then of one seed",
                             ray_seeds, first.x(first.with_all_seeds() - 1)),
                 {"N"},
                 {}};
