@@ -115,6 +115,10 @@ std::string among(const char* which, const Judged& one) {
     return one.limits.empty() ? which : fmt::format("{}: {}", which, one.limits);
 }
 
+std::string joined(const std::string& x, const std::string& y, const char* between) {
+    return x.empty() || x == y ? y : y.empty() ? x : x + between + y;
+}
+
 // From the best to the worst of a claim's parts.
 int badness(Verdict verdict) {
     switch (verdict) {
@@ -236,9 +240,6 @@ Judged not_comparable() {
 }
 
 Judged both(const Judged& a, const Judged& b) {
-    const auto joined = [](const std::string& x, const std::string& y, const char* between) {
-        return x.empty() || x == y ? y : y.empty() ? x : x + between + y;
-    };
     return {badness(a.verdict) > badness(b.verdict) ? a.verdict : b.verdict, joined(a.rule, b.rule, ", "),
             joined(a.limits, b.limits, "; ")};
 }
@@ -279,9 +280,14 @@ Judged in_all(const std::vector<Judged>& cases) {
 
 Judged in_readings(const std::vector<Judged>& readings) {
     Judged judged = readings.front();
-    judged.limits = among("in all readings", readings.front());
-    for (const Judged& one : readings)
+    const Judged* last = &readings.front();
+    for (const Judged& one : readings) {
         if (one.verdict != judged.verdict) judged.verdict = Verdict::undecided;
+        if (one.rule != last->rule) judged.rule = joined(judged.rule, one.rule, ", ");
+        if (one.limits != last->limits) judged.limits = joined(judged.limits, one.limits, "; ");
+        last = &one;
+    }
+    judged.limits = among("in all readings", judged);
     return judged;
 }
 

@@ -30,6 +30,7 @@ void measure_salvi(const Context& context) {
     depth_range(context);
     pictures(context);
     texels(context);
+    sampling(context);
     orders(context);
     streaming_times(context);
     drift(context);

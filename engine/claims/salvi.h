@@ -25,6 +25,7 @@ void table_1(const Context& context);          // section 5.3, table 1: times an
 void depth_range(const Context& context);      // section 5.1, figure 4
 void pictures(const Context& context);         // section 5.1, figures 3 and 5
 void texels(const Context& context);           // section 5.2, figures 6 and 7
+void sampling(const Context& context);         // section 3.3: between nodes
 void orders(const Context& context);           // section 4.1: segments that are not sorted
 void streaming_times(const Context& context);  // section 5.3: the costs of sorting and of streaming
 void drift(const Context& context);            // section 3.2: why nodes must not move

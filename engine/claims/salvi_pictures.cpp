@@ -13,29 +13,9 @@
 namespace shadowbench::claims::salvi {
 namespace {
 
-// Differences of pictures, one a seed.
-struct Differences {
-    std::vector<double> rms, flip, most;
-
-    void add(const Difference& one) {
-        rms.push_back(one.rms);
-        flip.push_back(one.flip);
-        most.push_back(one.most);
-    }
-    // "Perceptible" is read in two ways: over the whole picture, and at 99 % of its pixels.
-    Judged unnoticed() const {
-        return in_readings({judge_unnoticed(median_of(rms)), judge_unnoticed(median_of(most))});
-    }
-    std::string text() const {
-        return fmt::format("rms {}, 99 % of the pixels by at most {}, mean FLIP {}", to_text(median_of(rms)),
-                           to_text(median_of(most)), to_text(median_of(flip)));
-    }
-    std::vector<Value> values() const { return {median_of(rms), median_of(most), median_of(flip)}; }
-};
-
 // AVSM with 12 nodes beside a deep shadow map of tolerance 0.002, in a scene of opaque things and smoke.
 void figure_3(const Context& context) {
-    Differences to_deep, to_all, eight;
+    SeededDifferences to_deep, to_all, eight;
     std::vector<double> largest, mean;  // of curves of 8 nodes
     for (int k = 0; k < seeds; ++k) {
         nlohmann::json document = with_size(with_seeds(context.document(level), k), context);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -28,6 +29,25 @@ void note(const nlohmann::json& document, const Context& context) {
 }
 
 }  // namespace
+
+void SeededDifferences::add(const Difference& one) {
+    rms.push_back(one.rms);
+    flip.push_back(one.flip);
+    most.push_back(one.most);
+}
+
+Judged SeededDifferences::unnoticed() const {
+    return in_readings({judge_unnoticed(median_of(rms)), judge_unnoticed(median_of(most))});
+}
+
+std::string SeededDifferences::text() const {
+    return fmt::format("rms {}, 99 % of the pixels by at most {}, mean FLIP {}", to_text(median_of(rms)),
+                       to_text(median_of(most)), to_text(median_of(flip)));
+}
+
+std::vector<Value> SeededDifferences::values() const {
+    return {median_of(rms), median_of(most), median_of(flip)};
+}
 
 View::View(const nlohmann::json& document, const Context& context)
     : first_(document, context.data), tiles_(first_.tiles()) {

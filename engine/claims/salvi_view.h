@@ -20,6 +20,17 @@ struct Difference {
     double most = 0.0;  // of the channel that differs most; 99 % of the pixels that see anything differ by no more
 };
 
+// Differences of pictures, one a seed; medians.
+struct SeededDifferences {
+    std::vector<double> rms, flip, most;
+
+    void add(const Difference& one);
+    // "Perceptible" is read in two ways: over the whole picture, and at 99 % of its pixels.
+    Judged unnoticed() const;
+    std::string text() const;  // "rms 0.01 [...], 99 % of the pixels by at most ..., mean FLIP ..."
+    std::vector<Value> values() const;
+};
+
 // What the camera of a scenario sees, and the light rays of its first light, captured once.
 class View {
 public:

@@ -157,6 +157,9 @@ TEST(Rules, ReadingsThatDisagreeDecideNothing) {
     EXPECT_EQ(verdict(in_readings({good, shape})), Verdict::undecided);
     EXPECT_EQ(verdict(in_readings({bad, open})), Verdict::undecided);
     EXPECT_EQ(in_readings({good, good}).limits, "in all readings: " + good.limits);
+    const Judged constant = judge_constant(exactly(1));
+    EXPECT_EQ(in_readings({good, good, constant}).rule, "fit, constant");
+    EXPECT_EQ(in_readings({good, good, constant}).limits, "in all readings: " + good.limits + "; " + constant.limits);
 }
 
 // A first look has other intervals than the full report. Where they hold those of the report, the next two tests leave
