@@ -78,8 +78,8 @@ std::vector<std::string> settings(int resolution, int samples, int reference, co
             set_techniques(techniques)};
 }
 
-// The filter covers 4 x 4 cells of the smaller map, in which it would take 16 samples at most if it took fewer along
-// each side.
+// The filter covers 4 x 4 cells of the smaller map. Percentage closer filtering takes one sample for each of so few,
+// unless MinSamples asks for more.
 constexpr const char* more_than_cells =
     R"({"type":"pcf","num_samples":64,"res_factor":1,"min_size":0,"min_samples":8})";
 
