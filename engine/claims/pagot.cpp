@@ -102,7 +102,7 @@ void measure_pagot(const Context& context) {
         "paper compares pictures by eye. Here the visibilities that the camera sees are compared, pixel by pixel over "
         "the whole picture: their rms difference, and FLIP's mean (Andersson et al. 2020), which weighs differences as "
         "an eye does. Times are of the flat scene, medians over rounds on one thread, where the paper used a GPU. "
-        "Table 1 keeps other depths; its claim says which. Hardware (section 4.4) is not tested.",
+        "Table 1 keeps other depths; its claim says which. Hardware that selects depths (section 4.4) is not tested.",
         context.quick ? 256 : 512, pagot::lights, 360 / pagot::lights);
     table_1(context);
     pagot::pictures(context);

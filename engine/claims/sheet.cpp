@@ -16,7 +16,9 @@ Sheet picture_sheet(const Context& context, const std::string& name, const std::
     options.run.threads = context.threads;
     options.size = context.quick ? base::Vec2i(192, 144) : base::Vec2i(512, 384);
     options.rays_per_side = context.quick ? 1 : 2;
-    const render::Rendering rendering = render::render(context.document(name, set), options, context.progress);
+    const nlohmann::json document = context.document(name, set);
+    note_document(context, name, document);
+    const render::Rendering rendering = render::render(document, options, context.progress);
 
     const render::Image& reference = rendering.reference.shaded;
     const double exposure = print_exposure(reference, rendering.seen);

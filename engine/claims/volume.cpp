@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/read_text.h"
 #include "claims/paper.h"
 #include "claims/sheet.h"
 #include "claims/texel.h"
@@ -14,7 +13,6 @@
 #include "claims/volume_crossings.h"
 #include "claims/volume_rays.h"
 #include "claims/volume_sets.h"
-#include "document/document.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -181,14 +179,16 @@ void memory(const Sets& sets, PaperReport& report) {
 
 // The function of one ray beside what maps keep of it.
 void curve_figure(const Context& context, const DataSet& set) {
-    const std::filesystem::path file = context.scenarios / (std::string(set.scenario) + ".json");
-    nlohmann::json document = scene::parse_json(base::read_text(file), file.string());
-    document::set_value(document, "rays.resolution=128");
-    document::set_value(
-        document, R"(techniques=[{"type":"volume_deep","cells":"sample"},{"type":"avsm","cells":"sample","nodes":4}])");
+    const nlohmann::json document = context.document(
+        set.scenario,
+        {"rays.resolution=128",
+         R"(techniques=[{"type":"volume_deep","cells":"sample"},{"type":"avsm","cells":"sample","nodes":4}])"});
+    note_document(context, set.scenario, document);
     const TexelCurves curves = busiest_texel(document, context.data);
     context.report->plots.push_back({fmt::format("volume_{}", set.name),
-                                     fmt::format("{}: light along the ray of the most segments", set.name),
+                                     fmt::format("{}: light along the ray of the most segments among those that keep "
+                                                 "more than 0.3 of it at half the depth of the map",
+                                                 set.name),
                                      "depth from light", "visibility", false, false, curves.series});
 }
 

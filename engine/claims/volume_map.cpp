@@ -24,6 +24,7 @@ void with_map(const Context& context, const char* name, int resolution,
         name, {fmt::format("rays.resolution={}", resolution),
                fmt::format(R"(techniques=[{{"type":"volume_deep","cells":"sample","filter":"point","steps":{}}}])",
                            map_steps)});
+    note_document(context, name, document);
     const FirstLight first(document, context.data);
     const bench::Maps maps = first.build(first.contenders.front(), first.tiles());
     const scene::Object& object = volume_of(first.scenario);

@@ -12,6 +12,14 @@
 namespace shadowbench::claims::volume {
 namespace {
 
+Context quick_context(PaperReport& report) {
+    Context context;
+    context.scenarios = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios/papers";
+    context.quick = true;
+    context.report = &report;
+    return context;
+}
+
 TEST(VolumeChannels, AreTheDepthsOfTheLevelsAndTheLoss) {
     const Channels all = channels_of(curves::Curve{{1, 1}, {1, 0.9f}, {2, 0.5f}, {4, 0.1f}, {4, 0.05f}});
     EXPECT_EQ(all.depth, (std::array<float, 3>{1, 2, 4}));
@@ -30,8 +38,8 @@ TEST(VolumeChannels, OfALevelThatIsNotReachedIsWhereAllIsLost) {
 
 // The channels of the committed box, against the exact optical depth along each light ray.
 TEST(VolumeChannels, OfAMapAreThoseOfTheExactLightRays) {
-    Context context;
-    context.scenarios = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios/papers";
+    PaperReport report;
+    const Context context = quick_context(report);
     with_map(context, "volume_box", 24, [](const VolumeMap& map) {
         const rays::GridMedia media(map.scenario.scene, true);
         const double step = (map.view.z_max - map.view.z_min) / map_steps;
@@ -79,10 +87,7 @@ TEST(VolumeViews, NumbersAreOverTheRaysThroughTheBox) {
 
 TEST(VolumeCrossings, HaveANumberForEachSeed) {
     PaperReport report;
-    Context context;
-    context.scenarios = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios/papers";
-    context.quick = true;
-    context.report = &report;
+    const Context context = quick_context(report);
     const Crossings box = measure_crossings(context, data_sets[0]);
     ASSERT_EQ(box.all.smooth.size(), static_cast<std::size_t>(views));
     for (std::size_t seed = 0; seed < box.all.smooth.size(); ++seed) {
