@@ -55,8 +55,8 @@ constexpr Rule rules[] = {
      "another picture. What looks like B must differ from B much less than that one does."},
     {"visible", "a difference is visible", "one error is more than 10 % larger", "-", "The counterpart of alike."},
     {"fit", "a stored function fits almost exactly", "its largest error is at most 0.02", "at most 0.05",
-     "0.02 are five grey levels of 8 bits, at the single worst depth. A claim that is also read by the mean over depth "
-     "has the same limits for it."},
+     "0.02 are five grey levels of 8 bits, at the single worst depth. A claim that is also read by the mean over "
+     "depth has the same limits for it."},
     {"unnoticed", "a difference is not noticed", "it is at most 1/255", "-", "One grey level of a picture of 8 bits."},
     {"offset", "a boundary's offset is not noticed", "the boundary is moved by at most a pixel of the picture, on average",
      "-", "A picture shows the place of an edge to a pixel."},

@@ -168,8 +168,9 @@ void figure_4(const Context& context, const Ranges& ranges) {
          "The paper gives neither the columns' spacing nor their density, nor a measure of what is close. Both are "
          "estimated from figure 7: the spacing from its axis, on which each column is about a tenth of the depth range "
          "deep, and the density from its drops (see the scenario). Read in 14 ways: pictures by rms and by FLIP, with "
-         "two kinds of smoke, and curves at five spacings with both. Each row of the two tables says what it would be "
-         "alone. The paper adds that in still images the others' artifacts do not appear problematic.",
+         "two kinds of smoke; and, with both, curves at five spacings, at most of which the columns leave the camera's "
+         "view. Each row of the two tables says what it would be alone. The paper adds that in still images the "
+         "others' artifacts do not appear problematic.",
          values});
 }
 
