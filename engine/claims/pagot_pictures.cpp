@@ -164,7 +164,8 @@ void less_aliasing(const std::vector<Case>& cases, PaperReport& report) {
          fmt::format("aliasing rms over that of the same kernel on one depth: {}", fmt::join(texts, "; ")),
          in_all(judged),
          "Aliasing is what depends on where the cells lie: the difference of pictures in four phases from their mean. "
-         "More outcomes make its steps smaller, and more of them.",
+         "More outcomes make smaller steps, but more of them. The paper adds: with a small increase in cost; that is "
+         "judged with section 6.",
          std::move(values)});
 }
 

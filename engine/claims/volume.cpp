@@ -186,9 +186,7 @@ void curve_figure(const Context& context, const DataSet& set) {
     note_document(context, set.scenario, document);
     const TexelCurves curves = busiest_texel(document, context.data);
     context.report->plots.push_back({fmt::format("volume_{}", set.name),
-                                     fmt::format("{}: light along the ray of the most segments among those that keep "
-                                                 "more than 0.3 of it at half the depth of the map",
-                                                 set.name),
+                                     fmt::format("{}: light along one ray of many segments", set.name),
                                      "depth from light", "visibility", false, false, curves.series});
 }
 
@@ -202,8 +200,10 @@ void measure_volume(const Context& context) {
         "mean over a footprint of a texel's width; where one texel is named, and in figures 2 and 3, they answer from "
         "one texel. Light rays are regular, through the middles of texels; where seeds are named, they are jittered. "
         "Figure 3 is drawn by the paper's renderer of two passes; its errors are of view rays through random places of "
-        "the pixels, with the median over {} views around the volume and their range. The paper's future work (one "
-        "pass, coloured shadows, several volumes) is not measured, nor are the streaks that it explains by its data.",
+        "the pixels, with the median over {} views around the volume and their range. Plots show the ray of the most "
+        "segments among those that keep more than 0.3 of their light at half the depth of a map of 128 x 128 texels. "
+        "The paper's future work (one pass, coloured shadows, several volumes) is not measured, nor are the streaks "
+        "that it explains by its data.",
         std::size(data_sets), volume::views);
     Sets sets;
     std::vector<Crossings> crossings;
