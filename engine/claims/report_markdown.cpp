@@ -18,7 +18,7 @@ constexpr const char* introduction =
     "- Of a time: the number is the median over repetitions.\n"
     "- Of a ratio of times: the number is the median of the ratios of each repetition. What is compared takes turns, "
     "so that a machine that slows down slows both. Repetitions go on until the interval is within 5 % of the ratio, or "
-    "a limit of time is reached.\n"
+    "a limit of time is reached; where no single ratio is judged by its size, their number is fixed.\n"
     "- Of an error rms: the number is the error expected over seeds of the light rays against the exact truth. The "
     "truth is a mean of rays too; its noise is taken off. The interval covers the noise of both; if the light rays are "
     "regular, only that of the truth.\n"
