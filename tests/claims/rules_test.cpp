@@ -183,7 +183,6 @@ TEST(Rules, AWiderIntervalSaysTheSameOrNothing) {
                            [](const Value& v) { return judge_visible(v); },
                            [](const Value& v) { return judge_fit(v); },
                            [](const Value& v) { return judge_unnoticed(v); },
-                           [](const Value& v) { return judge_offset(v); },
                            [](const Value& v) { return judge_unnoticed(v - exactly(0.01)); },
                            [](const Value& v) { return judge_offset(v); }};
     base::Random random(1);
