@@ -55,10 +55,11 @@ void measure_lokovic(const Context& context) {
         "vertices and the sizes of mip levels use the paper's compression word for word (compression=published). All "
         "else uses the program's default (compression=bounded), which keeps the same tolerance, and whose functions "
         "never rise and stay in [0, 1]. The dense hair of sections 2 and 4 lies at one depth. Lookups are of the whole "
-        "picture, unless a claim says otherwise; the paper magnifies the shadow. The paper's times are of whole images less the time without shadows, on one "
-        "processor of its day; here they are of lookups in image order, on one thread. Errors are against exact rays "
-        "over the footprint that is asked for. Sizes, and the errors of sections 5.3 and 5.4, are means over three "
-        "seeds of the light rays; those of section 2, and that of dense hair in section 4, over eight.";
+        "picture, unless a claim says otherwise; the paper magnifies the shadow. The paper's times are of whole images "
+        "less the time without shadows, on one processor of its day; here they are of lookups in image order, on one "
+        "thread. Errors are against exact rays over the footprint that is asked for. Sizes, and the errors of sections "
+        "5.3 and 5.4, are means over three seeds of the light rays; those of section 2, and that of dense hair in "
+        "section 4, over eight.";
     noise(context);
     three_maps(context);
     sampling(context);
