@@ -65,10 +65,10 @@ constexpr Rule rules[] = {
     {"construction", "a size or a format", "not judged: the technique cannot do otherwise", "-",
      "Tests check it; measuring it shows nothing about the method."},
     {"not comparable",
-     "the size of a GPU's time, a figure of a scene that is not public, or a method without a stated accuracy",
+     "the size of a GPU's time, a number of a scene that is not public, or a method without a stated accuracy",
      "not judged: the number is given", "-",
-     "A processor's thread cannot test a GPU's time, a stand-in cannot test another scene, and a limit that the paper "
-     "does not give would be ours."},
+     "A processor's thread cannot test a GPU's time, a stand-in does not have another scene's numbers, and a limit that "
+     "the paper does not give would be ours. What a paper says of its methods is judged on stand-ins, too."},
 };
 
 struct Range {
