@@ -67,8 +67,8 @@ constexpr Rule rules[] = {
     {"not comparable",
      "the size of a GPU's time, a number of a scene that is not public, or a method without a stated accuracy",
      "not judged: the number is given", "-",
-     "A processor's thread cannot test a GPU's time, a stand-in does not have another scene's numbers, and a limit that "
-     "the paper does not give would be ours. What a paper says of its methods is judged on stand-ins, too."},
+     "A processor's thread cannot test a GPU's time, a stand-in does not have another scene's numbers, and a limit "
+     "that the paper does not give would be ours. What a paper says of its methods is judged on stand-ins, too."},
 };
 
 struct Range {
