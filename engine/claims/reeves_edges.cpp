@@ -199,8 +199,8 @@ void figures_4_and_8(PaperReport& report) {
     for (const double factor : factors) {
         const Edges spread = edges_of(factor, 64, "jittered"), published = edges_of(factor, 64, "published");
         widths.push_back(spread.width);
-        const auto moved = [](const Edges& edges) { return to_text(edges.place - exactly(64.0)); };
-        table.rows.push_back({fmt::format("{:g}", factor), to_text(spread.width), moved(spread), moved(published)});
+        const auto offset = [](const Edges& found) { return to_text(found.place - exactly(64.0)); };
+        table.rows.push_back({fmt::format("{:g}", factor), to_text(spread.width), offset(spread), offset(published)});
     }
     report.tables.push_back(std::move(table));
     report.claims.push_back({"section 4.2, figure 8", "increasing ResFactor produces softer shadow edges",
