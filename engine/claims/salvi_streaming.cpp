@@ -16,7 +16,7 @@ namespace {
 struct Times {
     Value sort_ms, sorted_ms, streamed_ms;
     Value sort_over_sorted, streamed_over_both;  // medians of each repetition's ratio
-    double moves = 0.0;  // a segment
+    double moves = 0.0;                          // a segment
     double mebibytes = 0.0;
     bool only_the_map = false;  // whether streaming held nothing but the map
 };
