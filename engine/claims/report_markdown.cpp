@@ -36,9 +36,9 @@ constexpr const char* introduction =
     "more than half of the entries reach. *In all readings*: the paper's words leave open what is compared, or in "
     "which arrangement; each reading is judged, and a verdict stands only if all readings have it. Else the claim is "
     "undecided.\n\n"
-    "The captions of pictures give the rms and FLIP of each picture beside the reference, which is the exact truth: "
-    "the rms in linear light over all pixels, FLIP as a display shows them. They are of one seed and have no interval, "
-    "and no claim is judged by them. Where a claim compares pictures, its paper's introduction says how.\n";
+    "The captions of pictures give the rms and FLIP of each picture beside the reference, a picture of the truth: the "
+    "rms in linear light over all pixels, FLIP as a display shows them. They are of one seed and have no interval, and "
+    "no claim is judged by them. Where a claim compares pictures, its paper's introduction says how.\n";
 
 constexpr const char* former_introduction =
     "The first report judged some claims *holds in shape* or *does not hold here*, by rules that differed from claim "

@@ -98,6 +98,7 @@ HairPictures hair_pictures(const Context& context, const Hair& hair) {
                                   R"({"type":"opacity","cells":"sample","slices":32,"filter":"bilinear"},)"
                                   R"({"type":"fourier","cells":"sample","terms":16,"filter":"bilinear"},)"
                                   R"({"type":"uncompressed","filter":"bilinear"}])");
+        if (k == 0) note_document(context, hair_in_smoke, document);
         const View view(document, context);
         const render::Image truth = view.picture("uncompressed");
         const auto rms = [&](const char* technique) { return view.difference(view.picture(technique), truth).rms; };

@@ -78,6 +78,7 @@ Range measure_range(const Context& context, double spacing, const Smoke& smoke) 
         document["rays"]["resolution"] = context.quick ? 48 : 96;
         document["techniques"] = nlohmann::json::parse(list);
         document["techniques"].erase(methods);  // curves are compared with the rays themselves
+        if (k == 0) note_document(context, columns, document);
         const MapErrors errors = map_errors(document, context);
         range.depth = errors.depth;
         for (std::size_t m = 0; m < methods; ++m) range.rms[m].push_back(errors.rms[m]);
@@ -123,6 +124,7 @@ Pictures compare_pictures(const Context& context, const Smoke& smoke, Table& tab
         nlohmann::json document =
             with_size(with_density(with_seeds(context.document(columns), k), smoke.density), context);
         document["techniques"] = nlohmann::json::parse(list);
+        if (k == 0) note_document(context, columns, document);
         const View view(document, context);
         const render::Image truth = view.picture("uncompressed");
         for (std::size_t m = 0; m < methods; ++m) {

@@ -116,6 +116,7 @@ Measured measure(const Context& context, const Figure& figure) {
         nlohmann::json document = with_size(with_seeds(context.document(figure.scenario), k), context);
         if (figure.spacing > 0.0) document = with_spacing(std::move(document), figure.spacing);
         document["techniques"] = nlohmann::json::parse(list);
+        if (k == 0) note_document(context, figure.scenario, document);
         measured.per_scene.push_back(texel_curves(document, context.data, figure.wish, texels_a_scene));
     }
     return measured;
