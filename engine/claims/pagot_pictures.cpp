@@ -75,7 +75,7 @@ void difference_tables(Views& views, const char* figure, PaperReport& report) {
 void kernel_table(const Views& views, const char* figure, PaperReport& report) {
     Table table{fmt::format("{}: each kernel by itself; error rms of visibility is against the truth over this width{}",
                             figure, over_lights),
-                {"kernel", "picture half a cell on: rms, FLIP", "aliasing rms", "share of the picture in transitions"},
+                {"kernel", "picture half a cell on: rms, FLIP", "aliasing rms", "share of receivers in transitions"},
                 {}};
     for (const double width : widths) table.header.push_back(fmt::format("error rms, {:g} cells", width));
     for (const Kernel& kernel : views.kernels()) {
@@ -108,7 +108,8 @@ void figure_7(Views& views, PaperReport& report) {
     report.claims.push_back(
         {"section 5, figure 7",
          "the 2-SM's transition is thinner than that of the standard map",
-         fmt::format("it covers {} of the area that is neither lit nor dark with the standard map; that of the 3-SM {}",
+         fmt::format("it covers {} of the pixels that are neither lit nor dark with the standard map; that of the 3-SM "
+                     "covers {}",
                      to_text(of_two_share), to_text(of_three_share)),
          judge_less(of_two_share, exactly(1.0)),
          "The area of the transitions, by which their widths are compared.",
@@ -173,8 +174,8 @@ void less_aliasing(const std::vector<Case>& cases, PaperReport& report) {
 
 void pictures(const Context& context) {
     const Kernel two{2, 3}, three{3, 3}, three_small{3, 2}, standard{1, 4};
-    Views flat_views(context, flat, {{1, 2}, {1, 3}, standard, two, three_small, three}),
-        curved_views(context, curved, {{1, 3}, standard, two, three});
+    Views flat_views(context, flat, Surfaces::plane, {{1, 2}, {1, 3}, standard, two, three_small, three}),
+        curved_views(context, curved, Surfaces::curved, {{1, 3}, standard, two, three});
     PaperReport& report = *context.report;
     const std::vector<Case> cases{{flat_views, "flat", three_small},
                                   {flat_views, "flat", two},

@@ -20,10 +20,20 @@ namespace shadowbench::claims::pagot {
 inline constexpr int lights = 5;                     // each with a camera and a place of the map's cells of its own
 inline constexpr double widths[] = {2, 3, 4, 5, 6};  // cells, of the truth's footprints
 
+// On which surfaces shadows are compared: on the plane y = 0, or on all others.
+enum class Surfaces { plane, curved };
+
 // The document with its first light and its camera turned around the vertical axes through their targets.
 nlohmann::json turned(nlohmann::json document, double light_degrees, double camera_degrees);
 
-// How far two pictures are apart under each light.
+// Where the axis of a document's first light meets the plane.
+base::Vec3d middle_of_shadow(const nlohmann::json& document);
+
+// The document with its camera moved, so that it looks at this place from where it looked at its target.
+nlohmann::json aimed(nlohmann::json document, const base::Vec3d& at, double fov);
+
+// How far two shaded pictures of the surfaces are apart under each light. Without shading, a picture would show the
+// dark side of a ball like a shadow on it.
 struct Apart {
     std::vector<double> rms, flip;
 };
@@ -39,7 +49,7 @@ struct Difference {
 
 class Views {
 public:
-    Views(const Context& context, const char* scene, std::vector<Kernel> kernels);
+    Views(const Context& context, const char* scene, Surfaces surfaces, std::vector<Kernel> kernels);
 
     const std::vector<Kernel>& kernels() const { return kernels_; }
     const Difference& difference(const Kernel& a, const Kernel& b);
@@ -48,8 +58,9 @@ public:
     struct Numbers {
         Apart half_a_cell_on;            // of its picture from that in the opposite phase
         std::vector<double> aliasing;    // rms of its pictures in all phases from their mean
-        std::vector<double> transition;  // share of the picture that is neither lit nor dark
-        std::array<std::vector<double>, std::size(widths)> error;  // rms against the truth over each width
+        std::vector<double> transition;  // share of the receivers that are neither lit nor dark
+        // RMS error of visibility against the truth over each width.
+        std::array<std::vector<double>, std::size(widths)> error;
         std::size_t best_width() const;  // the place of that at which the mean error is least
     };
     const Numbers& numbers(const Kernel& kernel) const { return measured_[place(kernel)].numbers; }
@@ -61,9 +72,12 @@ private:
     };
 
     std::size_t place(const Kernel& kernel) const;
+    bool on_surfaces(const Seen& seen, std::size_t query) const;
+    render::Image shaded(const Seen& seen, std::size_t kernel) const;
     void add(const nlohmann::json& document, const scene::SearchPath& data);
-    void add_errors(const Seen& seen);
+    void add_numbers(const Seen& seen);
 
+    Surfaces surfaces_;
     std::vector<Kernel> kernels_;
     std::vector<Measured> measured_;  // of each kernel
     std::map<std::pair<std::size_t, std::size_t>, Difference> differences_;

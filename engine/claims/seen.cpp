@@ -54,6 +54,7 @@ void Seen::find_queries() {
         while (points.begin[pixel + 1] <= point) ++pixel;
         pixel_.push_back(pixel);
         place_.push_back(points.place[point]);
+        shade_.push_back(points.radiance[point].x);
     }
     queries_ = std::move(found.queries);
     footprints_ = std::move(found.footprints);

@@ -30,6 +30,8 @@ public:
     std::span<const techniques::Query> queries() const { return queries_; }
     std::uint32_t pixel(std::size_t query) const { return pixel_[query]; }       // row after row
     const base::Vec3d& place(std::size_t query) const { return place_[query]; }  // on the surface, in the world
+    // What the light adds to the red channel of its pixel where nothing shadows it: see render/shading.h.
+    float shade(std::size_t query) const { return shade_[query]; }
     base::Vec2i size() const { return size_; }                              // pixels
 
     // The answers of the technique with this place in the document, one a query.
@@ -53,6 +55,7 @@ private:
     std::vector<techniques::Footprint> footprints_;
     std::vector<std::uint32_t> pixel_;
     std::vector<base::Vec3d> place_;
+    std::vector<float> shade_;
     std::vector<std::vector<float>> visibility_;
 };
 

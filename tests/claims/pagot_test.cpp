@@ -64,6 +64,21 @@ TEST(Turned, TurnsLightAndCameraAroundTheirTargets) {
     EXPECT_NEAR(coordinate(camera, 2), -6.0, 1e-12);
 }
 
+TEST(CloseView, LooksAtTheMiddleOfTheShadowFromTheSameSide) {
+    const nlohmann::json document = nlohmann::json::parse(R"({
+        "lights": [{"position": [4, 8, 0], "target": [1, 2, 0]}],
+        "receivers": {"position": [0, 3, 6], "target": [1, 1, 0]}})");
+    const base::Vec3d middle = middle_of_shadow(document);
+    EXPECT_LT(middle.length(), 1e-12);
+    const nlohmann::json close = aimed(document, middle, 12.0), &camera = close.at("receivers");
+    EXPECT_EQ(camera.at("fov"), 12.0);
+    const double from[] = {-1.0, 2.0, 6.0};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(camera.at("target").at(axis).get<double>(), 0.0, 1e-12);
+        EXPECT_NEAR(camera.at("position").at(axis).get<double>(), from[axis], 1e-12);
+    }
+}
+
 TEST(Phases, PicturesHaveAMeanAndADistanceFromIt) {
     std::vector<render::Image> pictures(2, render::Image({2, 1}, base::Vec3f(0.5f)));
     pictures[0].at(0, 0) = base::Vec3f(0.25f);
@@ -90,7 +105,7 @@ TEST(Views, MeansOverPhasesDifferLessThanPicturesInOnePhase) {
     context.quick = true;
     context.report = &report;
     const Kernel odd{1, 3}, even{1, 4};
-    Views views(context, flat, {odd, even});
+    Views views(context, flat, Surfaces::plane, {odd, even});
     EXPECT_EQ(report.documents.size(), 1u);
     const Difference& difference = views.difference(odd, even);
     ASSERT_EQ(difference.of_means.rms.size(), static_cast<std::size_t>(lights));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "render/shading.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -55,6 +56,8 @@ TEST(Seen, PlacesLieOnTheSurfacesThatPixelsSee) {
         if (std::abs(place.y) < 1e-4) {
             ++ground;
             EXPECT_LE(std::max(std::abs(place.x), std::abs(place.z)), 4.0 + 1e-4);
+            const double cosine = (base::Vec3d(1, 6, 1) - place).normalized().y;
+            EXPECT_NEAR(seen.shade(q), render::surface_albedo * cosine, 1e-4);
         } else {
             ++sphere;
             EXPECT_NEAR((place - base::Vec3d(0, 1, 0)).length(), 0.5, 1e-4);
