@@ -125,7 +125,8 @@ Measured measure(const Context& context, const Figure& figure) {
 void show(const Figure& figure, const Measured& measured, PaperReport& report) {
     const Texels& scene = measured.per_scene.front();
     const TexelCurves& first = scene.curves.front();
-    report.plots.push_back({figure.plot, fmt::format("Transmittance of texel ({}, {})", first.x, first.y),
+    report.plots.push_back({figure.plot,
+                            fmt::format("{}: transmittance of texel ({}, {})", figure.title, first.x, first.y),
                             "depth from light", "transmittance", false, false, first.series});
     Table table{fmt::format("{}: distances of curves from the uncompressed ones; medians over texels", figure.title),
                 {"curve", "largest", "mean over depth", "largest in the plot"},
