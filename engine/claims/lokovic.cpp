@@ -63,8 +63,10 @@ void measure_lokovic(const Context& context) {
     noise(context);
     three_maps(context);
     sampling(context);
+    generation(context);
     vertices(context);
     filtering(context);
+    biases(context);
     channels(context);
     motion(context);
     media(context);

@@ -23,8 +23,6 @@ using results::Cell;
 using results::LightResult;
 using techniques::Query;
 
-const std::vector<std::string> smaller{"reference.samples_per_pixel=64", "reference.spread_seeds=0"};
-
 std::vector<std::string> settings(int samples, const std::string& techniques) {
     return {fmt::format("rays.samples_per_pixel={}", samples), "reference.samples_per_pixel=256",
             set_techniques(techniques)};
@@ -35,7 +33,7 @@ std::string both_maps(int samples) {
 }
 
 Row measure_row(const Context& context, int samples) {
-    const results::Result result = context.run(ball_scene, settings(samples, both_maps(samples)), smaller);
+    const results::Result result = context.run(ball_scene, settings_of_row(samples), smaller_row());
     const LightResult& light = light_of(result);
     const Cell &deep = cell_of(light, "deep"), &depth = cell_of(light, "pcf");
     return {samples, bytes_of(deep), bytes_of(depth), error_of(deep), error_of(depth), deep.nodes.mean()};
@@ -132,17 +130,12 @@ Rows measure_rows(const Context& context) {
     return found;
 }
 
-Generation measure_generation(const Context& context) {
-    const SeededLight light(context, ball_scene, settings(all_samples[most], both_maps(all_samples[most])), smaller);
-    const std::size_t capture = light.capture_place();
-    const Compared compared[] = {{deep_map, capture}};
-    const Turns turns = light.build_turns(compared);
-    std::vector<double> deep = turns.times[deep_map], depth = turns.times[depth_map];
-    for (std::size_t round = 0; round < deep.size(); ++round) {
-        deep[round] += turns.times[capture][round];
-        depth[round] += turns.times[capture][round];
-    }
-    return {turns.ratio(deep_map, capture), ratio_of(deep, depth)};
+std::vector<std::string> settings_of_row(int samples) {
+    return settings(samples, both_maps(samples));
+}
+
+std::vector<std::string> smaller_row() {
+    return {"reference.samples_per_pixel=64", "reference.spread_seeds=0"};
 }
 
 }  // namespace shadowbench::claims::lokovic

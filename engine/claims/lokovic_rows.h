@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <iterator>
+#include <string>
 #include <vector>
 
 #include "claims/paper.h"
@@ -43,11 +44,8 @@ struct Rows {
 };
 Rows measure_rows(const Context& context);
 
-// At the most samples, on one thread.
-struct Generation {
-    Value overhead;    // the deep map's sweep and compression, over the capture of its rays
-    Value over_depth;  // capture and build of the deep map, over those of the depth map
-};
-Generation measure_generation(const Context& context);
+// The settings of a row, and what a quick run makes smaller.
+std::vector<std::string> settings_of_row(int samples);
+std::vector<std::string> smaller_row();
 
 }  // namespace shadowbench::claims::lokovic

@@ -185,24 +185,6 @@ void sizes_over_samples(const Rows& measured, PaperReport& report) {
          {exponent, times}});
 }
 
-void generation(const Context& context, PaperReport& report) {
-    const Generation measured = measure_generation(context);
-    report.claims.push_back({"section 6, figure 7",
-                             "compression overhead is negligible beside sampling",
-                             fmt::format("at N = 256 sweep and compression take {} of the capture's time (one thread)",
-                                         to_text(measured.overhead)),
-                             judge_negligible(measured.overhead),
-                             "Capture here is a projection many times faster than the scanline renderer of the paper.",
-                             {measured.overhead}});
-    report.claims.push_back(
-        {"section 4, and section 6, figure 7",
-         "a deep map takes about as long to generate as a depth map of as many samples",
-         fmt::format("{} times as long at N = 256 (one thread)", to_text(measured.over_depth)),
-         judge_ratio(1.0, measured.over_depth),
-         "Capture and build of both. The paper's times were similar and are not shown.",
-         {measured.over_depth}});
-}
-
 }  // namespace
 
 void sampling(const Context& context) {
@@ -214,7 +196,6 @@ void sampling(const Context& context) {
     equal_errors(measured, report);
     times_over_samples(measured, report);
     sizes_over_samples(measured, report);
-    generation(context, report);
 }
 
 }  // namespace shadowbench::claims::lokovic

@@ -206,11 +206,13 @@ void bias(const Context& context) {
     const nlohmann::json document =
         context.document(sphere, {"receivers.resolution=[1024,768]", "receivers.filter_width=1e-6",
                                   "receivers.bias=0.002", "reference.samples_per_pixel=1", techniques()});
-    note_document(context, sphere, document);
     const Sphere ball = sphere_of(document);
     std::vector<Effects> effects(settings);
-    for (std::uint64_t repeat = 0; repeat < repeats; ++repeat)
-        measure(Seen(with_moved_map(document, repeat), context.data), ball, effects);
+    for (std::uint64_t repeat = 0; repeat < repeats; ++repeat) {
+        const nlohmann::json moved = with_moved_map(document, repeat);
+        note_document(context, sphere, moved);
+        measure(Seen(moved, context.data), ball, effects);
+    }
     Table table{"Figure 9: what the bias does; means over four places of the map's cells. Widths in pixels of the "
                 "picture: of what is lit inside a shadow's boundary, and of what is shadowed outside it",
                 {"bias", "false shadow on the lit sphere", "area that the sphere's own shadow loses", "lit inside it",
