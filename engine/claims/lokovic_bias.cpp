@@ -32,8 +32,8 @@ double mean_shadow(const bench::Maps& map, const std::vector<techniques::Query>&
 // small enough to leave some.
 std::vector<FalseShadow> measure(const Context& context) {
     const SeededLight light(context, ball_scene,
-                            {"/scene/objects/0/casts_shadow=false", "receivers.bias=0.005", "rays.samples_per_pixel=16",
-                             set_techniques(published_deep() + "," + pcf(16, "sample"))},
+                            {"/scene/objects/0/casts_shadow=false", "receivers.bias=0.005", "rays.samples_per_pixel=64",
+                             set_techniques(published_deep() + "," + pcf(64, "sample"))},
                             {"rays.resolution=128"});
     const bench::QuerySet all = light.queries();
     bench::QuerySet asked = bench::pick(all.asked(), bench::choose_judged(all.queries.size(), 8192, 1));
@@ -56,8 +56,8 @@ std::vector<FalseShadow> measure(const Context& context) {
 void biases(const Context& context) {
     const base::ThreadLimit threads(context.threads);
     const std::vector<FalseShadow> found = measure(context);
-    Table table{"Section 4: false shadow of a lit ground and backdrop, of a bias of 0.005; means over three seeds of the "
-                "light rays",
+    Table table{"Section 4: false shadow on a lit ground and backdrop, with a bias of 0.005; means over three seeds of "
+                "the light rays",
                 {"filter width, pixels", "deep map", "depth map", "deep / depth"},
                 {}};
     std::vector<Judged> no_worse;
