@@ -59,7 +59,8 @@ void measure_lokovic(const Context& context) {
         "less the time without shadows, on one processor of its day; here they are of lookups in image order, on one "
         "thread. Errors are against exact rays over the footprint that is asked for. Sizes, and the errors of sections "
         "5.3 and 5.4, are means over three seeds of the light rays; those of section 2, and that of dense hair in "
-        "section 4, over eight.";
+        "section 4, over eight. Exponents and numbers of samples of section 2 are read off the law of each seed: their "
+        "intervals are over the eight, too.";
     noise(context);
     three_maps(context);
     sampling(context);
