@@ -62,7 +62,7 @@ Value over_all_widths(const Turns& times, Map map) {
 
 Plot plot_of(const Turns& times) {
     Plot plot{"lokovic2000_figure9",
-              "Lookup time over filter width",
+              "Figure 9: lookup time over filter width",
               "filter width, share of the map",
               "ns a lookup",
               true,

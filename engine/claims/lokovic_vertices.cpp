@@ -124,7 +124,13 @@ void add_table(const std::vector<Column>& columns, PaperReport& report) {
 }
 
 void add_plot(const std::vector<Column>& columns, PaperReport& report) {
-    Plot plot{"lokovic2000_figure8", "Vertices a pixel over samples a pixel", "N", "vertices a pixel", true, true, {}};
+    Plot plot{"lokovic2000_figure8",
+              "Figure 8: vertices a pixel over samples a pixel",
+              "N",
+              "vertices a pixel",
+              true,
+              true,
+              {}};
     for (std::size_t c = 0; c < 4; ++c) plot.series.push_back({columns[c].name, columns[c].vertices.means(), true});
     const auto all = columns.front().vertices.means();
     Series theory{"N^(1/4)", {}, true};
