@@ -9,12 +9,10 @@
 #include <fmt/format.h>
 
 #include "bench/lookup_timing.h"
-#include "claims/intervals.h"
+#include "claims/answers_over_seeds.h"
 #include "claims/lokovic.h"
 #include "claims/lokovic_filtering.h"
 #include "claims/seeded_light.h"
-#include "metrics/expected_error.h"
-#include "metrics/statistics.h"
 
 namespace shadowbench::claims::lokovic {
 namespace {
@@ -62,43 +60,23 @@ std::vector<Query> middles_of(const bench::QuerySet& image) {
     return middles;
 }
 
-// What seeds of the light rays give, against one truth.
-struct OverSeeds {
-    metrics::ErrorsOverSeeds errors;
-    std::vector<double> squares;  // the mean square of each seed
-
-    void add(std::span<const float> answers, const bench::Truth& truth) {
-        std::vector<double> off(answers.size());
-        for (std::size_t q = 0; q < answers.size(); ++q) off[q] = answers[q] - truth.value[q];
-        errors.add(off);
-        const double rms = metrics::error_norms(off).rms;
-        squares.push_back(rms * rms);
-    }
-};
-
 AtMiddles measure_middles(const Built& built, int samples, std::span<const Query> middles, const bench::Truth& truth) {
     const double tolerance = 0.25 / std::sqrt(static_cast<double>(samples));
     AtMiddles found;
-    OverSeeds deep, depth;
+    AnswersOverSeeds deep(truth), depth(truth);
     const auto add = [&](const std::vector<bench::Maps>& maps) {
         const std::vector<float> answers = bench::lookup_all(maps[deep_map], middles),
                                  all = bench::lookup_all(maps[all_of_depth_map], middles);
         for (std::size_t q = 0; q < middles.size(); ++q)
             found.difference =
                 std::max(found.difference, std::abs(static_cast<double>(answers[q]) - all[q]) / tolerance);
-        deep.add(answers, truth);
-        depth.add(bench::lookup_all(maps[depth_map], middles), truth);
+        deep.add(answers);
+        depth.add(bench::lookup_all(maps[depth_map], middles));
     };
     add(built.maps);
     for (int seed = 1; seed < ray_seeds; ++seed) add(built.light.build(seed));
-    const metrics::TruthNoise noise = depth.errors.truth_noise(truth.standard_error, truth.degrees == 0);
-    const metrics::Interval interval = metrics::expected_rms(depth.squares, noise);
-    found.depth_error = rms_between(interval.low, interval.high);
-    const auto without_truth = [&](double square) { return std::max(0.0, square - noise.bias); };
-    std::vector<double> ratios;
-    for (std::size_t seed = 0; seed < deep.squares.size(); ++seed)
-        ratios.push_back(std::sqrt(without_truth(deep.squares[seed]) / without_truth(depth.squares[seed])));
-    found.ratio = mean_of(ratios);
+    found.depth_error = depth.rms();
+    found.ratio = deep.over(depth);
     return found;
 }
 
