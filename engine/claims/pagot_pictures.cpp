@@ -47,9 +47,11 @@ void looks_like(Views& views, const char* place, const Kernel& smaller, const Ke
                      apart.text_by_name(), to_text(share.rms), to_text(share.flip), title(without),
                      apart_in_one.text_by_name(), to_text(share_in_one.rms), to_text(share_in_one.flip), title(larger),
                      of_phase.text_by_name()),
-         both(judge_likeness(share.rms), judge_likeness(share.flip)),
-         "Judged on the means over four phases: a kernel of an odd side lies around the middle of a cell and one of an "
-         "even side around a corner, so that in one phase their steps lie half a cell apart, whatever the kernels do.",
+         in_readings({both(judge_likeness(share.rms), judge_likeness(share.flip)),
+                      both(judge_likeness(share_in_one.rms), judge_likeness(share_in_one.flip))}),
+         "The paper does not say how its cells lie. A kernel of an odd side lies around the middle of a cell and one of "
+         "an even side around a corner, so that in one phase their steps lie half a cell apart, whatever the kernels "
+         "do. So the likeness is read in two ways: of the means over four phases, and of pictures in one phase.",
          std::move(values)});
 }
 
