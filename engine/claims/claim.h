@@ -1,6 +1,7 @@
 // The claims of a paper beside our measurements, as plain values.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,7 +51,8 @@ struct PaperReport {
     std::string id, title;
     std::string conditions;              // how our measurements differ from the paper's, one paragraph
     std::vector<std::string> documents;  // "name hash" of each scenario that was run
-    double seconds = 0.0;
+    double seconds = 0.0;                 // of the measurement
+    std::optional<double> steal_seconds;  // that the host took from all processors meanwhile; absent if unknown
     std::vector<Claim> claims;
     std::vector<Table> tables;
     std::vector<Plot> plots;

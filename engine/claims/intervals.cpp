@@ -6,6 +6,15 @@
 #include "metrics/student.h"
 
 namespace shadowbench::claims {
+namespace {
+
+std::vector<double> ratios(std::span<const double> one, std::span<const double> other) {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < std::min(one.size(), other.size()); ++i) result.push_back(one[i] / other[i]);
+    return result;
+}
+
+}  // namespace
 
 Value fitted_exponent(std::span<const std::pair<double, double>> points) {
     const PowerLaw law = fit_power(points);
@@ -24,10 +33,11 @@ Value median_of(std::vector<double> values) {
 }
 
 Value ratio_of(std::span<const double> one, std::span<const double> other) {
-    std::vector<double> ratios;
-    for (std::size_t round = 0; round < std::min(one.size(), other.size()); ++round)
-        ratios.push_back(one[round] / other[round]);
-    return median_of(std::move(ratios));
+    return median_of(ratios(one, other));
+}
+
+Value mean_ratio_of(std::span<const double> one, std::span<const double> other) {
+    return mean_of(ratios(one, other));
 }
 
 }  // namespace shadowbench::claims

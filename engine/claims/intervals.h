@@ -23,4 +23,7 @@ Value median_of(std::vector<double> values);
 // machine did to a whole round is not in it.
 Value ratio_of(std::span<const double> one, std::span<const double> other);
 
+// The mean of such ratios with the interval of its expectation, for values that belong together as those of one seed.
+Value mean_ratio_of(std::span<const double> one, std::span<const double> other);
+
 }  // namespace shadowbench::claims

@@ -35,8 +35,10 @@ Value bytes_of(const results::Cell& cell);  // its mean over the seeds of the li
 void noise(const Context& context);       // sections 2 and 4: the error of N samples
 void three_maps(const Context& context);  // section 6, figure 6
 void sampling(const Context& context);    // section 6, figure 7
+void generation(const Context& context);  // sections 4, 5.1 and 6: the time to make a map
 void vertices(const Context& context);    // section 4, figure 8
 void filtering(const Context& context);   // figure 9 and section 5.3
+void biases(const Context& context);      // section 4: incorrect self-shadowing
 void channels(const Context& context);    // section 5.2
 void motion(const Context& context);      // section 5.5, figure 12
 void media(const Context& context);       // figures 10 and 11

@@ -112,10 +112,11 @@ Cover fur(int side, std::uint64_t seed) {
     return {side, std::move(covered)};
 }
 
-double filtering_error(const Cover& cover, int width, int samples, int lookups, std::uint64_t seed) {
+double filtering_error(const Cover& cover, int width, int samples, int lookups, std::uint64_t seed,
+                       const char* placement) {
     const std::vector<Query> queries = places(cover.side(), width, width, lookups, seed);
     const nlohmann::json parameters = {
-        {"num_samples", samples}, {"res_factor", 1}, {"min_size", 0}, {"min_samples", 1}};
+        {"num_samples", samples}, {"res_factor", 1}, {"min_size", 0}, {"min_samples", 1}, {"placement", placement}};
     return rms_error(cover, queries, 1.0, look_up("pcf", parameters, cover.rays(), z_max, queries));
 }
 

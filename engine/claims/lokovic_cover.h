@@ -34,9 +34,10 @@ Cover silhouette(int side);
 Cover fur(int side, std::uint64_t seed);
 
 // The root mean square error of percentage closer filtering over squares `width` cells wide with this number of
-// jittered samples, at `lookups` random places. Each square holds the middle of the map in y, so that the silhouette
-// crosses it. The map must be at least twice as wide as the squares.
-double filtering_error(const Cover& cover, int width, int samples, int lookups, std::uint64_t seed);
+// samples, jittered or placed in another way of the technique's, at `lookups` random places. Each square holds the
+// middle of the map in y, so that the silhouette crosses it. The map must be at least twice as wide as the squares.
+double filtering_error(const Cover& cover, int width, int samples, int lookups, std::uint64_t seed,
+                       const char* placement = "jittered");
 
 // The same for a deep shadow map of 16 x 16 pixels with this number of jittered light rays each, over squares with the
 // area of `pixels` pixels, at random places.

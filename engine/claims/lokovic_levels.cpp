@@ -1,6 +1,9 @@
 // Lokovic and Veach, Deep Shadow Maps, 2000: section 5.3, the size and the error of mip levels.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -134,19 +137,30 @@ void add_level_tables(PaperReport& report, const std::vector<Levels>& found) {
     report.tables.push_back(std::move(sizes));
 }
 
-// The exponent of the nodes over the side of a level's pixel, from level 0 to one of at least 8 x 8 pixels.
-Value node_exponent(const Levels& found) {
-    std::vector<std::pair<double, double>> points;
-    for (std::size_t l = 0; l + 3 < found.nodes.size(); ++l)
-        points.emplace_back(std::exp2(static_cast<double>(l)), mean_of(found.nodes[l]).value);
-    return fitted_exponent(points);
+// The nodes of each level of at least 8 x 8 pixels over those of two levels before.
+std::vector<Value> growth_over_two_levels(const Levels& found) {
+    std::vector<Value> growth;
+    for (std::size_t l = 2; l + 3 < found.nodes.size(); ++l) {
+        std::vector<double> of_seeds;
+        for (std::size_t seed = 0; seed < found.nodes[l].size(); ++seed)
+            of_seeds.push_back(found.nodes[l][seed] / found.nodes[l - 2][seed]);
+        growth.push_back(mean_of(of_seeds));
+    }
+    return growth;
 }
 
-// The largest over the levels; its interval is the range over the seeds.
-Value largest_error(const Levels& found) {
+std::string joined(const std::vector<Value>& values) {
+    std::string text;
+    for (const Value& value : values) text += (text.empty() ? "" : ", ") + to_text(value);
+    return text;
+}
+
+// The largest over the first levels, of this number; its interval is the range over the seeds.
+Value largest_error(const Levels& found, std::size_t levels) {
     std::vector<double> of_seed(ray_seeds, 0.0);
-    for (const std::vector<double>& level : found.error)
-        for (std::size_t seed = 0; seed < level.size(); ++seed) of_seed[seed] = std::max(of_seed[seed], level[seed]);
+    for (std::size_t l = 0; l < levels; ++l)
+        for (std::size_t seed = 0; seed < of_seed.size(); ++seed)
+            of_seed[seed] = std::max(of_seed[seed], found.error[l][seed]);
     const auto [low, high] = std::minmax_element(of_seed.begin(), of_seed.end());
     return {*high, *low, *high};
 }
@@ -188,18 +202,30 @@ void levels(const Context& context) {
          "Judged as published: each level is averaged from the compressed functions of the one before, with half its "
          "tolerance.",
          {size, size_of_samples}});
-    const Value exponent = node_exponent(published), exponent_of_samples = node_exponent(of_samples);
+    const std::vector<Value> growth = growth_over_two_levels(published),
+                             growth_of_samples = growth_over_two_levels(of_samples);
+    std::vector<Judged> doubled;
+    for (const Value& one : growth) doubled.push_back(judge_ratio(2.0, one));
+    std::vector<Value> values = growth;
+    values.insert(values.end(), growth_of_samples.begin(), growth_of_samples.end());
     report.claims.push_back(
         {"section 5.3",
-         "the vertices of a function double once for every two mip levels: they grow as the square root of the "
-         "width of its pixel",
-         fmt::format("as width^{}; as width^{} if the levels are averaged from the uncompressed functions",
-                     to_text(exponent), to_text(exponent_of_samples)),
-         judge_exponent(0.5, exponent),
-         "Of pixels that hold something. The means of compressed functions have few vertices to begin with: level 1 "
-         "often needs fewer than level 0.",
-         {exponent, exponent_of_samples}});
-    const Value error = largest_error(published);
+         "the vertices of a function double once for every two mip levels",
+         fmt::format("over those of two levels before, from level 2 on: {} times; {} times if the levels are averaged "
+                     "from the uncompressed functions",
+                     joined(growth), joined(growth_of_samples)),
+         in_all(doubled),
+         "Of pixels that hold something, in levels of at least 8 x 8 pixels; intervals are over seeds. The means of "
+         "compressed functions have few vertices to begin with: level 1 often needs fewer than level 0.",
+         std::move(values)});
+    const Value error = largest_error(published, published.error.size()), of_map = largest_error(published, 1);
+    report.claims.push_back(
+        {"section 3.3",
+         "a compressed function is within the tolerance of the function for all z",
+         fmt::format("the largest error of any function of the map is {} tolerances", to_text(of_map)),
+         by_construction(of_map.high <= 1.0 + 1e-4),
+         "Steps included, to both sides of each. The interval is the range over seeds.",
+         {of_map}});
     report.claims.push_back(
         {"section 5.3",
          "if the tolerance is halved for each level, the total error is at most twice that of the highest "

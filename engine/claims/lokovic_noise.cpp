@@ -1,6 +1,7 @@
 // Lokovic and Veach, Deep Shadow Maps, 2000: the errors of sections 2 and 4.
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,31 +47,42 @@ struct Experiment {
 };
 
 constexpr std::uint64_t seeds = 8;
+constexpr int edge_samples[] = {4, 16, 36, 64, 100, 144, 196, 256, 400, 576};
+constexpr int fur_samples[] = {16, 64, 144, 256, 576, 1024, 1600, 2500, 3600};
+constexpr std::size_t edge_at_144 = 5, fur_at_2500 = 7;  // the paper's numbers in these lists, or the nearest
 
-Experiment at_silhouette(int lookups) {
-    Experiment experiment{"one silhouette", {4, 16, 36, 64, 100, 144, 196, 256, 400, 576}, {}};
+Experiment at_silhouette(int lookups, const char* placement) {
+    Experiment experiment{"one silhouette", {std::begin(edge_samples), std::end(edge_samples)}, {}};
     const Cover cover = silhouette(256);
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
         std::vector<double>& errors = experiment.errors.emplace_back();
         for (const int n : experiment.samples)
-            errors.push_back(filtering_error(cover, 128, n, lookups, base::hash(seed, static_cast<std::uint64_t>(n))));
+            errors.push_back(
+                filtering_error(cover, 128, n, lookups, base::hash(seed, static_cast<std::uint64_t>(n)), placement));
     }
     return experiment;
 }
 
-Experiment in_fur(int lookups) {
-    Experiment experiment{"fur", {16, 64, 144, 256, 576, 1024, 1600, 2500, 3600}, {}};
+Experiment in_fur(int lookups, const char* placement, const std::vector<int>& samples) {
+    Experiment experiment{"fur", samples, {}};
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
         const Cover cover = fur(1024, seed);
         std::vector<double>& errors = experiment.errors.emplace_back();
         for (const int n : experiment.samples)
-            errors.push_back(filtering_error(cover, 512, n, lookups, base::hash(seed, static_cast<std::uint64_t>(n))));
+            errors.push_back(
+                filtering_error(cover, 512, n, lookups, base::hash(seed, static_cast<std::uint64_t>(n)), placement));
     }
     return experiment;
 }
 
 void plot_errors(const Experiment& edge, const Experiment& hair, PaperReport& report) {
-    Plot plot{"lokovic2000_section2", "Error of filtering N jittered samples", "N", "error rms", true, true, {}};
+    Plot plot{"lokovic2000_section2",
+              "Section 2: error of filtering N jittered samples",
+              "N",
+              "error rms",
+              true,
+              true,
+              {}};
     for (const Experiment* experiment : {&edge, &hair}) {
         Series measured{experiment->name, {}, false};
         for (std::size_t i = 0; i < experiment->samples.size(); ++i)
@@ -94,7 +106,9 @@ std::string whole(const Value& value) {
 void noise(const Context& context) {
     PaperReport& report = *context.report;
     const int lookups = context.quick ? 500 : 2000;
-    const Experiment edge = at_silhouette(lookups), hair = in_fur(lookups);
+    const Experiment edge = at_silhouette(lookups, "jittered"), random_edge = at_silhouette(lookups, "uniform"),
+                     hair = in_fur(lookups, "jittered", {std::begin(fur_samples), std::end(fur_samples)}),
+                     random_hair = in_fur(lookups, "uniform", {fur_samples[fur_at_2500]});
     plot_errors(edge, hair, report);
 
     const Value edge_exponent = edge.exponent(), hair_exponent = hair.exponent();
@@ -104,27 +118,40 @@ void noise(const Context& context) {
                              judge_exponent(-0.75, edge_exponent),
                              "A horizontal silhouette at a random height; only the parts that it crosses are in doubt.",
                              {edge_exponent}});
+    const Value random_exponent = random_edge.exponent(),
+                gained = edge.error(edge_at_144) / random_edge.error(edge_at_144);
+    report.claims.push_back({"section 2",
+                             "near large silhouettes stratified samples are much better than unstratified ones, whose "
+                             "expected error is O(N^(-1/2))",
+                             fmt::format("unstratified as N^{}; the error of 144 stratified samples is {} of theirs",
+                                         to_text(random_exponent), to_text(gained)),
+                             both(judge_exponent(-0.5, random_exponent), judge_much_less(gained, exactly(1.0))),
+                             "By both halves; the second at about the 140 samples that the paper names.",
+                             {random_exponent, gained}});
+    const Value hair_gained = hair.error(fur_at_2500) / random_hair.error(0);
     report.claims.push_back({"section 2, figure 2b",
                              "in hair or fur it is O(N^(-1/2)): stratified samples are no better than others",
-                             fmt::format("as N^{}", to_text(hair_exponent)),
-                             judge_exponent(-0.5, hair_exponent),
+                             fmt::format("as N^{}; the error of 2,500 stratified samples is {} of that of unstratified "
+                                         "ones",
+                                         to_text(hair_exponent), to_text(hair_gained)),
+                             both(judge_exponent(-0.5, hair_exponent), judge_alike(hair_gained, exactly(1.0))),
                              "Hairs one cell wide cover half of the map and cross all parts of the region.",
-                             {hair_exponent}});
-    const Value edge_samples = edge.samples_for(0.01), hair_samples = hair.samples_for(0.01);
+                             {hair_exponent, hair_gained}});
+    const Value edge_needs = edge.samples_for(0.01), hair_needs = hair.samples_for(0.01);
     report.claims.push_back({"section 2",
                              "an expected error of 1 % takes about 140 samples at an isolated silhouette",
-                             whole(edge_samples) + " samples",
-                             judge_ratio(140.0, edge_samples),
+                             whole(edge_needs) + " samples",
+                             judge_ratio(140.0, edge_needs),
                              "From the law that is fitted to the errors from 4 to 576 samples. The paper's constant is "
                              "1 / sqrt 6.",
-                             {edge_samples}});
+                             {edge_needs}});
     report.claims.push_back({"section 2",
                              "it takes 2,500 samples where dense fur covers 50 %",
-                             whole(hair_samples) + " samples",
-                             judge_ratio(2500.0, hair_samples),
+                             whole(hair_needs) + " samples",
+                             judge_ratio(2500.0, hair_needs),
                              "From the law that is fitted to the errors from 16 to 3,600 samples. The paper's constant "
                              "is 1 / 2.",
-                             {hair_samples}});
+                             {hair_needs}});
     std::vector<double> sample;
     for (std::uint64_t seed = 0; seed < seeds; ++seed)
         sample.push_back(deep_error(fur(2048, seed), 250, 10.0, lookups, seed));

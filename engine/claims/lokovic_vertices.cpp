@@ -8,17 +8,16 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/hash_text.h"
 #include "base/parallel.h"
-#include "claims/intervals.h"
+#include "claims/growth.h"
 #include "claims/lokovic.h"
+#include "claims/lokovic_filtering.h"
 #include "claims/pixel_classes.h"
 
 namespace shadowbench::claims::lokovic {
 namespace {
 
-using Points = std::vector<std::pair<double, double>>;
-
+constexpr int most_with_seeds = 144;  // samples a pixel: more take too long for several seeds
 constexpr const char* compressed[] = {"published", "bounded"};  // the paper's text, and the program's default
 
 std::string both_ways() {
@@ -26,28 +25,28 @@ std::string both_ways() {
                                       compressed[0], compressed[1]));
 }
 
-// The means over numbers of samples a pixel.
-struct Growth {
-    std::vector<Points> all, chosen, others;  // [way to compress]
+// Mean vertices over numbers of samples a pixel.
+struct Vertices {
+    std::vector<Growth> all, chosen, others;  // [way to compress]
 
-    Growth() : all(2), chosen(2), others(2) {}
+    Vertices() : all(2), chosen(2), others(2) {}
     void add(int samples, const std::vector<MeanVertices>& means) {
         for (std::size_t way = 0; way < means.size(); ++way) {
-            all[way].emplace_back(samples, means[way].all);
-            chosen[way].emplace_back(samples, means[way].chosen);
-            others[way].emplace_back(samples, means[way].others);
+            all[way].add(samples, means[way].all);
+            chosen[way].add(samples, means[way].chosen);
+            others[way].add(samples, means[way].others);
         }
     }
 };
 
 struct Experiment {
-    Growth ball, smoke;
+    Vertices ball, smoke;
     double hair_share = 0.0;  // of the pixels that hold hair
 };
 
 nlohmann::json noted(const Context& context, const std::string& scene, const std::vector<std::string>& settings) {
     nlohmann::json document = context.document(scene, settings);
-    context.report->documents.push_back(fmt::format("{} {}", scene, base::hash_text(document.dump())));
+    note_document(context, scene, document);
     return document;
 }
 
@@ -59,20 +58,23 @@ struct Scene {
 };
 
 // A pixel belongs to the class if any of 256 rays meets it. `whole`: the functions are of the whole scene.
-Growth grow(const Context& context, const Scene& scene, bool whole, double& share) {
+Vertices count(const Context& context, const Scene& scene, bool whole, double& share) {
     std::vector<std::string> alone = scene.alone;
     const std::string resolution = fmt::format("rays.resolution={}", scene.resolution);
     alone.insert(alone.end(), {resolution, "rays.samples_per_pixel=256"});
     const std::vector<char> chosen = crossed_pixels(noted(context, scene.name, alone), context.data);
     share = static_cast<double>(std::count(chosen.begin(), chosen.end(), 1)) / static_cast<double>(chosen.size());
-    Growth growth;
+    Vertices vertices;
     for (const int samples : {16, 36, 64, 144, 256, 1024}) {
         if (context.quick && samples > 256) break;  // at a lower resolution pixels would hold other hair
-        std::vector<std::string> settings = whole ? std::vector<std::string>{} : scene.alone;
-        settings.insert(settings.end(), {resolution, fmt::format("rays.samples_per_pixel={}", samples), both_ways()});
-        growth.add(samples, mean_vertices(noted(context, scene.name, settings), context.data, chosen));
+        for (int seed = 1; seed <= (samples <= most_with_seeds ? ray_seeds : 1); ++seed) {
+            std::vector<std::string> settings = whole ? std::vector<std::string>{} : scene.alone;
+            settings.insert(settings.end(), {resolution, fmt::format("rays.samples_per_pixel={}", samples),
+                                             fmt::format("rays.seed={}", seed), both_ways()});
+            vertices.add(samples, mean_vertices(noted(context, scene.name, settings), context.data, chosen));
+        }
     }
-    return growth;
+    return vertices;
 }
 
 Experiment run(const Context& context) {
@@ -80,14 +82,14 @@ Experiment run(const Context& context) {
     const std::vector<std::string> alone{"/scene/objects/1/casts_shadow=false", "/scene/objects/2/casts_shadow=false"};
     Experiment experiment;
     double smoke_share = 0.0;
-    experiment.ball = grow(context, {ball_scene, 256, alone}, true, experiment.hair_share);
-    experiment.smoke = grow(context, {smoke_scene, 64, alone}, false, smoke_share);
+    experiment.ball = count(context, {ball_scene, 256, alone}, true, experiment.hair_share);
+    experiment.smoke = count(context, {smoke_scene, 64, alone}, false, smoke_share);
     return experiment;
 }
 
 struct Column {
     const char* name;
-    const Points& points;
+    const Growth& vertices;
 };
 
 std::vector<Column> columns_of(const Experiment& e) {
@@ -100,23 +102,37 @@ std::vector<Column> columns_of(const Experiment& e) {
 }
 
 void add_table(const std::vector<Column>& columns, PaperReport& report) {
-    Table table{"Figure 8: vertices a pixel; intervals are those of the fits", {"N"}, {}};
+    const Growth& first = columns.front().vertices;
+    Table table{fmt::format("Figure 8: vertices a pixel; means over {} seeds of the light rays up to N = {:.0f}, "
+                            "then of one seed",
+                            ray_seeds, first.x(first.with_all_seeds() - 1)),
+                {"N"},
+                {}};
     for (const Column& column : columns) table.header.emplace_back(column.name);
-    for (std::size_t i = 0; i < columns.front().points.size(); ++i) {
-        std::vector<std::string> row{fmt::format("{:.0f}", columns.front().points[i].first)};
-        for (const Column& column : columns) row.push_back(fmt::format("{:.2f}", column.points[i].second));
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        std::vector<std::string> row{fmt::format("{:.0f}", first.x(i))};
+        for (const Column& column : columns) row.push_back(to_text(column.vertices.at(i)));
         table.rows.push_back(std::move(row));
     }
-    std::vector<std::string> row{"exponent"};
-    for (const Column& column : columns) row.push_back(to_text(fitted_exponent(column.points)));
-    table.rows.push_back(std::move(row));
+    std::vector<std::string> fitted{"exponent, of the fit to all N"}, of_seeds{"exponent of these seeds"};
+    for (const Column& column : columns) {
+        fitted.push_back(to_text(column.vertices.exponent()));
+        of_seeds.push_back(to_text(column.vertices.exponent_over_seeds()));
+    }
+    table.rows.insert(table.rows.end(), {std::move(fitted), std::move(of_seeds)});
     report.tables.push_back(std::move(table));
 }
 
 void add_plot(const std::vector<Column>& columns, PaperReport& report) {
-    Plot plot{"lokovic2000_figure8", "Vertices a pixel over samples a pixel", "N", "vertices a pixel", true, true, {}};
-    for (std::size_t c = 0; c < 4; ++c) plot.series.push_back({columns[c].name, columns[c].points, true});
-    const Points& all = columns.front().points;
+    Plot plot{"lokovic2000_figure8",
+              "Figure 8: vertices a pixel over samples a pixel",
+              "N",
+              "vertices a pixel",
+              true,
+              true,
+              {}};
+    for (std::size_t c = 0; c < 4; ++c) plot.series.push_back({columns[c].name, columns[c].vertices.means(), true});
+    const auto all = columns.front().vertices.means();
     Series theory{"N^(1/4)", {}, true};
     for (const auto& [n, vertices] : all)
         theory.points.emplace_back(n, all.front().second * std::pow(n / all.front().first, 0.25));
@@ -132,12 +148,12 @@ void vertices(const Context& context) {
     const std::vector<Column> columns = columns_of(experiment);
     add_table(columns, report);
     add_plot(columns, report);
-    const auto exponent = [&](std::size_t column) { return fitted_exponent(columns[column].points); };
+    const auto exponent = [&](std::size_t column) { return columns[column].vertices.exponent(); };
     const Value all = exponent(0), hair = exponent(1), geometry = exponent(2), smoke = exponent(3);
     const std::string fit = fmt::format(
         "Fitted over N from 16 to {:.0f}, with the paper's compression word for word; intervals are those of the fits "
-        "(Student's t).",
-        columns.front().points.back().first);
+        "(Student's t), and hold what the rays of each N change. The table has the exponents of several seeds.",
+        columns.front().vertices.x(columns.front().vertices.size() - 1));
     report.claims.push_back(
         {"section 4, figure 8",
          "vertices a pixel grow as N^(1/4), in a map with hair in 40 % of its pixels and simple geometry in the rest",

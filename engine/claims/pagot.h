@@ -33,7 +33,8 @@ inline constexpr double never = 1e6;  // fragments a cell
 // the other one, over the fragments a cell. At least two different numbers of fragments.
 Crossing crossing_of(std::span<const std::pair<double, double>> differences);
 
-void pictures(const Context& context);  // figures 6 and 7
-void crossing(const Context& context);  // section 6
+void pictures(const Context& context);  // figures 1, 6 and 7
+void crossing(const Context& context);  // section 6, equations 5 and 6
+void costs(const Context& context);     // sections 4.3, 4.4 and 6
 
 }  // namespace shadowbench::claims::pagot

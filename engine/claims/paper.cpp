@@ -9,6 +9,7 @@
 #include "base/hash_text.h"
 #include "base/read_text.h"
 #include "bench/clock.h"
+#include "bench/disturbance.h"
 #include "bench/run.h"
 #include "claims/intervals.h"
 #include "document/document.h"
@@ -118,9 +119,12 @@ PaperReport measure(const Paper& paper, Context context) {
     report.id = paper.id;
     report.title = paper.title;
     context.report = &report;
+    const std::optional<double> steal_before = bench::steal_seconds();
     const bench::Stopwatch stopwatch;
     paper.measure(context);
     report.seconds = stopwatch.seconds();
+    if (const std::optional<double> after = bench::steal_seconds(); after && steal_before)
+        report.steal_seconds = std::max(0.0, *after - *steal_before);
     return report;
 }
 

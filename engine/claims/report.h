@@ -12,7 +12,12 @@ namespace shadowbench::claims {
 struct Conditions {
     bool quick = false;
     std::string machine, build, date;
+    std::string beside = {};  // the full report that a quick one stands beside, in words: see quick.h
 };
+
+// "The host took 0.4 % of the time": the line below the machine's. It names the papers during whose measurement the
+// host took more than results::steal_limit. Empty if nothing is known.
+std::string steal_line(std::span<const PaperReport> reports);
 
 // The rule of the verdicts, then for each paper a row for each claim, its tables and its plots.
 std::string to_markdown(std::span<const PaperReport> reports, const Conditions& conditions);

@@ -41,6 +41,7 @@ ordered_json to_object(const PaperReport& report) {
             {"conditions", report.conditions},
             {"scenarios", report.documents},
             {"seconds", report.seconds},
+            {"steal_seconds", report.steal_seconds ? ordered_json(*report.steal_seconds) : ordered_json(nullptr)},
             {"claims", claims},
             {"tables", tables},
             {"plots", plots}};
@@ -53,7 +54,8 @@ std::string to_json(std::span<const PaperReport> reports, const Conditions& cond
     for (const PaperReport& report : reports) papers.push_back(to_object(report));
     const ordered_json document = {{"claims_schema_version", 1},    {"quick", conditions.quick},
                                    {"machine", conditions.machine}, {"build", conditions.build},
-                                   {"date", conditions.date},       {"papers", papers}};
+                                   {"date", conditions.date},       {"beside", conditions.beside},
+                                   {"steal", steal_line(reports)},  {"papers", papers}};
     return document.dump(1) + "\n";
 }
 

@@ -1,10 +1,13 @@
 #include <array>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/markdown.h"
 #include "claims/former.h"
 #include "claims/report.h"
+#include "results/settled.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -15,21 +18,38 @@ constexpr const char* introduction =
     "- Of a time: the number is the median over repetitions.\n"
     "- Of a ratio of times: the number is the median of the ratios of each repetition. What is compared takes turns, "
     "so that a machine that slows down slows both. Repetitions go on until the interval is within 5 % of the ratio, or "
-    "a limit of time is reached.\n"
+    "a limit of time is reached; where no single ratio is judged by its size, their number is fixed.\n"
     "- Of an error rms: the number is the error expected over seeds of the light rays against the exact truth. The "
     "truth is a mean of rays too; its noise is taken off. The interval covers the noise of both; if the light rays are "
     "regular, only that of the truth.\n"
     "- Of an exponent: the interval is that of the fit.\n"
     "- Elsewhere, as for medians over scenes or means over places of the map, the paper's introduction or the title of "
     "the table says what the numbers are over.\n\n"
-    "Each claim is judged by one rule of the table below, by the whole interval of what is measured: *holds*, *holds "
-    "in shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*. A "
-    "claim about the size of a GPU's times, about a scene that is not public, or without a value is *not comparable*: "
-    "its number is given, and nothing is judged. What a technique cannot do otherwise is *by construction*.\n";
+    "Each claim is judged by rules of the table below, by the whole interval of what is measured: *holds*, *holds in "
+    "shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*. A "
+    "claim about the size of a GPU's times, about numbers of a scene that is not public, or without a value is *not "
+    "comparable*: its number is given, and nothing is judged. What a technique cannot do otherwise is *by "
+    "construction*.\n\n"
+    "The parts of a claim are judged one by one, and the column of rules names the rules and limits of all. Of two "
+    "halves (\"A fits, and is closer than B\") the worse verdict counts. *In all*: the worst verdict of all entries "
+    "counts, but the claim holds in shape if it holds in more than half of them. *In most*: the verdict counts that "
+    "more than half of the entries reach. *In all readings*: the paper's words leave open what is compared, or in "
+    "which arrangement; each reading is judged, and a verdict stands only if all readings have it. Else the claim is "
+    "undecided.\n\n"
+    "The captions of pictures give the rms and FLIP of each picture beside the reference, a picture of the truth: the "
+    "rms in linear light over all pixels, FLIP as a display shows them. They are of one seed and have no interval, and "
+    "no claim is judged by them. Where a claim compares pictures, its paper's introduction says how.\n";
 
 constexpr const char* former_introduction =
     "The first report judged some claims *holds in shape* or *does not hold here*, by rules that differed from claim "
     "to claim.\n\n";
+
+std::string quick_note(const std::string& beside) {
+    const char* quick = "**Quick run: smaller sizes than the report that is cited.**";
+    if (beside.empty())
+        return fmt::format("{} There is no full report beside it: its verdicts are its own.\n\n", quick);
+    return fmt::format("{} Where a verdict would not be that of {}, it is *undecided*.\n\n", quick, beside);
+}
 
 std::string rules_table() {
     std::vector<std::vector<std::string>> rows;
@@ -66,11 +86,31 @@ void add_paper(std::string& out, const PaperReport& report) {
 
 }  // namespace
 
+std::string steal_line(std::span<const PaperReport> reports) {
+    double taken = 0.0, seconds = 0.0;
+    std::vector<std::string> beyond;
+    for (const PaperReport& report : reports) {
+        if (!report.steal_seconds || report.seconds <= 0.0) continue;
+        taken += *report.steal_seconds;
+        seconds += report.seconds;
+        const double share = *report.steal_seconds / report.seconds;
+        if (share > results::steal_limit) beyond.push_back(fmt::format("{} ({:.1f} %)", report.id, 100.0 * share));
+    }
+    if (seconds <= 0.0) return "";
+    const std::string text =
+        fmt::format("The host of a virtual machine took {:.1f} % of the time (steal)", 100.0 * taken / seconds);
+    const double limit = 100.0 * results::steal_limit;
+    if (beyond.empty()) return fmt::format("{}, and at no paper more than {:.0f} %.", text, limit);
+    return fmt::format("{}, and more than {:.0f} % at {}: measure again what is about times there.", text, limit,
+                       fmt::join(beyond, ", "));
+}
+
 std::string to_markdown(std::span<const PaperReport> reports, const Conditions& conditions) {
     std::string out = "# Claims of the papers, measured again\n\n";
-    if (conditions.quick) out += "**Quick run: smaller sizes than the report that is cited.**\n\n";
+    if (conditions.quick) out += quick_note(conditions.beside);
     out += introduction;
     out += fmt::format("\n{}; {}; {}.\n\n", conditions.machine, conditions.build, conditions.date);
+    if (const std::string steal = steal_line(reports); !steal.empty()) out += steal + "\n\n";
     std::array<std::size_t, verdicts> count{};
     std::size_t all = 0;
     for (const PaperReport& report : reports) {

@@ -20,6 +20,7 @@ constexpr double much = 0.3;                                 // "much less" is a
 constexpr double alike = 1.1, similar = 1.5;                 // factors
 constexpr double fits = 0.02, fits_roughly = 0.05;           // of visibility
 constexpr double grey_step = 1.0 / 255.0;                    // of a picture of 8 bits
+constexpr double edge_step = 1.0;                            // pixels
 
 constexpr Rule rules[] = {
     {"ratio", "A is r times B", "the ratio is within a factor of 1.5 of r",
@@ -54,17 +55,20 @@ constexpr Rule rules[] = {
      "another picture. What looks like B must differ from B much less than that one does."},
     {"visible", "a difference is visible", "one error is more than 10 % larger", "-", "The counterpart of alike."},
     {"fit", "a stored function fits almost exactly", "its largest error is at most 0.02", "at most 0.05",
-     "0.02 are five grey levels of 8 bits, at the single worst depth."},
+     "0.02 are five grey levels of 8 bits, at the single worst depth. A claim that is also read by the mean over "
+     "depth has the same limits for it."},
     {"unnoticed", "a difference is not noticed", "it is at most 1/255", "-", "One grey level of a picture of 8 bits."},
+    {"offset", "a boundary's offset is not noticed", "the boundary is moved by at most a pixel of the picture, on average",
+     "-", "A picture shows the place of an edge to a pixel."},
     {"count", "a number of outcomes is reached", "it is reached in every entry and never exceeded",
      "never exceeded, but not always reached", "Counting is exact."},
     {"construction", "a size or a format", "not judged: the technique cannot do otherwise", "-",
      "Tests check it; measuring it shows nothing about the method."},
     {"not comparable",
-     "the size of a GPU's time, a figure of a scene that is not public, or a method without a stated accuracy",
+     "the size of a GPU's time, a number of a scene that is not public, or a method without a stated accuracy",
      "not judged: the number is given", "-",
-     "A processor's thread cannot test a GPU's time, a stand-in cannot test another scene, and a limit that the paper "
-     "does not give would be ours."},
+     "A processor's thread cannot test a GPU's time, a stand-in does not have another scene's numbers, and a limit "
+     "that the paper does not give would be ours. What a paper says of its methods is judged on stand-ins, too."},
 };
 
 struct Range {
@@ -110,6 +114,10 @@ Judged judge_at_most(const char* rule, const Value& value, double holds, double 
 
 std::string among(const char* which, const Judged& one) {
     return one.limits.empty() ? which : fmt::format("{}: {}", which, one.limits);
+}
+
+std::string joined(const std::string& x, const std::string& y, const char* between) {
+    return x.empty() || x == y ? y : y.empty() ? x : x + between + y;
 }
 
 // From the best to the worst of a claim's parts.
@@ -215,6 +223,10 @@ Judged judge_unnoticed(const Value& difference) {
     return judge("unnoticed", absolute(difference), {-infinity, grey_step});
 }
 
+Judged judge_offset(const Value& pixels) {
+    return judge("offset", absolute(pixels), {-infinity, edge_step});
+}
+
 Judged judge_count(int exact, int over, int entries) {
     return {over > 0 ? Verdict::fails : exact == entries ? Verdict::holds : Verdict::in_shape, "count",
             fmt::format("holds at {} of {}", entries, entries)};
@@ -229,9 +241,6 @@ Judged not_comparable() {
 }
 
 Judged both(const Judged& a, const Judged& b) {
-    const auto joined = [](const std::string& x, const std::string& y, const char* between) {
-        return x.empty() || x == y ? y : y.empty() ? x : x + between + y;
-    };
     return {badness(a.verdict) > badness(b.verdict) ? a.verdict : b.verdict, joined(a.rule, b.rule, ", "),
             joined(a.limits, b.limits, "; ")};
 }
@@ -259,7 +268,27 @@ Judged in_all(const std::vector<Judged>& cases) {
     for (const Judged& one : cases)
         if (badness(one.verdict) > badness(judged.verdict)) judged.verdict = one.verdict;
     judged.limits = among("in all", cases.front());
-    if (judged.verdict == Verdict::fails && in_most(cases).verdict == Verdict::holds) judged.verdict = Verdict::in_shape;
+    if (judged.verdict != Verdict::fails) return judged;
+    std::vector<Judged> at_best = cases;
+    for (Judged& one : at_best)
+        if (one.verdict == Verdict::undecided) one.verdict = Verdict::holds;
+    if (in_most(cases).verdict == Verdict::holds)
+        judged.verdict = Verdict::in_shape;
+    else if (in_most(at_best).verdict == Verdict::holds)
+        judged.verdict = Verdict::undecided;
+    return judged;
+}
+
+Judged in_readings(const std::vector<Judged>& readings) {
+    Judged judged = readings.front();
+    const Judged* last = &readings.front();
+    for (const Judged& one : readings) {
+        if (one.verdict != judged.verdict) judged.verdict = Verdict::undecided;
+        if (one.rule != last->rule) judged.rule = joined(judged.rule, one.rule, ", ");
+        if (one.limits != last->limits) judged.limits = joined(judged.limits, one.limits, "; ");
+        last = &one;
+    }
+    judged.limits = among("in all readings", judged);
     return judged;
 }
 

@@ -56,6 +56,7 @@ Judged judge_likeness(const Value& share);
 Judged judge_visible(const Value& factor);
 Judged judge_fit(const Value& largest_error);
 Judged judge_unnoticed(const Value& difference);
+Judged judge_offset(const Value& pixels);
 Judged judge_count(int exact, int over, int entries);  // entries that reach the number, that exceed it, of all
 Judged by_construction(bool kept);
 Judged not_comparable();
@@ -64,7 +65,9 @@ Judged not_comparable();
 Judged both(const Judged& a, const Judged& b);
 // A claim about "most cases": the verdict that more than half of the cases have at least, or undecided.
 Judged in_most(const std::vector<Judged>& cases);
-// A claim about all cases: the worst of their verdicts, but in shape if it holds in most.
+// A claim about all cases: the worst of their verdicts, but in shape if it holds in most, and undecided if it may.
 Judged in_all(const std::vector<Judged>& cases);
+// A claim whose words can be read in several ways: the verdict of all readings, or undecided if they differ.
+Judged in_readings(const std::vector<Judged>& readings);
 
 }  // namespace shadowbench::claims

@@ -11,8 +11,8 @@ inline constexpr const char* columns = "salvi2010_columns";
 inline constexpr const char* hair_in_smoke = "salvi2010_hair";
 inline constexpr const char* level = "salvi2010_level";
 
-// One grey level of a picture of 8 bits: the limit of the rule "unnoticed".
-inline constexpr double grey_level = 1.0 / 255.0;
+// One grey level of a picture of 8 bits: the limit of the rule "unnoticed". And the farthest limit of the rule "fit".
+inline constexpr double grey_level = 1.0 / 255.0, rough_fit = 0.05;
 
 // The settings of a first look: a quarter of the texels.
 nlohmann::json with_size(nlohmann::json document, const Context& context);
@@ -25,6 +25,7 @@ void table_1(const Context& context);          // section 5.3, table 1: times an
 void depth_range(const Context& context);      // section 5.1, figure 4
 void pictures(const Context& context);         // section 5.1, figures 3 and 5
 void texels(const Context& context);           // section 5.2, figures 6 and 7
+void sampling(const Context& context);         // section 3.3: between nodes
 void orders(const Context& context);           // section 4.1: segments that are not sorted
 void streaming_times(const Context& context);  // section 5.3: the costs of sorting and of streaming
 void drift(const Context& context);            // section 3.2: why nodes must not move

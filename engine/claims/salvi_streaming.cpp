@@ -15,7 +15,8 @@ namespace {
 
 struct Times {
     Value sort_ms, sorted_ms, streamed_ms;
-    double moves = 0.0;  // a segment
+    Value sort_over_sorted, streamed_over_both;  // medians of each repetition's ratio
+    double moves = 0.0;                          // a segment
     double mebibytes = 0.0;
     bool only_the_map = false;  // whether streaming held nothing but the map
 };
@@ -24,7 +25,7 @@ Times measure_times(const View& view, int repetitions) {
     const base::ThreadLimit one_thread(1);
     const bench::Contender &sorted = view.contender("avsm", {"order=sorted"}),
                            &captured = view.contender("avsm", {"order=captured"});
-    std::vector<double> sort, in_order, streamed;
+    std::vector<double> sort, in_order, streamed, sort_and_build;
     std::vector<Segment> ray;
     Times times;
     std::uint64_t segments = 0, moves = 0;
@@ -39,6 +40,7 @@ Times measure_times(const View& view, int repetitions) {
         const bench::Stopwatch building;
         view.build(sorted, view.tiles());
         in_order.push_back(1e3 * building.seconds());
+        sort_and_build.push_back(sort.back() + in_order.back());
         const bench::Stopwatch streaming;
         const bench::Maps maps = view.build(captured, view.tiles());
         streamed.push_back(1e3 * streaming.seconds());
@@ -48,6 +50,8 @@ Times measure_times(const View& view, int repetitions) {
     times.sort_ms = median_of(sort);
     times.sorted_ms = median_of(in_order);
     times.streamed_ms = median_of(streamed);
+    times.sort_over_sorted = ratio_of(sort, in_order);
+    times.streamed_over_both = ratio_of(streamed, sort_and_build);
     times.moves = static_cast<double>(moves) / static_cast<double>(segments);
     return times;
 }
@@ -68,26 +72,24 @@ void streaming_times(const Context& context) {
          {{fmt::format("insertion sort, {:.3g} moves a segment", times.moves), to_text(times.sort_ms)},
           {"compression of sorted segments", to_text(times.sorted_ms)},
           {"compression in the order of capture", to_text(times.streamed_ms)}}});
-    const Value sort = times.sort_ms / times.sorted_ms;
     report.claims.push_back(
         {"section 5.3, table 1",
          fmt::format("sorting before compression takes 3 ms where AVSM 8 compresses in 0.7 ms: {:.2g} "
                      "times",
                      3.0 / 0.7),
-         to_text(sort) + " times",
+         to_text(times.sort_over_sorted) + " times",
          not_comparable(),
          "Theirs are times of a GPU; here one thread sorts and compresses the same segments.",
-         {sort}});
-    const Value twice = times.streamed_ms / (times.sort_ms + times.sorted_ms);
+         {times.sort_over_sorted}});
     report.claims.push_back(
         {"section 5.3",
          "generating an AVSM by streaming takes about twice as long as by the fixed pipeline with "
          "sorting",
-         to_text(twice) + " times",
+         to_text(times.streamed_over_both) + " times",
          not_comparable(),
          "Their factor is that of a pipeline written in software against the GPU's own; ours is that "
          "of inserting in the order of capture against sorting first.",
-         {twice}});
+         {times.streamed_over_both}});
     const double texels = static_cast<double>(view.layout().width) * view.layout().height / 65536.0;
     report.claims.push_back(
         {"section 5.3",

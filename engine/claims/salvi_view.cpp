@@ -2,15 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
+#include "bench/memory.h"
+#include "bench/ray_source.h"
+#include "rays/capture.h"
 #include "rays/tracer.h"
 #include "render/image_file.h"
 #include "render/render.h"
 
 namespace shadowbench::claims::salvi {
 namespace {
+
+constexpr double most_pixels = 0.99;
 
 // Notes the scenario in the report, once.
 void note(const nlohmann::json& document, const Context& context) {
@@ -21,6 +29,25 @@ void note(const nlohmann::json& document, const Context& context) {
 }
 
 }  // namespace
+
+void SeededDifferences::add(const Difference& one) {
+    rms.push_back(one.rms);
+    flip.push_back(one.flip);
+    most.push_back(one.most);
+}
+
+Judged SeededDifferences::unnoticed() const {
+    return in_readings({judge_unnoticed(median_of(rms)), judge_unnoticed(median_of(most))});
+}
+
+std::string SeededDifferences::text() const {
+    return fmt::format("rms {}, 99 % of the pixels by at most {}, mean FLIP {}", to_text(median_of(rms)),
+                       to_text(median_of(most)), to_text(median_of(flip)));
+}
+
+std::vector<Value> SeededDifferences::values() const {
+    return {median_of(rms), median_of(most), median_of(flip)};
+}
 
 View::View(const nlohmann::json& document, const Context& context)
     : first_(document, context.data), tiles_(first_.tiles()) {
@@ -49,19 +76,44 @@ render::Image View::picture(const bench::Maps& maps) const {
 
 Difference View::difference(const render::Image& a, const render::Image& b) const {
     double squares = 0.0;
-    std::size_t pixels = 0;
+    std::vector<double> largest;  // of each pixel
     for (std::size_t p = 0; p < a.pixels.size(); ++p) {
         if (points_.begin[p] == points_.begin[p + 1]) continue;
-        ++pixels;
+        largest.push_back(0.0);
         for (int c = 0; c < 3; ++c) {
             const auto shown = [c](const base::Vec3f& colour) {
                 return render::to_display(std::clamp(static_cast<double>(colour[c]), 0.0, 1.0));
             };
             const double difference = shown(a.pixels[p]) - shown(b.pixels[p]);
             squares += difference * difference;
+            largest.back() = std::max(largest.back(), std::abs(difference));
         }
     }
-    return {std::sqrt(squares / (3.0 * static_cast<double>(pixels))), render::compare(a, b).flip_mean};
+    const double rms = std::sqrt(squares / (3.0 * static_cast<double>(largest.size())));
+    const auto rank = static_cast<std::ptrdiff_t>(most_pixels * static_cast<double>(largest.size() - 1));
+    std::nth_element(largest.begin(), largest.begin() + rank, largest.end());
+    return {rms, render::compare(a, b).flip_mean, largest[static_cast<std::size_t>(rank)]};
+}
+
+MapErrors map_errors(const nlohmann::json& document, const Context& context) {
+    FirstLight first(document, context.data);
+    const rays::MapLayout& layout = first.light.layout;
+    const rays::Capture capture(first.scenario.scene, first.light.view, layout);
+    const auto unwatched = [](std::size_t) {};
+    const bench::MemoryLimits limits;
+    const bench::RaySource source(capture, layout, limits.kept_rays, unwatched);
+    bench::build_all(first.contenders, source, first.input(), limits.all, unwatched);
+    bench::check_functions(first.contenders, source, layout, unwatched);
+    MapErrors errors;
+    errors.depth = static_cast<double>(layout.z_max) - layout.z_min;
+    for (const bench::Contender& contender : first.contenders) {
+        if (!contender.ok())
+            throw base::Error(base::ErrorCode::internal, contender.cell.technique, contender.cell.reason);
+        const results::CurveErrors& curve = contender.cell.curve.value();
+        errors.rms.push_back(curve.norms.rms);
+        errors.mean.push_back(curve.mean_l1 / errors.depth);
+    }
+    return errors;
 }
 
 nlohmann::json with_seeds(nlohmann::json document, int k) {

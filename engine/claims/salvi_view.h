@@ -17,6 +17,18 @@ namespace shadowbench::claims::salvi {
 struct Difference {
     double rms = 0.0;   // over the channels of all pixels that see anything; 1 is the range of the display
     double flip = 0.0;  // mean FLIP over the picture
+    double most = 0.0;  // of the channel that differs most; 99 % of the pixels that see anything differ by no more
+};
+
+// Differences of pictures, one a seed; medians.
+struct SeededDifferences {
+    std::vector<double> rms, flip, most;
+
+    void add(const Difference& one);
+    // "Perceptible" is read in two ways: over the whole picture, and at 99 % of its pixels.
+    Judged unnoticed() const;
+    std::string text() const;  // "rms 0.01 [...], 99 % of the pixels by at most ..., mean FLIP ..."
+    std::vector<Value> values() const;
 };
 
 // What the camera of a scenario sees, and the light rays of its first light, captured once.
@@ -54,6 +66,15 @@ private:
 // The scenario with the seeds of its procedural objects replaced: each k gives another scene of the same kind, and 0
 // the scenario as it is.
 nlohmann::json with_seeds(nlohmann::json document, int k);
+
+// How far the curves of all texels of the scenario's first light are from those of its light rays, for each technique
+// in the scenario's order.
+struct MapErrors {
+    double depth = 0.0;        // the range of depths that the map covers
+    std::vector<double> rms;   // over texels, of each curve's largest error
+    std::vector<double> mean;  // over texels and depths
+};
+MapErrors map_errors(const nlohmann::json& document, const Context& context);
 
 // The number of seeds over which pictures are compared: the range of six values holds the median with 97 %.
 inline constexpr int seeds = 6;

@@ -51,6 +51,11 @@ bench::QuerySet SeededLight::queries() const {
     return bench::scenario_queries(scenario, scenario.lights.front(), seen, first_.light.view);
 }
 
+bench::Truth SeededLight::truth(std::span<const techniques::Query> queries) const {
+    return bench::reference_visibility(first_.scenario.scene, first_.light.view,
+                                       bench::reference_settings(first_.scenario), queries, {});
+}
+
 std::vector<bench::Maps> SeededLight::build(int seed) const {
     rays::MapLayout layout = first_.light.layout;
     if (seed > 0) layout.seed = base::hash(layout.seed, static_cast<std::uint64_t>(seed));
@@ -66,7 +71,7 @@ std::vector<bench::Maps> SeededLight::build(int seed) const {
     return maps;
 }
 
-Turns SeededLight::build_turns(std::span<const Compared> compared) const {
+Turns SeededLight::build_turns(std::span<const Compared> compared, const bench::RepeatRule& rule) const {
     const std::vector<rays::LightRays> tiles = first_.tiles();
     const base::ThreadLimit one_thread(1);
     std::vector<std::function<double()>> works;
@@ -81,15 +86,16 @@ Turns SeededLight::build_turns(std::span<const Compared> compared) const {
         for (std::size_t t = 0; t < count; ++t) capture_.tile(static_cast<int>(t));
         return 1e3 * stopwatch.seconds();
     });
-    return take_turns(works, compared, build_rounds);
+    return take_turns(works, compared, rule);
 }
 
-Turns lookup_turns(std::span<const TimedLookups> all, std::span<const Compared> compared) {
+Turns lookup_turns(std::span<const TimedLookups> all, std::span<const Compared> compared,
+                   const bench::RepeatRule& rule) {
     std::vector<float> answers;
     std::vector<std::function<double()>> passes;
     for (const TimedLookups& timed : all)
         passes.push_back([timed, &answers] { return nanoseconds_a_lookup(timed, answers); });
-    return take_turns(passes, compared, lookup_rounds);
+    return take_turns(passes, compared, rule);
 }
 
 struct TimedMaps::Built {
@@ -110,11 +116,11 @@ void TimedMaps::add(const Context& context, const std::string& name, const std::
     built_.push_back(std::make_unique<const Built>(context, name, set, smaller, lookups));
 }
 
-Turns TimedMaps::take(std::span<const Compared> compared) const {
+Turns TimedMaps::take(std::span<const Compared> compared, const bench::RepeatRule& rule) const {
     std::vector<TimedLookups> all;
     for (const std::unique_ptr<const Built>& built : built_)
         for (const bench::Maps& maps : built->maps) all.push_back({&maps, built->asked.asked()});
-    return lookup_turns(all, compared);
+    return lookup_turns(all, compared, rule);
 }
 
 }  // namespace shadowbench::claims

@@ -24,7 +24,9 @@ base::Vec3d read_vector(const nlohmann::json& value) {
 
 }  // namespace
 
-Seen::Seen(const nlohmann::json& document, const scene::SearchPath& data) : first_(document, data) {
+Seen::Seen(const nlohmann::json& document, const scene::SearchPath& data, const base::Vec2d& moved)
+    : first_(document, data) {
+    first_.light.view.lower += moved * first_.light.view.pixel;
     find_queries();
     const bench::MemoryLimits limits;
     const rays::Capture capture(first_.scenario.scene, first_.light.view, first_.light.layout);
@@ -52,6 +54,7 @@ void Seen::find_queries() {
         while (points.begin[pixel + 1] <= point) ++pixel;
         pixel_.push_back(pixel);
         place_.push_back(points.place[point]);
+        shade_.push_back(points.radiance[point].x);
     }
     queries_ = std::move(found.queries);
     footprints_ = std::move(found.footprints);

@@ -20,9 +20,9 @@ namespace shadowbench::claims {
 
 class Seen {
 public:
-    // For a document with a camera and opaque surfaces. Its first variant counts. Throws Error{internal} for a
-    // technique that fails.
-    Seen(const nlohmann::json& document, const scene::SearchPath& data);
+    // For a document with a camera and opaque surfaces. Its first variant counts. `moved`: cells by which the whole map
+    // lies further along its own axes, in the plane that it divides. Throws Error{internal} for a technique that fails.
+    Seen(const nlohmann::json& document, const scene::SearchPath& data, const base::Vec2d& moved = {0.0, 0.0});
     Seen(const Seen&) = delete;
     Seen& operator=(const Seen&) = delete;
 
@@ -30,6 +30,8 @@ public:
     std::span<const techniques::Query> queries() const { return queries_; }
     std::uint32_t pixel(std::size_t query) const { return pixel_[query]; }       // row after row
     const base::Vec3d& place(std::size_t query) const { return place_[query]; }  // on the surface, in the world
+    // What the light adds to the red channel of its pixel where nothing shadows it: see render/shading.h.
+    float shade(std::size_t query) const { return shade_[query]; }
     base::Vec2i size() const { return size_; }                              // pixels
 
     // The answers of the technique with this place in the document, one a query.
@@ -53,6 +55,7 @@ private:
     std::vector<techniques::Footprint> footprints_;
     std::vector<std::uint32_t> pixel_;
     std::vector<base::Vec3d> place_;
+    std::vector<float> shade_;
     std::vector<std::vector<float>> visibility_;
 };
 

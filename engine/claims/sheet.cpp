@@ -16,7 +16,9 @@ Sheet picture_sheet(const Context& context, const std::string& name, const std::
     options.run.threads = context.threads;
     options.size = context.quick ? base::Vec2i(192, 144) : base::Vec2i(512, 384);
     options.rays_per_side = context.quick ? 1 : 2;
-    const render::Rendering rendering = render::render(context.document(name, set), options, context.progress);
+    const nlohmann::json document = context.document(name, set);
+    note_document(context, name, document);
+    const render::Rendering rendering = render::render(document, options, context.progress);
 
     const render::Image& reference = rendering.reference.shaded;
     const double exposure = print_exposure(reference, rendering.seen);
@@ -36,8 +38,12 @@ Sheet picture_sheet(const Context& context, const std::string& name, const std::
         sheet.caption += fmt::format("; {} {} (rms {:.2g}, FLIP {:.2g})", panels.size(), label, pictures.shaded.rms,
                                      pictures.shaded.flip_mean);
     }
-    sheet.caption +=
-        ". Below: the reference's visibility, then each difference from the reference, times four, dark on white";
+    sheet.caption += fmt::format(
+        ". Below: the reference's visibility, then each difference from the reference, times four, dark on white. In "
+        "brackets: rms difference of the linear values of the picture above from those of the reference, over all "
+        "pixels, and FLIP's mean; both are of this one picture. The visibility of the reference has a standard error "
+        "of rms {:.2g}",
+        rendering.reference_standard_error);
     sheet.png = render::encode_png(side_by_side(panels));
     return sheet;
 }

@@ -14,6 +14,14 @@ Value Turns::ratio(std::size_t one, std::size_t other) const {
     return ratio_of(times[one], times[other]);
 }
 
+Value Turns::spread(std::span<const std::size_t> of) const {
+    Value widest = exactly(1.0);
+    for (const std::size_t one : of)
+        for (const std::size_t other : of)
+            if (one != other) widest = largest(widest, ratio(one, other));
+    return widest;
+}
+
 Turns take_turns(std::span<const std::function<double()>> things, std::span<const Compared> compared,
                  const bench::RepeatRule& rule) {
     Turns turns;

@@ -21,6 +21,8 @@ inline constexpr double ratio_goal = 0.05;
 // many looks at them, intervals still hold the median as often as bench/repeat.h says: see its tests. The seconds keep
 // the timing of all papers within a few minutes.
 inline constexpr bench::RepeatRule lookup_rounds{15, 39, 10.0}, build_rounds{7, 31, 10.0};
+// Of what no single ratio tells when to stop, or of a ratio that is only asked to be above or below 1.
+inline constexpr bench::RepeatRule fixed_rounds{31, 31, 0.0};
 
 // Two of the things, by their places, whose ratio a claim judges.
 struct Compared {
@@ -32,6 +34,8 @@ struct Turns {
 
     Value time(std::size_t thing) const;                    // the median over rounds
     Value ratio(std::size_t one, std::size_t other) const;  // the median over rounds of each round's ratio
+    // The largest ratio of any two of these things. Each end of its interval is the largest of all these ratios' ends.
+    Value spread(std::span<const std::size_t> of) const;
 };
 
 // Each thing does its work once and returns the time that it took. Every other round goes backwards, so that no thing

@@ -47,7 +47,10 @@ Value largest(const Value& a, const Value& b) {
 
 Value error_of(const results::Cell& cell) {
     if (!cell.lookup->interval) return exactly(cell.lookup->norms.rms);
-    const double low = cell.lookup->interval->low, high = cell.lookup->interval->high;
+    return rms_between(cell.lookup->interval->low, cell.lookup->interval->high);
+}
+
+Value rms_between(double low, double high) {
     const double middle = std::sqrt(0.5 * (low * low + high * high));
     return {std::clamp(middle, low, high), low, high};  // a rounding would else put it outside a narrow interval
 }

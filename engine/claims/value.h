@@ -28,6 +28,8 @@ Value largest(const Value& a, const Value& b);
 // If the rays are regular or only one seed was measured, the interval covers the truth's uncertainty only. Exact if the
 // result has no interval.
 Value error_of(const results::Cell& cell);
+// An RMS with this interval: the middle of the interval of the mean square.
+Value rms_between(double low, double high);
 
 // "14.2 [13.9, 14.6]", or "14.2" if nothing varies.
 std::string to_text(const Value& value);

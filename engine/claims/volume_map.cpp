@@ -11,7 +11,6 @@
 #include "render/image_file.h"
 
 namespace shadowbench::claims::volume {
-namespace {
 
 const scene::Object& volume_of(const scene::Scenario& scenario) {
     for (const scene::Object& object : scenario.scene.objects)
@@ -19,14 +18,13 @@ const scene::Object& volume_of(const scene::Scenario& scenario) {
     throw base::Error(base::ErrorCode::internal, scenario.name, "the scene has no grid volume");
 }
 
-}  // namespace
-
 void with_map(const Context& context, const char* name, int resolution,
               const std::function<void(const VolumeMap&)>& use) {
     const nlohmann::json document = context.document(
         name, {fmt::format("rays.resolution={}", resolution),
                fmt::format(R"(techniques=[{{"type":"volume_deep","cells":"sample","filter":"point","steps":{}}}])",
                            map_steps)});
+    note_document(context, name, document);
     const FirstLight first(document, context.data);
     const bench::Maps maps = first.build(first.contenders.front(), first.tiles());
     const scene::Object& object = volume_of(first.scenario);

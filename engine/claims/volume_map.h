@@ -24,7 +24,10 @@ struct VolumeMap {
     const bench::Maps& maps;  // `volume_deep`, whose lookups answer from one texel
 };
 
-// Builds the map of scenarios/papers/<name>.json at this resolution, and calls `use`.
+// The object of a scenario that is a grid volume. Throws Error{internal} if there is none.
+const scene::Object& volume_of(const scene::Scenario& scenario);
+
+// Builds the map of scenarios/papers/<name>.json at this resolution, and calls `use`. Notes the scenario in the report.
 void with_map(const Context& context, const char* name, int resolution,
               const std::function<void(const VolumeMap&)>& use);
 

@@ -10,12 +10,6 @@
 
 namespace shadowbench::claims::volume {
 
-// How far the answers of the smooth and of the bucket map are apart, receiver by receiver: rms.
-struct Apart {
-    Value all_steps, few_steps;  // with 512 and with 64 steps
-};
-inline constexpr int few_steps = 64;
-
 // The results of one data set: all techniques with receivers in the volume and on the plane, and some with receivers
 // only on the plane. Times are of all techniques.
 struct MeasuredSet {
@@ -23,7 +17,6 @@ struct MeasuredSet {
     results::Result both, plane;
     Turns builds, lookups;  // in ms, in ns
     std::size_t march;      // the place of the capture among the builds
-    Apart apart;
 
     const results::LightResult& light() const { return light_of(both); }
     const results::LightResult& behind() const { return light_of(plane); }

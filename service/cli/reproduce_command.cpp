@@ -1,12 +1,14 @@
-#include <algorithm>
 #include <ctime>
+#include <optional>
 #include <ostream>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/write_files.h"
 #include "claims/paper.h"
+#include "claims/quick.h"
 #include "claims/report.h"
 #include "results/machine.h"
 #include "results/program.h"
@@ -48,13 +50,31 @@ claims::Conditions conditions_of(bool quick) {
             today()};
 }
 
+// The full report in this folder beside which a quick one of these papers stands, and its name.
+struct Beside {
+    std::optional<claims::FullReport> full;
+    std::string name;
+};
+
+Beside find_full_report(const fs::path& folder, const std::string& papers) {
+    for (const std::string& name : {papers, std::string("papers")}) {
+        const fs::path file = folder / (name + ".json");
+        if (!fs::exists(file)) continue;
+        claims::FullReport full = claims::read_full_report(file);
+        const std::string text = fmt::format("the full report {}.json of {}", name, full.date);
+        return {std::move(full), text};
+    }
+    return {};
+}
+
 }  // namespace
 
 void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, std::ostream& err) {
     const std::vector<const claims::Paper*> papers = chosen(arguments.paper);
     const fs::path folder = arguments.out.empty() ? fs::path("results") : fs::path(arguments.out);
-    const std::string name =
-        (papers.size() > 1 ? "papers" : papers.front()->id) + std::string(arguments.quick ? "_quick" : "");
+    const std::string of_papers = papers.size() > 1 ? "papers" : papers.front()->id;
+    const std::string name = of_papers + (arguments.quick ? "_quick" : "");
+    const Beside beside = arguments.quick ? find_full_report(folder, of_papers) : Beside{};
     base::Undo made;
     base::make_writable(folder, made);
 
@@ -69,14 +89,18 @@ void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, s
         context.progress = [&](const bench::Progress& progress) { bar.show(progress); };
         reports.push_back(claims::measure(*paper, context));
         bar.end();
+        if (beside.full) claims::stand_beside(*beside.full, reports.back());
         out << reports.back().title << "\n";
         for (const claims::Claim& claim : reports.back().claims)
             out << fmt::format("  {:<18}  {}: {}; here {}\n", to_string(claim.judged.verdict), claim.place, claim.says,
                                claim.measured);
         out.flush();
     }
-    claims::write_reports(folder, name, reports, conditions_of(arguments.quick));
+    claims::Conditions conditions = conditions_of(arguments.quick);
+    conditions.beside = beside.name;
+    claims::write_reports(folder, name, reports, conditions);
     made.keep();
+    if (const std::string steal = claims::steal_line(reports); !steal.empty()) out << steal << "\n";
     out << fmt::format("written: {0}/{1}.md, {0}/{1}.json, {0}/plots\n", folder.string(), name);
 }
 

@@ -39,5 +39,13 @@ TEST(Intervals, TheIntervalOfAMeanIsStudents) {
     EXPECT_NEAR(mean.high, 5.0 + 3.1824, 1e-3);
 }
 
+TEST(Intervals, ARatioOfPairsDoesNotHoldWhatBothShare) {
+    const std::vector<double> one{1.0, 10.0, 100.0}, other{2.0, 20.0, 200.0};
+    const Value ratio = mean_ratio_of(one, other);
+    EXPECT_EQ(ratio.value, 0.5);
+    EXPECT_EQ(ratio.low, 0.5);
+    EXPECT_EQ(ratio.high, 0.5);
+}
+
 }  // namespace
 }  // namespace shadowbench::claims

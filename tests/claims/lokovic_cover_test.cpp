@@ -55,6 +55,15 @@ TEST(Cover, TheErrorAtASilhouetteIsThatOfTheClosedForm) {
     }
 }
 
+// All N samples are lit with the same uniform probability u: the mean of u (1 - u) / N is 1 / (6 N).
+TEST(Cover, UnstratifiedSamplesErrMoreAtASilhouette) {
+    const Cover cover = silhouette(256);
+    for (const int samples : {4, 144}) {
+        const double expected = 1.0 / std::sqrt(6.0 * samples);
+        EXPECT_NEAR(filtering_error(cover, 128, samples, lookups, 7, "uniform"), expected, slack * expected) << samples;
+    }
+}
+
 // Each sample is lit with probability 1/2: the variance is 1 / (4 N). Parts of the region have hardly more or less than
 // half of their area covered, which lowers it by a few per cent.
 TEST(Cover, TheErrorInFurIsThatOfTheClosedForm) {

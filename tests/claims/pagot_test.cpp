@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "claims/pagot_views.h"
 
 namespace shadowbench::claims::pagot {
 namespace {
@@ -38,6 +44,78 @@ TEST(Kernels, AreRequestedAsThePaperDescribesThem) {
     EXPECT_EQ(request({1, 4}), R"({"type":"multi_depth","n":1,"select":"maximum","kernel":4})");
     EXPECT_EQ(request({3, 2}), R"({"type":"multi_depth","n":3,"select":"both","kernel":2})");
     EXPECT_EQ(title({3, 2}), "3-SM with 2 x 2");
+}
+
+TEST(Turned, TurnsLightAndCameraAroundTheirTargets) {
+    const nlohmann::json document = nlohmann::json::parse(R"({
+        "lights": [{"position": [3, 7, 3], "target": [1, 0.8, 0]}],
+        "receivers": {"position": [-1, 3, 6], "target": [-1, 0.6, 0]}})");
+    const nlohmann::json one = turned(document, 90.0, 0.0), other = turned(document, 0.0, 180.0);
+    EXPECT_EQ(one.at("receivers"), document.at("receivers"));
+    EXPECT_EQ(other.at("lights"), document.at("lights"));
+    const auto coordinate = [](const nlohmann::json& thing, std::size_t axis) {
+        return thing.at("position").at(axis).get<double>();
+    };
+    const nlohmann::json &light = one.at("lights").at(0), &camera = other.at("receivers");
+    EXPECT_NEAR(coordinate(light, 0), 4.0, 1e-12);
+    EXPECT_EQ(coordinate(light, 1), 7.0);
+    EXPECT_NEAR(coordinate(light, 2), -2.0, 1e-12);
+    EXPECT_NEAR(coordinate(camera, 0), -1.0, 1e-12);
+    EXPECT_NEAR(coordinate(camera, 2), -6.0, 1e-12);
+}
+
+TEST(CloseView, LooksAtTheMiddleOfTheShadowFromTheSameSide) {
+    const nlohmann::json document = nlohmann::json::parse(R"({
+        "lights": [{"position": [4, 8, 0], "target": [1, 2, 0]}],
+        "receivers": {"position": [0, 3, 6], "target": [1, 1, 0]}})");
+    const base::Vec3d middle = middle_of_shadow(document);
+    EXPECT_LT(middle.length(), 1e-12);
+    const nlohmann::json close = aimed(document, middle, 12.0), &camera = close.at("receivers");
+    EXPECT_EQ(camera.at("fov"), 12.0);
+    const double from[] = {-1.0, 2.0, 6.0};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(camera.at("target").at(axis).get<double>(), 0.0, 1e-12);
+        EXPECT_NEAR(camera.at("position").at(axis).get<double>(), from[axis], 1e-12);
+    }
+}
+
+TEST(Phases, PicturesHaveAMeanAndADistanceFromIt) {
+    std::vector<render::Image> pictures(2, render::Image({2, 1}, base::Vec3f(0.5f)));
+    pictures[0].at(0, 0) = base::Vec3f(0.25f);
+    pictures[1].at(0, 0) = base::Vec3f(0.75f);
+    const render::Image mean = mean_picture(pictures);
+    EXPECT_EQ(mean.at(0, 0), base::Vec3f(0.5f));
+    EXPECT_EQ(mean.at(1, 0), base::Vec3f(0.5f));
+    EXPECT_NEAR(rms_from(pictures, mean), 0.25 * std::sqrt(0.5), 1e-7);  // in one of two pixels
+}
+
+TEST(Views, TakeTheWidthOfTheLeastMeanError) {
+    Views::Numbers numbers;
+    for (std::vector<double>& error : numbers.error) error = {0.5, 0.5};
+    numbers.error[1] = {0.1, 0.8};
+    numbers.error[3] = {0.4, 0.3};
+    EXPECT_EQ(numbers.best_width(), 3u);
+}
+
+// What the place of the cells adds to the difference of an odd and an even kernel is not in their means over phases.
+TEST(Views, MeansOverPhasesDifferLessThanPicturesInOnePhase) {
+    PaperReport report;
+    Context context;
+    context.scenarios = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios/papers";
+    context.quick = true;
+    context.report = &report;
+    const Kernel odd{1, 3}, even{1, 4};
+    Views views(context, flat, Surfaces::plane, {odd, even});
+    EXPECT_EQ(report.documents.size(), 1u);
+    const Difference& difference = views.difference(odd, even);
+    ASSERT_EQ(difference.of_means.rms.size(), static_cast<std::size_t>(lights));
+    EXPECT_EQ(&views.difference(even, odd), &difference) << "a distance has no direction";
+    for (std::size_t i = 0; i < difference.of_means.rms.size(); ++i) {
+        EXPECT_LT(difference.of_means.rms[i], 0.9 * difference.in_one_phase.rms[i]);
+        EXPECT_GT(views.numbers(odd).half_a_cell_on.rms[i], difference.of_means.rms[i]);
+        EXPECT_GT(views.numbers(odd).aliasing[i], views.numbers(even).aliasing[i]) << "steps of a third and a quarter";
+        EXPECT_LT(views.numbers(odd).transition[i], views.numbers(even).transition[i]);
+    }
 }
 
 }  // namespace

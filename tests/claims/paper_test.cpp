@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "bench/disturbance.h"
 #include "temporary_folder.h"
 
 namespace shadowbench::claims {
@@ -68,6 +69,16 @@ TEST(Paper, DocumentsAreFoundByTheNamesThatListsShow) {
         EXPECT_EQ(error.code(), base::ErrorCode::no_such_file);
         EXPECT_EQ(error.where(), "other");
     }
+}
+
+TEST(Paper, ItsReportSaysHowLongItTookAndWhatTheHostTookMeanwhile) {
+    const Paper paper{"x2000", "A paper", [](const Context& context) { context.report->conditions = "On paper."; }};
+    const PaperReport report = measure(paper, {});
+    EXPECT_EQ(report.id, "x2000");
+    EXPECT_EQ(report.conditions, "On paper.");
+    EXPECT_GT(report.seconds, 0.0);
+    EXPECT_EQ(report.steal_seconds.has_value(), bench::steal_seconds().has_value());
+    if (report.steal_seconds) EXPECT_GE(*report.steal_seconds, 0.0);
 }
 
 TEST(Paper, PapersHaveDifferentNames) {

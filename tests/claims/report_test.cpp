@@ -38,7 +38,39 @@ TEST(Report, EveryClaimIsARowAndVerdictsAreCounted) {
     EXPECT_NE(text.find("| 1 | 2 |"), std::string::npos);
     EXPECT_NE(text.find("plots/x2000_figure1.svg"), std::string::npos);
     EXPECT_EQ(text.find("Quick run"), std::string::npos);
-    EXPECT_NE(to_markdown(reports, {true, "", "", ""}).find("Quick run"), std::string::npos);
+    EXPECT_NE(text.find("a machine; a build; 2000-01-01.\n\nOf 3 claims"), std::string::npos) << "no steal is known";
+}
+
+TEST(Report, AQuickOneSaysWhatItStandsBeside) {
+    const std::vector<PaperReport> reports{report()};
+    EXPECT_NE(to_markdown(reports, {true, "", "", ""}).find("no full report beside it"), std::string::npos);
+    EXPECT_NE(to_markdown(reports, {true, "", "", "", "papers.json"}).find("not be that of papers.json"),
+              std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(to_json(reports, {true, "", "", "", "papers.json"}))["beside"], "papers.json");
+}
+
+TEST(Report, SaysHowMuchOfTheTimeTheHostTook) {
+    std::vector<PaperReport> reports{report(), report()};
+    reports[0].seconds = 300.0;
+    reports[1].seconds = 100.0;
+    reports[1].id = "y2001";
+    EXPECT_EQ(steal_line(reports), "");
+    reports[0].steal_seconds = 1.0;
+    reports[1].steal_seconds = 2.0;  // the limit
+    EXPECT_EQ(steal_line(reports),
+              "The host of a virtual machine took 0.8 % of the time (steal), and at no paper more than 2 %.");
+    reports[1].steal_seconds = 5.0;
+    const std::string line = steal_line(reports);
+    EXPECT_EQ(line,
+              "The host of a virtual machine took 1.5 % of the time (steal), and more than 2 % at y2001 (5.0 %): measure "
+              "again what is about times there.");
+    const std::string text = to_markdown(reports, conditions);
+    EXPECT_NE(text.find("a machine; a build; 2000-01-01.\n\n" + line + "\n"), std::string::npos) << text;
+    const auto document = nlohmann::json::parse(to_json(reports, conditions));
+    EXPECT_EQ(document["steal"], line);
+    EXPECT_EQ(document["papers"][1]["steal_seconds"], 5.0);
+    reports[1].steal_seconds.reset();
+    EXPECT_TRUE(nlohmann::json::parse(to_json(reports, conditions))["papers"][1]["steal_seconds"].is_null());
 }
 
 TEST(Report, NumbersSurviveInJson) {

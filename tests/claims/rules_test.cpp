@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <string>
+#include <vector>
+
+#include "base/random.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -24,7 +29,7 @@ TEST(Rules, AreNamedOnce) {
           judge_constant(exactly(1)), judge_growth(exactly(3)), judge_negligible(exactly(0)),
           judge_less(exactly(1), exactly(2)), judge_much_less(exactly(1), exactly(2)), judge_alike(exactly(1), exactly(1)),
           judge_visible(exactly(2)), judge_likeness(exactly(0)), judge_fit(exactly(0)), judge_unnoticed(exactly(0)),
-          judge_count(1, 0, 1), by_construction(true), not_comparable()})
+          judge_offset(exactly(0)), judge_count(1, 0, 1), by_construction(true), not_comparable()})
         EXPECT_TRUE(ids.count(judged.rule)) << judged.rule;
 }
 
@@ -103,6 +108,9 @@ TEST(Rules, AlikeHasTwoSides) {
     EXPECT_EQ(verdict(judge_visible(exactly(1.05))), Verdict::fails);
     EXPECT_EQ(verdict(judge_unnoticed({-0.001, -0.003, 0.002})), Verdict::holds);
     EXPECT_EQ(verdict(judge_unnoticed(exactly(-0.01))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_offset({0.8, 0.7, 0.9})), Verdict::holds);
+    EXPECT_EQ(verdict(judge_offset({0.9, 0.7, 1.1})), Verdict::undecided);
+    EXPECT_EQ(verdict(judge_offset({-4.0, -5.0, -3.0})), Verdict::fails) << "to either side";
 }
 
 TEST(Rules, ALikenessIsMuchLessDifferent) {
@@ -135,6 +143,88 @@ TEST(Rules, MostAndAllCountCases) {
     EXPECT_EQ(verdict(in_all({good, good, good, bad})), Verdict::in_shape);
     EXPECT_EQ(verdict(in_all({good, bad, bad})), Verdict::fails);
     EXPECT_EQ(verdict(in_all({good, good, open})), Verdict::undecided);
+    EXPECT_EQ(verdict(in_all({good, good, open, bad})), Verdict::undecided) << "in shape if the open one holds";
+    EXPECT_EQ(verdict(in_all({good, shape, open, bad})), Verdict::fails) << "whatever the open one does";
+}
+
+TEST(Rules, ReadingsThatDisagreeDecideNothing) {
+    const Judged good = judge_fit(exactly(0.01)), shape = judge_fit(exactly(0.03)), open = judge_fit({0.02, 0.01, 0.03}),
+                 bad = judge_fit(exactly(0.1));
+    EXPECT_EQ(verdict(in_readings({good, good})), Verdict::holds);
+    EXPECT_EQ(verdict(in_readings({bad, bad, bad})), Verdict::fails);
+    EXPECT_EQ(verdict(in_readings({shape, shape})), Verdict::in_shape);
+    EXPECT_EQ(verdict(in_readings({good, good, bad})), Verdict::undecided) << "a majority of readings is no reading";
+    EXPECT_EQ(verdict(in_readings({good, shape})), Verdict::undecided);
+    EXPECT_EQ(verdict(in_readings({bad, open})), Verdict::undecided);
+    EXPECT_EQ(in_readings({good, good}).limits, "in all readings: " + good.limits);
+    const Judged constant = judge_constant(exactly(1));
+    EXPECT_EQ(in_readings({good, good, constant}).rule, "fit, constant");
+    EXPECT_EQ(in_readings({good, good, constant}).limits, "in all readings: " + good.limits + "; " + constant.limits);
+}
+
+// A first look has other intervals than the full report. Where they hold those of the report, the next two tests leave
+// it one way to differ: to say undecided.
+TEST(Rules, AWiderIntervalSaysTheSameOrNothing) {
+    using Judge = Judged (*)(const Value&);
+    const Judge rules[] = {[](const Value& v) { return judge_ratio(0.5, v); },
+                           [](const Value& v) { return judge_ratio(2.0, v); },
+                           [](const Value& v) { return judge_gain(2.0, v); },
+                           [](const Value& v) { return judge_size(2.0, 3.0, v); },
+                           [](const Value& v) { return judge_size({0.1, 0.0875, 0.1125}, 1.0, v); },
+                           [](const Value& v) { return judge_exponent(0.25, v); },
+                           [](const Value& v) { return judge_constant(v); },
+                           [](const Value& v) { return judge_growth(v); },
+                           [](const Value& v) { return judge_negligible(v); },
+                           [](const Value& v) { return judge_less(v, {1.0, 0.9, 1.1}); },
+                           [](const Value& v) { return judge_less({1.0, 0.9, 1.1}, v); },
+                           [](const Value& v) { return judge_much_less(v, {1.0, 0.9, 1.1}); },
+                           [](const Value& v) { return judge_alike(v, {1.0, 0.9, 1.1}); },
+                           [](const Value& v) { return judge_likeness(v); },
+                           [](const Value& v) { return judge_visible(v); },
+                           [](const Value& v) { return judge_fit(v); },
+                           [](const Value& v) { return judge_unnoticed(v); },
+                           [](const Value& v) { return judge_unnoticed(v - exactly(0.01)); },
+                           [](const Value& v) { return judge_offset(v); }};
+    base::Random random(1);
+    std::size_t decided = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const double low = std::pow(10.0, random.uniform(-4.0, 1.0)),
+                     high = low * std::pow(10.0, random.uniform(0.0, 1.0));
+        const double narrow_low = random.uniform(low, high), narrow_high = random.uniform(narrow_low, high);
+        const double middle = 0.5 * (narrow_low + narrow_high);
+        for (std::size_t r = 0; r < std::size(rules); ++r) {
+            const Judged wide = rules[r]({middle, low, high});
+            if (verdict(wide) == Verdict::undecided) continue;
+            ++decided;
+            EXPECT_EQ(verdict(rules[r]({middle, narrow_low, narrow_high})), verdict(wide))
+                << "rule " << r << ", [" << narrow_low << ", " << narrow_high << "] in [" << low << ", " << high << "]";
+        }
+    }
+    EXPECT_GT(decided, 10000u);
+}
+
+TEST(Rules, AClaimWithAnUndecidedPartSaysWhatItWouldSayOrNothing) {
+    const Verdict all[] = {Verdict::holds, Verdict::in_shape, Verdict::fails, Verdict::undecided};
+    constexpr std::size_t parts = 4, decided = 3;  // the first three are verdicts of a report that decides everything
+    const auto judged = [&](std::size_t number, std::size_t kinds) {
+        std::vector<Judged> result;
+        for (std::size_t i = 0; i < parts; ++i, number /= kinds) result.push_back({all[number % kinds], "fit", ""});
+        return result;
+    };
+    using Join = Judged (*)(const std::vector<Judged>&);
+    const Join joins[] = {in_all, in_most, in_readings,
+                          [](const std::vector<Judged>& some) { return both(both(some[0], some[1]), some[2]); }};
+    for (std::size_t q = 0; q < 4 * 4 * 4 * 4; ++q)
+        for (std::size_t f = 0; f < 3 * 3 * 3 * 3; ++f) {
+            const std::vector<Judged> quick = judged(q, decided + 1), full = judged(f, decided);
+            bool may_differ = true;
+            for (std::size_t i = 0; i < parts; ++i)
+                may_differ = may_differ && (quick[i].verdict == Verdict::undecided || quick[i].verdict == full[i].verdict);
+            if (!may_differ) continue;
+            for (const Join& join : joins)
+                if (verdict(join(quick)) != Verdict::undecided)
+                    EXPECT_EQ(verdict(join(quick)), verdict(join(full))) << "parts " << q << " and " << f;
+        }
 }
 
 }  // namespace

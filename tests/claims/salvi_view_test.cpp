@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
+#include "claims/salvi.h"
 #include "claims/salvi_streams.h"
 #include "render/image_file.h"
 #include "render/render.h"
@@ -71,6 +73,60 @@ TEST(SalviView, ADifferenceIsThatOfTheDisplayOverThePixelsThatSeeAnything) {
     EXPECT_LT(view.difference(a, b).rms, 3.0 * all);
     EXPECT_EQ(view.difference(a, a).rms, 0.0);
     EXPECT_EQ(view.difference(a, a).flip, 0.0);
+    EXPECT_EQ(view.difference(a, a).most, 0.0);
+}
+
+// The background is equal in both pictures, so of all pixels no more than of those that see anything differ by more.
+TEST(SalviView, OnePixelInAHundredMayDifferByMore) {
+    Measuring measuring;
+    const View view(smoke(), measuring.context);
+    const render::Image a = view.picture("avsm", {"nodes=4"}), b = view.picture("uncompressed");
+    const double most = view.difference(a, b).most;
+    std::size_t more = 0, as_much = 0;
+    for (std::size_t p = 0; p < a.pixels.size(); ++p) {
+        double largest = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            const auto shown = [&](const render::Image& image) {
+                return render::to_display(std::clamp(static_cast<double>(image.pixels[p][c]), 0.0, 1.0));
+            };
+            largest = std::max(largest, std::abs(shown(a) - shown(b)));
+        }
+        more += largest > most;
+        as_much += largest >= most;
+    }
+    EXPECT_GT(most, 0.0);
+    EXPECT_GT(as_much, more);
+    EXPECT_LE(more, a.pixels.size() / 100);
+}
+
+TEST(SalviView, PerceptibleDifferencesAreReadInTwoWays) {
+    SeededDifferences few, many;
+    for (int k = 0; k < seeds; ++k) {
+        few.add({0.001, 0.1, 0.003});
+        many.add({0.001, 0.1, 0.01});
+    }
+    EXPECT_EQ(few.unnoticed().verdict, Verdict::holds);
+    EXPECT_EQ(many.unnoticed().verdict, Verdict::undecided) << "at some pixels";
+    EXPECT_EQ(few.text(), "rms 0.001, 99 % of the pixels by at most 0.003, mean FLIP 0.1");
+    EXPECT_EQ(few.values()[1].value, 0.003);
+}
+
+TEST(SalviView, LimitsAreThoseOfTheRules) {
+    EXPECT_EQ(judge_unnoticed(exactly(grey_level)).verdict, Verdict::holds);
+    EXPECT_EQ(judge_unnoticed(exactly(1.001 * grey_level)).verdict, Verdict::fails);
+    EXPECT_EQ(judge_fit(exactly(rough_fit)).verdict, Verdict::in_shape);
+    EXPECT_EQ(judge_fit(exactly(1.001 * rough_fit)).verdict, Verdict::fails);
+}
+
+TEST(SalviView, MoreNodesAreNearerToTheCurvesOfAllTexels) {
+    Measuring measuring;
+    const MapErrors errors = map_errors(smoke(), measuring.context);
+    ASSERT_EQ(errors.rms.size(), 3u);
+    EXPECT_GT(errors.depth, 0.0);
+    EXPECT_LT(errors.rms[1], errors.rms[0]);
+    EXPECT_LT(errors.mean[1], errors.mean[0]);
+    EXPECT_LT(errors.rms[2], 1e-4) << "uncompressed";
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(errors.mean[i], errors.rms[i] + 1e-6) << "a mean of what is largest";
 }
 
 TEST(SalviView, AFrameInTheCapturedOrderIsTheCapturedMap) {

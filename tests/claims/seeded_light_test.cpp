@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace shadowbench::claims {
@@ -41,6 +42,29 @@ TEST(SeededLight, BuildsTheSameMapsForASeedAndOthersForAnother) {
     EXPECT_EQ(answers(first[0], asked.queries), answers(again[0], asked.queries));
     EXPECT_NE(answers(first[0], asked.queries), answers(other[0], asked.queries));
     EXPECT_LT(bench::nodes(first[1]).total, bench::nodes(first[0]).total);
+}
+
+TEST(SeededLight, KnowsTheTruthOfAnyQueries) {
+    PaperReport report;
+    const Context context = small_context(report);
+    std::vector<std::string> set = small_ball(R"(techniques=[{"type":"deep","tolerance":0}])");
+    set.push_back("reference.samples_per_pixel=64");
+    const SeededLight light(context, "lokovic2000_ball", set, {"rays.resolution=32"});
+    const bench::QuerySet asked = light.queries();
+    std::vector<techniques::Query> behind_all, before_all;
+    for (const techniques::Query& query : asked.queries) {
+        behind_all.push_back({query.x, query.y, light.layout().z_max + 1.0f, 1.0f});
+        before_all.push_back({query.x, query.y, light.layout().z_min - 1.0f, 1.0f});
+    }
+    const bench::Truth behind = light.truth(behind_all), before = light.truth(before_all);
+    ASSERT_EQ(behind.value.size(), behind_all.size());
+    const std::vector<float> answered = answers(light.build(0)[0], behind_all);
+    double difference = 0.0;
+    for (std::size_t q = 0; q < behind_all.size(); ++q) {
+        EXPECT_EQ(before.value[q], 1.0);
+        difference += std::abs(answered[q] - behind.value[q]) / static_cast<double>(behind_all.size());
+    }
+    EXPECT_LT(difference, 0.1);
 }
 
 TEST(SeededLight, TimesEachBuildAndThenTheCapture) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "render/shading.h"
 
 namespace shadowbench::claims {
 namespace {
@@ -55,6 +56,8 @@ TEST(Seen, PlacesLieOnTheSurfacesThatPixelsSee) {
         if (std::abs(place.y) < 1e-4) {
             ++ground;
             EXPECT_LE(std::max(std::abs(place.x), std::abs(place.z)), 4.0 + 1e-4);
+            const double cosine = (base::Vec3d(1, 6, 1) - place).normalized().y;
+            EXPECT_NEAR(seen.shade(q), render::surface_albedo * cosine, 1e-4);
         } else {
             ++sphere;
             EXPECT_NEAR((place - base::Vec3d(0, 1, 0)).length(), 0.5, 1e-4);
@@ -85,6 +88,20 @@ TEST(Seen, ChoosesDifferentQueriesOverTheWholePicture) {
     EXPECT_EQ(std::set<std::size_t>(chosen.begin(), chosen.end()).size(), 100u);
     EXPECT_LT(chosen.front(), seen.queries().size() / 50);
     EXPECT_GT(chosen.back(), seen.queries().size() - seen.queries().size() / 50);
+}
+
+TEST(Seen, LiesInAMapThatIsMovedByCells) {
+    const Seen still(document(), {}), moved(document(), {}, {0.5, 0.25});
+    std::size_t both = 0, m = 0;
+    for (std::size_t q = 0; q < still.queries().size(); ++q) {
+        while (m < moved.queries().size() && moved.pixel(m) < still.pixel(q)) ++m;
+        if (m == moved.queries().size() || moved.pixel(m) != still.pixel(q)) continue;  // at the border of the map
+        ++both;
+        EXPECT_NEAR(moved.queries()[m].x, still.queries()[q].x - 0.5f, 1e-3f);
+        EXPECT_NEAR(moved.queries()[m].y, still.queries()[q].y - 0.25f, 1e-3f);
+        EXPECT_EQ(moved.queries()[m].z, still.queries()[q].z);
+    }
+    EXPECT_GT(both, still.queries().size() * 9 / 10);
 }
 
 TEST(Seen, RefusesATechniqueThatFails) {

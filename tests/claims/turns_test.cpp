@@ -73,5 +73,16 @@ TEST(Turns, ARatioIsTheMedianOfThoseOfTheRounds) {
     EXPECT_EQ(ratio.high, 5.0);
 }
 
+// A time that falls after it rose: its ends alone would say that it does not change.
+TEST(Turns, TheSpreadIsThatOfTheSlowestAndTheFastest) {
+    const Turns turns{{{2, 2, 2, 2, 2}, {5, 6, 7, 6, 6}, {2, 2, 2, 2, 2}, {9, 9, 9, 9, 9}}};
+    const std::size_t first[] = {0, 1, 2}, alone[] = {3};
+    EXPECT_EQ(turns.ratio(2, 0).value, 1.0);
+    EXPECT_EQ(turns.spread(first).value, 3.0);
+    EXPECT_EQ(turns.spread(first).low, 2.5) << "five values: their whole range";
+    EXPECT_EQ(turns.spread(first).high, 3.5);
+    EXPECT_EQ(turns.spread(alone).value, 1.0);
+}
+
 }  // namespace
 }  // namespace shadowbench::claims

@@ -4,11 +4,21 @@
 
 #include <cmath>
 
+#include "claims/volume_crossings.h"
 #include "claims/volume_map.h"
+#include "claims/volume_rays.h"
 #include "rays/grid_media.h"
 
 namespace shadowbench::claims::volume {
 namespace {
+
+Context quick_context(PaperReport& report) {
+    Context context;
+    context.scenarios = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios/papers";
+    context.quick = true;
+    context.report = &report;
+    return context;
+}
 
 TEST(VolumeChannels, AreTheDepthsOfTheLevelsAndTheLoss) {
     const Channels all = channels_of(curves::Curve{{1, 1}, {1, 0.9f}, {2, 0.5f}, {4, 0.1f}, {4, 0.05f}});
@@ -28,8 +38,8 @@ TEST(VolumeChannels, OfALevelThatIsNotReachedIsWhereAllIsLost) {
 
 // The channels of the committed box, against the exact optical depth along each light ray.
 TEST(VolumeChannels, OfAMapAreThoseOfTheExactLightRays) {
-    Context context;
-    context.scenarios = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "scenarios/papers";
+    PaperReport report;
+    const Context context = quick_context(report);
     with_map(context, "volume_box", 24, [](const VolumeMap& map) {
         const rays::GridMedia media(map.scenario.scene, true);
         const double step = (map.view.z_max - map.view.z_min) / map_steps;
@@ -55,6 +65,39 @@ TEST(VolumeChannels, OfAMapAreThoseOfTheExactLightRays) {
             }
         EXPECT_GT(met, 50);
     });
+}
+
+TEST(VolumeViews, GoAroundTheTarget) {
+    scene::Camera camera;
+    camera.position = {4, 2, 0};
+    camera.target = {1, 1, 0};
+    const base::Vec3d half = turned(camera, 180.0).position, quarter = turned(camera, 90.0).position;
+    EXPECT_LT((half - base::Vec3d(-2, 2, 0)).length(), 1e-12);
+    EXPECT_LT((quarter - base::Vec3d(1, 2, -3)).length(), 1e-12);
+    EXPECT_EQ(turned(camera, 0.0).position, camera.position);
+}
+
+TEST(VolumeViews, NumbersAreOverTheRaysThroughTheBox) {
+    std::vector<render::BoxRay> rays(3);
+    rays[0].back = rays[2].back = 1.0;  // the second misses the box
+    const std::vector<double> a{1.0, 9.0, 2.0}, b{1.0, 0.0, 0.0};
+    EXPECT_DOUBLE_EQ(rms(rays, a, b), std::sqrt(2.0));
+    EXPECT_DOUBLE_EQ(mean(rays, a), 1.5);
+}
+
+TEST(VolumeCrossings, HaveANumberForEachSeed) {
+    PaperReport report;
+    const Context context = quick_context(report);
+    const Crossings box = measure_crossings(context, data_sets[0]);
+    ASSERT_EQ(box.all.smooth.size(), static_cast<std::size_t>(views));
+    for (std::size_t seed = 0; seed < box.all.smooth.size(); ++seed) {
+        EXPECT_LT(box.all.apart[seed], box.few.apart[seed]) << "a step is at most as long as its map lets it be";
+        EXPECT_LT(box.all.light_apart[seed], box.few.light_apart[seed]);
+        EXPECT_GT(box.all.light_apart[seed], 0.0);
+        EXPECT_LT(box.all.smooth[seed], box.shadow_map[seed]);
+        if (seed > 0) EXPECT_NE(box.all.smooth[seed], box.all.smooth[0]) << "of other rays";
+    }
+    EXPECT_EQ(box.builds.times.size(), 3u);
 }
 
 TEST(VolumeSheet, PutsPicturesInRows) {
