@@ -49,8 +49,8 @@ struct Sheet {
 
 struct PaperReport {
     std::string id, title;
-    std::string conditions;              // how our measurements differ from the paper's, one paragraph
-    std::vector<std::string> documents;  // "name hash" of each scenario that was run
+    std::string conditions;               // how our measurements differ from the paper's, one paragraph
+    std::vector<std::string> documents;   // "name hash" of each scenario that was run
     double seconds = 0.0;                 // of the measurement
     std::optional<double> steal_seconds;  // that the host took from all processors meanwhile; absent if unknown
     std::vector<Claim> claims;

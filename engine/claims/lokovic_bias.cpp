@@ -56,10 +56,11 @@ std::vector<FalseShadow> measure(const Context& context) {
 void biases(const Context& context) {
     const base::ThreadLimit threads(context.threads);
     const std::vector<FalseShadow> found = measure(context);
-    Table table{"Section 4: false shadow on a lit ground and backdrop, with a bias of 0.005; means over three seeds of "
-                "the light rays",
-                {"filter width, pixels", "deep map", "depth map", "deep / depth"},
-                {}};
+    Table table{
+        "Section 4: false shadow on a lit ground and backdrop, with a bias of 0.005; means over three seeds of "
+        "the light rays",
+        {"filter width, pixels", "deep map", "depth map", "deep / depth"},
+        {}};
     std::vector<Judged> no_worse;
     std::vector<Value> ratios;
     std::string text;

@@ -91,10 +91,10 @@ std::vector<Value> errors_of_widths(const std::vector<bench::Maps>& first, const
 }
 
 Measured measure_widths(const Context& context) {
-    const SeededLight light(context, ball_scene,
-                            {fmt::format("rays.samples_per_pixel={}", samples), "reference.samples_per_pixel=64",
-                             all_maps()},
-                            {"rays.resolution=128"});
+    const SeededLight light(
+        context, ball_scene,
+        {fmt::format("rays.samples_per_pixel={}", samples), "reference.samples_per_pixel=64", all_maps()},
+        {"rays.resolution=128"});
     const std::vector<bench::Maps> maps = light.build(0);
     const bench::QuerySet image = light.queries();
     return {time_widths(maps, image, light), errors_of_widths(maps, image, light)};

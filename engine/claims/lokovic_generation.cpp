@@ -52,20 +52,18 @@ void compare_with_depth_maps(const Context& context) {
     const std::vector<double> deep = many.all_of(deep_map);
     const Value equal = ratio_of(deep, many.all_of(depth_map)),
                 of_plain = median_of(deep) / median_of(one.all_of(depth_map));
-    report.claims.push_back(
-        {"section 4, and section 6, figure 7",
-         "a deep map takes about as long to generate as a depth map of as many samples",
-         fmt::format("{} times as long at N = {} (one thread)", to_text(equal), many_samples),
-         judge_ratio(1.0, equal),
-         "Capture and build of both. The paper's times were similar and are not shown.",
-         {equal}});
-    report.claims.push_back(
-        {"section 4",
-         "a deep map is significantly more expensive to compute than a depth map of as many pixels",
-         fmt::format("{} times as long at N = {} (one thread)", to_text(of_plain), many_samples),
-         judge_growth(of_plain),
-         "Capture and build of both. The depth map has one sample a pixel.",
-         {of_plain}});
+    report.claims.push_back({"section 4, and section 6, figure 7",
+                             "a deep map takes about as long to generate as a depth map of as many samples",
+                             fmt::format("{} times as long at N = {} (one thread)", to_text(equal), many_samples),
+                             judge_ratio(1.0, equal),
+                             "Capture and build of both. The paper's times were similar and are not shown.",
+                             {equal}});
+    report.claims.push_back({"section 4",
+                             "a deep map is significantly more expensive to compute than a depth map of as many pixels",
+                             fmt::format("{} times as long at N = {} (one thread)", to_text(of_plain), many_samples),
+                             judge_growth(of_plain),
+                             "Capture and build of both. The depth map has one sample a pixel.",
+                             {of_plain}});
 }
 
 // A smaller map, whose pixels hold more hairs: then the rays of many samples are captured in a second.

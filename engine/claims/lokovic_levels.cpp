@@ -209,8 +209,7 @@ void levels(const Context& context) {
     std::vector<Value> values = growth;
     values.insert(values.end(), growth_of_samples.begin(), growth_of_samples.end());
     report.claims.push_back(
-        {"section 5.3",
-         "the vertices of a function double once for every two mip levels",
+        {"section 5.3", "the vertices of a function double once for every two mip levels",
          fmt::format("over those of two levels before, from level 2 on: {} times; {} times if the levels are averaged "
                      "from the uncompressed functions",
                      joined(growth), joined(growth_of_samples)),

@@ -76,13 +76,8 @@ Experiment in_fur(int lookups, const char* placement, const std::vector<int>& sa
 }
 
 void plot_errors(const Experiment& edge, const Experiment& hair, PaperReport& report) {
-    Plot plot{"lokovic2000_section2",
-              "Section 2: error of filtering N jittered samples",
-              "N",
-              "error rms",
-              true,
-              true,
-              {}};
+    Plot plot{
+        "lokovic2000_section2", "Section 2: error of filtering N jittered samples", "N", "error rms", true, true, {}};
     for (const Experiment* experiment : {&edge, &hair}) {
         Series measured{experiment->name, {}, false};
         for (std::size_t i = 0; i < experiment->samples.size(); ++i)

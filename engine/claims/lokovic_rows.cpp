@@ -42,8 +42,7 @@ enum Map { deep_map, depth_map, all_of_depth_map };
 
 struct Built {
     Built(const Context& context, int samples)
-        : light(context, ball_scene,
-                settings(samples, both_maps(samples) + "," + placed_pcf(samples, "subset")), {}),
+        : light(context, ball_scene, settings(samples, both_maps(samples) + "," + placed_pcf(samples, "subset")), {}),
           maps(light.build(0)) {}
 
     SeededLight light;

@@ -79,7 +79,8 @@ void equal_samples(const Rows& measured, PaperReport& report) {
                      at_each_number([&](std::size_t row) { return to_text(at_middles[row]); }),
                      at_each_number([&](std::size_t row) { return to_text(over_picture[row]); })),
          in_readings({alike(at_middles), alike(over_picture)}),
-         "Judged at each N, in two readings. At the middles of pixels the filter is the deep map's minimum. Elsewhere a "
+         "Judged at each N, in two readings. At the middles of pixels the filter is the deep map's minimum. Elsewhere "
+         "a "
          "filter as wide as a pixel takes part of the means of up to 4 pixels, and so depth samples outside it. This "
          "makes the deep map less noisy than the depth map, and blurs by an error that does not fall with N.",
          std::move(values)});
@@ -145,8 +146,7 @@ void times_over_samples(const Rows& measured, PaperReport& report) {
         if (row >= few) filtered.push_back(Rows::deep(row));
     }
     report.claims.push_back(
-        {"section 6, figure 7",
-         "depth maps are faster only at 4 x 4 samples and fewer",
+        {"section 6, figure 7", "depth maps are faster only at 4 x 4 samples and fewer",
          "deep over depth, times: " + at_each_number([&](std::size_t row) { return to_text(slower[row]); }),
          in_all(sides),
          "Judged at each N: up to 16 the depth map must be the faster one, beyond 16 the deep map. The rows are those "
@@ -154,14 +154,14 @@ void times_over_samples(const Rows& measured, PaperReport& report) {
          "on the cost of a search against that of a depth test.",
          slower});
     const Value spread = measured.ns.spread(filtered);
-    report.claims.push_back({"section 6, figure 7",
-                             "deep lookup times are virtually constant as N grows",
-                             fmt::format("from N = 4 to 256 the slowest takes {} times as long as the fastest",
-                                         to_text(spread)),
-                             judge_constant(spread),
-                             "Judged over all N of the table but 1: the paper's has rows of fewer than 4 x 4 samples. "
-                             "64 times the samples would cost 64 times the tests in a depth map.",
-                             {spread}});
+    report.claims.push_back(
+        {"section 6, figure 7",
+         "deep lookup times are virtually constant as N grows",
+         fmt::format("from N = 4 to 256 the slowest takes {} times as long as the fastest", to_text(spread)),
+         judge_constant(spread),
+         "Judged over all N of the table but 1: the paper's has rows of fewer than 4 x 4 samples. "
+         "64 times the samples would cost 64 times the tests in a depth map.",
+         {spread}});
     const Value growth = measured.ns.ratio(Rows::depth(most), Rows::depth(few));
     report.claims.push_back({"section 6, figure 7",
                              "depth maps become much more expensive as the error threshold decreases",

@@ -71,8 +71,7 @@ Readings readings(const ThreeMaps& maps, const Of& of) {
 }
 
 std::vector<std::string> settings(int resolution, int samples, int reference, const std::string& techniques) {
-    return {fmt::format("rays.resolution={}", resolution),
-            fmt::format("rays.samples_per_pixel={}", samples),
+    return {fmt::format("rays.resolution={}", resolution), fmt::format("rays.samples_per_pixel={}", samples),
             fmt::format("reference.samples_per_pixel={}", reference),
             R"(receivers.footprint={"share":0.0078125})",  // 4 / 512
             set_techniques(techniques)};
@@ -102,10 +101,10 @@ ThreeMaps run(const Context& context) {
     maps.large = run_and_build(4096, 1, 4, 2, placed_pcf(400, "jittered") + "," + placed_pcf(400, "subset"));
     maps.printed = run_and_build(512, 256, 128, 16, deep);
     maps.fewer_samples = run_and_build(512, 64, 128, 16, deep);
-    maps.fewer_pixels = run_and_build(256, 256, 512, 64,
-                                      deep + "," + published_deep("box", "linear") + "," +
-                                          published_deep("box", "cached") + "," + published_deep("pixels") + "," +
-                                          published_deep("tent") + R"(,{"type":"deep"})");
+    maps.fewer_pixels =
+        run_and_build(256, 256, 512, 64,
+                      deep + "," + published_deep("box", "linear") + "," + published_deep("box", "cached") + "," +
+                          published_deep("pixels") + "," + published_deep("tent") + R"(,{"type":"deep"})");
     std::vector<Compared> compared{{cached, linear}, {cached, with_256_pixels}};
     for (const Place deep_map : {as_printed, with_64_samples, with_256_pixels})
         compared.insert(compared.end(), {{fine, deep_map}, {deep_map, coarse}});

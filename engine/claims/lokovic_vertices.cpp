@@ -17,7 +17,7 @@
 namespace shadowbench::claims::lokovic {
 namespace {
 
-constexpr int most_with_seeds = 144;  // samples a pixel: more take too long for several seeds
+constexpr int most_with_seeds = 144;                            // samples a pixel: more take too long for several seeds
 constexpr const char* compressed[] = {"published", "bounded"};  // the paper's text, and the program's default
 
 std::string both_ways() {
@@ -168,7 +168,8 @@ void vertices(const Context& context) {
          fmt::format("hair N^{}, smoke N^{}", to_text(hair), to_text(smoke)),
          both(judge_exponent(0.25, hair), judge_exponent(0.25, smoke)),
          "Functions of pixels that hold hair, and of those that hold smoke. What grows faster than N^(1/4) is not "
-         "smooth at these N. " + fit,
+         "smooth at these N. " +
+             fit,
          {hair, smoke}});
 }
 

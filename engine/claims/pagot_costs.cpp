@@ -17,10 +17,10 @@ const std::vector<std::string> smaller = {"rays.resolution=256"};  // of a quick
 // Lookups of several kernels.
 void shadow_tests(const Context& context) {
     TimedMaps timed;
-    timed.add(context, flat,
-              {fmt::format("techniques=[{},{},{},{}]", request({1, 3}), request({2, 3}), request({3, 3}),
-                           request({1, 4}))},
-              {"rays.resolution=256", "receivers.resolution=[256,192]"}, 16384);
+    timed.add(
+        context, flat,
+        {fmt::format("techniques=[{},{},{},{}]", request({1, 3}), request({2, 3}), request({3, 3}), request({1, 4}))},
+        {"rays.resolution=256", "receivers.resolution=[256,192]"}, 16384);
     const Turns ns = timed.take({}, {99, 99, 0.0});
     const Value two = ns.ratio(1, 0), three = ns.ratio(2, 0), two_instead = ns.ratio(1, 3);
     const auto slightly = [](const Value& factor) {
@@ -68,8 +68,7 @@ void selections(const Context& context) {
 
 void storage(const Context& context) {
     std::string requests;
-    for (int n = 1; n <= 4; ++n)
-        requests += fmt::format(R"({}{{"type":"multi_depth","n":{}}})", n == 1 ? "" : ",", n);
+    for (int n = 1; n <= 4; ++n) requests += fmt::format(R"({}{{"type":"multi_depth","n":{}}})", n == 1 ? "" : ",", n);
     const SeededLight light(context, flat, {fmt::format("techniques=[{}]", requests)}, smaller);
     const double cells = static_cast<double>(light.layout().width) * light.layout().height;
     bool kept = true;

@@ -21,7 +21,7 @@
 namespace shadowbench::claims::pagot {
 namespace {
 
-constexpr double fragments_a_cell[] = {0.25, 0.5, 1, 1.5, 2, 3};  // of the image's pixels
+constexpr double fragments_a_cell[] = {0.25, 0.5, 1, 1.5, 2, 3};                       // of the image's pixels
 constexpr std::size_t as_large_as_map = 2, largest = std::size(fragments_a_cell) - 1;  // places of two of them
 constexpr std::array<Kernel, 3> kernels{Kernel{1, 4}, Kernel{2, 3}, Kernel{3, 3}};
 constexpr std::size_t one_depth = 0, two_depths = 1, three_depths = 2;  // their places
@@ -132,7 +132,8 @@ void add_crossing(const Measured& measured, std::size_t kernel, const char* plac
     const std::string parts =
         fmt::format("selection {} ms, {} ms saved by one fragment a cell", to_text(selection), to_text(saved));
     report.claims.push_back(
-        {place, says,
+        {place,
+         says,
          fragments.value < never ? fmt::format("beyond {} fragments a cell: {}", to_text(fragments), parts)
                                  : fmt::format("the lines do not cross: {}", parts),
          judge_ratio(predicted, fragments),
@@ -153,14 +154,13 @@ void add_sides_of_the_point(const Measured& measured, PaperReport& report) {
          "Selecting depths and looking them up, 2-SM with 3 x 3 over 1-SM with 4 x 4. The map's pixels that the camera "
          "sees are fewer than the screen's.",
          {same}});
-    report.claims.push_back(
-        {"section 6, equation 5",
-         "as fragments grow, there is a point where PCF(k + r, 1) costs more than PCF(k, 2)",
-         fmt::format("{:.3g} fragments a cell take {} times as long with the 2-SM", measured.images[largest].fragments,
-                     to_text(most)),
-         judge_less(most, exactly(1.0)),
-         "The same times for the largest image. This asks only on which side of the point it lies.",
-         {most}});
+    report.claims.push_back({"section 6, equation 5",
+                             "as fragments grow, there is a point where PCF(k + r, 1) costs more than PCF(k, 2)",
+                             fmt::format("{:.3g} fragments a cell take {} times as long with the 2-SM",
+                                         measured.images[largest].fragments, to_text(most)),
+                             judge_less(most, exactly(1.0)),
+                             "The same times for the largest image. This asks only on which side of the point it lies.",
+                             {most}});
 }
 
 }  // namespace

@@ -40,8 +40,7 @@ void looks_like(Views& views, const char* place, const Kernel& smaller, const Ke
     for (const Distance& one : {apart, share, apart_in_one, share_in_one, of_phase})
         values.insert(values.end(), {one.rms, one.flip});
     report.claims.push_back(
-        {place,
-         fmt::format("{} looks like {}", title(smaller), title(larger)),
+        {place, fmt::format("{} looks like {}", title(smaller), title(larger)),
          fmt::format("means over phases of the cells differ by {}: {} and {} of what {} differs; pictures in one phase "
                      "by {}: {} and {} of it, where {} differs from itself half a cell on by {}",
                      apart.text_by_name(), to_text(share.rms), to_text(share.flip), title(without),
@@ -49,7 +48,8 @@ void looks_like(Views& views, const char* place, const Kernel& smaller, const Ke
                      of_phase.text_by_name()),
          in_readings({both(judge_likeness(share.rms), judge_likeness(share.flip)),
                       both(judge_likeness(share_in_one.rms), judge_likeness(share_in_one.flip))}),
-         "The paper does not say how its cells lie. A kernel of an odd side lies around the middle of a cell and one of "
+         "The paper does not say how its cells lie. A kernel of an odd side lies around the middle of a cell and one "
+         "of "
          "an even side around a corner, so that in one phase their steps lie half a cell apart, whatever the kernels "
          "do. So the likeness is read in two ways: of the means over four phases, and of pictures in one phase.",
          std::move(values)});

@@ -90,9 +90,8 @@ double rms_from(const std::vector<render::Image>& pictures, const render::Image&
 }
 
 std::size_t Views::Numbers::best_width() const {
-    const auto best = std::min_element(error.begin(), error.end(), [](const auto& a, const auto& b) {
-        return sum_of(a) < sum_of(b);
-    });
+    const auto best = std::min_element(error.begin(), error.end(),
+                                       [](const auto& a, const auto& b) { return sum_of(a) < sum_of(b); });
     return static_cast<std::size_t>(best - error.begin());
 }
 
@@ -144,8 +143,8 @@ render::Image Views::shaded(const Seen& seen, std::size_t kernel) const {
 
 void Views::add(const nlohmann::json& document, const scene::SearchPath& data) {
     std::vector<std::vector<render::Image>> pictures(kernels_.size());  // of each phase, the opposite of the first last
-    for (const base::Vec2d& phase : {base::Vec2d(0.0, 0.0), base::Vec2d(0.5, 0.0), base::Vec2d(0.0, 0.5),
-                                     base::Vec2d(0.5, 0.5)}) {
+    for (const base::Vec2d& phase :
+         {base::Vec2d(0.0, 0.0), base::Vec2d(0.5, 0.0), base::Vec2d(0.0, 0.5), base::Vec2d(0.5, 0.5)}) {
         const Seen seen(document, data, phase);
         if (pictures.front().empty()) add_numbers(seen);
         for (std::size_t k = 0; k < kernels_.size(); ++k) pictures[k].push_back(shaded(seen, k));

@@ -58,7 +58,8 @@ void add_storage(const Context& context, const char* name, const char* title, bo
              {exactly(measured)}});
     if (rebuilt) return;
     context.report->claims.push_back(
-        {"section 5", "where objects that cast shadows are everywhere, tiles may save more than the bounding box",
+        {"section 5",
+         "where objects that cast shadows are everywhere, tiles may save more than the bounding box",
          fmt::format("tiles take {:.3f} of the raw maps, the bounding box {:.3f}", tiles, box),
          judge_less(exactly(tiles), exactly(box)),
          "In a room full of things: the claim is about any such image, and not about one that is not public.",

@@ -213,12 +213,13 @@ void bias(const Context& context) {
         note_document(context, sphere, moved);
         measure(Seen(moved, context.data), ball, effects);
     }
-    Table table{"Figure 9: what the bias does; means over four places of the map's cells. Widths in pixels of the "
-                "picture: of what is lit inside a shadow's boundary, and of what is shadowed outside it",
-                {"bias", "false shadow on the lit sphere", "area that the sphere's own shadow loses", "lit inside it",
-                 "shadowed outside", "area that the shadow on the plane loses", "lit inside it", "shadowed outside",
-                 "share of the picture on the wrong side of a boundary", "mean error"},
-                {}};
+    Table table{
+        "Figure 9: what the bias does; means over four places of the map's cells. Widths in pixels of the "
+        "picture: of what is lit inside a shadow's boundary, and of what is shadowed outside it",
+        {"bias", "false shadow on the lit sphere", "area that the sphere's own shadow loses", "lit inside it",
+         "shadowed outside", "area that the shadow on the plane loses", "lit inside it", "shadowed outside",
+         "share of the picture on the wrong side of a boundary", "mean error"},
+        {}};
     for (std::size_t setting = 0; setting < settings; ++setting) {
         const Effects& effect = effects[setting];
         std::vector<std::string> row{fmt::format("{} to {}", biases[setting].low, biases[setting].high),

@@ -168,34 +168,35 @@ Edges edges_of(double res_factor, int samples, const char* placement) {
 void figure_3(PaperReport& report) {
     const Edges uniform = edges_of(8.0, 16, "uniform"), gaussian = edges_of(8.0, 16, "gaussian"),
                 jittered = edges_of(8.0, 16, "jittered");
-    report.claims.push_back({"section 2, figure 3",
-                             "jittered samples make shadows less noisy than uniform or Gaussian ones",
-                             fmt::format("noise at a straight edge: {} jittered, {} uniform, {} Gaussian",
-                                         to_text(jittered.noise), to_text(uniform.noise), to_text(gaussian.noise)),
-                             both(judge_less(jittered.noise, uniform.noise),
-                                  judge_less(jittered.noise, gaussian.noise)),
-                             "The standard deviation of the visibility at one distance from the edge, rms over the "
-                             "distances that the region reaches; 16 samples.",
-                             {jittered.noise, uniform.noise, gaussian.noise}});
-    report.claims.push_back({"section 2, figure 3",
-                             "images made with Gaussian samples do not appear substantially different from those made "
-                             "with uniform ones",
-                             fmt::format("edges are {} and {} cells wide (10 to 90 %), noise is {} and {}",
-                                         to_text(gaussian.width), to_text(uniform.width), to_text(gaussian.noise),
-                                         to_text(uniform.noise)),
-                             not_comparable(),
-                             "The paper does not print the width of its Gaussian; here the region ends at two standard "
-                             "deviations.",
-                             {gaussian.width, uniform.width, gaussian.noise, uniform.noise}});
+    report.claims.push_back(
+        {"section 2, figure 3",
+         "jittered samples make shadows less noisy than uniform or Gaussian ones",
+         fmt::format("noise at a straight edge: {} jittered, {} uniform, {} Gaussian", to_text(jittered.noise),
+                     to_text(uniform.noise), to_text(gaussian.noise)),
+         both(judge_less(jittered.noise, uniform.noise), judge_less(jittered.noise, gaussian.noise)),
+         "The standard deviation of the visibility at one distance from the edge, rms over the "
+         "distances that the region reaches; 16 samples.",
+         {jittered.noise, uniform.noise, gaussian.noise}});
+    report.claims.push_back(
+        {"section 2, figure 3",
+         "images made with Gaussian samples do not appear substantially different from those made "
+         "with uniform ones",
+         fmt::format("edges are {} and {} cells wide (10 to 90 %), noise is {} and {}", to_text(gaussian.width),
+                     to_text(uniform.width), to_text(gaussian.noise), to_text(uniform.noise)),
+         not_comparable(),
+         "The paper does not print the width of its Gaussian; here the region ends at two standard "
+         "deviations.",
+         {gaussian.width, uniform.width, gaussian.noise, uniform.noise}});
 }
 
 void figures_4_and_8(PaperReport& report) {
     constexpr double factors[] = {1, 3, 8};
     std::vector<Value> widths;
-    Table table{"Figure 4: where a shadow's straight edge lies, in cells from its true place; means over eight places "
-                "along the edge",
-                {"ResFactor", "width (10 to 90 %)", "samples anywhere in their parts", "samples as printed"},
-                {}};
+    Table table{
+        "Figure 4: where a shadow's straight edge lies, in cells from its true place; means over eight places "
+        "along the edge",
+        {"ResFactor", "width (10 to 90 %)", "samples anywhere in their parts", "samples as printed"},
+        {}};
     for (const double factor : factors) {
         const Edges spread = edges_of(factor, 64, "jittered"), published = edges_of(factor, 64, "published");
         widths.push_back(spread.width);

@@ -219,15 +219,15 @@ void times(const Context& context) {
     const Value average = 0.5 * (increases[0] + increases[1]);
     report.claims.push_back({"section 5",
                              "on average, an image with shadows costs 40 % to 50 % more than the one without",
-                             fmt::format("{} % more", to_text(average)), judge_ratio(0.45, 0.01 * average),
+                             fmt::format("{} % more", to_text(average)),
+                             judge_ratio(0.45, 0.01 * average),
                              "The mean of the two images that are rebuilt, against 45 %. The paper's four cost 46 % "
                              "more.",
                              {average}});
     report.claims.push_back(
         {"section 3.1", "a depth map can be computed faster than a shaded image",
          fmt::format("sphere and plane, coloured lights: {} of the time of the image without shadows", depth_map_text),
-         in_all(faster),
-         "Of one depth map as many pixels across as the image, with one ray a pixel; the image has 16.",
+         in_all(faster), "Of one depth map as many pixels across as the image, with one ray a pixel; the image has 16.",
          depth_map_shares});
     report.tables.push_back(std::move(table));
     report.tables.push_back(std::move(parts));

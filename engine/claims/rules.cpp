@@ -25,13 +25,15 @@ constexpr double edge_step = 1.0;                            // pixels
 constexpr Rule rules[] = {
     {"ratio", "A is r times B", "the ratio is within a factor of 1.5 of r",
      "within a factor of 3, on the same side of 1",
-     "Scenes and machines differ; 1.5 is what a rebuilt scene or another compiler explains. Three times more or less is "
+     "Scenes and machines differ; 1.5 is what a rebuilt scene or another compiler explains. Three times more or less "
+     "is "
      "another effect."},
     {"gain", "A is r times better than B", "the gain is at least r / 1.5", "at least r / 3, and a gain",
      "As for a ratio, but a larger gain than the paper's fulfils its claim."},
     {"size", "a map is s times as large as another",
      "within 10 % of s, or of a value that rounds to s as the paper prints it",
-     "nearer to s than to the size without the paper's idea (their geometric mean), at most 1.35 times off on the other "
+     "nearer to s than to the size without the paper's idea (their geometric mean), at most 1.35 times off on the "
+     "other "
      "side",
      "Sizes follow from the method and do not depend on the machine."},
     {"exponent", "a quantity grows as x^p", "the fitted exponent is within 0.05 of p", "within 0.25 of p",
@@ -58,8 +60,9 @@ constexpr Rule rules[] = {
      "0.02 are five grey levels of 8 bits, at the single worst depth. A claim that is also read by the mean over "
      "depth has the same limits for it."},
     {"unnoticed", "a difference is not noticed", "it is at most 1/255", "-", "One grey level of a picture of 8 bits."},
-    {"offset", "a boundary's offset is not noticed", "the boundary is moved by at most a pixel of the picture, on average",
-     "-", "A picture shows the place of an edge to a pixel."},
+    {"offset", "a boundary's offset is not noticed",
+     "the boundary is moved by at most a pixel of the picture, on average", "-",
+     "A picture shows the place of an edge to a pixel."},
     {"count", "a number of outcomes is reached", "it is reached in every entry and never exceeded",
      "never exceeded, but not always reached", "Counting is exact."},
     {"construction", "a size or a format", "not judged: the technique cannot do otherwise", "-",
@@ -123,12 +126,18 @@ std::string joined(const std::string& x, const std::string& y, const char* betwe
 // From the best to the worst of a claim's parts.
 int badness(Verdict verdict) {
     switch (verdict) {
-        case Verdict::by_construction: return 0;
-        case Verdict::holds: return 1;
-        case Verdict::in_shape: return 2;
-        case Verdict::not_comparable: return 3;
-        case Verdict::undecided: return 4;
-        case Verdict::fails: return 5;
+        case Verdict::by_construction:
+            return 0;
+        case Verdict::holds:
+            return 1;
+        case Verdict::in_shape:
+            return 2;
+        case Verdict::not_comparable:
+            return 3;
+        case Verdict::undecided:
+            return 4;
+        case Verdict::fails:
+            return 5;
     }
     return 5;
 }
@@ -137,12 +146,18 @@ int badness(Verdict verdict) {
 
 const char* to_string(Verdict verdict) {
     switch (verdict) {
-        case Verdict::holds: return "holds";
-        case Verdict::in_shape: return "holds in shape";
-        case Verdict::fails: return "does not hold here";
-        case Verdict::undecided: return "undecided";
-        case Verdict::not_comparable: return "not comparable";
-        case Verdict::by_construction: return "by construction";
+        case Verdict::holds:
+            return "holds";
+        case Verdict::in_shape:
+            return "holds in shape";
+        case Verdict::fails:
+            return "does not hold here";
+        case Verdict::undecided:
+            return "undecided";
+        case Verdict::not_comparable:
+            return "not comparable";
+        case Verdict::by_construction:
+            return "by construction";
     }
     return "";
 }
@@ -228,8 +243,10 @@ Judged judge_offset(const Value& pixels) {
 }
 
 Judged judge_count(int exact, int over, int entries) {
-    return {over > 0 ? Verdict::fails : exact == entries ? Verdict::holds : Verdict::in_shape, "count",
-            fmt::format("holds at {} of {}", entries, entries)};
+    return {over > 0           ? Verdict::fails
+            : exact == entries ? Verdict::holds
+                               : Verdict::in_shape,
+            "count", fmt::format("holds at {} of {}", entries, entries)};
 }
 
 Judged by_construction(bool kept) {

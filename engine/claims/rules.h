@@ -12,7 +12,7 @@ namespace shadowbench::claims {
 
 enum class Verdict {
     holds,
-    in_shape,         // the direction or the law is the paper's, the size of the effect is not
+    in_shape,  // the direction or the law is the paper's, the size of the effect is not
     fails,
     undecided,        // the interval of the measurement crosses a limit of the rule
     not_comparable,   // measured, but not what the paper measured: GPU times, scenes that are not public
@@ -37,8 +37,8 @@ struct Judged {
     std::string limits;  // the numbers of the rule for this claim: "holds in [0.91, 1.1], in shape in [0.67, 1.5]"
 };
 
-// Of each rule below, `measured` is the quantity that the claim is about, and the whole interval of it is judged: if all
-// of it lies within a limit, that verdict is certain; if it crosses a limit, the claim is undecided.
+// Of each rule below, `measured` is the quantity that the claim is about, and the whole interval of it is judged: if
+// all of it lies within a limit, that verdict is certain; if it crosses a limit, the claim is undecided.
 Judged judge_ratio(double paper, const Value& measured);
 Judged judge_gain(double paper, const Value& measured);
 Judged judge_size(double paper, double without, const Value& measured);

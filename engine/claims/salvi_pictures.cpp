@@ -37,19 +37,14 @@ void figure_3(const Context& context) {
     const char* place = "section 5.1, figure 3";
     PaperReport& report = *context.report;
     report.claims.push_back(
-        {place,
-         "there is little perceptible difference between AVSM 12 and a deep shadow map of tolerance 0.002",
-         "the pictures differ by " + to_deep.text(),
-         to_deep.unnoticed(),
+        {place, "there is little perceptible difference between AVSM 12 and a deep shadow map of tolerance 0.002",
+         "the pictures differ by " + to_deep.text(), to_deep.unnoticed(),
          "Smoke between opaque things in place of the game's level; both maps are filtered alike. Judged by the rms "
          "and by 99 % of the pixels.",
          to_deep.values()});
-    report.claims.push_back({place,
-                             "the results for sampling the uncompressed data also look identical",
-                             "AVSM 12 differs from the uncompressed map by " + to_all.text(),
-                             to_all.unnoticed(),
-                             "In the same scenes, by the same two readings.",
-                             to_all.values()});
+    report.claims.push_back({place, "the results for sampling the uncompressed data also look identical",
+                             "AVSM 12 differs from the uncompressed map by " + to_all.text(), to_all.unnoticed(),
+                             "In the same scenes, by the same two readings.", to_all.values()});
     const Value at_worst = median_of(largest), on_average = median_of(mean);
     report.claims.push_back(
         {place,
@@ -60,12 +55,9 @@ void figure_3(const Context& context) {
          "In the same scenes. The paper inspects curves and names no measure: read by the largest and by the mean "
          "distance.",
          {at_worst, on_average}});
-    report.claims.push_back({place,
-                             "8 nodes result in acceptable visual quality",
-                             "AVSM 8 differs from the uncompressed map by " + eight.text(),
-                             not_comparable(),
-                             "In the same scenes. The paper does not say what it accepts.",
-                             eight.values()});
+    report.claims.push_back({place, "8 nodes result in acceptable visual quality",
+                             "AVSM 8 differs from the uncompressed map by " + eight.text(), not_comparable(),
+                             "In the same scenes. The paper does not say what it accepts.", eight.values()});
 }
 
 // Hair in smoke, whose opacity the paper does not give.

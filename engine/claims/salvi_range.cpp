@@ -37,9 +37,8 @@ Closeness closeness(const OverSeeds& errors) {
     for (std::size_t s = 0; s < errors[0].size(); ++s)
         ratio.push_back(errors[0][s] / std::min(errors[1][s], errors[2][s]));
     const Value over = median_of(std::move(ratio));
-    return {{median_of(errors[0]), median_of(errors[1]), median_of(errors[2])},
-            over,
-            judge_much_less(over, exactly(1.0))};
+    return {
+        {median_of(errors[0]), median_of(errors[1]), median_of(errors[2])}, over, judge_much_less(over, exactly(1.0))};
 }
 
 // A row of a table with these first fields.
@@ -101,10 +100,11 @@ std::vector<Range> measure_ranges(const Context& context, const Smoke& smoke, Ta
 }
 
 Ranges over_range(const Context& context) {
-    Table table{"Section 5.1: curve error rms (over texels, of each curve's largest error) over the depth range of "
-                "three smoke columns; medians over six scenes",
-                header_of({"smoke", "depth range"}),
-                {}};
+    Table table{
+        "Section 5.1: curve error rms (over texels, of each curve's largest error) over the depth range of "
+        "three smoke columns; medians over six scenes",
+        header_of({"smoke", "depth range"}),
+        {}};
     Plot plot{
         "salvi2010_range", "Curve error rms over the depth range", "depth range", "curve error rms", true, true, {}};
     Ranges ranges{measure_ranges(context, thin, table, plot), measure_ranges(context, dense, table, plot)};
@@ -141,10 +141,11 @@ Pictures compare_pictures(const Context& context, const Smoke& smoke, Table& tab
 
 // The claim is read by two measures of pictures and by curves, with two kinds of smoke, and curves at five spacings.
 void figure_4(const Context& context, const Ranges& ranges) {
-    Table table{"Figure 4: differences of pictures of three smoke columns from the uncompressed one; medians over six "
-                "scenes",
-                header_of({"smoke", "measure"}),
-                {}};
+    Table table{
+        "Figure 4: differences of pictures of three smoke columns from the uncompressed one; medians over six "
+        "scenes",
+        header_of({"smoke", "measure"}),
+        {}};
     const Pictures estimated = compare_pictures(context, thin, table), denser = compare_pictures(context, dense, table);
     context.report->tables.push_back(std::move(table));
     std::vector<Judged> readings{estimated.rms.judged, estimated.flip.judged, denser.rms.judged, denser.flip.judged};
@@ -160,12 +161,11 @@ void figure_4(const Context& context, const Ranges& ranges) {
         values.insert(values.end(), {first, last});
     }
     context.report->claims.push_back(
-        {"section 5.1, figure 4",
-         "AVSM 8 matches the uncompressed picture much more closely than OSM 32 and FOM 16",
+        {"section 5.1, figure 4", "AVSM 8 matches the uncompressed picture much more closely than OSM 32 and FOM 16",
          fmt::format("difference rms {}, {} and {}; AVSM 8 over the better of the others: {} (rms), {} (FLIP); with "
                      "smoke three times as dense {} and {}. Of curve errors it is {} with the denser smoke",
-                     to_text(values[0]), to_text(values[1]), to_text(values[2]), to_text(values[3]),
-                     to_text(values[4]), to_text(values[5]), to_text(values[6]), curves),
+                     to_text(values[0]), to_text(values[1]), to_text(values[2]), to_text(values[3]), to_text(values[4]),
+                     to_text(values[5]), to_text(values[6]), curves),
          in_readings(readings),
          "The paper gives neither the columns' spacing nor their density, nor a measure of what is close. Both are "
          "estimated from figure 7: the spacing from its axis, on which each column is about a tenth of the depth range "
@@ -190,17 +190,15 @@ void claim_of_ranges(const Context& context, const Ranges& ranges) {
         readings.push_back(found.judged);
         values.insert(values.end(), found.each.begin(), found.each.end());
         values.push_back(found.over);
-        text += fmt::format("{}with {:.1f} times the depth range curve errors rms grow to {} times (AVSM 8), {} times "
-                            "(OSM 32), {} times (FOM 16), AVSM 8's growth over the lesser of the others': {}",
-                            text.empty() ? "" : "; with smoke three times as dense, ", most.depth / least.depth,
-                            to_text(found.each[0]), to_text(found.each[1]), to_text(found.each[2]),
-                            to_text(found.over));
+        text += fmt::format(
+            "{}with {:.1f} times the depth range curve errors rms grow to {} times (AVSM 8), {} times "
+            "(OSM 32), {} times (FOM 16), AVSM 8's growth over the lesser of the others': {}",
+            text.empty() ? "" : "; with smoke three times as dense, ", most.depth / least.depth, to_text(found.each[0]),
+            to_text(found.each[1]), to_text(found.each[2]), to_text(found.over));
     }
     context.report->claims.push_back(
-        {"section 5.1",
-         "AVSM's quality is much less affected by the depth range of the occluders than OSM's and FOM's",
-         text,
-         in_readings(readings),
+        {"section 5.1", "AVSM's quality is much less affected by the depth range of the occluders than OSM's and FOM's",
+         text, in_readings(readings),
          "The columns are moved apart along the light: slices and terms are spread evenly over the whole range. Judged "
          "with both kinds of smoke.",
          values});

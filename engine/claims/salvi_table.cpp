@@ -75,13 +75,12 @@ void ratios(const LightResult& light, const Turns& ns, PaperReport& report) {
         const double bytes = static_cast<double>(cell.bytes) / static_cast<double>(eight.bytes);
         const std::size_t place = place_of(cell, light);
         const Value lookup = ns.ratio(place, place_of(eight, light));
-        table.rows.push_back({c.name, ratio_text(c.lookup_ms / 5.4, lookup),
-                              ratio_text(c.build_ms / 0.7, build_ratio(cell, eight)),
-                              ratio_text(c.megabytes / 4.0, exactly(bytes)), to_text(ns.time(place)),
-                              cell.times->image_order.ratio ? to_text(of(*cell.times->image_order.ratio)) : "-",
-                              to_text(of(cell.times->build_ms)), fmt::format("{:.3g}", mebibytes(cell)),
-                              to_text(error_of(cell)),
-                              fmt::format("{:.3g}", cell.curve ? cell.curve->norms.max : 0.0)});
+        table.rows.push_back(
+            {c.name, ratio_text(c.lookup_ms / 5.4, lookup), ratio_text(c.build_ms / 0.7, build_ratio(cell, eight)),
+             ratio_text(c.megabytes / 4.0, exactly(bytes)), to_text(ns.time(place)),
+             cell.times->image_order.ratio ? to_text(of(*cell.times->image_order.ratio)) : "-",
+             to_text(of(cell.times->build_ms)), fmt::format("{:.3g}", mebibytes(cell)), to_text(error_of(cell)),
+             fmt::format("{:.3g}", cell.curve ? cell.curve->norms.max : 0.0)});
         if (&cell == &eight) continue;
         report.claims.push_back(
             {"section 5.3, table 1",

@@ -53,14 +53,10 @@ struct Figure {
     RayWish wish;
     double spacing;  // of the columns; 0: as the scenario has it
 };
-const Figure figure_6 = {
-    hair_in_smoke, "salvi2010_figure6", "section 5.2, figure 6", "Section 5.2, figure 6", {238, hairs_and_smoke}, 0.0};
-const Figure figure_7 = {columns,
-                         "salvi2010_figure7",
-                         "section 5.2, figure 7",
-                         "Section 5.2, figure 7",
-                         {282, three_drops},
-                         own_spacing};
+const Figure figure_6 = {hair_in_smoke,           "salvi2010_figure6",    "section 5.2, figure 6",
+                         "Section 5.2, figure 6", {238, hairs_and_smoke}, 0.0};
+const Figure figure_7 = {
+    columns, "salvi2010_figure7", "section 5.2, figure 7", "Section 5.2, figure 7", {282, three_drops}, own_spacing};
 const Figure figure_7_far = {columns,
                              "salvi2010_figure7_far",
                              "section 5.2, figure 7",
@@ -154,10 +150,11 @@ struct Errors {
     Value over_slices, over_better;  // AVSM 12 over OSM 32, and over the better of OSM 32 and FOM 16
 
     std::string text(Measure by) const {
-        return fmt::format("{} distance {} (12 nodes), {} (16), {} (OSM 32), {} (FOM 16); 12 nodes over OSM 32 {}, "
-                           "over the better of both {}",
-                           name_of(by), to_text(twelve), to_text(sixteen), to_text(slices), to_text(terms),
-                           to_text(over_slices), to_text(over_better));
+        return fmt::format(
+            "{} distance {} (12 nodes), {} (16), {} (OSM 32), {} (FOM 16); 12 nodes over OSM 32 {}, "
+            "over the better of both {}",
+            name_of(by), to_text(twelve), to_text(sixteen), to_text(slices), to_text(terms), to_text(over_slices),
+            to_text(over_better));
     }
     std::vector<Value> values() const { return {twelve, sixteen, slices, terms, over_slices, over_better}; }
 };
@@ -206,8 +203,7 @@ void claims_of_6(const Measured& measured, PaperReport& report) {
         distances.push_back(median_of(measured.over_texels([by](const Texels& one, const TexelCurves& texel) {
             return apart(texel, one.series("avsm", {"nodes=12"}), one.series("deep"), by);
         })));
-    report.claims.push_back({place,
-                             "and is similar to the deep shadow map",
+    report.claims.push_back({place, "and is similar to the deep shadow map",
                              fmt::format("the two curves are at most {} apart, and {} in the mean over depth",
                                          to_text(distances[0]), to_text(distances[1])),
                              in_readings({judge_fit(distances[0]), judge_fit(distances[1])}),

@@ -32,7 +32,7 @@ public:
     const base::Vec3d& place(std::size_t query) const { return place_[query]; }  // on the surface, in the world
     // What the light adds to the red channel of its pixel where nothing shadows it: see render/shading.h.
     float shade(std::size_t query) const { return shade_[query]; }
-    base::Vec2i size() const { return size_; }                              // pixels
+    base::Vec2i size() const { return size_; }  // pixels
 
     // The answers of the technique with this place in the document, one a query.
     std::span<const float> visibility(std::size_t technique) const { return visibility_[technique]; }

@@ -55,12 +55,13 @@ std::vector<Value> values(const Sets& sets, const Number& number) {
 }
 
 void table_of_techniques(const Sets& sets, PaperReport& report) {
-    Table table{"Times, sizes and errors of visibility over four data sets. Curve errors are the largest of each "
-                "function: their maximum and rms over all texels, exact for these regular rays. Lookup errors are over "
-                "the judged receivers",
-                {"data", "technique", "ms a build", "ns a lookup", "bytes a texel", "curve error max",
-                 "curve error rms", "lookup error rms", "lookup error max"},
-                {}};
+    Table table{
+        "Times, sizes and errors of visibility over four data sets. Curve errors are the largest of each "
+        "function: their maximum and rms over all texels, exact for these regular rays. Lookup errors are over "
+        "the judged receivers",
+        {"data", "technique", "ms a build", "ns a lookup", "bytes a texel", "curve error max", "curve error rms",
+         "lookup error rms", "lookup error max"},
+        {}};
     for (const MeasuredSet& m : sets)
         for (const Cell& cell : m.light().cells) {
             if (cell.status == results::CellStatus::failed) continue;  // a claim that needs it will report it

@@ -139,8 +139,8 @@ void bucket_claims(const std::vector<Crossings>& sets, PaperReport& report) {
     std::vector<Value> both_halves = values(sets, more_error);
     const std::vector<Value> lookups = values(sets, lookups_apart), view_rays = values(sets, light_apart);
     const Judged less_accurate = in_all(judge_each(both_halves, above_one)),
-                 not_noticed = in_readings({in_most(judge_each(lookups, judge_unnoticed)),
-                                            in_most(judge_each(view_rays, judge_unnoticed))});
+                 not_noticed = in_readings(
+                     {in_most(judge_each(lookups, judge_unnoticed)), in_most(judge_each(view_rays, judge_unnoticed))});
     for (const std::vector<Value>& apart : {lookups, view_rays})
         both_halves.insert(both_halves.end(), apart.begin(), apart.end());
     report.claims.push_back(
@@ -150,19 +150,20 @@ void bucket_claims(const std::vector<Crossings>& sets, PaperReport& report) {
                      "opacities of view rays: {}",
                      list(sets, more_error), list(sets, lookups_apart), list(sets, light_apart)),
          both(less_accurate, not_noticed),
-         "Less accurate in all data sets, since the paper says that it will be. Not noticed in most, read in two ways: of "
-         "lookups, and of the average opacity of a view ray, which darkens its colour. A lookup answers 1 up to the first depth, which "
+         "Less accurate in all data sets, since the paper says that it will be. Not noticed in most, read in two ways: "
+         "of "
+         "lookups, and of the average opacity of a view ray, which darkens its colour. A lookup answers 1 up to the "
+         "first depth, which "
          "is too bright; the earlier depths of the bucket make up for some of that. The table has both signs.",
          std::move(both_halves)});
     const auto more_steps = [](const Crossings& set) {
         return mean_ratio_of(set.all.light_apart, set.few.light_apart);
     };
-    report.claims.push_back(
-        {"section Implementation", "the more steps, the less the difference is noticed",
-         fmt::format("rms difference of the average opacities of view rays, {} over {} steps: {}", map_steps, few_steps,
-                     list(sets, more_steps)),
-         in_all(judge_each(values(sets, more_steps), below_one)), "Of the smooth and the bucket map, as in the table.",
-         values(sets, more_steps)});
+    report.claims.push_back({"section Implementation", "the more steps, the less the difference is noticed",
+                             fmt::format("rms difference of the average opacities of view rays, {} over {} steps: {}",
+                                         map_steps, few_steps, list(sets, more_steps)),
+                             in_all(judge_each(values(sets, more_steps), below_one)),
+                             "Of the smooth and the bucket map, as in the table.", values(sets, more_steps)});
     report.claims.push_back(
         {"section Implementation", "and it is faster",
          fmt::format("build time smooth over bucket: {}", list(sets, faster)),
@@ -176,16 +177,14 @@ void step_claims(const std::vector<Crossings>& sets, PaperReport& report) {
     const auto finer = [](const Crossings& set) { return mean_ratio_of(set.all.smooth, set.few.smooth); };
     report.claims.push_back(
         {"section Implementation, step 3", "the smaller the steps, the better the results",
-         fmt::format("error rms of lookups, {} over {} steps: {}", map_steps, few_steps,
-                     list(sets, finer)),
+         fmt::format("error rms of lookups, {} over {} steps: {}", map_steps, few_steps, list(sets, finer)),
          in_all(judge_each(values(sets, finer), below_one)), "Of the smooth map, as in the table.",
          values(sets, finer)});
     const auto share = [](const Crossings& set) { return mean_ratio_of(set.all.smooth, set.shadow_map); };
     report.claims.push_back(
         {"section Introduction",
          "a standard shadow map cannot tell how much light a partially transparent volume lets through; this map can",
-         fmt::format("error rms of lookups over that of a standard shadow map: {}",
-                     list(sets, share)),
+         fmt::format("error rms of lookups over that of a standard shadow map: {}", list(sets, share)),
          in_all(judge_each(values(sets, share), [](const Value& v) { return judge_much_less(v, exactly(1.0)); })),
          "The standard map keeps the depth at which a ray enters the volume. Both have the same rays and receivers.",
          values(sets, share)});
@@ -195,12 +194,12 @@ void step_claims(const std::vector<Crossings>& sets, PaperReport& report) {
 
 Crossings measure_crossings(const Context& context, const DataSet& set) {
     const base::ThreadLimit threads(context.threads);
-    const SeededLight light(context, set.scenario,
-                            {"rays.pattern=jittered",
-                             fmt::format(R"(techniques=[{},{},{},{},{{"type":"shadow_map"}}])",
-                                         request("smooth", map_steps), request("bucket", map_steps),
-                                         request("smooth", few_steps), request("bucket", few_steps))},
-                            {"rays.resolution=128", "receivers.resolution=64"});
+    const SeededLight light(
+        context, set.scenario,
+        {"rays.pattern=jittered",
+         fmt::format(R"(techniques=[{},{},{},{},{{"type":"shadow_map"}}])", request("smooth", map_steps),
+                     request("bucket", map_steps), request("smooth", few_steps), request("bucket", few_steps))},
+        {"rays.resolution=128", "receivers.resolution=64"});
     const bench::QuerySet all = light.queries();
     const bench::QuerySet asked = bench::pick(all.asked(), bench::choose_judged(all.queries.size(), judged, 1));
     const std::vector<double> exact = exact_light(light, asked.queries);

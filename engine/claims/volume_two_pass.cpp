@@ -107,12 +107,13 @@ void add_pictures(const VolumeMap& map, const render::ColourPass& pass, const sc
 }
 
 void add_table(const std::vector<Measured>& sets, PaperReport& report) {
-    Table table{"Figure 3: light on the view rays, 128 lookups each; medians over six views around the volume, with "
-                "their range; times are medians over repetitions in the first view",
-                {"data", "average opacity", "exact opacity of what is seen", "rms difference of these two",
-                 "rms difference from the picture in exact light, not shadowed", "the same, darkened",
-                 "ns of a first pass", "ns of a second pass"},
-                {}};
+    Table table{
+        "Figure 3: light on the view rays, 128 lookups each; medians over six views around the volume, with "
+        "their range; times are medians over repetitions in the first view",
+        {"data", "average opacity", "exact opacity of what is seen", "rms difference of these two",
+         "rms difference from the picture in exact light, not shadowed", "the same, darkened", "ns of a first pass",
+         "ns of a second pass"},
+        {}};
     for (const Measured& m : sets)
         table.rows.push_back({m.name, to_text(m.errors.sampled.value()), to_text(m.errors.exact.value()),
                               to_text(m.errors.opacity.value()), to_text(m.errors.unshadowed.value()),

@@ -16,7 +16,7 @@ std::vector<Shade> disc(double radius, int first_seen) {
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
             const double dx = x + 0.5 - 0.5 * side, dy = y + 0.5 - 0.5 * side;
-            pixels.push_back(x < first_seen                     ? Shade::unseen
+            pixels.push_back(x < first_seen                        ? Shade::unseen
                              : dx * dx + dy * dy < radius * radius ? Shade::shadowed
                                                                    : Shade::lit);
         }

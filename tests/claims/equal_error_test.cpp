@@ -8,9 +8,8 @@ namespace shadowbench::claims {
 namespace {
 
 // The error halves each time the cost grows fourfold, as that of N independent samples does.
-const std::vector<CostAtError> samples{{exactly(0.4), exactly(1.0)},
-                                       {exactly(0.2), exactly(4.0)},
-                                       {exactly(0.1), exactly(16.0)}};
+const std::vector<CostAtError> samples{
+    {exactly(0.4), exactly(1.0)}, {exactly(0.2), exactly(4.0)}, {exactly(0.1), exactly(16.0)}};
 
 TEST(EqualError, TheCostFollowsThePowerLaw) {
     EXPECT_NEAR(cost_at(exactly(0.2), samples).value, 4.0, 1e-12);

@@ -19,8 +19,12 @@ PaperReport report_of(const std::vector<Value>& errors) {
     PaperReport report;
     report.id = "x2000";
     for (const Value& error : errors)
-        report.claims.push_back({fmt::format("section {}", report.claims.size() + 1), "it fits", to_text(error),
-                                 judge_fit(error), "It is so.", {error}});
+        report.claims.push_back({fmt::format("section {}", report.claims.size() + 1),
+                                 "it fits",
+                                 to_text(error),
+                                 judge_fit(error),
+                                 "It is so.",
+                                 {error}});
     return report;
 }
 

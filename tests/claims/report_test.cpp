@@ -17,9 +17,10 @@ PaperReport report() {
     r.title = "A paper";
     r.conditions = "On paper.";
     r.documents = {"scene 0123"};
-    r.claims = {{"section 1", "a | b is 2", "2.1 [2, 2.2]", judge_ratio(2, {2.1, 2.0, 2.2}), "So it is.", {{2.1, 2.0, 2.2}}},
-                {"section 3", "d is 4", "5", judge_ratio(4, {5, 4, 7}), "It may be.", {exactly(5)}},
-                {"section 2", "c is 3", "0.1", judge_ratio(3, exactly(0.1)), "So it is not.", {exactly(0.1)}}};
+    r.claims = {
+        {"section 1", "a | b is 2", "2.1 [2, 2.2]", judge_ratio(2, {2.1, 2.0, 2.2}), "So it is.", {{2.1, 2.0, 2.2}}},
+        {"section 3", "d is 4", "5", judge_ratio(4, {5, 4, 7}), "It may be.", {exactly(5)}},
+        {"section 2", "c is 3", "0.1", judge_ratio(3, exactly(0.1)), "So it is not.", {exactly(0.1)}}};
     r.tables = {{"Numbers", {"a", "b"}, {{"1", "2"}}}};
     r.plots = {{"x2000_figure1", "It's a title", "x", "y", true, true, {{"one", {{1, 1}, {10, 2}}, true}}}};
     return r;
@@ -30,8 +31,12 @@ const Conditions conditions{false, "a machine", "a build", "2000-01-01"};
 TEST(Report, EveryClaimIsARowAndVerdictsAreCounted) {
     const std::vector<PaperReport> reports{report()};
     const std::string text = to_markdown(reports, conditions);
-    EXPECT_NE(text.find("Of 3 claims: holds 1, holds in shape 0, does not hold here 1, undecided 1, not comparable 0, by construction 0."), std::string::npos);
-    EXPECT_NE(text.find("| section 1 | a \\| b is 2 | 2.1 [2, 2.2] | ratio: holds in [1.33, 3], in shape in [1, 6] | **holds** | So it is. |"), std::string::npos)
+    EXPECT_NE(text.find("Of 3 claims: holds 1, holds in shape 0, does not hold here 1, undecided 1, not comparable 0, "
+                        "by construction 0."),
+              std::string::npos);
+    EXPECT_NE(text.find("| section 1 | a \\| b is 2 | 2.1 [2, 2.2] | ratio: holds in [1.33, 3], in shape in [1, 6] | "
+                        "**holds** | So it is. |"),
+              std::string::npos)
         << "a bar must not end the cell";
     EXPECT_NE(text.find("| undecided | It may be. |"), std::string::npos);
     EXPECT_NE(text.find("| gain | A is r times better than B |"), std::string::npos) << "the table of rules";
@@ -61,9 +66,10 @@ TEST(Report, SaysHowMuchOfTheTimeTheHostTook) {
               "The host of a virtual machine took 0.8 % of the time (steal), and at no paper more than 2 %.");
     reports[1].steal_seconds = 5.0;
     const std::string line = steal_line(reports);
-    EXPECT_EQ(line,
-              "The host of a virtual machine took 1.5 % of the time (steal), and more than 2 % at y2001 (5.0 %): measure "
-              "again what is about times there.");
+    EXPECT_EQ(
+        line,
+        "The host of a virtual machine took 1.5 % of the time (steal), and more than 2 % at y2001 (5.0 %): measure "
+        "again what is about times there.");
     const std::string text = to_markdown(reports, conditions);
     EXPECT_NE(text.find("a machine; a build; 2000-01-01.\n\n" + line + "\n"), std::string::npos) << text;
     const auto document = nlohmann::json::parse(to_json(reports, conditions));

@@ -25,11 +25,12 @@ TEST(Rules, AreNamedOnce) {
         EXPECT_GT(std::string(rule.reason).size(), 10u) << rule.id;
     }
     for (const Judged& judged :
-         {judge_ratio(2, exactly(2)), judge_gain(2, exactly(2)), judge_size(2, 3, exactly(2)), judge_exponent(1, exactly(1)),
-          judge_constant(exactly(1)), judge_growth(exactly(3)), judge_negligible(exactly(0)),
-          judge_less(exactly(1), exactly(2)), judge_much_less(exactly(1), exactly(2)), judge_alike(exactly(1), exactly(1)),
-          judge_visible(exactly(2)), judge_likeness(exactly(0)), judge_fit(exactly(0)), judge_unnoticed(exactly(0)),
-          judge_offset(exactly(0)), judge_count(1, 0, 1), by_construction(true), not_comparable()})
+         {judge_ratio(2, exactly(2)), judge_gain(2, exactly(2)), judge_size(2, 3, exactly(2)),
+          judge_exponent(1, exactly(1)), judge_constant(exactly(1)), judge_growth(exactly(3)),
+          judge_negligible(exactly(0)), judge_less(exactly(1), exactly(2)), judge_much_less(exactly(1), exactly(2)),
+          judge_alike(exactly(1), exactly(1)), judge_visible(exactly(2)), judge_likeness(exactly(0)),
+          judge_fit(exactly(0)), judge_unnoticed(exactly(0)), judge_offset(exactly(0)), judge_count(1, 0, 1),
+          by_construction(true), not_comparable()})
         EXPECT_TRUE(ids.count(judged.rule)) << judged.rule;
 }
 
@@ -122,8 +123,8 @@ TEST(Rules, ALikenessIsMuchLessDifferent) {
 }
 
 TEST(Rules, TwoHalvesAreAsGoodAsTheWorse) {
-    const Judged good = judge_fit(exactly(0.01)), shape = judge_fit(exactly(0.03)), open = judge_fit({0.02, 0.01, 0.03}),
-                 bad = judge_fit(exactly(0.1));
+    const Judged good = judge_fit(exactly(0.01)), shape = judge_fit(exactly(0.03)),
+                 open = judge_fit({0.02, 0.01, 0.03}), bad = judge_fit(exactly(0.1));
     EXPECT_EQ(verdict(both(good, shape)), Verdict::in_shape);
     EXPECT_EQ(verdict(both(open, shape)), Verdict::undecided);
     EXPECT_EQ(verdict(both(bad, open)), Verdict::fails);
@@ -132,8 +133,8 @@ TEST(Rules, TwoHalvesAreAsGoodAsTheWorse) {
 }
 
 TEST(Rules, MostAndAllCountCases) {
-    const Judged good = judge_fit(exactly(0.01)), shape = judge_fit(exactly(0.03)), open = judge_fit({0.02, 0.01, 0.03}),
-                 bad = judge_fit(exactly(0.1));
+    const Judged good = judge_fit(exactly(0.01)), shape = judge_fit(exactly(0.03)),
+                 open = judge_fit({0.02, 0.01, 0.03}), bad = judge_fit(exactly(0.1));
     EXPECT_EQ(verdict(in_most({good, good, good, bad})), Verdict::holds);
     EXPECT_EQ(verdict(in_most({good, good, shape, bad})), Verdict::in_shape);
     EXPECT_EQ(verdict(in_most({good, good, open, bad})), Verdict::undecided);
@@ -148,8 +149,8 @@ TEST(Rules, MostAndAllCountCases) {
 }
 
 TEST(Rules, ReadingsThatDisagreeDecideNothing) {
-    const Judged good = judge_fit(exactly(0.01)), shape = judge_fit(exactly(0.03)), open = judge_fit({0.02, 0.01, 0.03}),
-                 bad = judge_fit(exactly(0.1));
+    const Judged good = judge_fit(exactly(0.01)), shape = judge_fit(exactly(0.03)),
+                 open = judge_fit({0.02, 0.01, 0.03}), bad = judge_fit(exactly(0.1));
     EXPECT_EQ(verdict(in_readings({good, good})), Verdict::holds);
     EXPECT_EQ(verdict(in_readings({bad, bad, bad})), Verdict::fails);
     EXPECT_EQ(verdict(in_readings({shape, shape})), Verdict::in_shape);
@@ -170,15 +171,25 @@ TEST(Rules, AWiderIntervalSaysTheSameOrNothing) {
                            [](const Value& v) { return judge_ratio(2.0, v); },
                            [](const Value& v) { return judge_gain(2.0, v); },
                            [](const Value& v) { return judge_size(2.0, 3.0, v); },
-                           [](const Value& v) { return judge_size({0.1, 0.0875, 0.1125}, 1.0, v); },
+                           [](const Value& v) {
+                               return judge_size({0.1, 0.0875, 0.1125}, 1.0, v);
+                           },
                            [](const Value& v) { return judge_exponent(0.25, v); },
                            [](const Value& v) { return judge_constant(v); },
                            [](const Value& v) { return judge_growth(v); },
                            [](const Value& v) { return judge_negligible(v); },
-                           [](const Value& v) { return judge_less(v, {1.0, 0.9, 1.1}); },
-                           [](const Value& v) { return judge_less({1.0, 0.9, 1.1}, v); },
-                           [](const Value& v) { return judge_much_less(v, {1.0, 0.9, 1.1}); },
-                           [](const Value& v) { return judge_alike(v, {1.0, 0.9, 1.1}); },
+                           [](const Value& v) {
+                               return judge_less(v, {1.0, 0.9, 1.1});
+                           },
+                           [](const Value& v) {
+                               return judge_less({1.0, 0.9, 1.1}, v);
+                           },
+                           [](const Value& v) {
+                               return judge_much_less(v, {1.0, 0.9, 1.1});
+                           },
+                           [](const Value& v) {
+                               return judge_alike(v, {1.0, 0.9, 1.1});
+                           },
                            [](const Value& v) { return judge_likeness(v); },
                            [](const Value& v) { return judge_visible(v); },
                            [](const Value& v) { return judge_fit(v); },
@@ -219,7 +230,8 @@ TEST(Rules, AClaimWithAnUndecidedPartSaysWhatItWouldSayOrNothing) {
             const std::vector<Judged> quick = judged(q, decided + 1), full = judged(f, decided);
             bool may_differ = true;
             for (std::size_t i = 0; i < parts; ++i)
-                may_differ = may_differ && (quick[i].verdict == Verdict::undecided || quick[i].verdict == full[i].verdict);
+                may_differ =
+                    may_differ && (quick[i].verdict == Verdict::undecided || quick[i].verdict == full[i].verdict);
             if (!may_differ) continue;
             for (const Join& join : joins)
                 if (verdict(join(quick)) != Verdict::undecided)

@@ -8,8 +8,7 @@
 namespace shadowbench::claims {
 namespace {
 
-constexpr const char* two_deep_maps =
-    R"(techniques=[{"type":"deep","tolerance":0},{"type":"deep","tolerance":0.2}])";
+constexpr const char* two_deep_maps = R"(techniques=[{"type":"deep","tolerance":0},{"type":"deep","tolerance":0.2}])";
 
 Context small_context(PaperReport& report) {
     Context context;
