@@ -177,7 +177,7 @@ void less_aliasing(const std::vector<Case>& cases, PaperReport& report) {
 void pictures(const Context& context) {
     const Kernel two{2, 3}, three{3, 3}, three_small{3, 2}, standard{1, 4};
     Views flat_views(context, flat, Surfaces::plane, {{1, 2}, {1, 3}, standard, two, three_small, three}),
-        curved_views(context, curved, Surfaces::curved, {{1, 3}, standard, two, three});
+        curved_views(context, curved, Surfaces::others, {{1, 3}, standard, two, three});
     PaperReport& report = *context.report;
     const std::vector<Case> cases{{flat_views, "flat", three_small},
                                   {flat_views, "flat", two},

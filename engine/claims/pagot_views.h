@@ -21,7 +21,7 @@ inline constexpr int lights = 5;                     // each with a camera and a
 inline constexpr double widths[] = {2, 3, 4, 5, 6};  // cells, of the truth's footprints
 
 // On which surfaces shadows are compared: on the plane y = 0, or on all others.
-enum class Surfaces { plane, curved };
+enum class Surfaces { plane, others };
 
 // The document with its first light and its camera turned around the vertical axes through their targets.
 nlohmann::json turned(nlohmann::json document, double light_degrees, double camera_degrees);

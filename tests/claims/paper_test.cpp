@@ -78,7 +78,7 @@ TEST(Paper, ItsReportSaysHowLongItTookAndWhatTheHostTookMeanwhile) {
     EXPECT_EQ(report.conditions, "On paper.");
     EXPECT_GT(report.seconds, 0.0);
     EXPECT_EQ(report.steal_seconds.has_value(), bench::steal_seconds().has_value());
-    if (report.steal_seconds) EXPECT_GE(*report.steal_seconds, 0.0);
+    EXPECT_GE(report.steal_seconds.value_or(0.0), 0.0);
 }
 
 TEST(Paper, PapersHaveDifferentNames) {

@@ -234,8 +234,9 @@ TEST(Rules, AClaimWithAnUndecidedPartSaysWhatItWouldSayOrNothing) {
                     may_differ && (quick[i].verdict == Verdict::undecided || quick[i].verdict == full[i].verdict);
             if (!may_differ) continue;
             for (const Join& join : joins)
-                if (verdict(join(quick)) != Verdict::undecided)
+                if (verdict(join(quick)) != Verdict::undecided) {
                     EXPECT_EQ(verdict(join(quick)), verdict(join(full))) << "parts " << q << " and " << f;
+                }
         }
 }
 

@@ -95,7 +95,8 @@ TEST(VolumeCrossings, HaveANumberForEachSeed) {
         EXPECT_LT(box.all.light_apart[seed], box.few.light_apart[seed]);
         EXPECT_GT(box.all.light_apart[seed], 0.0);
         EXPECT_LT(box.all.smooth[seed], box.shadow_map[seed]);
-        if (seed > 0) EXPECT_NE(box.all.smooth[seed], box.all.smooth[0]) << "of other rays";
+        if (seed == 0) continue;
+        EXPECT_NE(box.all.smooth[seed], box.all.smooth[0]) << "of other rays";
     }
     EXPECT_EQ(box.builds.times.size(), 3u);
 }
