@@ -45,6 +45,12 @@ TEST(ReadVdb, GivesTheActiveBoxXFastestWithItsWorldBounds) {
     EXPECT_EQ(volume.upper, Vec3d(0.75, 0.75, 2.75));
 }
 
+TEST(ReadVdb, ReadsHalfFloats) {
+    const openvdb::FloatGrid::Ptr grid = small_grid();
+    grid->setSaveFloatAsHalf(true);
+    EXPECT_THAT(read_vdb(write({grid}), "density").density, testing::ElementsAre(1, 2, 3, 11, 12, 13));
+}
+
 TEST(ReadVdb, FollowsScaleAndTranslation) {
     openvdb::FloatGrid::Ptr grid = small_grid();
     grid->transform().postScale(openvdb::Vec3d(2.0, 1.0, 4.0));
