@@ -19,6 +19,7 @@
 #include "scene/limits.h"
 #include "scene/readers/deep_channels.h"
 #include "scene/readers/files.h"
+#include "scene/readers/kinds.h"
 #include "scene/readers/read_image.h"
 
 namespace shadowbench::scene {
@@ -234,6 +235,18 @@ DeepImage convert(const OIIO::DeepData& data, const OIIO::ImageSpec& spec, const
 }
 
 }  // namespace
+
+bool is_deep_image(const std::filesystem::path& file) {
+    try {
+        const std::unique_ptr<OIIO::ImageInput> input = open_image(file);
+        const std::vector<Part> parts = list_parts(*input);
+        return std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.deep; });
+    } catch (const base::Error&) {
+        throw;
+    } catch (const std::exception& fault) {
+        refuse_image(file, fmt::format("not a readable image: {}", fault.what()));
+    }
+}
 
 DeepImage read_deep_image(const std::filesystem::path& file, const DeepChoice& choice) {
     try {
