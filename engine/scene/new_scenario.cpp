@@ -166,9 +166,8 @@ ordered_json ground_quad(const Stage& stage) {
 }
 
 ordered_json camera_of(const Stage& stage, bool media) {
-    ordered_json camera{{"type", "camera"},
-                        {"position", point(stage.camera.position)},
-                        {"target", point(stage.camera.target)}};
+    ordered_json camera{
+        {"type", "camera"}, {"position", point(stage.camera.position)}, {"target", point(stage.camera.target)}};
     if (stage.camera.up != Vec3d(0, 1, 0)) camera["up"] = point(stage.camera.up);
     camera["resolution"] = {384, 288};
     if (media) camera["media_lookups"] = 32;

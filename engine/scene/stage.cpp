@@ -29,9 +29,9 @@ Vec3d on_grid(const Vec3d& point, double size) {
     return {on_grid(point.x, size), on_grid(point.y, size), on_grid(point.z, size)};
 }
 
-constexpr double gap = 0.02;           // between the box and the ground, of the diagonal
-constexpr double margin = 1.05;        // of the sphere that the camera sees, which covers the rounding
-constexpr double ground_radii = 4.0;   // half the side of the ground, in radii of that sphere
+constexpr double gap = 0.02;          // between the box and the ground, of the diagonal
+constexpr double margin = 1.05;       // of the sphere that the camera sees, which covers the rounding
+constexpr double ground_radii = 4.0;  // half the side of the ground, in radii of that sphere
 const Vec3d light_direction(-0.5, -1.0, 0.35);
 const Vec3d towards_camera(0.5, 0.45, 0.8);  // the shadow falls before the box, on its other side
 
@@ -100,8 +100,8 @@ double densest_column(const GridVolume& volume) {
         take_most(most.z);
     }
     const Vec3d extent = volume.upper - volume.lower;
-    return std::max({most.x * extent.x / volume.size.x, most.y * extent.y / volume.size.y,
-                     most.z * extent.z / volume.size.z});
+    return std::max(
+        {most.x * extent.x / volume.size.x, most.y * extent.y / volume.size.y, most.z * extent.z / volume.size.z});
 }
 
 double to_digits(double value, int digits) {

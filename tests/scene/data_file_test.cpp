@@ -140,10 +140,9 @@ TEST(DataFile, HairWithoutAWidthGetsOneOfItsSize) {
     const DataFile hair = read_data_file(test::write_file("a.TFX", bytes), {});
     EXPECT_TRUE(hair.guessed_radius);
     EXPECT_EQ(std::get<Hair>(hair.scene.objects[0].shape).radii[0], 0.005f);
-    EXPECT_THAT(describe_file(hair), AllOf(HasSubstr("a.TFX: TressFX hair, 344 B\n"),
-                                           HasSubstr("  1 strand, 2 points; 2 a strand\n"),
-                                           HasSubstr("a half-width of 0.005 is a guess"),
-                                           HasSubstr("left out: 1 strand without length\n")));
+    EXPECT_THAT(describe_file(hair),
+                AllOf(HasSubstr("a.TFX: TressFX hair, 344 B\n"), HasSubstr("  1 strand, 2 points; 2 a strand\n"),
+                      HasSubstr("a half-width of 0.005 is a guess"), HasSubstr("left out: 1 strand without length\n")));
 }
 
 TEST(DataFile, MeshesAreDescribedWithWhatIsPassedOver) {

@@ -65,8 +65,8 @@ struct Dense {
 
 // Any other extinction makes a cloud of smoke that is a wall, or nothing at all.
 TEST(NewScenario, TheDensestColumnOfAVolumeHasAnOpticalDepthOf2) {
-    for (const Dense& dense : {Dense{"noname.vdb", 1.0, 16, 0.5}, Dense{"tile.vdb", 1.0, 64, 0.5},
-                               Dense{"nonuniform.vdb", 0.3, 16, 0.5}}) {
+    for (const Dense& dense :
+         {Dense{"noname.vdb", 1.0, 16, 0.5}, Dense{"tile.vdb", 1.0, 64, 0.5}, Dense{"nonuniform.vdb", 0.3, 16, 0.5}}) {
         const Scenario scenario = loaded(made_from({case_file(dense.file)}), case_file(dense.file).parent_path());
         const double depth = scenario.scene.objects[0].extinction.x * dense.edge * dense.voxels * dense.density;
         EXPECT_NEAR(depth, 2.0, 0.1) << dense.file;  // two digits
@@ -183,8 +183,8 @@ TEST(JsonText, BreaksWhatDoesNotFitAndLosesNothing) {
     value["long"] = ordered_json::array();
     for (int i = 0; i < 3; ++i) value["long"].push_back(ordered_json{{"key", std::string(60, 'k')}, {"i", i}});
     const std::string text = in_lines(value), begin = "    {\"key\": \"" + std::string(60, 'k') + "\", \"i\": ";
-    EXPECT_EQ(text, "{\n  \"short\": [1, 2, 3],\n  \"long\": [\n" + begin + "0},\n" + begin + "1},\n" + begin +
-                        "2}\n  ]\n}");
+    EXPECT_EQ(text,
+              "{\n  \"short\": [1, 2, 3],\n  \"long\": [\n" + begin + "0},\n" + begin + "1},\n" + begin + "2}\n  ]\n}");
     EXPECT_EQ(ordered_json::parse(text), value);
 }
 

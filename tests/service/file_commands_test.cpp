@@ -59,11 +59,11 @@ TEST_F(FileCommands, InspectDescribesEachFileAndWhatLoadsIt) {
     const Outcome outcome = cli({"inspect", case_file("edge.obj"), case_file("noname.vdb"), case_file("zback0.exr")});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
-    for (const char* text : {"edge.obj: Wavefront OBJ mesh", "4 vertices, 2 triangles",
-                             "note: passed over: faces of fewer than 3 corners (1)",
-                             "  object: {\"type\": \"mesh\", \"name\": \"edge\", \"file\": ", "OpenVDB grid",
-                             "4096 active voxels", "\"extinction\": 0.25}\n", "deep OpenEXR image", "64 samples",
-                             "  deep_image: {\"file\": "})
+    for (const char* text :
+         {"edge.obj: Wavefront OBJ mesh", "4 vertices, 2 triangles",
+          "note: passed over: faces of fewer than 3 corners (1)",
+          "  object: {\"type\": \"mesh\", \"name\": \"edge\", \"file\": ", "OpenVDB grid", "4096 active voxels",
+          "\"extinction\": 0.25}\n", "deep OpenEXR image", "64 samples", "  deep_image: {\"file\": "})
         EXPECT_THAT(outcome.out, HasSubstr(text));
 }
 
@@ -153,10 +153,10 @@ TEST_F(FileCommands, NewPrintsTheScenarioWithoutAFile) {
 TEST_F(FileCommands, WhatNewMakesRuns) {
     const std::string mesh = write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
     ASSERT_EQ(cli({"new", mesh, "--out", path("made.json")}).code, 0);
-    const Outcome run = cli({"run", path("made.json"), "--out", path("results"), "--only", "deep", "--set",
-                             "rays.resolution=16", "--set", "receivers.resolution=[32,24]", "--set",
-                             "reference.samples_per_pixel=16", "--set", "reference.queries=50", "--set",
-                             "timing.repetitions=1", "--set", "timing.lookups=64"});
+    const Outcome run =
+        cli({"run", path("made.json"), "--out", path("results"), "--only", "deep", "--set", "rays.resolution=16",
+             "--set", "receivers.resolution=[32,24]", "--set", "reference.samples_per_pixel=16", "--set",
+             "reference.queries=50", "--set", "timing.repetitions=1", "--set", "timing.lookups=64"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_TRUE(fs::exists(path("results/result.json")));
     EXPECT_THAT(run.out, Not(HasSubstr("the light sees nothing")));
