@@ -113,9 +113,10 @@ std::string describe_deep(const DeepImage& image) {
     return sizes + depths + fmt::format("  alpha {}\n", alpha.text());
 }
 
+// Images lie nowhere before a scenario places them.
 std::string describe_box(const DataFile& data) {
     const Box3d box = bounds(data);
-    if (box.isEmpty()) return "";
+    if (box.isEmpty() || data.format->loader == "quad") return "";
     return fmt::format("  bounds {} to {}, size {}\n", point_text(box.min), point_text(box.max),
                        point_text(box.max - box.min));
 }
