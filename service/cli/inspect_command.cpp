@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -55,6 +56,11 @@ std::string describe_level(const DeepTiling& t, const LevelFacts& facts, int cha
     return text;
 }
 
+bool is_deep_map(const std::string& file) {
+    const std::filesystem::path extension = std::filesystem::path(file).extension();
+    return extension == ".dsm" || extension == ".DSM";
+}
+
 // With what loads the file in a scenario, where it holds something to load.
 std::string describe_data(const scene::DataFile& data, const std::string& name) {
     std::string text = scene::describe_file(data);
@@ -84,8 +90,7 @@ std::string describe(const DeepFile& file, const std::string& name) {
 
 void inspect_command(const FileArguments& arguments, std::ostream& out) {
     for (const std::string& file : arguments.files)
-        out << (std::filesystem::path(file).extension() == ".dsm" ? describe(DeepFile(file), file)
-                                                                  : describe_data(read_data(arguments, file), file));
+        out << (is_deep_map(file) ? describe(DeepFile(file), file) : describe_data(read_data(arguments, file), file));
 }
 
 }  // namespace shadowbench::service

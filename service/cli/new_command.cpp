@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/write_files.h"
 #include "document/document.h"
 #include "scene/json_text.h"
@@ -40,6 +41,13 @@ std::string name_from(const std::string& given, const std::string& out) {
     return file.is_absolute() && *name.begin() == ".." ? given : name.string();
 }
 
+// Refuses to write the scenario over a data file.
+void check_out(const std::string& out, const std::string& file) {
+    std::error_code ignored;
+    if (!out.empty() && std::filesystem::equivalent(out, file, ignored))
+        throw base::Error(base::ErrorCode::usage, "--out " + out, "this is one of the data files; choose another name");
+}
+
 // For opaque surfaces, those that count a single surface at its own depth. For others, those whose promises are not for
 // opaque scenes only and that do not approximate.
 std::vector<std::string_view> fitting_techniques(std::span<const scene::DataFile> files) {
@@ -67,6 +75,7 @@ void new_command(const NewArguments& arguments, std::ostream& out) {
     std::vector<scene::DataFile> files;
     std::vector<std::string> names;
     for (const std::string& file : arguments.files) {
+        check_out(arguments.out, file);
         files.push_back(read_data(arguments, file));
         names.push_back(name_from(file, arguments.out));
     }

@@ -11,14 +11,14 @@ namespace shadowbench::service {
 namespace {
 
 constexpr const char* data_formats =
-    "Read are meshes (.obj, .ply, .stl), hair (.tfx, .hair), volumes (.vdb, .pvm, .dds, .raw), deep images (.exr), and "
-    "images as alpha textures (.png, .jpg, .tif, .tga, .dds, .exr). Raw values must be of uint8 or float32 and form a "
-    "cube, or state their size in the file's name, as in ball_32x32x24.raw.";
+    "Data files are meshes (.obj, .ply, .stl), hair (.tfx, .hair), volumes (.vdb, .pvm, .dds, .raw), deep images (.exr), "
+    "and images as alpha textures (.png, .jpg, .tif, .tga, .dds, .exr). Raw values must be of uint8 or float32, and form "
+    "a cube or have their size in the name of the file, as in ball_32x32x24.raw.";
 
 void add_data_options(CLI::App& command, FileArguments& arguments, const char* files) {
     command.add_option("FILE", arguments.files, files)->required();
-    command.add_option("--grid", arguments.grid, "The grid to read from .vdb files, its name or its number, from 0");
-    command.add_option("--part", arguments.part, "The part to read from deep images, its name or its number, from 0");
+    command.add_option("--grid", arguments.grid, "The grid to read from .vdb files: its name, or its number, from 0");
+    command.add_option("--part", arguments.part, "The part to read from deep images: its name, or its number, from 0");
     command.add_option("--layer", arguments.layer, "The layer to read from deep images");
 }
 
@@ -54,7 +54,7 @@ void add_new(CLI::App& app, Commands& commands) {
     add_data_options(*made, *arguments, "Data files");
     made->add_option("--out", arguments->out,
                      "Write the scenario to this file, with names of data files relative to its folder [standard "
-                     "output, with the names as given: for a file in the current folder]");
+                     "output, with the names as given, which hold for a scenario in the current folder]");
     made->add_option("--up", arguments->up, "The axis that points up: y or z")
         ->check(CLI::IsMember({"y", "z"}))
         ->capture_default_str();

@@ -92,6 +92,8 @@ TEST_F(FileCommands, RefuseFilesWithTheirPlace) {
     fails({"new", case_file("points.ply")}, 65, "points.ply: a point cloud");
     fails({"new", case_file("inf.exr"), case_file("bom.obj")}, 64, "inf.exr: a deep image is a scene of its own");
     fails({"new", case_file("bom.obj"), "--up", "x"}, 64, "--up");
+    const std::string mesh = write("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
+    fails({"new", mesh, "--out", path("./c.obj")}, 64, "this is one of the data files");
     fails({"new", case_file("bom.obj"), "--out", write("file", "") + "/a.json"}, 74,
           path("file") + ": cannot make the folder");
 }
