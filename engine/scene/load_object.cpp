@@ -12,6 +12,7 @@
 #include "scene/limits.h"
 #include "scene/load.h"
 #include "scene/procedural.h"
+#include "scene/readers/extension.h"
 #include "scene/readers/files.h"
 
 namespace shadowbench::scene {
@@ -75,8 +76,9 @@ Loaded hair(const json& from, const SearchPath& path, const std::string& where) 
     const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
     double radius = 0.0;
     read(from, "radius", radius);
-    if (file.extension() == ".hair") return {with_length(read_hair(file, static_cast<float>(radius)))};
-    if (file.extension() != ".tfx") refuse(where + "/file", "the name of a hair file must end in .tfx or .hair");
+    const std::string extension = extension_of(file);
+    if (extension == ".hair") return {with_length(read_hair(file, static_cast<float>(radius)))};
+    if (extension != ".tfx") refuse(where + "/file", unknown_extension(file, "hair", {".tfx", ".hair"}));
     if (radius == 0.0) refuse(where, "\"radius\" is missing: .tfx files do not hold the width of hair");
     return {with_length(read_tressfx(file, static_cast<float>(radius)))};
 }

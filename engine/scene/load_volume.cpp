@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +12,7 @@
 #include "scene/limits.h"
 #include "scene/load.h"
 #include "scene/procedural.h"
+#include "scene/readers/extension.h"
 #include "scene/readers/files.h"
 
 namespace shadowbench::scene {
@@ -50,16 +54,28 @@ GridChoice grid_choice(const json& from) {
     return grid->get<int>();
 }
 
-// The reader of a file, by its extension.
 enum class VolumeKind { raw, vdb, pvm, dds };
 
-VolumeKind kind_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return extension == ".vdb"   ? VolumeKind::vdb
-           : extension == ".pvm" ? VolumeKind::pvm
-           : extension == ".dds" ? VolumeKind::dds
-                                 : VolumeKind::raw;
+// The reader of a file, by its extension. Raw values may have any other extension too.
+struct VolumeFormat {
+    std::string_view extension;
+    VolumeKind kind;
+};
+constexpr std::array volume_formats{VolumeFormat{".vdb", VolumeKind::vdb}, VolumeFormat{".pvm", VolumeKind::pvm},
+                                    VolumeFormat{".dds", VolumeKind::dds}, VolumeFormat{".raw", VolumeKind::raw}};
+
+// Refuses an unknown extension, unless the scenario says how to read raw values.
+VolumeKind volume_kind(const json& from, const std::filesystem::path& file, const std::string& where) {
+    const std::string extension = extension_of(file);
+    std::vector<std::string_view> known;
+    for (const VolumeFormat& format : volume_formats) {
+        if (extension == format.extension) return format.kind;
+        known.push_back(format.extension);
+    }
+    if (!extension.empty() && !from.contains("format") && !from.contains("size"))
+        refuse(where + "/file", unknown_extension(file, "volume", known) +
+                                    ", except as raw values, which need \"format\", \"size\", \"lower\" and \"upper\"");
+    return VolumeKind::raw;
 }
 
 void refuse_keys(const json& from, const std::string& where, std::initializer_list<const char*> keys,
@@ -122,7 +138,7 @@ GridVolume load_procedural(const json& from, const std::string& where, Parameter
 
 GridVolume load_volume(const json& from, const SearchPath& path, const std::string& where) {
     const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
-    const VolumeKind kind = kind_of(file);
+    const VolumeKind kind = volume_kind(from, file, where);
     if (kind != VolumeKind::vdb)
         refuse_keys(from, where, {"grid"}, "only .vdb files have named grids; remove this key");
     if (kind != VolumeKind::dds)

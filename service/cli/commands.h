@@ -68,7 +68,6 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
 bool render_command(const RenderArguments& arguments, std::ostream& out, std::ostream& err);
 // Writes one light's map, or its light rays, to a file.
 void export_command(const ExportArguments& arguments, std::ostream& out, std::ostream& err);
-void inspect_command(const std::string& file, std::ostream& out);
 // Throws the last fault of the scenario; the others go to `err`, a line each.
 void validate_command(const ScenarioArguments& arguments, std::ostream& out, std::ostream& err);
 void list_techniques(std::ostream& out);

@@ -1,11 +1,17 @@
 #include <algorithm>
+#include <filesystem>
 #include <ostream>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
-#include "service/cli/commands.h"
+#include "scene/describe_file.h"
+#include "scene/json_text.h"
+#include "scene/new_scenario.h"
 #include "service/cli/deep_file_text.h"
+#include "service/cli/file_commands.h"
 #include "techniques/deep/deep_file.h"
 
 namespace shadowbench::service {
@@ -50,6 +56,20 @@ std::string describe_level(const DeepTiling& t, const LevelFacts& facts, int cha
     return text;
 }
 
+bool is_deep_map(const std::string& file) {
+    const std::filesystem::path extension = std::filesystem::path(file).extension();
+    return extension == ".dsm" || extension == ".DSM";
+}
+
+// With what loads the file in a scenario, where it holds something to load.
+std::string describe_data(const scene::DataFile& data, const std::string& name) {
+    std::string text = scene::describe_file(data);
+    if (scene::casts_shadow(data))
+        text += fmt::format("  {}: {}\n", data.scene.deep_image ? "deep_image" : "object",
+                            scene::in_one_line(scene::scene_object(data, name)));
+    return text;
+}
+
 }  // namespace
 
 std::string describe(const DeepFile& file, const std::string& name) {
@@ -68,8 +88,9 @@ std::string describe(const DeepFile& file, const std::string& name) {
     return text;
 }
 
-void inspect_command(const std::string& file, std::ostream& out) {
-    out << describe(DeepFile(file), file);
+void inspect_command(const FileArguments& arguments, std::ostream& out) {
+    for (const std::string& file : arguments.files)
+        out << (is_deep_map(file) ? describe(DeepFile(file), file) : describe_data(read_data(arguments, file), file));
 }
 
 }  // namespace shadowbench::service

@@ -165,17 +165,6 @@ void add_export(CLI::App& app, Commands& commands) {
                         }});
 }
 
-void add_inspect(CLI::App& app, Commands& commands) {
-    const auto arguments = std::make_shared<std::string>();
-    CLI::App* inspect = app.add_subcommand("inspect", "Check a tiled deep shadow map file and describe it");
-    set_help(*inspect, command_groups::files, {"inspect hair.dsm"});
-    inspect->add_option("FILE", *arguments, "A .dsm file")->required();
-    commands.push_back({inspect, [arguments](std::ostream& out, std::ostream&) {
-                            inspect_command(*arguments, out);
-                            return 0;
-                        }});
-}
-
 void add_list(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<std::string>();
     CLI::App* list = app.add_subcommand("list", "List the techniques with their parameters, or the scenarios");
@@ -244,7 +233,7 @@ void add_reproduce(CLI::App& app, Commands& commands) {
 }  // namespace
 
 void add_measuring_commands(CLI::App& app, Commands& commands) {
-    for (const auto add : {add_run, add_recommend, add_render, add_validate, add_export, add_inspect, add_list,
+    for (const auto add : {add_run, add_recommend, add_render, add_validate, add_new, add_inspect, add_export, add_list,
                            add_curve, add_reproduce})
         add(app, commands);
 }

@@ -33,6 +33,7 @@ constexpr Target targets[] = {{"alpha", alpha},
                               {"request_head", request_head},
                               {"result", result},
                               {"scenario", scenario},
+                              {"stl", stl},
                               {"technique", technique},
                               {"tressfx", tressfx},
                               {"vdb", vdb}};

@@ -28,6 +28,7 @@ void raw_volume(std::string_view bytes);
 void request_head(std::string_view bytes);
 void result(std::string_view bytes);
 void scenario(std::string_view bytes);
+void stl(std::string_view bytes);
 void technique(std::string_view bytes);
 void tressfx(std::string_view bytes);
 void vdb(std::string_view bytes);

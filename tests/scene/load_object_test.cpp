@@ -206,8 +206,9 @@ TEST(LoadObject, HairNeedsAWidth) {
     EXPECT_THAT(failure(R"({"type": "hair", "file": "points.tfx", "radius": 1})", {folder}).message(),
                 HasSubstr("no strands"));
     test::write_file("a.abc", "");
-    EXPECT_THAT(failure(R"({"type": "hair", "file": "a.abc", "radius": 1})", {folder}).message(),
-                HasSubstr(".tfx or .hair"));
+    const base::Error unknown = failure(R"({"type": "hair", "file": "a.abc", "radius": 1})", {folder});
+    EXPECT_EQ(unknown.message(), "the name of a hair file must end in .tfx or .hair; .abc is not read");
+    EXPECT_EQ(unknown.where(), "/scene/objects/0/file");
 }
 
 TEST(LoadObject, LimitsHair) {

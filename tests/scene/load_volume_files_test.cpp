@@ -52,7 +52,7 @@ std::string dds() {
 TEST(LoadVolumeFiles, DdsNeedsABoxAndMayChooseAChannel) {
     const std::string box = R"(, "lower": [0, 0, 0], "upper": [1, 2, 4])";
     EXPECT_EQ(load("a.dds", dds(), box).density[0], 0.8f);
-    EXPECT_EQ(load("a.dds", dds(), box).upper, Vec3d(1, 2, 4));
+    EXPECT_EQ(load("A.DDS", dds(), box).upper, Vec3d(1, 2, 4));
     EXPECT_EQ(load("a.dds", dds(), box).step, 0.5);
     for (const auto& [channel, density] : {std::pair{"red", 0.6f}, {"green", 0.4f}, {"blue", 0.2f}, {"alpha", 0.8f}})
         EXPECT_EQ(load("a.dds", dds(), fmt::format(R"({}, "channel": "{}")", box, channel)).density[0], density);

@@ -138,6 +138,25 @@ TEST(ReadDeepImage, ReadsAnAlphaOfEachColour) {
                 HasSubstr("A and Z are needed"));
 }
 
+// Names from before OpenEXR 2; without them the file would be read in grey.
+TEST(ReadDeepImage, ReadsTheOlderNamesOfTheColoursAlphas) {
+    const DeepImage image = read_deep_image(write({"A", "BA", "GA", "RA", "Z"}, {{{0.5f, 0.75f, 0.5f, 0.25f, 4}}}));
+    EXPECT_EQ(image.channels, 3);
+    EXPECT_THAT(image.transmittance, ElementsAre(0.75f, 0.5f, 0.25f));
+    EXPECT_THAT(read_deep_image(write({"AB", "AG", "AR", "RA", "Z"}, {{{0.75f, 0.5f, 0.25f, 1, 4}}})).transmittance,
+                ElementsAre(0.75f, 0.5f, 0.25f));
+    EXPECT_THAT(read_deep_image(write({"l.BA", "l.GA", "l.RA", "l.Z"}, {{{0.75f, 0.5f, 0.25f, 4}}})).transmittance,
+                ElementsAre(0.75f, 0.5f, 0.25f));
+}
+
+// Passed over, such a back would turn a volume into a surface.
+TEST(ReadDeepImage, ReadsABackThatIsWrittenInOtherLetters) {
+    for (const char* back : {"Zback", "zback", "ZBACK"})
+        EXPECT_THAT(read_deep_image(write({"A", "Z", back}, {{{0.5f, 4, 6}}})).z_back, ElementsAre(6)) << back;
+    EXPECT_THAT(read_deep_image(write({"rgba.A", "rgba.Z", "rgba.Zback"}, {{{0.5f, 4, 6}}})).z_back, ElementsAre(6));
+    EXPECT_THAT(read_deep_image(write({"A", "Z", "Zbacks"}, {{{0.5f, 4, 6}}})).z_back, ElementsAre(4));
+}
+
 TEST(ReadDeepImage, EqualAlphasAreOneChannel) {
     const DeepImage image =
         read_deep_image(write({"A", "AR", "AG", "AB", "Z"}, {{{0, 0.25f, 0.25f, 0.25f, 4}}, {{0, 1, 1, 1.001f, 5}}}));
@@ -173,49 +192,6 @@ TEST(ReadDeepImage, AsksWhichOfSeveralLayersIsMeant) {
     EXPECT_THAT(read_deep_image(image).notes.lines, ElementsAre(HasSubstr("passed over: b")));
     EXPECT_THAT(read_deep_image(image, {"b", {}}).z_front, ElementsAre(5));
     EXPECT_THAT(read_deep_image(image, {"", {}}).z_front, ElementsAre(4));
-}
-
-// Deep parts with one sample each, at depth 1, 2, ...
-std::filesystem::path write_parts(const std::vector<std::string>& names) {
-    const std::filesystem::path file = test::fresh_path("parts.exr");
-    std::vector<OIIO::ImageSpec> specs;
-    for (const std::string& name : names) {
-        OIIO::ImageSpec spec(2, 1, 2, OIIO::TypeDesc::FLOAT);
-        spec.channelnames = {"A", "Z"};
-        spec.deep = true;
-        spec.attribute("compression", "zips");
-        spec.attribute("oiio:subimagename", name);
-        specs.push_back(spec);
-    }
-    const auto output = OIIO::ImageOutput::create(file.string());
-    EXPECT_TRUE(output->open(file.string(), static_cast<int>(specs.size()), specs.data())) << output->geterror();
-    for (std::size_t part = 0; part < specs.size(); ++part) {
-        if (part > 0) {
-            EXPECT_TRUE(output->open(file.string(), specs[part], OIIO::ImageOutput::AppendSubimage))
-                << output->geterror();
-        }
-        OIIO::DeepData data;
-        data.init(specs[part]);
-        data.set_samples(0, 1);
-        data.set_deep_value(0, 0, 0, 0.5f);
-        data.set_deep_value(0, 1, 0, static_cast<float>(part + 1));
-        EXPECT_TRUE(output->write_deep_image(data)) << output->geterror();
-    }
-    output->close();
-    return file;
-}
-
-TEST(ReadDeepImage, TakesAPartByNumberOrNameAndAsksForOneOfSeveral) {
-    const auto file = write_parts({"left", "centre", "right"});
-    EXPECT_THAT(error_of([&] { read_deep_image(file); }).message(),
-                AllOf(HasSubstr("\"part\""), HasSubstr("0 \"left\", 1 \"centre\", 2 \"right\"")));
-    EXPECT_THAT(read_deep_image(file, {{}, 0}).z_front, ElementsAre(1));
-    EXPECT_THAT(read_deep_image(file, {{}, 2}).z_front, ElementsAre(3));
-    EXPECT_THAT(read_deep_image(file, {{}, "right"}).z_front, ElementsAre(3));
-    EXPECT_THAT(read_deep_image(file, {{}, "right"}).notes.lines, ElementsAre("of 3 parts 2 \"right\" is read"));
-    for (const DeepChoice& gone : {DeepChoice{{}, 3}, DeepChoice{{}, -1}, DeepChoice{{}, "middle"}})
-        EXPECT_THAT(error_of([&] { read_deep_image(file, gone); }).message(),
-                    AllOf(HasSubstr("no such \"part\""), HasSubstr("2 \"right\"")));
 }
 
 TEST(ReadDeepImage, NamesTheChannelsWhenOneIsMissing) {

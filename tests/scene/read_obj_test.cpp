@@ -255,7 +255,10 @@ TEST(ReadObj, NeverCrashesOnAFileCutAnywhere) {
 }
 
 TEST(ReadMesh, RefusesOtherFormatsAndMissingFiles) {
-    EXPECT_THAT(error_of([] { read_mesh(test::write_file("a.stl", "")); }).message(), HasSubstr(".obj or .ply"));
+    EXPECT_EQ(error_of([] { read_mesh(test::write_file("a.Fbx", "")); }).message(),
+              "the name of a mesh file must end in .obj, .ply or .stl; .Fbx is not read");
+    EXPECT_EQ(error_of([] { read_mesh(test::write_file("obj", "")); }).message(),
+              "the name of a mesh file must end in .obj, .ply or .stl");
     EXPECT_EQ(error_of([] { read_mesh("/nowhere/a.obj"); }).code(), base::ErrorCode::no_such_file);
     EXPECT_EQ(error_of([] { read_mesh("/nowhere/a.ply"); }).code(), base::ErrorCode::no_such_file);
 }

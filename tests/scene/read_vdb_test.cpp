@@ -45,6 +45,12 @@ TEST(ReadVdb, GivesTheActiveBoxXFastestWithItsWorldBounds) {
     EXPECT_EQ(volume.upper, Vec3d(0.75, 0.75, 2.75));
 }
 
+TEST(ReadVdb, ReadsHalfFloats) {
+    const openvdb::FloatGrid::Ptr grid = small_grid();
+    grid->setSaveFloatAsHalf(true);
+    EXPECT_THAT(read_vdb(write({grid}), "density").density, testing::ElementsAre(1, 2, 3, 11, 12, 13));
+}
+
 TEST(ReadVdb, FollowsScaleAndTranslation) {
     openvdb::FloatGrid::Ptr grid = small_grid();
     grid->transform().postScale(openvdb::Vec3d(2.0, 1.0, 4.0));
@@ -154,6 +160,26 @@ TEST(ReadVdb, TakesDensitiesBelow0As0AndCountsThemOrRefusesThem) {
     EXPECT_THAT(volume.notes.lines, testing::ElementsAre("2 of 6 densities are below 0, the least -2.5: taken as 0"));
     EXPECT_THAT(error_of([&] { read_vdb(file, "density", Negative::refuse); }).message(), HasSubstr("below 0"));
     EXPECT_EQ(read_vdb(write({small_grid()}), "density", Negative::refuse).density.size(), 6u);
+}
+
+// Voxels that are not active have the background in the box of those that are. Left at 0 it would be thinner.
+TEST(ReadVdb, FillsTheBoxWithTheBackgroundAndNothingOutside) {
+    const auto between = [](float background) {
+        openvdb::initialize();
+        openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(background);
+        grid->setName("density");
+        grid->tree().setValue({0, 0, 0}, 1.0f);
+        grid->tree().setValue({2, 0, 0}, 3.0f);
+        return read_vdb(write({grid}), "density");
+    };
+    const GridVolume above = between(0.25f), below = between(-0.25f);
+    EXPECT_THAT(above.density, testing::ElementsAre(1, 0.25f, 3));
+    EXPECT_EQ(above.lower, Vec3d(-0.5, -0.5, -0.5));
+    EXPECT_EQ(above.upper, Vec3d(2.5, 0.5, 0.5));
+    EXPECT_THAT(above.notes.lines, testing::ElementsAre(HasSubstr("background is 0.25, but outside")));
+    EXPECT_THAT(below.density, testing::ElementsAre(1, 0, 3));
+    EXPECT_THAT(below.notes.lines, testing::ElementsAre(HasSubstr("1 of 3 densities are below 0, the least -0.25")));
+    EXPECT_TRUE(between(0.0f).notes.lines.empty());
 }
 
 TEST(ReadVdb, RefusesABoxOverTheLimitBeforeItIsFilled) {

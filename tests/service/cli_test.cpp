@@ -520,10 +520,11 @@ TEST_F(Cli, writes_a_map_as_a_tiled_file_and_describes_it) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2) << "nothing else is left";
 
     std::string bytes = read(path("a.dsm"));
+    EXPECT_EQ(cli({"inspect", write("A.DSM", bytes)}).code, 0);
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
     fails({"inspect", write("b.dsm", bytes)}, 65, "damaged");
     fails({"inspect", path("c.dsm")}, 66, "c.dsm");
-    fails({"inspect", path("tiny.json")}, 65, "not a deep shadow map");
+    fails({"inspect", write("d.dsm", tiny)}, 65, "not a deep shadow map");
     fails({"inspect", folder_.string()}, 74, "regular file");
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "scene/limits.h"
+#include "scene/readers/kinds.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -98,6 +99,14 @@ void read_format(FileReader& file, const Header& header, DdsLayout& layout, bool
 }
 
 }  // namespace
+
+bool is_dds_volume(const std::filesystem::path& file) {
+    FileReader reader(file);
+    const auto header = reader.value<Header>("header");
+    if (header.caps[1] & volume) return true;
+    const bool more = (header.pixel_flags & has_code) && header.pixel_code == four_characters("DX10");
+    return more && reader.value<ExtraHeader>("header").dimension == texture_3d;
+}
 
 DdsLayout read_dds_layout(FileReader& file, std::uint64_t most_voxels) {
     const auto header = file.value<Header>("header");

@@ -1,9 +1,12 @@
 // Names after "OpenEXR: Technical Introduction" and "Interpreting OpenEXR Deep Pixels" (Hillman, Welford 2013): a
-// channel is "<layer>.<base name>" or a base name. AR, AG and AB are the alpha of one colour each; A is the alpha of
-// the colours that have none of their own.
+// channel is "<layer>.<base name>" or a base name. AR, AG and AB are the alpha of one colour each (RA, GA and BA before
+// OpenEXR 2); A is the alpha of the colours that have none of their own.
 #include "scene/readers/deep_channels.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <map>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -20,16 +23,30 @@ int index_of(const Layer& layer, const char* name) {
     return found == layer.end() ? -1 : found->second;
 }
 
+// Some programs write Zback. A back that is passed over would turn volumes into surfaces without a word.
+int index_of_back(const Layer& layer) {
+    constexpr std::string_view back = "zback";
+    const int exact = index_of(layer, "ZBack");
+    if (exact >= 0) return exact;
+    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    for (const auto& [name, index] : layer)
+        if (std::equal(name.begin(), name.end(), back.begin(), back.end(),
+                       [&](char written, char wanted) { return small(written) == wanted; }))
+            return index;
+    return -1;
+}
+
 DeepChannels channels_of(const Layer& layer) {
     DeepChannels channels;
     const int shared = index_of(layer, "A");
-    constexpr std::array own{"AR", "AG", "AB"};
+    constexpr std::array own{"AR", "AG", "AB"}, older{"RA", "GA", "BA"};
     for (std::size_t c = 0; c < own.size(); ++c) {
-        const int index = index_of(layer, own[c]);
+        int index = index_of(layer, own[c]);
+        if (index < 0) index = index_of(layer, older[c]);
         channels.alpha[c] = index < 0 ? shared : index;
     }
     channels.z = index_of(layer, "Z");
-    channels.z_back = index_of(layer, "ZBack");
+    channels.z_back = index_of_back(layer);
     return channels;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <tuple>
@@ -14,6 +13,7 @@
 #include "base/error.h"
 #include "scene/limits.h"
 #include "scene/readers/read_mesh.h"
+#include "scene/readers/text_lines.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -73,21 +73,7 @@ constexpr std::array keywords{
     Keyword{"con", ""},
 };
 
-// Takes the next word of a line; empty at its end.
-std::string_view next_word(std::string_view& line) {
-    const std::size_t from = line.find_first_not_of(" \t");
-    if (from == std::string_view::npos) return {};
-    const std::size_t to = std::min(line.find_first_of(" \t", from), line.size());
-    const std::string_view word = line.substr(from, to - from);
-    line.remove_prefix(to);
-    return word;
-}
-
-// Takes the next line of a text, without its comment. Lines end with LF, CR LF or CR.
-std::string_view next_line(std::string_view& text) {
-    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + (text.substr(end).starts_with("\r\n") ? 2 : 1), text.size()));
+std::string_view without_comment(std::string_view line) {
     return line.substr(0, line.find('#'));
 }
 
@@ -174,10 +160,7 @@ private:
         result_.kept += keyword;
         int count = 0;
         for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++count) {
-            if (word.front() == '+') word.remove_prefix(1);
-            double value = 0.0;
-            const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-            if (fault != std::errc() || end != word.data() + word.size() || !(std::abs(value) <= max_coordinate))
+            if (!coordinate(word))
                 fail(fmt::format("\"{}\" is not a finite number below {}", word.substr(0, 40), max_coordinate));
             result_.kept.append(1, ' ').append(word);
         }
@@ -240,7 +223,7 @@ ObjLines check_obj(const std::string& text, const std::filesystem::path& name, M
     std::string joined;
     std::size_t number = 0, first = 0;
     for (std::string_view left = text; !left.empty();) {
-        std::string_view line = next_line(left);
+        std::string_view line = without_comment(next_line(left));
         ++number;
         if (joined.empty()) first = number;
         const bool goes_on = take_continuation(line);

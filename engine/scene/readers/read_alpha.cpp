@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "scene/limits.h"
 #include "scene/readers/exr_check.h"
+#include "scene/readers/extension.h"
 #include "scene/readers/file_reader.h"
 #include "scene/readers/files.h"
 
@@ -91,7 +92,7 @@ std::string format_of(const std::filesystem::path& file) {
     const std::vector<char> begin = reader.array<char>(std::min<std::uint64_t>(reader.size(), 4), "header");
     for (const Format& format : formats)
         if (std::string_view(begin.data(), begin.size()).starts_with(format.begin)) return format.name;
-    return file.extension() == ".tga" ? "targa" : "";
+    return extension_of(file) == ".tga" ? "targa" : "";
 }
 
 // Luminance weights of ITU-R BT.709.

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,6 +19,7 @@
 #include "scene/limits.h"
 #include "scene/readers/deep_channels.h"
 #include "scene/readers/files.h"
+#include "scene/readers/kinds.h"
 #include "scene/readers/read_image.h"
 
 namespace shadowbench::scene {
@@ -62,6 +66,23 @@ bool is_meant(const Part& part, const DeepChoice& choice) {
     return part.deep;
 }
 
+// Names the part that is read and those that are not.
+void note_part(const std::vector<Part>& parts, const Part& chosen, ReadNotes& notes) {
+    constexpr std::size_t most_names = 8;
+    std::string others;
+    std::size_t named = 0;
+    for (const Part& part : parts) {
+        if (part.number == chosen.number) continue;
+        if (named == most_names) {
+            others += ", ...";
+            break;
+        }
+        others += fmt::format("{}{}{}", named > 0 ? ", " : "", shown(part), part.deep ? "" : " (not deep)");
+        ++named;
+    }
+    notes.lines.push_back(fmt::format("of {} parts {} is read; passed over: {}", parts.size(), shown(chosen), others));
+}
+
 int choose_part(OIIO::ImageInput& input, const DeepChoice& choice, const std::filesystem::path& file,
                 ReadNotes& notes) {
     const std::vector<Part> parts = list_parts(input);
@@ -78,7 +99,7 @@ int choose_part(OIIO::ImageInput& input, const DeepChoice& choice, const std::fi
     if (!meant[0].deep)
         refuse_image(
             file, fmt::format("the part {} is not a deep image; the deep parts are: {}", shown(meant[0]), list(parts)));
-    if (parts.size() > 1) notes.lines.push_back(fmt::format("of {} parts {} is read", parts.size(), shown(meant[0])));
+    if (parts.size() > 1) note_part(parts, meant[0], notes);
     return meant[0].number;
 }
 
@@ -214,6 +235,18 @@ DeepImage convert(const OIIO::DeepData& data, const OIIO::ImageSpec& spec, const
 }
 
 }  // namespace
+
+bool is_deep_image(const std::filesystem::path& file) {
+    try {
+        const std::unique_ptr<OIIO::ImageInput> input = open_image(file);
+        const std::vector<Part> parts = list_parts(*input);
+        return std::any_of(parts.begin(), parts.end(), [](const Part& part) { return part.deep; });
+    } catch (const base::Error&) {
+        throw;
+    } catch (const std::exception& fault) {
+        refuse_image(file, fmt::format("not a readable image: {}", fault.what()));
+    }
+}
 
 DeepImage read_deep_image(const std::filesystem::path& file, const DeepChoice& choice) {
     try {

@@ -1,22 +1,35 @@
 #include "scene/readers/read_mesh.h"
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "scene/polygon/triangulate.h"
+#include "scene/readers/extension.h"
 #include "scene/readers/files.h"
 
 namespace shadowbench::scene {
+namespace {
+
+struct MeshFormat {
+    std::string_view extension;
+    MeshFile (*read)(const std::filesystem::path& file);
+};
+constexpr std::array mesh_formats{MeshFormat{".obj", read_obj}, MeshFormat{".ply", read_ply},
+                                  MeshFormat{".stl", read_stl}};
+
+}  // namespace
 
 MeshFile read_mesh(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (extension == ".obj") return read_obj(file);
-    if (extension == ".ply") return read_ply(file);
-    throw base::Error(base::ErrorCode::bad_input, file.string(), "the name of a mesh file must end in .obj or .ply");
+    const std::string extension = extension_of(file);
+    std::vector<std::string_view> known;
+    for (const MeshFormat& format : mesh_formats) {
+        if (extension == format.extension) return format.read(file);
+        known.push_back(format.extension);
+    }
+    throw base::Error(base::ErrorCode::bad_input, file.string(), unknown_extension(file, "mesh", known));
 }
 
 void pass_over(MeshFile& file, std::string_view what, std::uint64_t count) {
@@ -54,7 +67,7 @@ std::string add_polygon(MeshFile& file, const std::vector<int>& corners, const s
     const Triangulation result = triangulate(polygon);
     if (!result.fault.empty())
         return fmt::format("the face {}; split it in the program that wrote the file", result.fault);
-    if (result.triangles.empty()) pass_over(file, "faces without area");
+    if (result.triangles.empty()) pass_over(file, without_area);
     for (const auto& [a, b, c] : result.triangles) {
         mesh.triangles.emplace_back(corners[a], corners[b], corners[c]);
         if (!uv.empty())

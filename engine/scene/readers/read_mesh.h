@@ -15,10 +15,14 @@ namespace shadowbench::scene {
 MeshFile read_obj(const std::filesystem::path& file);
 MeshFile read_ply(const std::filesystem::path& file);
 
+// Text and binary. Corners at equal positions become one vertex; the vertices come in the order of their positions.
+MeshFile read_stl(const std::filesystem::path& file);
+
 // If there are many kinds, the rest are counted together as "other things".
 void pass_over(MeshFile& file, std::string_view what, std::uint64_t count = 1);
 
 inline constexpr std::string_view fewer_corners = "faces of fewer than 3 corners";
+inline constexpr std::string_view without_area = "faces without area";
 
 // Whether the text is a letter followed by up to 31 letters, digits and underscores, so that it may be shown.
 bool is_word(std::string_view text);

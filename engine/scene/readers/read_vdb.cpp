@@ -20,6 +20,7 @@
 #include "scene/readers/densities.h"
 #include "scene/readers/files.h"
 #include "scene/readers/vdb_check.h"
+#include "scene/readers/vdb_facts.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -57,6 +58,13 @@ struct Axes {
 
     bool as_they_are() const { return to == std::array{0, 1, 2} && mirrored == std::array{false, false, false}; }
 };
+
+std::string text_of(const Axes& axes) {
+    std::string text;
+    for (std::size_t i = 0; i < 3; ++i)
+        text += fmt::format("{}{}{}", i > 0 ? ", " : "", axes.mirrored[i] ? "-" : "", "xyz"[axes.to[i]]);
+    return text;
+}
 
 // The deviation from right angles that float matrices and short values of pi leave: off-axis entries relative to the
 // entry of the axis, and how far they move a voxel of the box at most, in voxels.
@@ -128,12 +136,15 @@ void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& bo
     }
 }
 
-GridVolume convert(const openvdb::FloatGrid& grid, std::uint64_t most_voxels, const std::filesystem::path& file) {
+GridVolume convert(const openvdb::FloatGrid& grid, std::uint64_t most_voxels, const std::filesystem::path& file,
+                   VdbFacts& facts) {
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
     if (box.empty()) fail(file, "the grid has no active voxels");
     const double voxels = check_box(box, most_voxels, file);
     const openvdb::Coord size = box.dim();
     const Axes axes = find_axes(grid.transform(), size, file);
+    facts.active = grid.activeVoxelCount();
+    if (!axes.as_they_are()) facts.axes = text_of(axes);
 
     GridVolume volume;
     for (std::size_t i = 0; i < 3; ++i) volume.size[axes.to[i]] = size[static_cast<int>(i)];
@@ -189,6 +200,12 @@ void note_choice(const VdbGrid& grid, const openvdb::FloatGrid& source, GridVolu
 
 GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, Negative negative,
                     std::uint64_t most_voxels) {
+    VdbFacts unused;
+    return read_vdb(file, grid, negative, most_voxels, unused);
+}
+
+GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, Negative negative,
+                    std::uint64_t most_voxels, VdbFacts& facts) {
     static std::once_flag once;
     std::call_once(once, [] { openvdb::initialize(); });
     std::error_code ignored;
@@ -199,7 +216,8 @@ GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, N
     try {
         const VdbGrid chosen = check_vdb(file, grid);
         const openvdb::FloatGrid::Ptr source = read_grid(file, chosen);
-        GridVolume volume = convert(*source, most_voxels, file);
+        GridVolume volume = convert(*source, most_voxels, file, facts);
+        facts.grid = shown(chosen);
         note_choice(chosen, *source, volume);
         check_values(volume, negative, file);
         return volume;

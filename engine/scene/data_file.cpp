@@ -1,0 +1,240 @@
+#include "scene/data_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <system_error>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "scene/limits.h"
+#include "scene/load.h"
+#include "scene/readers/extension.h"
+#include "scene/readers/kinds.h"
+#include "scene/stage.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using base::Error;
+using base::ErrorCode;
+
+void add_object(DataFile& data, decltype(Object::shape) shape, std::vector<PassedOver> passed_over = {}) {
+    Object object;
+    object.shape = std::move(shape);
+    object.passed_over = std::move(passed_over);
+    data.scene.objects.push_back(std::move(object));
+}
+
+void read_mesh_file(DataFile& data) {
+    MeshFile file = read_mesh(data.file);
+    add_object(data, std::move(file.mesh), std::move(file.passed_over));
+}
+
+// Of hair without a width.
+float guess_radius(const Hair& hair) {
+    Box3d box;
+    for (const Vec3f& point : hair.points) box.extendBy(Vec3d(point));
+    return box.isEmpty() ? 0.0f : static_cast<float>(to_digits(box.size().length() / 2000.0, 1));
+}
+
+void add_hair(DataFile& data, Hair hair) {
+    const auto strands = [&] { return hair.strand_begin.empty() ? std::size_t{0} : hair.strand_begin.size() - 1; };
+    data.guessed_radius = std::none_of(hair.radii.begin(), hair.radii.end(), [](float radius) { return radius > 0; });
+    if (data.guessed_radius) hair.radii.assign(hair.points.size(), guess_radius(hair));
+    const std::size_t all = strands();
+    merge_equal_points(hair);
+    data.short_strands = all - strands();
+    add_object(data, std::move(hair));
+}
+
+void read_tressfx_file(DataFile& data) {
+    add_hair(data, read_tressfx(data.file, 0.0f));
+}
+
+void read_hair_file(DataFile& data) {
+    add_hair(data, read_hair(data.file, 0.0f));
+}
+
+void read_vdb_file(DataFile& data) {
+    VdbFacts facts;
+    add_object(data, read_vdb(data.file, data.choice.grid, Negative::clamp, max_voxels, facts));
+    data.vdb = std::move(facts);
+}
+
+void read_pvm_file(DataFile& data) {
+    add_object(data, read_pvm(data.file));
+}
+
+void add_without_box(DataFile& data, GridVolume volume) {
+    volume.upper = Vec3d(volume.size);
+    data.no_box = true;
+    add_object(data, std::move(volume));
+}
+
+void read_dds_file(DataFile& data) {
+    add_without_box(data, read_dds_volume(data.file));
+}
+
+void read_raw_file(DataFile& data) {
+    const RawLayout layout = raw_layout(data.file, data.bytes);
+    data.raw_type = layout.type;
+    add_without_box(data, read_raw_volume(data.file, layout.size, layout.type));
+}
+
+void read_deep_file(DataFile& data) {
+    data.scene.deep_image = read_deep_image(data.file, data.choice.deep);
+}
+
+void read_texture_file(DataFile& data) {
+    auto texture = std::make_shared<const AlphaTexture>(read_alpha(data.file));
+    const float half = 0.5f * static_cast<float>(texture->width) / static_cast<float>(texture->height);
+    Mesh quad;
+    quad.positions = {Vec3f(-half, 0, 0), Vec3f(half, 0, 0), Vec3f(half, 1, 0), Vec3f(-half, 1, 0)};
+    quad.triangles = {Vec3i(0, 1, 2), Vec3i(0, 2, 3)};
+    quad.corner_uv = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
+    quad.alpha = std::move(texture);
+    add_object(data, std::move(quad));
+}
+
+constexpr const char* texture_title = "image, an alpha texture";
+
+constexpr std::array formats{
+    FileFormat{".obj", "Wavefront OBJ mesh", "mesh", nullptr, read_mesh_file},
+    FileFormat{".ply", "PLY mesh", "mesh", nullptr, read_mesh_file},
+    FileFormat{".stl", "STL mesh", "mesh", nullptr, read_mesh_file},
+    FileFormat{".tfx", "TressFX hair", "hair", nullptr, read_tressfx_file},
+    FileFormat{".hair", "hair in Cem Yuksel's format", "hair", nullptr, read_hair_file},
+    FileFormat{".vdb", "OpenVDB grid", "volume", nullptr, read_vdb_file},
+    FileFormat{".pvm", "volume of the V3 library", "volume", nullptr, read_pvm_file},
+    FileFormat{".dds", "DDS volume texture", "volume", is_dds_volume, read_dds_file},
+    FileFormat{".raw", "volume of raw values", "volume", nullptr, read_raw_file},
+    FileFormat{".exr", "deep OpenEXR image", "deep_image", is_deep_image, read_deep_file},
+    FileFormat{".exr", texture_title, "quad", nullptr, read_texture_file},
+    FileFormat{".dds", texture_title, "quad", nullptr, read_texture_file},
+    FileFormat{".png", texture_title, "quad", nullptr, read_texture_file},
+    FileFormat{".jpg", texture_title, "quad", nullptr, read_texture_file},
+    FileFormat{".jpeg", texture_title, "quad", nullptr, read_texture_file},
+    FileFormat{".tif", texture_title, "quad", nullptr, read_texture_file},
+    FileFormat{".tiff", texture_title, "quad", nullptr, read_texture_file},
+    FileFormat{".tga", texture_title, "quad", nullptr, read_texture_file},
+};
+
+const FileFormat& format_of_file(const std::filesystem::path& file) {
+    const std::string extension = extension_of(file);
+    std::vector<std::string_view> known;
+    for (const FileFormat& format : formats) {
+        if (extension == format.extension && (!format.is || format.is(file))) return format;
+        if (std::find(known.begin(), known.end(), format.extension) == known.end()) known.push_back(format.extension);
+    }
+    throw Error(ErrorCode::bad_input, file.string(), unknown_extension(file, "data", known));
+}
+
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+// The size that "ball_32x32x24" states.
+std::optional<Vec3i> size_in(std::string_view name) {
+    const char* const end = name.data() + name.size();
+    for (std::size_t at = 0; at < name.size(); ++at) {
+        if (!is_digit(name[at]) || (at > 0 && is_digit(name[at - 1]))) continue;
+        Vec3i size(0, 0, 0);
+        const char* from = name.data() + at;
+        int axis = 0;
+        for (; axis < 3; ++axis) {
+            if (axis > 0 && (from == end || (*from++ | 0x20) != 'x')) break;
+            const auto [next, fault] = std::from_chars(from, end, size[axis]);
+            if (fault != std::errc() || size[axis] < 1) break;
+            from = next;
+        }
+        if (axis == 3) return size;
+    }
+    return std::nullopt;
+}
+
+// The cube whose number of voxels is nearest.
+Vec3i cube(std::uint64_t voxels) {
+    const int side = static_cast<int>(std::lround(std::cbrt(static_cast<double>(voxels))));
+    return {side, side, side};
+}
+
+double voxels_of(const Vec3i& size) {
+    return static_cast<double>(size.x) * size.y * size.z;
+}
+
+}  // namespace
+
+std::span<const FileFormat> file_formats() {
+    return formats;
+}
+
+DataFile read_data_file(const std::filesystem::path& file, const FileChoice& choice) {
+    std::error_code fault;
+    if (!std::filesystem::exists(file, fault))
+        throw Error(ErrorCode::no_such_file, file.string(), "there is no such file");
+    if (!std::filesystem::is_regular_file(file, fault))
+        throw Error(ErrorCode::io, file.string(), "only a regular file can be read");
+    DataFile data;
+    data.file = file;
+    data.choice = choice;
+    data.bytes = std::filesystem::file_size(file, fault);
+    if (fault) throw Error(ErrorCode::io, file.string(), "cannot be read: " + fault.message());
+    data.format = &format_of_file(file);
+    data.format->read(data);
+    return data;
+}
+
+RawLayout raw_layout(const std::filesystem::path& file, std::uint64_t bytes) {
+    const std::optional<Vec3i> named = size_in(file.stem().string());
+    for (const auto& [type, bytes_each] : {std::pair{"uint8", 1}, {"float32", 4}}) {
+        const Vec3i size = named ? *named : cube(bytes / static_cast<std::uint64_t>(bytes_each));
+        const double voxels = voxels_of(size);
+        if (voxels * bytes_each != static_cast<double>(bytes) || voxels < 1.0) continue;
+        if (voxels > static_cast<double>(max_voxels))
+            throw Error(ErrorCode::bad_input, file.string(),
+                        fmt::format("{} x {} x {} voxels; the limit is {}", size.x, size.y, size.z, max_voxels));
+        return {size, type};
+    }
+    if (named)
+        throw Error(ErrorCode::bad_input, file.string(),
+                    fmt::format("the name states {} x {} x {} voxels, but the file has {} bytes: neither 1 (uint8) nor "
+                                "4 (float32) a voxel, the only types of raw values that are read",
+                                named->x, named->y, named->z, bytes));
+    throw Error(ErrorCode::bad_input, file.string(),
+                fmt::format("{} bytes of raw values are no cube of uint8 or float32: state the size in the name of the "
+                            "file, as in ball_32x32x24.raw, or write a volume with \"format\", \"size\", \"lower\" "
+                            "and \"upper\" into a scenario",
+                            bytes));
+}
+
+Box3d bounds(const DataFile& data) {
+    Box3d box = bounds(data.scene, false);
+    if (!box.isEmpty() || data.scene.objects.empty()) return box;
+    if (const auto* mesh = std::get_if<Mesh>(&data.scene.objects[0].shape))
+        for (const Vec3f& position : mesh->positions) box.extendBy(Vec3d(position));
+    return box;
+}
+
+bool casts_shadow(const DataFile& data) {
+    if (data.scene.deep_image) {
+        const DeepImage& image = *data.scene.deep_image;
+        for (std::size_t sample = 0; sample < image.z_front.size(); ++sample)
+            if (!behind_everything(image, sample)) return true;
+        return false;
+    }
+    const auto& shape = data.scene.objects[0].shape;
+    if (const auto* mesh = std::get_if<Mesh>(&shape)) return !mesh->triangles.empty();
+    if (const auto* hair = std::get_if<Hair>(&shape)) return hair->strand_begin.size() > 1;
+    const auto* volume = std::get_if<GridVolume>(&shape);
+    return volume && std::any_of(volume->density.begin(), volume->density.end(), [](float d) { return d > 0.0f; });
+}
+
+}  // namespace shadowbench::scene

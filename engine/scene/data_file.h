@@ -1,0 +1,69 @@
+// Data files without a scenario, for those who look before they run. The table of all formats is in data_file.cpp.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scene/readers/files.h"
+#include "scene/readers/vdb_facts.h"
+#include "scene/scene.h"
+
+namespace shadowbench::scene {
+
+// What to read of a file that holds several things.
+struct FileChoice {
+    GridChoice grid;  // of .vdb
+    DeepChoice deep;  // of deep .exr
+};
+
+struct DataFile;
+
+// Several formats may share an extension; the first whose `is` holds is the one.
+struct FileFormat {
+    std::string_view extension;  // in lower case: ".vdb"
+    std::string_view title;      // what it is: "OpenVDB grid"
+    std::string_view loader;     // what loads it in a scenario: "volume", the type of an object, or "deep_image"
+    bool (*is)(const std::filesystem::path& file);  // null: always
+    void (*read)(DataFile& data);                   // reads data.file into the other members
+};
+
+std::span<const FileFormat> file_formats();
+
+// A file as its reader gives it. An image is the alpha texture of a quad of height 1 that stands on the origin. Raw and
+// DDS volumes, whose files have no box, get one that begins at the origin, with voxels of edge 1.
+struct DataFile {
+    std::filesystem::path file;
+    FileChoice choice;
+    const FileFormat* format = nullptr;
+    std::uint64_t bytes = 0;
+    Scene scene;                      // one object, which may hold nothing that casts a shadow; or a deep image
+    bool guessed_radius = false;      // hair: the file has no width, so a 2000th of the diagonal stands in
+    std::uint64_t short_strands = 0;  // hair: strands without length, which are left out
+    bool no_box = false;              // volume: the file has no box
+    std::string raw_type;             // raw values: "uint8" or "float32"
+    std::optional<VdbFacts> vdb;
+};
+
+// Throws Error: no_such_file, io, or bad_input for what the reader refuses and for extensions that no format has.
+DataFile read_data_file(const std::filesystem::path& file, const FileChoice& choice);
+
+struct RawLayout {
+    Vec3i size{0, 0, 0};
+    std::string type;
+};
+
+// The layout of raw values: the size that the name states, as in "ball_32x32x24.raw", or else a cube; and the type that
+// fills the file. Throws Error{bad_input} if no type does.
+RawLayout raw_layout(const std::filesystem::path& file, std::uint64_t bytes);
+
+// The box of what casts shadows; of a mesh without triangles, that of its vertices. Empty for a deep image.
+Box3d bounds(const DataFile& data);
+
+// Whether a light could meet anything in the file.
+bool casts_shadow(const DataFile& data);
+
+}  // namespace shadowbench::scene

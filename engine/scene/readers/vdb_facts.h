@@ -1,0 +1,23 @@
+// Reads a grid of a .vdb file together with what its densities do not show.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "scene/limits.h"
+#include "scene/readers/files.h"
+
+namespace shadowbench::scene {
+
+struct VdbFacts {
+    std::string grid;          // its name, as shown to people
+    std::uint64_t active = 0;  // voxels
+    std::string axes;  // the world axes along which the grid's x, y and z run, as in "x, -z, y"; empty: the same ones
+};
+
+// As read_vdb() of files.h; sets `facts`.
+GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, Negative negative,
+                    std::uint64_t most_voxels, VdbFacts& facts);
+
+}  // namespace shadowbench::scene

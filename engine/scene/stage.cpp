@@ -1,0 +1,114 @@
+#include "scene/stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace shadowbench::scene {
+namespace {
+
+// Everything is placed with y up. With z up, y becomes z, z becomes x and x becomes y, which keeps the frame
+// right-handed.
+Vec3d to_world(const Vec3d& p, UpAxis up) {
+    return up == UpAxis::y ? p : Vec3d(p.z, p.x, p.y);
+}
+Vec3d from_world(const Vec3d& p, UpAxis up) {
+    return up == UpAxis::y ? p : Vec3d(p.y, p.z, p.x);
+}
+
+// Rounds to a multiple of a power of ten: a thousandth of `size`, or less.
+double on_grid(double value, double size) {
+    const double digits = 3.0 - std::floor(std::log10(size));
+    const double scale = std::pow(10.0, std::abs(digits));
+    const double rounded = digits >= 0.0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
+    return rounded + 0.0;  // -0 becomes 0
+}
+Vec3d on_grid(const Vec3d& point, double size) {
+    return {on_grid(point.x, size), on_grid(point.y, size), on_grid(point.z, size)};
+}
+
+constexpr double gap = 0.02;          // between the box and the ground, of the diagonal
+constexpr double margin = 1.05;       // of the sphere that the camera sees, which covers the rounding
+constexpr double ground_radii = 4.0;  // half the side of the ground, in radii of that sphere
+const Vec3d light_direction(-0.5, -1.0, 0.35);
+const Vec3d towards_camera(0.5, 0.45, 0.8);  // the shadow falls before the box, on its other side
+
+// The box together with its shadow on the ground.
+Box3d with_shadow(const Box3d& box, double ground) {
+    const double height = box.max.y - ground;
+    Box3d seen = box;
+    for (const Vec3d& corner : {box.min, box.max}) {
+        const Vec3d shadow = corner + light_direction * height;
+        seen.extendBy(Vec3d(shadow.x, ground, shadow.z));
+    }
+    return seen;
+}
+
+}  // namespace
+
+Stage stage_around(const Box3d& world_box, UpAxis up) {
+    Box3d box;
+    box.extendBy(from_world(world_box.min, up));
+    box.extendBy(from_world(world_box.max, up));
+    const double size = box.size().length();
+    const double ground = box.min.y - gap * size;
+    const Box3d seen = with_shadow(box, ground);
+    const double radius = margin * 0.5 * seen.size().length();
+    const Vec3d middle = seen.center();
+    const double side = 2.0 * ground_radii * radius;
+    const auto placed = [&](const Vec3d& point) { return on_grid(to_world(point, up), size); };
+
+    Stage stage;
+    stage.ground_corner = placed(Vec3d(middle.x - 0.5 * side, ground, middle.z - 0.5 * side));
+    stage.ground_u = placed(Vec3d(0, 0, side));
+    stage.ground_v = placed(Vec3d(side, 0, 0));
+    stage.light = to_world(light_direction, up);
+    const double distance = radius / std::sin(0.5 * stage.camera.fov * std::numbers::pi / 180.0);
+    stage.camera.target = placed(middle);
+    stage.camera.position = placed(middle + towards_camera.normalized() * distance);
+    stage.camera.up = to_world(Vec3d(0, 1, 0), up);
+    stage.bias = to_digits(1e-3 * size, 1);
+    return stage;
+}
+
+double densest_column(const GridVolume& volume) {
+    const auto columns = static_cast<std::size_t>(volume.size.x), rows = static_cast<std::size_t>(volume.size.y),
+               slices = static_cast<std::size_t>(volume.size.z);
+    Vec3d most(0, 0, 0);  // sums of densities
+    std::vector<double> along(columns);
+    const auto add_row = [&](std::size_t y, std::size_t z) {
+        const float* density = volume.density.data() + (z * rows + y) * columns;
+        double sum = 0.0;
+        for (std::size_t x = 0; x < columns; ++x) {
+            along[x] += density[x];
+            sum += density[x];
+        }
+        return sum;
+    };
+    const auto take_most = [&](double& largest) {
+        largest = std::max(largest, *std::max_element(along.begin(), along.end()));
+        std::fill(along.begin(), along.end(), 0.0);
+    };
+    for (std::size_t z = 0; z < slices; ++z) {
+        for (std::size_t y = 0; y < rows; ++y) most.x = std::max(most.x, add_row(y, z));
+        take_most(most.y);
+    }
+    for (std::size_t y = 0; y < rows; ++y) {
+        for (std::size_t z = 0; z < slices; ++z) add_row(y, z);
+        take_most(most.z);
+    }
+    const Vec3d extent = volume.upper - volume.lower;
+    return std::max(
+        {most.x * extent.x / volume.size.x, most.y * extent.y / volume.size.y, most.z * extent.z / volume.size.z});
+}
+
+double to_digits(double value, int digits) {
+    if (value == 0.0) return 0.0;
+    const double exponent = digits - 1 - std::floor(std::log10(std::abs(value)));
+    const double scale = std::pow(10.0, std::abs(exponent));
+    return exponent >= 0.0 ? std::round(value * scale) / scale : std::round(value / scale) * scale;
+}
+
+}  // namespace shadowbench::scene

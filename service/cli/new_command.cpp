@@ -1,0 +1,93 @@
+#include <charconv>
+#include <filesystem>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/write_files.h"
+#include "document/document.h"
+#include "scene/json_text.h"
+#include "scene/new_scenario.h"
+#include "service/cli/file_commands.h"
+#include "techniques/technique.h"
+
+namespace shadowbench::service {
+namespace {
+
+std::variant<std::monostate, std::string, int> name_or_number(const std::string& text) {
+    if (text.empty()) return {};
+    int number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, fault] = std::from_chars(text.data(), end, number);
+    if (fault == std::errc() && rest == end && number >= 0) return number;
+    return text;
+}
+
+// The name under which a scenario in the file `out` finds the file: relative to the folder of `out`, except that an
+// absolute name stays absolute where it leads out of that folder.
+std::string name_from(const std::string& given, const std::string& out) {
+    namespace fs = std::filesystem;
+    if (out.empty()) return given;
+    const fs::path file = given, folder = fs::absolute(out).lexically_normal().parent_path();
+    const fs::path name = fs::absolute(file).lexically_normal().lexically_proximate(folder);
+    return file.is_absolute() && *name.begin() == ".." ? given : name.string();
+}
+
+// Refuses to write the scenario over a data file.
+void check_out(const std::string& out, const std::string& file) {
+    std::error_code ignored;
+    if (!out.empty() && std::filesystem::equivalent(out, file, ignored))
+        throw base::Error(base::ErrorCode::usage, "--out " + out, "this is one of the data files; choose another name");
+}
+
+// For opaque surfaces, those that count a single surface at its own depth. For others, those whose promises are not for
+// opaque scenes only and that do not approximate.
+std::vector<std::string_view> fitting_techniques(std::span<const scene::DataFile> files) {
+    const bool opaque = scene::is_opaque(files), traceable = !files[0].scene.deep_image;
+    std::vector<std::string_view> types;
+    for (const techniques::Technique& row : techniques::all()) {
+        const techniques::Promises& promises = row.promises;
+        const bool fits = opaque ? promises.localised : !promises.opaque_only && !promises.approximate;
+        if (fits && (traceable || !row.traits.traces)) types.push_back(row.id);
+    }
+    return types;
+}
+
+}  // namespace
+
+scene::DataFile read_data(const FileArguments& arguments, const std::string& file) {
+    scene::FileChoice choice;
+    choice.grid = name_or_number(arguments.grid);
+    choice.deep.part = name_or_number(arguments.part);
+    if (!arguments.layer.empty()) choice.deep.layer = arguments.layer;
+    return scene::read_data_file(file, choice);
+}
+
+void new_command(const NewArguments& arguments, std::ostream& out) {
+    std::vector<scene::DataFile> files;
+    std::vector<std::string> names;
+    for (const std::string& file : arguments.files) {
+        check_out(arguments.out, file);
+        files.push_back(read_data(arguments, file));
+        names.push_back(name_from(file, arguments.out));
+    }
+    const scene::UpAxis up = arguments.up == "z" ? scene::UpAxis::z : scene::UpAxis::y;
+    const std::string text = scene::in_lines(scene::new_scenario(files, names, fitting_techniques(files), up)) + "\n";
+    document::check_document(nlohmann::json::parse(text));
+    if (arguments.out.empty()) {
+        out << text;
+        return;
+    }
+    base::write_files({base::NewFile{arguments.out, text}});
+    out << fmt::format("written: {}\n", arguments.out);
+}
+
+}  // namespace shadowbench::service

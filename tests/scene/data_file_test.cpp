@@ -1,0 +1,183 @@
+// Data files without a scenario: which reader takes them, and what is said of them.
+#include <OpenImageIO/imageio.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/data_file.h"
+#include "scene/describe_file.h"
+#include "scene/readers/kinds.h"
+#include "scene/scenario.h"
+#include "scene/support.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using test::bytes_of;
+using test::error_of;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::filesystem::path case_file(const char* name) {
+    return std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "tests/cases" / name;
+}
+
+std::string described(const std::filesystem::path& file) {
+    return describe_file(read_data_file(file, {}));
+}
+
+// What is wrong with an object of this type that names a file of no format.
+std::string message_of_loader(const std::string& type) {
+    const std::filesystem::path folder = test::write_file("a.nothing", "nothing").parent_path();
+    nlohmann::json document = nlohmann::json::parse(R"({
+        "name": "n", "lights": [{"type": "directional", "direction": [0, -1, 0]}], "techniques": [{"type": "deep"}]})");
+    document["scene"]["objects"] = nlohmann::json::array({nlohmann::json{{"type", type}, {"file", "a.nothing"}}});
+    return error_of([&] { load_scenario(document, {folder}); }).message();
+}
+
+// A format that a loader knows and the table does not, or the other way round, would be seen here.
+TEST(DataFile, TheTableHasTheExtensionsThatLoadersName) {
+    for (const char* type : {"mesh", "hair", "volume"}) {
+        const std::string message = message_of_loader(type);
+        std::set<std::string> named, loaded;
+        for (const FileFormat& format : file_formats()) {
+            const std::string extension(format.extension);
+            if (format.loader == type) loaded.insert(extension);
+            if (message.find(extension) != std::string::npos) named.insert(extension);
+        }
+        EXPECT_EQ(named, loaded) << message;
+        EXPECT_FALSE(loaded.empty()) << type;
+    }
+}
+
+TEST(DataFile, NamesWhatIsReadInsteadOfAnUnknownExtension) {
+    const auto file = test::write_file("a.nrrd", "NRRD0004\n");
+    const base::Error error = error_of([&] { read_data_file(file, {}); });
+    EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
+    EXPECT_EQ(error.where(), file.string());
+    for (const char* known : {".obj", ".vdb", ".exr", ".nrrd is not read"})
+        EXPECT_THAT(error.message(), HasSubstr(known));
+    EXPECT_EQ(error_of([&] { read_data_file(file.parent_path() / "gone.obj", {}); }).code(),
+              base::ErrorCode::no_such_file);
+    EXPECT_EQ(error_of([&] { read_data_file(file.parent_path(), {}); }).code(), base::ErrorCode::io);
+}
+
+TEST(DataFile, AFlatImageIsATextureAndADeepOneIsAScene) {
+    const auto flat = test::fresh_path("flat.exr");
+    const auto output = OIIO::ImageOutput::create(flat.string());
+    ASSERT_TRUE(output && output->open(flat.string(), OIIO::ImageSpec(4, 2, 1, OIIO::TypeDesc::FLOAT)));
+    const float pixels[] = {0, 0, 0, 0, 1, 1, 1, 1};
+    ASSERT_TRUE(output->write_image(OIIO::TypeDesc::FLOAT, pixels));
+    output->close();
+    const DataFile texture = read_data_file(flat, {});
+    EXPECT_EQ(texture.format->loader, "quad");
+    EXPECT_EQ(bounds(texture).min, Vec3d(-1, 0, 0));  // twice as wide as high
+    EXPECT_EQ(bounds(texture).max, Vec3d(1, 1, 0));
+    EXPECT_THAT(describe_file(texture), HasSubstr("4 x 2 pixels, alpha 0 to 1, mean 0.5\n"));
+
+    const DataFile deep = read_data_file(case_file("zback0.exr"), {});
+    EXPECT_EQ(deep.format->loader, "deep_image");
+    EXPECT_TRUE(bounds(deep).isEmpty());
+    EXPECT_TRUE(casts_shadow(deep));
+    EXPECT_THAT(describe_file(deep), AllOf(HasSubstr("64 samples, 1 a pixel; 1 channel of alpha"),
+                                           HasSubstr("64 surfaces, 0 slabs, 0 behind everything"),
+                                           HasSubstr("note: 64 of 64 samples have their ZBack before Z")));
+}
+
+// 1 x 1 x 1 texels of 32 bits, with the given flags for volumes.
+std::string dds(unsigned caps) {
+    return "DDS " + bytes_of(124u, 0x801007u, 1u, 1u, 0u, 1u, 0u) + std::string(44, '\0') +
+           bytes_of(32u, 0x41u, 0u, 32u, 0xff0000u, 0xff00u, 0xffu, 0xff000000u, 0x401008u, caps, 0u, 0u, 0u) +
+           "\x33\x66\x99\xcc";
+}
+
+TEST(DataFile, ADdsFileIsAVolumeByItsHeader) {
+    EXPECT_TRUE(is_dds_volume(test::write_file("volume.dds", dds(0x200000u))));
+    EXPECT_FALSE(is_dds_volume(test::write_file("flat.dds", dds(0u))));
+    EXPECT_EQ(error_of([] { is_dds_volume(test::write_file("cut.dds", dds(0u).substr(0, 60))); }).code(),
+              base::ErrorCode::bad_input);
+    const DataFile volume = read_data_file(test::write_file("volume.dds", dds(0x200000u)), {});
+    EXPECT_EQ(volume.format->loader, "volume");
+    EXPECT_EQ(bounds(volume).max, Vec3d(1, 1, 1));
+    EXPECT_THAT(describe_file(volume), HasSubstr("1 x 1 x 1 voxels, 1 in all, 1 above 0"));
+}
+
+TEST(DataFile, RawValuesHaveTheSizeOfTheirNameOrAreACube) {
+    const auto expect = [](const char* name, std::uint64_t bytes, const Vec3i& size, const char* type) {
+        const RawLayout layout = raw_layout(name, bytes);
+        EXPECT_EQ(layout.size, size) << name;
+        EXPECT_EQ(layout.type, type) << name;
+    };
+    expect("ball_32x32x24.raw", 24576, Vec3i(32, 32, 24), "uint8");
+    expect("ball_32X32X24_float32.raw", 98304, Vec3i(32, 32, 24), "float32");
+    expect("folder_2x2x2/3x4x5.raw", 60, Vec3i(3, 4, 5), "uint8");
+    expect("v1_12x1_7x8x9.raw", 504, Vec3i(7, 8, 9), "uint8");
+    expect("cube.raw", 27, Vec3i(3, 3, 3), "uint8");
+    expect("cube.raw", 256, Vec3i(4, 4, 4), "float32");
+}
+
+TEST(DataFile, RawValuesOfAnotherLayoutAreRefused) {
+    const auto message = [](const char* name, std::uint64_t bytes) {
+        return error_of([&] { raw_layout(name, bytes); }).message();
+    };
+    EXPECT_THAT(message("ball_32x32x24_uint16.raw", 49152), HasSubstr("states 32 x 32 x 24 voxels"));
+    EXPECT_THAT(message("ball.raw", 28), HasSubstr("as in ball_32x32x24.raw"));
+    EXPECT_THAT(message("ball.raw", 0), HasSubstr("no cube"));
+    EXPECT_THAT(message("ball_0x1x1.raw", 5), HasSubstr("no cube"));
+    EXPECT_THAT(message("2000x2000x2000.raw", 8'000'000'000), HasSubstr("the limit is"));
+}
+
+TEST(DataFile, HairWithoutAWidthGetsOneOfItsSize) {
+    std::string bytes = bytes_of(3.0f, 2u, 2u);
+    bytes.resize(296, '\0');
+    // A strand along the diagonal of a box of 6 x 8 x 0, and one without length.
+    bytes += bytes_of(0.0f, 0.0f, 0.0f, 6.0f, 8.0f, 0.0f, 1.0f, 1.0f, 0.0f, 1.0f, 1.0f, 0.0f);
+    const DataFile hair = read_data_file(test::write_file("a.TFX", bytes), {});
+    EXPECT_TRUE(hair.guessed_radius);
+    EXPECT_EQ(std::get<Hair>(hair.scene.objects[0].shape).radii[0], 0.005f);
+    EXPECT_THAT(describe_file(hair),
+                AllOf(HasSubstr("a.TFX: TressFX hair, 344 B\n"), HasSubstr("  1 strand, 2 points; 2 a strand\n"),
+                      HasSubstr("a half-width of 0.005 is a guess"), HasSubstr("left out: 1 strand without length\n")));
+}
+
+TEST(DataFile, MeshesAreDescribedWithWhatIsPassedOver) {
+    EXPECT_THAT(described(case_file("points.ply")),
+                AllOf(HasSubstr("points.ply: PLY mesh, 126 B\n"), HasSubstr("a point cloud: 4 points and no faces\n"),
+                      HasSubstr("bounds [0, 1, -1] to [1, 1, 0], size [1, 0, 1]\n")));
+    EXPECT_FALSE(casts_shadow(read_data_file(case_file("points.ply"), {})));
+    EXPECT_THAT(described(case_file("edge.obj")),
+                AllOf(HasSubstr("4 vertices, 2 triangles\n"),
+                      HasSubstr("note: passed over: faces of fewer than 3 corners (1)\n")));
+    // The spare vertex at 9 casts no shadow.
+    EXPECT_THAT(described(case_file("bom.obj")), HasSubstr("to [1, 1, 0], size [1, 0, 1]\n"));
+}
+
+TEST(DataFile, GridsAreDescribedWithTheirAxesAndActiveVoxels) {
+    EXPECT_THAT(described(case_file("noname.vdb")),
+                AllOf(HasSubstr("16 x 16 x 16 voxels, 4096 in all, 4096 above 0; edges [1, 1, 1]\n"),
+                      HasSubstr("density 0.5\n"), HasSubstr("grid \"(no name)\", 4096 active voxels\n"),
+                      HasSubstr("note: the grid \"(no name)\" is read, the only one\n")));
+    EXPECT_THAT(described(case_file("rot90.vdb")), HasSubstr("; its axes run along x, z, -y\n"));
+    EXPECT_THAT(described(case_file("yzswap.vdb")), HasSubstr("; its axes run along x, z, y\n"));
+    EXPECT_THAT(described(case_file("nonuniform.vdb")),
+                AllOf(HasSubstr("edges [0.1, 0.2, 0.3]\n"), Not(HasSubstr("its axes"))));
+    EXPECT_THAT(described(case_file("tinyneg.vdb")), AllOf(HasSubstr("4095 above 0"), HasSubstr("note: 1 of 4096")));
+}
+
+// A grid that stands alone is read by any number that it has, and no other.
+TEST(DataFile, AGridIsChosen) {
+    FileChoice choice;
+    choice.grid = 0;
+    EXPECT_EQ(read_data_file(case_file("noname.vdb"), choice).vdb->active, 4096u);
+    choice.grid = 1;
+    EXPECT_THAT(error_of([&] { read_data_file(case_file("noname.vdb"), choice); }).message(),
+                HasSubstr("there is no grid number 1"));
+}
+
+}  // namespace
+}  // namespace shadowbench::scene

@@ -1,0 +1,75 @@
+// Volumes and deep images in tests/cases: what their readers give, and where it lies. tests/bench/file_values_test.cpp
+// takes the same files through the engine.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+
+#include "scene/readers/files.h"
+
+namespace shadowbench::scene {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::filesystem::path case_file(const char* name) {
+    return std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "tests/cases" / name;
+}
+
+struct BoxCase {
+    const char* file;
+    int side;  // voxels along each axis
+    Vec3d lower, upper;
+};
+
+// The box of a grid without its turn, or with voxels of one edge for all axes, would lie elsewhere.
+TEST(ReadCases, BoxesOfDensityOneHalfLieWhereTheirTransformsPutThem) {
+    const Vec3d origin(-0.5, -0.5, -0.5), end(15.5, 15.5, 15.5);
+    for (const BoxCase& box :
+         {BoxCase{"noname.vdb", 16, origin, end},
+          BoxCase{"rot90.vdb", 16, Vec3d(-0.5, -15.5, -0.5), Vec3d(15.5, 0.5, 15.5)},  // a quarter turn about x
+          BoxCase{"yzswap.vdb", 16, origin, end},
+          BoxCase{"nonuniform.vdb", 16, Vec3d(0.95, 1.9, 2.85), Vec3d(2.55, 5.1, 7.65)},  // edges of 0.1, 0.2 and 0.3
+          BoxCase{"tile.vdb", 64, origin, Vec3d(63.5, 63.5, 63.5)}}) {
+        SCOPED_TRACE(box.file);
+        const GridVolume volume = read_vdb(case_file(box.file), {});
+        EXPECT_EQ(volume.size, Vec3i(box.side, box.side, box.side));
+        EXPECT_THAT(volume.density, Each(0.5f));
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(volume.lower[axis], box.lower[axis], 1e-9);
+            EXPECT_NEAR(volume.upper[axis], box.upper[axis], 1e-9);
+        }
+    }
+}
+
+TEST(ReadCases, ADensityJustBelow0IsTakenAs0AndCounted) {
+    const GridVolume volume = read_vdb(case_file("tinyneg.vdb"), {});
+    EXPECT_EQ(std::count(volume.density.begin(), volume.density.end(), 0.0f), 1);
+    EXPECT_EQ(std::count(volume.density.begin(), volume.density.end(), 0.5f), 4095);
+    EXPECT_THAT(volume.notes.lines, ElementsAre(HasSubstr("1 of 4096 densities are below 0, the least -1e-06")));
+}
+
+TEST(ReadCases, DeepSamplesKeepTheirDepths) {
+    const DeepImage far = read_deep_image(case_file("inf.exr"));
+    ASSERT_EQ(far.z_front.size(), 128u);
+    for (std::size_t s = 0; s < 128; s += 2) {
+        ASSERT_EQ(far.z_front[s], 3.0f);
+        ASSERT_FALSE(behind_everything(far, s));
+        ASSERT_TRUE(behind_everything(far, s + 1));
+    }
+    for (const char* file : {"layered.exr", "zback0.exr"}) {
+        SCOPED_TRACE(file);
+        const DeepImage image = read_deep_image(case_file(file));
+        EXPECT_EQ(image.z_front.size(), 64u);
+        EXPECT_THAT(image.z_front, Each(3.0f));
+        EXPECT_THAT(image.z_back, Each(3.0f));
+        EXPECT_THAT(image.transmittance, Each(0.5f));
+    }
+}
+
+}  // namespace
+}  // namespace shadowbench::scene
