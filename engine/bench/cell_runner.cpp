@@ -1,7 +1,5 @@
 #include "bench/cell_runner.h"
 
-#include <utility>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -43,8 +43,9 @@ void add_job_options(CLI::App& command, JobArguments& arguments);
 void add_only_option(CLI::App& command, JobArguments& arguments);
 void add_folder_option(CLI::App& command, std::string& folder, const char* text);
 
-// Adds the subcommand recommend, as the functions below do for theirs.
+// Adds the subcommand recommend, or merge, as the functions below do for theirs.
 void add_recommend(CLI::App& app, Commands& commands);
+void add_merge(CLI::App& app, Commands& commands);
 
 // Each adds its subcommands to the application, and to `commands` what they run once the arguments are parsed.
 void add_measuring_commands(CLI::App& app, Commands& commands);
