@@ -154,8 +154,9 @@ std::vector<std::string> machines_of(const nlohmann::json& result) {
     if (times == result.end() || !times->is_object() || !times->contains("cells")) return machines;
     for (const nlohmann::json& cell : times->at("cells")) {
         if (!cell.is_object()) continue;
-        const std::string machine =
-            nlohmann::json::array({cell.value("node", nlohmann::json()), cell.value("machine", nlohmann::json())}).dump();
+        const nlohmann::json none;
+        const nlohmann::json parts = nlohmann::json::array({cell.value("node", none), cell.value("machine", none)});
+        const std::string machine = parts.dump();
         if (std::count(machines.begin(), machines.end(), machine) == 0) machines.push_back(machine);
     }
     return machines;

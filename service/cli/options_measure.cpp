@@ -102,6 +102,7 @@ void add_run(CLI::App& app, Commands& commands) {
                     "i/n: measure only part i, from 0 on, of n equal parts of the cells (a variant with one light each) "
                     "and write each to DIR/cells. Cells that are there are skipped, so the same command continues. "
                     "Merge them with shadowbench merge DIR")
+        ->check([](const std::string& part) { return std::string(part.empty() ? "expected i/n, as in 0/4" : ""); })
         ->needs("--out")
         ->excludes("--verdicts");
     commands.push_back({run, [arguments](std::ostream& out, std::ostream& err) {

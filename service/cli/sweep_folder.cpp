@@ -93,10 +93,9 @@ Sweep read_sweep(const fs::path& folder) {
 }
 
 void check_same(const Sweep& one, const Sweep& other, const fs::path& folder) {
-    const bool same = one.only == other.only &&
-                      std::equal(one.scenarios.begin(), one.scenarios.end(), other.scenarios.begin(),
-                                 other.scenarios.end(), [](const auto& a, const auto& b) { return a->dump() == b->dump(); });
-    if (!same)
+    const auto equal = [](const auto& a, const auto& b) { return a->dump() == b->dump(); };
+    if (one.only != other.only || !std::equal(one.scenarios.begin(), one.scenarios.end(), other.scenarios.begin(),
+                                              other.scenarios.end(), equal))
         throw base::Error(base::ErrorCode::bad_input, sweep_file(folder).string(),
                           "is of another sweep: its scenarios, their order, or --only differ; give each sweep a folder "
                           "of its own");
