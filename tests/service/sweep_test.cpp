@@ -56,7 +56,8 @@ protected:
     }
     std::vector<fs::path> files(const std::string& folder = "sweep") const {
         std::vector<fs::path> names;
-        for (const auto& entry : fs::directory_iterator(fs::path(path(folder)) / "cells")) names.push_back(entry.path());
+        const fs::path cells = fs::path(path(folder)) / "cells";
+        for (const auto& entry : fs::directory_iterator(cells)) names.push_back(entry.path());
         std::sort(names.begin(), names.end());
         return names;
     }
