@@ -84,7 +84,7 @@ nlohmann::ordered_json exact_part(const SweepCell& cell, bool portable) {
         make_portable_result(whole);
     else
         strip_times(whole);
-    nlohmann::ordered_json light = std::move(whole.at("variants").at(0).at("lights").at(0));
+    nlohmann::ordered_json light = std::move(whole.at("variants").front().at("lights").front());
     // Its figures are compared as numbers; between machines their last digit may be rounded otherwise.
     if (portable)
         for (auto& row : light.at("cells")) row.erase("verdict_why");

@@ -60,8 +60,9 @@ struct Swept {
 std::vector<Swept> read_swept(const RunArguments& arguments) {
     std::vector<Swept> swept;
     std::map<std::string, fs::path> names;
-    for (const std::string& name : arguments.scenarios)
-        for (const fs::path& file : find_scenarios(name).files) {
+    for (const std::string& name : arguments.scenarios) {
+        const FoundScenarios found = find_scenarios(name);
+        for (const fs::path& file : found.files) {
             try {
                 Job job = read_job(arguments, file);
                 bench::cells_of(*job.document, arguments.only);
@@ -74,6 +75,7 @@ std::vector<Swept> read_swept(const RunArguments& arguments) {
                 throw base::Error(base::ErrorCode::bad_input, file.string() + ": /name",
                                   other->second.string() + " has the same name; rename one of them");
         }
+    }
     return swept;
 }
 
