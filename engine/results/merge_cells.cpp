@@ -14,13 +14,8 @@
 namespace shadowbench::results {
 namespace {
 
-std::string node_and_machine(const std::string& node, const std::string& machine) {
-    return node.empty() ? machine : node + ", " + machine;
-}
-
 CellOrigin origin_of(const SweepCell& cell) {
-    return {cell.place, cell.node, to_json(cell.result).at("machine").dump(),
-            node_and_machine(cell.node, machine_text(cell.result.machine)), cell.result.times};
+    return {cell.place, cell.node, to_json(cell.result).at("machine").dump(), machine_text(cell), cell.result.times};
 }
 
 bool same_model(const Machine& one, const Machine& other) {

@@ -43,6 +43,10 @@ std::string machine_text(const Machine& machine) {
     return fmt::format("{}, {} core{}", machine.cpu, machine.logical_cores, machine.logical_cores == 1 ? "" : "s");
 }
 
+std::string machine_text(const SweepCell& cell) {
+    return (cell.node.empty() ? "" : cell.node + ", ") + machine_text(cell.result.machine);
+}
+
 nlohmann::ordered_json to_json(const SweepCell& cell) {
     nlohmann::ordered_json file = to_json(cell.result);
     file["cell"] = {{"variant", cell.place.variant}, {"light", cell.place.light}, {"node", cell.node}};

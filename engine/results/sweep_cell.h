@@ -34,8 +34,9 @@ std::string cell_hash(const SweepCell& cell);
 // The name of this computer: $SLURMD_NODENAME, or its host name.
 std::string this_node();
 
-// "AMD EPYC, 8 cores".
+// "AMD EPYC, 8 cores", and with the computer "n1, AMD EPYC, 8 cores".
 std::string machine_text(const Machine& machine);
+std::string machine_text(const SweepCell& cell);
 
 // The content of a cell's file. The checksum is of all the rest.
 nlohmann::ordered_json to_json(const SweepCell& cell);

@@ -81,23 +81,18 @@ CellsByHash read_cells(const std::vector<std::string>& folders, const std::vecto
     return cells;
 }
 
-std::string machine_of(const results::SweepCell& cell) {
-    const std::string machine = results::machine_text(cell.result.machine);
-    return cell.node.empty() ? machine : cell.node + ", " + machine;
-}
-
 // Names cells that are there more than once. Throws Error{bad_input}, place: the second file, if they disagree.
 void check_doubled(const PlannedCell& planned, const std::vector<CellFile>& files, std::ostream& out) {
     for (std::size_t i = 1; i < files.size(); ++i) {
         const CellFile &one = files[0], &other = files[i];
+        const std::string on = results::machine_text(one.cell), other_on = results::machine_text(other.cell);
         if (const auto found = results::disagreement(one.cell, other.cell))
-            throw base::Error(
-                base::ErrorCode::bad_input, other.file.string(),
-                fmt::format("{}: its measurements disagree in {}: {} here (on {}), {} in {} (on {})", planned.title,
-                            found->measure, found->other, machine_of(other.cell), found->one, one.file.string(),
-                            machine_of(one.cell)));
+            throw base::Error(base::ErrorCode::bad_input, other.file.string(),
+                              fmt::format("{}: its measurements disagree in {}: {} here (on {}), {} in {} (on {})",
+                                          planned.title, found->measure, found->other, other_on, found->one,
+                                          one.file.string(), on));
         out << fmt::format("doubled: {}: {} (on {}) agrees with {} (on {}), which counts\n", planned.title,
-                           other.file.string(), machine_of(other.cell), one.file.string(), machine_of(one.cell));
+                           other.file.string(), other_on, one.file.string(), on);
     }
 }
 
