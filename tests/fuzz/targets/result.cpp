@@ -19,7 +19,7 @@ void result(std::string_view bytes) {
         expect(results::to_json(again) == written, "what is written is read back");
     });
     attempt({base::ErrorCode::bad_input},
-            [&] { results::cell_from_json(scene::parse_json(std::string(bytes), "cell"), ""); });
+            [&] { results::cell_from_json(scene::parse_json(std::string(bytes), "cell"), "cell"); });
 }
 
 }  // namespace shadowbench::fuzz
