@@ -74,7 +74,8 @@ CellsByHash read_cells(const std::vector<std::string>& folders, const std::vecto
             if (program != first_program)
                 throw base::Error(base::ErrorCode::bad_input, file.string(),
                                   fmt::format("was measured by program {}, but {} by {}; measure all with one: "
-                                              "run --shard measures cells of another version or commit again",
+                                              "run --shard measures cells of another version or commit again, but "
+                                              "those of another compiler must be removed first",
                                               program, first_file, first_program));
             cells[hash].push_back({file, std::move(cell)});
         }
