@@ -74,8 +74,8 @@ const scene::Scenario& VariantRuns::load(std::size_t variant) {
 results::LightResult VariantRuns::measure(std::size_t light, const ProgressCallback& progress) const {
     StageWatch watch;
     if (progress)
-        watch = [&, place = place_of(loaded_, variants_.size(), *scenario_, light)](
-                    const char* stage, std::size_t done, std::size_t total) {
+        watch = [&, place = place_of(loaded_, variants_.size(), *scenario_, light)](const char* stage, std::size_t done,
+                                                                                    std::size_t total) {
             progress({place, stage, done, total});
         };
     std::vector<Contender> fresh;

@@ -47,8 +47,7 @@ std::vector<std::string> arguments_of(const std::vector<Rerun>& reruns) {
 std::string command_of(const Rerun& rerun) {
     if (rerun.counted)
         return fmt::format("shadowbench instructions --kernels {} --filter {} --out counts.json",
-                           base::shell_word(rerun.program),
-                           base::shell_word("^" + regex_escaped(rerun.source) + "$"));
+                           base::shell_word(rerun.program), base::shell_word("^" + regex_escaped(rerun.source) + "$"));
     std::string line = base::shell_word(rerun.program);
     for (const std::string& argument : arguments_of({rerun})) line += " " + base::shell_word(argument);
     return line;

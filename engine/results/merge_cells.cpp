@@ -167,8 +167,7 @@ std::optional<Disagreement> disagreement(const SweepCell& one, const SweepCell& 
     const std::size_t end = found->pointer.find('/', start.size());
     if (found->pointer.rfind(start, 0) != 0 || end == std::string::npos)
         return Disagreement{found->pointer, found->one, found->other};
-    const nlohmann::ordered_json& row =
-        ours.at(nlohmann::ordered_json::json_pointer(found->pointer.substr(0, end)));
+    const nlohmann::ordered_json& row = ours.at(nlohmann::ordered_json::json_pointer(found->pointer.substr(0, end)));
     return Disagreement{title(row.at("technique").get<std::string>(), row.at("label").get<std::string>()) + ": " +
                             found->pointer.substr(end),
                         found->one, found->other};

@@ -40,7 +40,8 @@ std::string this_node() {
 }
 
 std::string machine_text(const Machine& machine) {
-    return fmt::format("{}, {} core{}", machine.cpu, machine.logical_cores, machine.logical_cores == 1 ? "" : "s");
+    return fmt::format("{}{}{} core{}", machine.cpu, machine.cpu.empty() ? "" : ", ", machine.logical_cores,
+                       machine.logical_cores == 1 ? "" : "s");
 }
 
 std::string machine_text(const SweepCell& cell) {

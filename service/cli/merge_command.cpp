@@ -38,11 +38,18 @@ Sweep common_sweep(const std::vector<std::string>& folders) {
     return sweep;
 }
 
+// The cells of the sweep. Throws Error{bad_input} if its file was changed by hand into what no shard writes.
 std::vector<PlannedCell> planned_of(const Sweep& sweep, const std::string& folder) {
+    const fs::path file = fs::path(folder) / "sweep.json";
     try {
-        return planned_cells(sweep);
+        std::vector<PlannedCell> planned = planned_cells(sweep);
+        std::set<std::string> names;
+        for (const auto& scenario : sweep.scenarios) names.insert(scenario->at("name").get<std::string>());
+        if (planned.empty() || names.size() < sweep.scenarios.size())
+            throw base::Error(base::ErrorCode::bad_input, "/scenarios", "must hold scenarios, each name once");
+        return planned;
     } catch (const base::Error& error) {
-        throw in_file(error, fs::path(folder) / "sweep.json");
+        throw in_file(error, file);
     }
 }
 
@@ -88,24 +95,24 @@ void check_doubled(const PlannedCell& planned, const std::vector<CellFile>& file
         const CellFile &one = files[0], &other = files[i];
         const std::string on = results::machine_text(one.cell), other_on = results::machine_text(other.cell);
         if (const auto found = results::disagreement(one.cell, other.cell))
-            throw base::Error(base::ErrorCode::bad_input, other.file.string(),
-                              fmt::format("{}: its measurements disagree in {}: {} here (on {}), {} in {} (on {})",
-                                          planned.title, found->measure, found->other, other_on, found->one,
-                                          one.file.string(), on));
+            throw base::Error(
+                base::ErrorCode::bad_input, other.file.string(),
+                fmt::format("{}: its measurements disagree in {}: {} here (on {}), {} in {} (on {})", planned.title,
+                            found->measure, found->other, other_on, found->one, one.file.string(), on));
         out << fmt::format("doubled: {}: {} (on {}) agrees with {} (on {}), which counts\n", planned.title,
                            other.file.string(), other_on, one.file.string(), on);
     }
 }
 
-// Names the cells that are missing, and what measures them.
+// Names the cells that are missing, and a command that measures them; if there are several folders, for the first.
 void say_missing(const std::vector<const PlannedCell*>& missing, std::size_t all, const Sweep& sweep,
                  const std::string& folder, std::ostream& out) {
     if (missing.empty()) return;
     for (std::size_t i = 0; i < std::min(missing.size(), most_missing_named); ++i)
         out << fmt::format("missing: {}\n", missing[i]->title);
     if (missing.size() > most_missing_named) out << fmt::format("and {} more\n", missing.size() - most_missing_named);
-    out << fmt::format("{} of {} cells are missing. Run the same shards again, or: {}\n", missing.size(), all,
-                       command_for_missing(sweep, folder));
+    out << fmt::format("{} of {} cells are missing. Run the same shards again, or measure all that {} lacks: {}\n",
+                       missing.size(), all, folder, command_for_missing(sweep, folder));
 }
 
 // Writes the result of one scenario and prints its table.

@@ -82,7 +82,8 @@ void add_run(CLI::App& app, Commands& commands) {
     set_help(*run, command_groups::measure,
              {"run quickstart", "run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64",
               "run scenarios/hard --verdicts results/stability.md"},
-             "Machines share a sweep by run ... --shard 0/4 --out sweep, 1/4 and so on; then shadowbench merge sweep.\n"
+             "Four machines share a sweep if each runs one part, --shard 0/4 to --shard 3/4, with --out sweep.\n"
+             "Then shadowbench merge sweep makes one result of the parts.\n"
              "Exit codes: 0; 2 a technique broke a promise; others as in shadowbench --help.");
     run->add_option("SCENARIO", arguments->scenarios,
                     "Scenario files, their names, or folders (every *.json directly in the folder). All are checked "
@@ -99,9 +100,9 @@ void add_run(CLI::App& app, Commands& commands) {
         ->check(
             [](const std::string& name) { return std::string(name.empty() ? "the name of the file is empty" : ""); });
     run->add_option("--shard", arguments->shard,
-                    "i/n: measure only part i, from 0 on, of n equal parts of the cells (a variant with one light each) "
-                    "and write each to DIR/cells. Cells that are there are skipped, so the same command continues. "
-                    "Merge them with shadowbench merge DIR")
+                    "i/n: measure only part i of n, counted from 0, of the cells (a cell is one variant with one "
+                    "light), and write each cell to DIR/cells. Cells that are there are skipped, so the same command "
+                    "continues. Merge them with shadowbench merge DIR")
         ->check([](const std::string& part) { return std::string(part.empty() ? "expected i/n, as in 0/4" : ""); })
         ->needs("--out")
         ->excludes("--verdicts");

@@ -12,8 +12,8 @@ void add_merge(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<MergeArguments>();
     CLI::App* merge = app.add_subcommand("merge", "Make one result of the cells that run --shard has measured");
     set_help(*merge, command_groups::measure, {"merge sweep", "merge sweep-of-node1 sweep-of-node2 --out result"},
-             "Writes what run writes, for every scenario whose cells are all there. Names cells that are missing, and "
-             "the command that measures them, and cells that are there twice, whose measures must agree.\n"
+             "Writes what run writes, for every scenario whose cells are all there. Names the cells that are missing,\n"
+             "with a command that measures them, and the cells that are there twice. Their measures must agree.\n"
              "Exit codes: 0; 2 a cell is missing, or a technique broke a promise; others as in shadowbench --help.");
     merge
         ->add_option("DIR", arguments->folders,

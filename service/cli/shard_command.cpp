@@ -5,6 +5,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -162,7 +163,8 @@ bool shard_command(const RunArguments& arguments, std::ostream& out, std::ostrea
 
     const std::vector<PlannedCell> all = planned_cells(sweep);
     std::vector<PlannedCell> own;
-    for (std::size_t i = shard.index; i < all.size(); i += shard.count) own.push_back(all[i]);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (i % shard.count == shard.index) own.push_back(all[i]);
     for (const PlannedCell& cell : own) find_cell(folder, cell);  // damaged files are found before hours of work
 
     Measuring measuring(swept, err);

@@ -45,6 +45,12 @@ std::string sweep_text(const Sweep& sweep) {
     return file.dump(1) + "\n";
 }
 
+// False also if it cannot be known; then reading the file says why.
+bool is_missing(const fs::path& file) {
+    std::error_code failed;
+    return !fs::exists(file, failed) && !failed;
+}
+
 [[noreturn]] void refuse_file(const base::Error& error, const char* advice) {
     throw base::Error(error.code(), error.where(), error.message() + advice);
 }
@@ -64,8 +70,7 @@ std::vector<PlannedCell> planned_cells(const Sweep& sweep) {
 void begin_sweep(const fs::path& folder, const Sweep& sweep) {
     base::Undo made;
     base::make_writable(folder / "cells", made);
-    std::error_code ignored;
-    if (!fs::exists(sweep_file(folder), ignored)) base::write_durable(sweep_file(folder), sweep_text(sweep));
+    if (is_missing(sweep_file(folder))) base::write_durable(sweep_file(folder), sweep_text(sweep));
     made.keep();
     check_same(sweep, read_sweep(folder), folder);
 }
@@ -94,8 +99,8 @@ Sweep read_sweep(const fs::path& folder) {
 
 void check_same(const Sweep& one, const Sweep& other, const fs::path& folder) {
     const auto equal = [](const auto& a, const auto& b) { return a->dump() == b->dump(); };
-    if (one.only != other.only || !std::equal(one.scenarios.begin(), one.scenarios.end(), other.scenarios.begin(),
-                                              other.scenarios.end(), equal))
+    if (one.only != other.only ||
+        !std::equal(one.scenarios.begin(), one.scenarios.end(), other.scenarios.begin(), other.scenarios.end(), equal))
         throw base::Error(base::ErrorCode::bad_input, sweep_file(folder).string(),
                           "is of another sweep: its scenarios, their order, or --only differ; give each sweep a folder "
                           "of its own");
@@ -107,11 +112,15 @@ fs::path cell_file(const fs::path& folder, const PlannedCell& cell) {
 
 std::vector<fs::path> cell_files(const fs::path& folder) {
     std::vector<fs::path> files;
-    std::error_code ignored;
-    for (fs::directory_iterator entry(folder / "cells", ignored), end; entry != end; entry.increment(ignored)) {
+    std::error_code failed;
+    fs::directory_iterator entry(folder / "cells", failed), end;
+    for (; !failed && entry != end; entry.increment(failed)) {
         const fs::path& path = entry->path();
         if (path.filename().string().front() != '.' && path.extension() == ".json") files.push_back(path);
     }
+    if (failed && failed != std::errc::no_such_file_or_directory)
+        throw base::Error(base::ErrorCode::io, (folder / "cells").string(),
+                          "cannot read the folder: " + failed.message());
     std::sort(files.begin(), files.end());
     return files;
 }
@@ -127,13 +136,12 @@ results::SweepCell read_cell_file(const fs::path& file) {
 
 std::optional<results::SweepCell> find_cell(const fs::path& folder, const PlannedCell& cell) {
     const fs::path file = cell_file(folder, cell);
-    std::error_code ignored;
-    if (!fs::exists(file, ignored)) return {};
+    if (is_missing(file)) return {};
     results::SweepCell found = read_cell_file(file);
     if (results::cell_hash(found) != cell.hash)
-        throw base::Error(base::ErrorCode::bad_input, file.string(),
-                          fmt::format("holds another cell, of scenario {}, than {}: move it away", found.result.name,
-                                      cell.title));
+        throw base::Error(
+            base::ErrorCode::bad_input, file.string(),
+            fmt::format("holds another cell than {}, of scenario {}; move it away", cell.title, found.result.name));
     return found;
 }
 

@@ -44,7 +44,7 @@ void check_same(const Sweep& one, const Sweep& other, const std::filesystem::pat
 
 std::filesystem::path cell_file(const std::filesystem::path& folder, const PlannedCell& cell);
 
-// The files of all cells, sorted by name; none if there is no folder of cells.
+// The files of all cells, sorted by name; none if there is no folder of cells. Throws Error{io}.
 std::vector<std::filesystem::path> cell_files(const std::filesystem::path& folder);
 
 // Throws Error{bad_input}, place: the file, if it is damaged, and Error: no_such_file or io.

@@ -43,8 +43,7 @@ TEST(CellRunner, ListsCellsByVariantThenLight) {
 TEST(CellRunner, MeasuresWhatARunDoes) {
     const std::vector<CellOfDocument> places = cells_of(swept(), {});
     std::vector<results::SweepCell> cells(places.size());
-    for (std::size_t i = places.size(); i-- > 0;)
-        cells[i] = CellRunner(swept(), {}).measure(places[i].place, {});
+    for (std::size_t i = places.size(); i-- > 0;) cells[i] = CellRunner(swept(), {}).measure(places[i].place, {});
     nlohmann::ordered_json merged = results::to_json(results::merge_cells(cells)),
                            whole = results::to_json(run(swept(), {}, {}));
     results::strip_times(merged);

@@ -99,6 +99,12 @@ TEST(SweepCell, IsNamedByItsScenarioTechniquesAndPlaceAlone) {
     EXPECT_NE(cell_hash(other), cell_hash(made(0, 0)));
 }
 
+TEST(SweepCell, NamesItsMachineAsFarAsItIsKnown) {
+    EXPECT_EQ(machine_text(made(0, 0)), "n1, A, 8 cores");
+    EXPECT_EQ(machine_text(Machine{"A", 1}), "A, 1 core");
+    EXPECT_EQ(machine_text(Machine{"", 2}), "2 cores") << "not every system names its processor";
+}
+
 TEST(MergeCells, JoinsThemInTheOrderOfARun) {
     std::vector<SweepCell> cells{made(0, 0), made(0, 1), made(1, 0), made(1, 1)};
     cells[0].result.notes = {"a"};

@@ -119,6 +119,8 @@ TEST_F(Sweeps, TheSameCommandAgainContinues) {
     EXPECT_THAT(rest.out, HasSubstr("shard 0/1 has 4 of 4 cells: 2 measured, 2 skipped, 0 not measured\n"));
     EXPECT_EQ(base::read_text(first[0]), before);
     EXPECT_THAT(shard("1/2").out, HasSubstr("0 measured, 2 skipped"));
+    EXPECT_THAT(shard("3/18446744073709551615").out, HasSubstr("has 1 of 4 cells"))
+        << "the number of shards is 2^64 - 1";
     EXPECT_EQ(files().size(), 4u);
 }
 
@@ -246,6 +248,19 @@ TEST_F(Sweeps, OneFolderTakesOneSweep) {
     const Outcome outcome = merged({"merged"});
     EXPECT_EQ(outcome.code, 66);
     EXPECT_THAT(outcome.err, HasSubstr("run --shard"));
+}
+
+// Otherwise the results of both would go to one folder.
+TEST_F(Sweeps, ASweepThatHoldsAScenarioTwiceIsRefused) {
+    ASSERT_EQ(shard("0/4").code, 0);
+    const std::string file = path("sweep/sweep.json");
+    nlohmann::json sweep = nlohmann::json::parse(base::read_text(file));
+    const nlohmann::json scenario = sweep["scenarios"][0];
+    sweep["scenarios"].push_back(scenario);
+    std::ofstream(file) << sweep.dump();
+    const Outcome outcome = merged();
+    EXPECT_EQ(outcome.code, 65);
+    EXPECT_THAT(outcome.err, HasSubstr(file + ": /scenarios: must hold scenarios, each name once"));
 }
 
 TEST_F(Sweeps, ACellThatCannotBeMeasuredStopsNoOther) {
