@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/table.h"
+#include "results/merge_cells.h"
 #include "results/report.h"
 
 namespace shadowbench::compare {
@@ -211,6 +212,9 @@ Suite read_result(const results::Field& result, const std::string& origin) {
     suite.name = read.name;
     suite.hash = read.hash;
     suite.machine = fmt::format("{}, {} cores", read.machine.cpu, read.machine.logical_cores);
+    // Which of them measured a cell differs from result to result, so no other result has the same machine.
+    if (const std::size_t machines = results::machines_of(result.value).size(); machines > 1)
+        suite.machine = fmt::format("{} machines (cells since {})", machines, read.times.started);
     suite.commit = read.program.commit;
     suite.program = fmt::format("{} ({}, {}, {})", read.program.version, read.program.commit, read.program.compiler,
                                 read.program.build_type);

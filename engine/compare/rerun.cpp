@@ -1,18 +1,10 @@
 #include <fmt/format.h>
 
+#include "base/shell_word.h"
 #include "compare/measured.h"
 
 namespace shadowbench::compare {
 namespace {
-
-// A word for the shell, in quotes if it needs them.
-std::string quoted(const std::string& text) {
-    const char* const plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./=:,+@%";
-    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
-    std::string result = "'";
-    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
-}
 
 std::string regex_escaped(const std::string& name) {
     std::string result;
@@ -54,10 +46,10 @@ std::vector<std::string> arguments_of(const std::vector<Rerun>& reruns) {
 
 std::string command_of(const Rerun& rerun) {
     if (rerun.counted)
-        return fmt::format("shadowbench instructions --kernels {} --filter {} --out counts.json", quoted(rerun.program),
-                           quoted("^" + regex_escaped(rerun.source) + "$"));
-    std::string line = quoted(rerun.program);
-    for (const std::string& argument : arguments_of({rerun})) line += " " + quoted(argument);
+        return fmt::format("shadowbench instructions --kernels {} --filter {} --out counts.json",
+                           base::shell_word(rerun.program), base::shell_word("^" + regex_escaped(rerun.source) + "$"));
+    std::string line = base::shell_word(rerun.program);
+    for (const std::string& argument : arguments_of({rerun})) line += " " + base::shell_word(argument);
     return line;
 }
 

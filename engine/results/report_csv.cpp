@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "results/merge_cells.h"
 #include "results/report.h"
 #include "results/settled.h"
 
@@ -20,6 +21,7 @@ struct Row {
     const LightResult& light;
     const Settling& floors;  // of the light
     const Cell& cell;
+    const std::string& machine;  // that measured the light
 };
 
 std::string settings_text(const VariantResult& variant) {
@@ -59,6 +61,7 @@ const Column columns[] = {
     {"scenario_hash", [](const Row& r) { return r.result.hash; }},
     {"settings", [](const Row& r) { return settings_text(r.variant); }},
     {"light", [](const Row& r) { return r.light.name; }},
+    {"machine", [](const Row& r) { return r.machine; }},
     {"width", [](const Row& r) { return fmt::format("{}", r.light.layout.width); }},
     {"height", [](const Row& r) { return fmt::format("{}", r.light.layout.height); }},
     {"samples_per_pixel", [](const Row& r) { return fmt::format("{}", r.light.layout.samples()); }},
@@ -150,24 +153,36 @@ std::string quoted(const std::string& field) {
     return text + '"';
 }
 
-}  // namespace
-
-std::string to_csv(const Result& result) {
+// `machine_of` gives the machine of a light, by its number in the whole result.
+template <class MachineOf>
+std::string csv_text(const Result& result, const MachineOf& machine_of) {
     std::string text;
     for (const Column& column : columns) text += (text.empty() ? "" : ",") + std::string(column.name);
     text += "\n";
+    std::size_t lights = 0;
     for (const VariantResult& variant : result.variants)
         for (const LightResult& light : variant.lights) {
             const Settling floors = settling(light);
+            const std::string machine = machine_of(lights++);
             for (const Cell& cell : light.cells) {
                 std::string line;
                 for (const Column& column : columns)
-                    line +=
-                        (&column == columns ? "" : ",") + quoted(column.value({result, variant, light, floors, cell}));
+                    line += (&column == columns ? "" : ",") +
+                            quoted(column.value({result, variant, light, floors, cell, machine}));
                 text += line + "\n";
             }
         }
     return text;
+}
+
+}  // namespace
+
+std::string to_csv(const Result& result) {
+    return csv_text(result, [&](std::size_t) { return machine_text(result.machine); });
+}
+
+std::string to_csv(const Merged& merged) {
+    return csv_text(merged.result, [&](std::size_t light) { return merged.origins.at(light).machine; });
 }
 
 }  // namespace shadowbench::results

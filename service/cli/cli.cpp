@@ -28,8 +28,9 @@ constexpr const char* program_notes = R"(Examples:
 shadowbench COMMAND --help describes a command and its options.
 A SCENARIO is a file, or the name of one in ./scenarios, in the folders of $SHADOWBENCH_SCENARIOS, or among the
 scenarios that were installed with the program. Results go to results/ in the current folder, unless --out is given.
-Exit codes: 0 success; 1 slower (compare, ab); 2 a technique broke a promise, or a measure is larger, less accurate or
-missing (compare, ab); 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault; 74 input or output failed.)";
+Exit codes: 0 success; 1 slower (compare, ab); 2 a technique broke a promise, a cell is missing (merge), or a measure is
+larger, less accurate or missing (compare, ab); 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault;
+74 input or output failed.)";
 
 // The parser with all commands.
 struct CommandLine {

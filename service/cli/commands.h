@@ -23,6 +23,7 @@ struct RunArguments : JobArguments {
     std::vector<std::string> scenarios;  // paths or names, of scenarios or of folders with scenarios
     std::string out;                     // folder; empty: results/runs/<scenario name>
     std::string verdicts;                // file; empty: verdicts.md beside the results, if there are several scenarios
+    std::string shard;                   // "i/n"; empty: everything
 };
 
 struct RenderArguments : ScenarioArguments {

@@ -42,6 +42,12 @@ Job read_job(const ScenarioArguments& arguments) {
     return read_job(arguments, find_scenario(arguments.scenario));
 }
 
+base::Error in_file(const base::Error& error, const fs::path& file) {
+    const std::string name = file.string();
+    if (error.where().rfind(name, 0) == 0) return error;
+    return {error.code(), error.where().empty() ? name : name + ": " + error.where(), error.message()};
+}
+
 fs::path output_folder(const std::string& given, const fs::path& parent, const nlohmann::json& document) {
     if (!given.empty()) return given;
     const auto name = document.is_object() ? document.find("name") : document.end();

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "base/error.h"
 #include "bench/run.h"
 #include "service/cli/commands.h"
 
@@ -20,6 +21,9 @@ struct Job {
 // `scenario` may also be a result.json: it stands for the scenario that it holds. Throws base::Error.
 Job read_job(const JobArguments& arguments, const std::filesystem::path& scenario);
 Job read_job(const ScenarioArguments& arguments);
+
+// The error with the file of its scenario in front of its place.
+base::Error in_file(const base::Error& error, const std::filesystem::path& file);
 
 // The folder `given`, or, where that is empty, one in `parent` with the scenario's name.
 std::filesystem::path output_folder(const std::string& given, const std::filesystem::path& parent,

@@ -7,6 +7,7 @@
 
 #include "service/cli/commands.h"
 #include "service/cli/options.h"
+#include "service/cli/sweep_commands.h"
 
 namespace shadowbench::service {
 
@@ -81,6 +82,8 @@ void add_run(CLI::App& app, Commands& commands) {
     set_help(*run, command_groups::measure,
              {"run quickstart", "run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64",
               "run scenarios/hard --verdicts results/stability.md"},
+             "Four machines share a sweep if each runs one part, --shard 0/4 to --shard 3/4, with --out sweep.\n"
+             "Then shadowbench merge sweep makes one result of the parts.\n"
              "Exit codes: 0; 2 a technique broke a promise; others as in shadowbench --help.");
     run->add_option("SCENARIO", arguments->scenarios,
                     "Scenario files, their names, or folders (every *.json directly in the folder). All are checked "
@@ -96,8 +99,16 @@ void add_run(CLI::App& app, Commands& commands) {
                     "verdicts.md in the folder of the results]")
         ->check(
             [](const std::string& name) { return std::string(name.empty() ? "the name of the file is empty" : ""); });
+    run->add_option("--shard", arguments->shard,
+                    "i/n: measure only part i of n, counted from 0, of the cells (a cell is one variant with one "
+                    "light), and write each cell to DIR/cells. Cells that are there are skipped, so the same command "
+                    "continues. Merge them with shadowbench merge DIR")
+        ->check([](const std::string& part) { return std::string(part.empty() ? "expected i/n, as in 0/4" : ""); })
+        ->needs("--out")
+        ->excludes("--verdicts");
     commands.push_back({run, [arguments](std::ostream& out, std::ostream& err) {
-                            return run_command(*arguments, out, err) ? 0 : promise_broken;
+                            const auto command = arguments->shard.empty() ? run_command : shard_command;
+                            return command(*arguments, out, err) ? 0 : promise_broken;
                         }});
 }
 
@@ -233,8 +244,8 @@ void add_reproduce(CLI::App& app, Commands& commands) {
 }  // namespace
 
 void add_measuring_commands(CLI::App& app, Commands& commands) {
-    for (const auto add : {add_run, add_recommend, add_render, add_validate, add_new, add_inspect, add_export, add_list,
-                           add_curve, add_reproduce})
+    for (const auto add : {add_run, add_merge, add_recommend, add_render, add_validate, add_new, add_inspect, add_export,
+                           add_list, add_curve, add_reproduce})
         add(app, commands);
 }
 

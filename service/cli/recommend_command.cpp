@@ -1,6 +1,7 @@
 #include "service/cli/recommend_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <ostream>
@@ -14,6 +15,7 @@
 #include "recommend/beside.h"
 #include "recommend/of_run.h"
 #include "recommend/recommendation.h"
+#include "results/merge_cells.h"
 #include "results/report.h"
 #include "scene/scenario.h"
 #include "service/cli/job.h"
@@ -60,11 +62,27 @@ recommend::Measure read_measure(const std::string& word) {
     return static_cast<recommend::Measure>(found - std::begin(measure_words));
 }
 
+// Times of different machines do not rank settings.
+void refuse_times_of_machines(const nlohmann::json& result, const recommend::Goal& goal, const std::string& file) {
+    const std::size_t machines = results::machines_of(result).size();
+    if (machines < 2) return;
+    for (const Cost cost : {Cost::lookup, Cost::build}) {
+        const std::size_t k = static_cast<std::size_t>(cost);
+        if (goal.asked[k] || std::isfinite(goal.at_most[k]))
+            throw Error(ErrorCode::bad_input, file,
+                        fmt::format("its cells were measured on {} machines, and times of different machines cannot be "
+                                    "ranked; ask for --cheapest bytes, without limits of times",
+                                    machines));
+    }
+}
+
 // Of an exploration, which says its light and measure, or of a run.
-Recommendation read_recommendation(const fs::path& folder, const std::string& light, recommend::Measure measure) {
+Recommendation read_recommendation(const fs::path& folder, const std::string& light, recommend::Measure measure,
+                                   const recommend::Goal& goal) {
     const std::string file = (folder / "result.json").string();
     const nlohmann::json document = scene::parse_json(base::read_text(file), file);
     if (recommend::is_recommendation(document)) return recommend::recommendation_from_json(document, file);
+    refuse_times_of_machines(document, goal, file);
     return recommend::recommendation_of(results::from_json(document, file), light, measure, file);
 }
 
@@ -103,7 +121,7 @@ std::string beside(const RecommendArguments& arguments, const recommend::Goal& g
     ProgressBar bar(err);
     const std::vector<recommend::Contest> contests = recommend::hold_beside(
         *job.document, job.options, ours, *other.document,
-        read_recommendation(arguments.beside, ours.light, ours.measure), goal, goal.budget,
+        read_recommendation(arguments.beside, ours.light, ours.measure, goal), goal, goal.budget,
         [&](const bench::Progress& progress) { bar.show(progress); });
     bar.end();
     return recommend::to_text(contests, measure_words[static_cast<std::size_t>(ours.measure)], goal.error);
@@ -120,7 +138,7 @@ bool recommend_command(const RecommendArguments& arguments, std::ostream& out, s
     const Recommendation found =
         arguments.from.empty()
             ? explore_scenario(arguments, goal, folder, err)
-            : read_recommendation(arguments.from, arguments.light, read_measure(arguments.measure));
+            : read_recommendation(arguments.from, arguments.light, read_measure(arguments.measure), goal);
     const recommend::AnswerText answer = recommend::answer_text(found, goal);
     out << answer.text;
     if (arguments.from.empty()) out << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());

@@ -13,11 +13,10 @@
 #include "bench/run.h"
 #include "document/document.h"
 #include "results/report.h"
-#include "results/report_verdicts.h"
-#include "results/settled.h"
 #include "results/write_result.h"
 #include "service/cli/commands.h"
 #include "service/cli/job.h"
+#include "service/cli/outcomes.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/scenario_files.h"
 
@@ -27,20 +26,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* standard_folder = "results/runs";
-
 struct Planned {
     fs::path file;
     Job job;
     fs::path folder;  // of its results
 };
-
-// The error with the file of its scenario in front of its place.
-base::Error in_file(const base::Error& error, const fs::path& file) {
-    const std::string name = file.string();
-    if (error.where().rfind(name, 0) == 0) return error;
-    return {error.code(), error.where().empty() ? name : name + ": " + error.where(), error.message()};
-}
 
 void refuse_equal_names(const std::vector<Planned>& plan) {
     std::map<fs::path, fs::path> files;
@@ -66,7 +56,7 @@ std::vector<Planned> make_plan(const RunArguments& arguments, bool& several, std
     std::vector<Planned> plan;
     if (!several) {
         Job job = read_job(arguments, files[0]);
-        fs::path folder = output_folder(arguments.out, standard_folder, *job.document);
+        fs::path folder = results_folder(arguments.out, several, *job.document);
         plan.push_back({files[0], std::move(job), std::move(folder)});
         return plan;
     }
@@ -76,7 +66,7 @@ std::vector<Planned> make_plan(const RunArguments& arguments, bool& several, std
         try {
             Job job = read_job(arguments, file);
             bench::validate(*job.document, job.options);
-            fs::path folder = output_folder("", arguments.out.empty() ? standard_folder : arguments.out, *job.document);
+            fs::path folder = results_folder(arguments.out, several, *job.document);
             plan.push_back({file, std::move(job), std::move(folder)});
         } catch (const base::Error& error) {
             throw in_file(error, file);
@@ -92,21 +82,6 @@ results::Result run_one(const Planned& planned, const std::string& place, std::o
         if (!place.empty()) progress.place = place + (progress.place.empty() ? "" : " ") + progress.place;
         bar.show(progress);
     });
-}
-
-// The outcome of a scenario that could not be run.
-results::ScenarioOutcome not_run(const nlohmann::json& document, const base::Error& error) {
-    results::ScenarioOutcome outcome;
-    outcome.result.name = document.at("name").get<std::string>();
-    outcome.result.purpose = document.value("purpose", "");
-    outcome.error = error.what();
-    return outcome;
-}
-
-// The file of the verdicts; empty: none.
-fs::path verdicts_file(const RunArguments& arguments, bool several) {
-    if (!arguments.verdicts.empty() || !several) return arguments.verdicts;
-    return fs::path(arguments.out.empty() ? standard_folder : arguments.out) / "verdicts.md";
 }
 
 // Validates a document. Writes all its faults but the last to `err` and throws that one.
@@ -128,7 +103,7 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
     const std::vector<Planned> plan = make_plan(arguments, several, err);
     // Folders are made before hours of work. A run that fails leaves no new folder.
     base::Undo made_for_verdicts;
-    const fs::path verdicts = verdicts_file(arguments, several);
+    const fs::path verdicts = verdicts_file(arguments.verdicts, arguments.out, several);
     if (verdicts.has_parent_path()) base::make_writable(verdicts.parent_path(), made_for_verdicts);
     if (!verdicts.empty()) {
         const base::PendingFile writable(verdicts);
@@ -149,7 +124,7 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
             if (!several) throw;
             // Validation could not find this. The other scenarios run.
             if (!first_error) first_error = in_file(error, planned.file);
-            outcomes.push_back(not_run(*planned.job.document, error));
+            outcomes.push_back(without_result(*planned.job.document, error.what()));
             continue;
         }
         const results::Result& result = outcomes.back().result;
@@ -159,17 +134,8 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
         out << results::to_table(result)
             << fmt::format("written: {0}/result.json, {0}/result.csv\n", planned.folder.string()) << std::flush;
     }
-    std::vector<std::string> columns;
-    for (const techniques::Technique& row : techniques::all()) columns.push_back(row.id);
-    if (several) out << results::verdicts_text(outcomes, columns);
-    if (!verdicts.empty()) {
-        base::write_files({{verdicts, results::verdicts_markdown(outcomes, columns)}});
-        made_for_verdicts.keep();
-        out << fmt::format("written: {}\n", verdicts.string());
-    }
-    std::vector<const results::Result*> all;
-    for (const results::ScenarioOutcome& outcome : outcomes) all.push_back(&outcome.result);
-    out << results::unsettled_line(all);
+    report_outcomes(outcomes, several, verdicts, out);
+    made_for_verdicts.keep();
     if (first_error) throw *first_error;
     return kept;
 }

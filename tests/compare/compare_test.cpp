@@ -46,6 +46,24 @@ TEST(Compare, AnotherMachineComparesOnlyExactMeasures) {
     EXPECT_EQ(exit_code(compare(side({made_result()}), side({current}), {})), 2);
 }
 
+// Which machine measured a cell differs between two merged results, even of the same machines.
+TEST(Compare, ResultsMergedFromSeveralMachinesCompareOnlyExactMeasures) {
+    json merged = made_result();
+    for (const char* node : {"n1", "n2"})
+        merged["times"]["cells"].push_back({{"node", node}, {"machine", merged["machine"]}});
+    json later = merged;
+    later["times"]["started"] = "2026-11-26T02:00:00Z";
+    for (const json& baseline : {merged, made_result()}) {
+        const Comparison comparison = compare(side({baseline}), side({later}), {});
+        EXPECT_EQ(line(comparison, "", "times").verdict, Verdict::not_comparable);
+        EXPECT_EQ(line(comparison, "deep", "bytes").verdict, Verdict::same);
+    }
+    merged["times"]["cells"].erase(1);
+    later["times"]["cells"].erase(1);
+    EXPECT_EQ(line(compare(side({merged}), side({later}), {}), "deep", "bytes").verdict, Verdict::same);
+    EXPECT_EQ(side({merged}).suites[0].machine, "AMD EPYC, 2 cores") << "all cells of one machine";
+}
+
 TEST(Compare, MissingCellsFailAndExtraOnesAreListed) {
     json fewer = made_result();
     fewer["variants"][0]["lights"][0]["cells"].erase(1);

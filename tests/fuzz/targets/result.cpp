@@ -4,6 +4,7 @@
 
 #include "fuzz/expect.h"
 #include "fuzz/target.h"
+#include "results/sweep_cell.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::fuzz {
@@ -17,6 +18,8 @@ void result(std::string_view bytes) {
         const results::Result again = results::from_json(nlohmann::json::parse(written.dump()), "");
         expect(results::to_json(again) == written, "what is written is read back");
     });
+    attempt({base::ErrorCode::bad_input},
+            [&] { results::cell_from_json(scene::parse_json(std::string(bytes), "cell"), "cell"); });
 }
 
 }  // namespace shadowbench::fuzz

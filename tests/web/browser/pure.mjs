@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {bytes, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
 import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
-import {frontOf, fronts, lightMapOf, marked, quoted, rerunOf, rmsInterval, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
+import {frontOf, fronts, lightMapOf, marked, originOf, quoted, rerunOf, rmsInterval, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
 import {linearAxis, logAxis, logPlace} from '../../../service/web/page/plots/axes.js';
 import {placeLabels} from '../../../service/web/page/plots/labels.js';
 
@@ -53,6 +53,13 @@ test('a group whose floors drifted says why, and no other does', () => {
   assert.equal(unsettledOf(result, group(0, 'key')), null);
   assert.equal(unsettledOf(result, group(1, 'fill')), null);
   assert.equal(unsettledOf({times: {started: ''}}, group(1, 'key')), null, 'older results do not tell');
+});
+
+test('a group of a merged result names where it was measured, and no other does', () => {
+  const cells = [{variant: 0, light: 1, node: 'n1'}, {variant: 1, light: 0, node: 'n2'}];
+  assert.equal(originOf({times: {cells}}, {variant: 1, lightIndex: 0}).node, 'n2');
+  assert.equal(originOf({times: {cells}}, {variant: 1, lightIndex: 1}), null);
+  assert.equal(originOf({times: {started: ''}}, {variant: 0, lightIndex: 0}), null);
 });
 
 test('a time whose interval is wider than the goal is marked', () => {

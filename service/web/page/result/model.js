@@ -58,6 +58,11 @@ export function groupsOf(result) {
   }));
 }
 
+// Where and when a group of a merged result was measured; nothing for other results.
+export function originOf(result, group) {
+  return result.times?.cells?.find((cell) => cell.variant === group.variant && cell.light === group.lightIndex) ?? null;
+}
+
 // Why the times of a group are unreliable: the machine was disturbed, or some intervals are wide. Nothing if they are settled.
 export function unsettledOf(result, group) {
   return result.times?.unsettled?.find((u) => u.variant === group.variant && u.light === group.light.light)?.why ?? null;

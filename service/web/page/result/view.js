@@ -7,12 +7,22 @@ import {onThemeChange} from '../plots/palette.js';
 import {cellView} from './cell.js';
 import {compareView} from './compare.js';
 import {curvesView} from './curves.js';
-import {fronts, groupsOf, imagesAreOf, picturesOf, seriesOf, unsettledOf} from './model.js';
+import {fronts, groupsOf, imagesAreOf, originOf, picturesOf, seriesOf, unsettledOf} from './model.js';
 import {cellTable} from './table.js';
 import {tradeView} from './trade.js';
 
 function facts(entries) {
   return h('dl', {class: 'facts'}, entries.filter(Boolean).map(([term, text]) => h('div', {}, h('dt', {}, term), h('dd', {}, text))));
+}
+
+function machineText(machine, node) {
+  return `${node ? `${node}, ` : ''}${machine?.cpu ?? '?'}, ${plural(machine?.logical_cores ?? 0, 'core')}`;
+}
+
+// Of a result that was merged, the machines of its cells, if there are several.
+function machinesOf(result) {
+  const machines = new Set((result.times?.cells ?? []).map((cell) => machineText(cell.machine, cell.node)));
+  return machines.size > 1 ? [...machines].join('; ') : machineText(result.machine);
 }
 
 export function summaryOf(result) {
@@ -23,7 +33,7 @@ export function summaryOf(result) {
   return facts([
     ['Verdicts', [...verdicts].map(([verdict, n]) => `${n} ${verdict}`).join(', ') || 'none'],
     ['Run', `${moment(result.times?.started)}, ${seconds(result.times?.seconds)}`],
-    ['Machine', `${result.machine?.cpu ?? '?'}, ${plural(result.machine?.logical_cores ?? 0, 'core')}`],
+    ['Machine', machinesOf(result)],
     ['Program', `${result.program?.version ?? '?'} (${result.program?.commit ?? '?'})`],
     ['Scenario', result.scenario_hash ?? '?'],
     result.only?.length && ['Only', result.only.join(', ')],
@@ -31,7 +41,8 @@ export function summaryOf(result) {
   ]);
 }
 
-function captureOf(light) {
+// `origin`: of the group, in a merged result.
+function captureOf(light, origin) {
   const map = light.map ?? {}, reference = light.reference ?? {};
   return facts([
     ['Map', `${map.width} × ${map.height}, ${plural(map.samples_per_pixel, 'ray')} a pixel (${map.pattern})`],
@@ -41,6 +52,7 @@ function captureOf(light) {
     ['Noise', `0.5/√N ${significant(reference.noise_tolerance, 2)}` +
       (reference.spread_over_seeds ? `, spread over seeds ${significant(reference.spread_over_seeds.rms, 2)}` : '')],
     light.capture?.embree_check && ['Embree', light.capture.embree_check.agrees ? 'agrees' : 'DIFFERS'],
+    origin && ['Measured on', machineText(origin.machine, origin.node)],
   ]);
 }
 
@@ -87,7 +99,7 @@ function groupView({source, result, images, imagesFault, group, series, signal})
     unsettled && h('p', {class: 'unsettled', role: 'note'}, h('strong', {}, 'Unsettled. '),
       `${unsettled}. Times may be off by as much, and the front of time and error and rankings by time with them. ` +
       'Run it again on a quiet machine.'),
-    h('section', {class: 'panel quiet-panel', 'aria-label': 'Capture'}, captureOf(group.light),
+    h('section', {class: 'panel quiet-panel', 'aria-label': 'Capture'}, captureOf(group.light, originOf(result, group)),
       group.light.sees_nothing && h('p', {class: 'note'}, 'This light sees nothing that casts a shadow.')),
     trade.element,
     h('section', {class: 'panel', 'aria-labelledby': 'table-title'}, h('h2', {id: 'table-title'}, 'All figures'), tablePlace),

@@ -1,0 +1,87 @@
+#include "bench/variant_runs.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/hash_text.h"
+#include "base/parallel.h"
+#include "base/utc.h"
+#include "bench/camera_points.h"
+#include "bench/light_run.h"
+#include "results/machine.h"
+#include "results/program.h"
+
+namespace shadowbench::bench {
+namespace {
+
+// "2/5 key" if there are several variants or lights.
+std::string place_of(std::size_t variant, std::size_t variants, const scene::Scenario& scenario, std::size_t light) {
+    std::string place = variants > 1 ? fmt::format("{}/{}", variant + 1, variants) : "";
+    if (scenario.lights.size() > 1) place += (place.empty() ? "" : " ") + scenario.lights[light].name;
+    return place;
+}
+
+}  // namespace
+
+std::vector<document::Variant> variants_of(const nlohmann::json& document, const std::vector<std::string>& only) {
+    std::vector<document::Variant> variants = document::expand(document);
+    for (document::Variant& variant : variants) document::keep_only(variant, only);
+    return variants;
+}
+
+void add_notes(const scene::Scene& scene, std::vector<std::string>& notes) {
+    for (std::string& note : scene::read_notes(scene))
+        if (std::count(notes.begin(), notes.end(), note) == 0) notes.push_back(std::move(note));
+}
+
+VariantRuns::VariantRuns(const nlohmann::json& document, const RunOptions& options)
+    : document_(std::make_shared<const nlohmann::json>(document)),
+      options_(options),
+      variants_(variants_of(document, options.only)),
+      loader_(options.data) {}
+
+results::Result VariantRuns::describe() const {
+    results::Result result;
+    result.times.started = base::now_utc();
+    result.times.threads = base::thread_count();
+    result.program = results::this_program();
+    result.machine = results::this_machine();
+    result.name = document_->at("name").get<std::string>();
+    result.purpose = document_->value("purpose", "");
+    result.document = document_->dump();
+    result.hash = base::hash_text(result.document);
+    result.only = options_.only;
+    return result;
+}
+
+const scene::Scenario& VariantRuns::load(std::size_t variant) {
+    // What belongs to the old scene goes first.
+    contenders_.clear();
+    casters_.reset();
+    seen_.clear();
+    loaded_ = variant;
+    scenario_ = &loader_.load(variants_.at(variant));
+    contenders_ = make_contenders(*scenario_, variants_[variant]);
+    if (scenario_->scene.objects.empty()) return *scenario_;
+    casters_ = std::make_unique<rays::Tracer>(scenario_->scene, true);
+    if (scenario_->receivers.camera) seen_ = camera_points(scenario_->receivers, rays::Tracer(scenario_->scene, false));
+    return *scenario_;
+}
+
+results::LightResult VariantRuns::measure(std::size_t light, const ProgressCallback& progress) const {
+    StageWatch watch;
+    if (progress)
+        watch = [&, place = place_of(loaded_, variants_.size(), *scenario_, light)](const char* stage, std::size_t done,
+                                                                                    std::size_t total) {
+            progress({place, stage, done, total});
+        };
+    std::vector<Contender> fresh;
+    for (const Contender& contender : contenders_) fresh.push_back(unbuilt(contender));
+    return run_light({*scenario_, light, casters_.get(), seen_, options_.limits, watch, options_.times},
+                     std::move(fresh));
+}
+
+}  // namespace shadowbench::bench

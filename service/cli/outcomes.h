@@ -1,0 +1,30 @@
+// What becomes of measured scenarios, for run and merge: their folders, and the verdicts over all of them.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "results/report_verdicts.h"
+
+namespace shadowbench::service {
+
+// The folder of a scenario's results. `out`: the folder that was asked for; empty: results/runs. Each of several
+// scenarios has a folder of its name there; so has a single one in results/runs.
+std::filesystem::path results_folder(const std::string& out, bool several, const nlohmann::json& document);
+
+// The file of the verdicts; empty: none.
+std::filesystem::path verdicts_file(const std::string& given, const std::string& out, bool several);
+
+// The outcome of a scenario that has no result.
+results::ScenarioOutcome without_result(const nlohmann::json& document, const std::string& why);
+
+// Prints the verdicts over several scenarios, writes them to a file if it is not empty, and says which times are
+// unsettled.
+void report_outcomes(const std::vector<results::ScenarioOutcome>& outcomes, bool several,
+                     const std::filesystem::path& verdicts, std::ostream& out);
+
+}  // namespace shadowbench::service
