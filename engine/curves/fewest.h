@@ -43,6 +43,8 @@ struct FewestScratch {
     std::vector<Knot> knots;
     std::vector<Vertex> plain;  // what compress() makes of the function
     Funnel funnel;
+    std::size_t most_steps = std::size_t{1} << 24;  // the search gives up after so many
+    bool complete = true;                           // false: in the last call it did
 
     std::size_t bytes() const;
 };
@@ -51,12 +53,14 @@ struct FewestScratch {
 // functions with these properties
 //  - the exact first value of the input; values that do not increase and stay in [0, 1];
 //  - within the tolerance of the input at every depth, on both sides of steps;
-//  - vertices only at depths of the input, two where it steps,
-// the output has the fewest vertices, and it ends as near to the exact last value as those allow. Where compress() has
-// no more, the output is the same as its output. Ties within 2^-46 of the first value count as within the tolerance.
+//  - vertices only at depths of the input,
+// the output has the fewest vertices, and it ends as near to the exact last value as those allow. It steps only where
+// the input does. Where compress() has no more, the output is the same as its output. Ties within 2^-46 of the first
+// value count as within the tolerance.
 //
-// For n depths of which the output keeps k, about n times those that one segment spans, so O(n^2 / k), and O(n) memory;
-// far less where compress() is proven to have the fewest at once.
+// For n depths of which the output keeps k, about n times those that one segment spans, so O(n^2 / k) steps, and O(n)
+// memory; far less where compress() is proven to have the fewest at once. After `most_steps`, some tenths of a second,
+// the search gives up, and the output is that of compress(). That takes thousands of depths and few vertices.
 std::size_t compress_to_fewest(CurveView curve, float tolerance, FewestScratch& scratch, Vertex* out);
 
 Curve compress_to_fewest(CurveView curve, float tolerance);

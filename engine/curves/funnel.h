@@ -87,4 +87,23 @@ private:
     Line highest_, lowest_;
 };
 
+// The lines for the depths before, from the last window to the first: with depths and values negated, lines that do not
+// rise do not rise either.
+class BackwardFunnel {
+public:
+    explicit BackwardFunnel(Funnel& funnel) : funnel_(funnel) {}
+
+    void start(double z, double low, double high) { funnel_.start(-z, -high, -low); }
+    double highest(double z) const { return -funnel_.lowest(-z); }
+    double lowest(double z) const { return -funnel_.highest(-z); }
+    void pass(double z, double low, double high) { funnel_.pass(-z, -high, -low); }
+    // Whether one of the lines has a value in [low, high] at z.
+    bool meets(double z, double low, double high) const {
+        return std::max(low, lowest(z)) <= std::min(high, highest(z));
+    }
+
+private:
+    Funnel& funnel_;
+};
+
 }  // namespace shadowbench::curves

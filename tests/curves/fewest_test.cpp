@@ -16,9 +16,15 @@ double error(CurveView a, CurveView b) {
     return distance(a, b, 0.0, 0.0).max;
 }
 
-// Brute force: tries every choice of depths, with a step or without one at each. The values that the last vertex of a
-// choice can take are an interval, whose ends are corners of a polygon in the plane of the values at both ends of the
-// segment to it; the corners are found as the intersections of all pairs of sides.
+// Whether all depths are the input's, as often as there: a step that the input lacks would be seen in smoke.
+bool is_part_of_depths(CurveView part, CurveView whole) {
+    const auto less = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
+    return std::includes(whole.begin(), whole.end(), part.begin(), part.end(), less);
+}
+
+// Brute force: tries every choice of depths, with a step or without one at each, even where the input has none. The
+// values that the last vertex of a choice can take are an interval, whose ends are corners of a polygon in the plane of
+// the values at both ends of the segment to it; the corners are found as the intersections of all pairs of sides.
 class BruteForce {
 public:
     BruteForce(const Curve& curve, double tolerance) : tolerance_(tolerance) {
@@ -131,6 +137,7 @@ TEST(CompressToFewest, BruteForceFindsNoFewer) {
             << "round " << round << ": " << Case{curve, tolerance};
         ASSERT_LE(error(compressed, curve), tolerance + cases::rounding_of(curve))
             << "round " << round << ": " << Case{curve, tolerance};
+        ASSERT_TRUE(is_part_of_depths(compressed, curve)) << "round " << round << ": " << Case{curve, tolerance};
         saved += compress(curve, tolerance).size() - compressed.size();
     }
     EXPECT_GT(saved, 20u) << "the comparison is idle where compress() has the fewest too";
@@ -147,8 +154,7 @@ RC_GTEST_PROP(CompressToFewest, GivesAVisibilityFunctionOfTheInputsDepthsThatIsN
     const Curve compressed = compress_to_fewest(c.curve, c.tolerance);
     RC_ASSERT(compressed.size() <= compress(c.curve, c.tolerance).size());
     RC_ASSERT(is_visibility(compressed));
-    const auto less = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
-    RC_ASSERT(std::includes(c.curve.begin(), c.curve.end(), compressed.begin(), compressed.end(), less));
+    RC_ASSERT(is_part_of_depths(compressed, c.curve));
 }
 
 // What lies before all occluders is lit.
@@ -178,15 +184,53 @@ RC_GTEST_PROP(CompressToFewest, ScalingDepthsByAPowerOfTwoScalesDepthsAlone, ())
     RC_ASSERT(compress_to_fewest(scaled, c.tolerance) == expected);
 }
 
-// The middle of the slopes that reach depth 2 leaves 0.75 there, and nothing from 0.75 passes the windows at 3 and 4;
-// from 0.8, which the tolerance allows too, one segment does.
+// The middle of the slopes that reach depth 2 leaves 0.875 there, and nothing from 0.875 passes the windows at 3 and 4.
+// From 0.85, which the tolerance allows too, a segment does, and ends at 0.25 at most.
+const Curve bend{{0, 1}, {1, 0.9f}, {2, 0.9f}, {3, 0.5f}, {4, 0.29f}};
+
 TEST(CompressToFewest, ChoosesTheEndOfASegmentForTheNextOne) {
-    const Curve curve{{0, 1}, {1, 0.8f}, {2, 0.8f}, {3, 0.4f}, {4, 0.36f}};
-    EXPECT_EQ(compress(curve, 0.1f).size(), 4u);
-    const Curve compressed = compress_to_fewest(curve, 0.1f);
-    EXPECT_EQ(compressed.size(), 3u);
-    EXPECT_EQ(compressed.back().value, 0.36f) << "the exact last value costs nothing here";
-    EXPECT_LE(error(compressed, curve), 0.1 + 0x1p-24);
+    EXPECT_EQ(compress(bend, 0.05f).size(), 4u);
+    const Curve compressed = compress_to_fewest(bend, 0.05f);
+    ASSERT_EQ(compressed.size(), 3u);
+    EXPECT_EQ(compressed[0], bend[0]);
+    EXPECT_EQ(compressed[1].z, 2.0f);
+    EXPECT_NEAR(compressed[1].value, 0.85, 1e-6);
+    EXPECT_EQ(compressed[2].z, 4.0f);
+    EXPECT_NEAR(compressed[2].value, 0.25, 1e-6);
+    EXPECT_LE(error(compressed, bend), 0.05 + 0x1p-24);
+}
+
+// Without the limit a map of long functions would seem to hang.
+TEST(CompressToFewest, GivesTheOutputOfCompressWhereItTakesTooManySteps) {
+    FewestScratch scratch;
+    Curve out(bend.size());
+    out.resize(compress_to_fewest(bend, 0.05f, scratch, out.data()));
+    EXPECT_EQ(out.size(), 3u);
+    EXPECT_TRUE(scratch.complete);
+    scratch.most_steps = 1;
+    out.resize(bend.size());
+    out.resize(compress_to_fewest(bend, 0.05f, scratch, out.data()));
+    EXPECT_EQ(out, compress(bend, 0.05f));
+    EXPECT_FALSE(scratch.complete);
+    out.resize(compress_to_fewest(Curve{{1, 1}}, 0.05f, scratch, out.data()));
+    EXPECT_TRUE(scratch.complete) << "of the last call";
+}
+
+// Few vertices for thousands of depths, where each segment may end almost anywhere.
+TEST(CompressToFewest, EndsSoonOnThousandsOfDepthsAtALooseTolerance) {
+    base::Random random(3);
+    FewestScratch scratch;
+    Curve curve;
+    float value = 1.0f;
+    for (int i = 0; i < 5000; ++i) {
+        curve.push_back({static_cast<float>(i), value});
+        value *= 1.0f - cases::number(random, 0.0, i / 500 % 2 == 0 ? 0.001 : 0.0001);
+    }
+    Curve out(curve.size());
+    out.resize(compress_to_fewest(curve, 0.02f, scratch, out.data()));
+    EXPECT_LE(out.size(), compress(curve, 0.02f).size());
+    EXPECT_LE(error(out, curve), 0.02 + cases::rounding_of(curve));
+    EXPECT_LE(scratch.bytes(), 5000u * 64 * 64) << "memory grows with the depths alone";
 }
 
 // Level for as long as the tolerance allows, then one segment: the first vertex need not be the input's first.

@@ -74,7 +74,7 @@ void add_compression_kernels(Kernels& kernels) {
     for (const Kind kind : {Kind::smoke, Kind::hair, Kind::mixed}) {
         for (const double tolerance : {0.002, 0.02, 0.1}) add(kernels, "compress", kind, curves::compress, tolerance);
         add(kernels, "compress_published", kind, curves::compress_published, 0.02);
-        for (const double tolerance : {0.002, 0.02}) add(kernels, "fewest", kind, compress_to_fewest, tolerance);
+        add(kernels, "fewest", kind, compress_to_fewest, 0.02);
     }
 }
 

@@ -18,9 +18,9 @@ const Parameter parameters[] = {
     {"compression",
      ParameterKind::choice,
      "bounded: never rises, stays in [0, 1], ends on the exact value where one segment can; optimal: the fewest nodes "
-     "that such a function needs within the tolerance, at many times the time to build (coloured pixels as bounded); "
-     "published: the paper's text word for word, which keeps the tolerance too, but rises by up to it and falls below "
-     "0 by up to it",
+     "that such a function needs within the tolerance, at many times the time to build (coloured pixels, and functions "
+     "whose search takes too long, as bounded); published: the paper's text word for word, which keeps the tolerance "
+     "too, but rises by up to it and falls below 0 by up to it",
      0,
      0,
      0,
