@@ -81,6 +81,7 @@ private:
     void read(CurveView curve) {
         const double epsilon = given_.epsilon, slack = given_.slack;
         groups_.clear();
+        s_.pieces.clear();
         for (std::size_t i = 0; i < curve.size();) {
             const Vertex first = curve[i];
             double after = first.value;
