@@ -9,6 +9,7 @@
 
 #include "curves/compress.h"
 #include "curves/compress_published.h"
+#include "curves/fewest.h"
 #include "curves/norms.h"
 #include "kernels/inputs.h"
 #include "kernels/kernel.h"
@@ -18,6 +19,11 @@ namespace {
 
 constexpr int map = 32, samples = 16;
 constexpr double rounding = 1e-6;  // of stored floats
+
+std::size_t compress_to_fewest(curves::CurveView curve, float tolerance, curves::Vertex* out) {
+    thread_local curves::FewestScratch scratch;
+    return curves::compress_to_fewest(curve, tolerance, scratch, out);
+}
 
 using Compress = std::size_t (*)(curves::CurveView curve, float tolerance, curves::Vertex* out);
 
@@ -68,6 +74,7 @@ void add_compression_kernels(Kernels& kernels) {
     for (const Kind kind : {Kind::smoke, Kind::hair, Kind::mixed}) {
         for (const double tolerance : {0.002, 0.02, 0.1}) add(kernels, "compress", kind, curves::compress, tolerance);
         add(kernels, "compress_published", kind, curves::compress_published, 0.02);
+        add(kernels, "fewest", kind, compress_to_fewest, 0.02);
     }
 }
 

@@ -144,7 +144,8 @@ INSTANTIATE_TEST_SUITE_P(Parameters, DeepSettings,
                                            R"({"mip": "nearest", "search": "linear"})",
                                            R"({"mip": "blend", "kernel": "tent", "search": "cached"})",
                                            R"({"filter": "tent", "radius": 1.0, "mip": "blend"})",
-                                           R"({"mip": "blend", "mip_from": "samples"})"));
+                                           R"({"mip": "blend", "mip_from": "samples"})",
+                                           R"({"compression": "optimal", "mip": "nearest"})"));
 
 // Duplicated depths are steps; a NaN goes to the front.
 TEST(SegmentSearch, AllFindTheFirstDepthThatIsNotLess) {

@@ -43,6 +43,19 @@ TEST(Deep, KeepsItsToleranceInEveryPixelAndUsesIt) {
         }
 }
 
+// The bound that the default is measured against must come from the same rays and the same tolerance.
+TEST(Deep, OptimalCompressionStoresFewerNodesWithinTheSameTolerance) {
+    for (const bool media : {false, true}) {
+        const auto map = [&](const char* parameters) {
+            return build(deep(), testing::hairy_scene(media), rays::testing::directional(), rays::testing::rays(24, 16),
+                         parameters);
+        };
+        const auto optimal = map(R"({"tolerance": 0.02, "compression": "optimal"})");
+        EXPECT_LE(curve_error(optimal), 0.02 + 1.1e-6) << "media " << media;
+        EXPECT_LT(optimal.map->nodes().total, map(R"({"tolerance": 0.02})").map->nodes().total) << "media " << media;
+    }
+}
+
 TEST(Deep, TheNoiseToleranceFollowsTheSamples) {
     const auto layout = [](int samples) {
         rays::MapLayout l;

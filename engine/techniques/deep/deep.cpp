@@ -15,7 +15,7 @@ using namespace deep_parameters;
 class Deep final : public Map {
 public:
     explicit Deep(const ParameterValues& values) : values_(values) {
-        map_.compression.published = is_published(values);
+        map_.compression.method = method_of(values);
         map_.filter = filter_of(values);
         map_.rule = rule_of(values);
         map_.levels_of_samples = has_levels_of_samples(values);
@@ -143,7 +143,7 @@ Technique deep() {
             .least_bytes = least_bytes,
             .coloured = true,
             .promises_of = [](const ParameterValues& values) -> Promises {
-                const bool bounded = !is_published(values);
+                const bool bounded = method_of(values) != Compression::Method::published;
                 return {.monotone = bounded, .unit_range = bounded};
             },
             // Values that are twice the tolerance apart are joined or not depending on their rounding, and so on the

@@ -101,7 +101,7 @@ void DeepMap::add(const rays::LightRays& tile) {
     place(number, x0, y0, width, layout_.channels);
     const double linearisation = layout_.media ? linearisation_of(compression.tolerance) : 0.0;
     const Compression rest{static_cast<float>(std::max(0.0, compression.tolerance - linearisation)),
-                           compression.published};
+                           compression.method};
     TileScratch scratch;
     if (!filter.is_pixel())
         for (std::size_t ray = 0; ray < tile.rays(); ++ray) scratch.offsets.push_back(ray_offset(layout_, tile, ray));

@@ -7,6 +7,7 @@
 
 #include "techniques/deep/deep_lookup.h"
 #include "techniques/deep/pixel_filter.h"
+#include "techniques/deep/pixel_run.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::techniques::deep_parameters {
@@ -16,7 +17,7 @@ std::span<const Parameter> all();
 std::vector<Trade> trades();
 
 double tolerance_of(const ParameterValues& values, int samples);  // of a map with so many rays a pixel
-bool is_published(const ParameterValues& values);
+Compression::Method method_of(const ParameterValues& values);
 PixelFilter filter_of(const ParameterValues& values);
 LookupRule rule_of(const ParameterValues& values);
 bool has_levels_of_samples(const ParameterValues& values);  // mip_from=samples

@@ -72,7 +72,7 @@ std::size_t add_mip_levels(std::vector<DeepLevel>& levels, const Compression& co
         const DeepLevel &map = levels[0], &below = uncompressed ? *uncompressed : levels.back();
         const int width = mip_size(map.width, l), height = mip_size(map.height, l), channels = map.channels;
         PixelRun run = run_of(width, channels), lossless = run_of(width, channels);
-        const Compression finer{std::ldexp(compression.tolerance, -l), compression.published};
+        const Compression finer{std::ldexp(compression.tolerance, -l), compression.method};
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
                 const int functions = average(below, children_of(below, l, map, x, y), scratch);

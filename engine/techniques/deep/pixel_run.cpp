@@ -16,9 +16,22 @@ void for_each_row(const DeepLevel& level, const PixelRun& run, const Visit& visi
         visit(level.pixel(run.x0, run.y0 + static_cast<int>(first) / run.width), first);
 }
 
-void append_one(PixelRun& run, curves::Curve& function, const Compression& how) {
-    const std::size_t n = how.published ? curves::compress_published(function, how.tolerance, function.data())
-                                        : curves::compress(function, how.tolerance, function.data());
+// Compresses a function in its own memory. Returns its number of vertices.
+std::size_t compress_one(curves::Curve& function, curves::FewestScratch& fewest, const Compression& how) {
+    switch (how.method) {
+        case Compression::Method::published:
+            return curves::compress_published(function, how.tolerance, function.data());
+        case Compression::Method::optimal:
+            return curves::compress_to_fewest(function, how.tolerance, fewest, function.data());
+        case Compression::Method::bounded:
+            break;
+    }
+    return curves::compress(function, how.tolerance, function.data());
+}
+
+void append_one(PixelRun& run, PixelScratch& scratch, const Compression& how) {
+    curves::Curve& function = scratch.function[0];
+    const std::size_t n = compress_one(function, scratch.fewest, how);
     const std::size_t first = run.floats.size();
     run.floats.resize(first + 2 * n);
     float* depths = run.floats.data() + first;
@@ -32,8 +45,9 @@ void append_three(PixelRun& run, PixelScratch& scratch, const Compression& how) 
     const auto& f = scratch.function;
     scratch.colour.resize(f[0].size() + f[1].size() + f[2].size());
     const std::array<curves::CurveView, 3> three{f[0], f[1], f[2]};
-    const std::size_t n = how.published ? curves::compress_published(three, how.tolerance, scratch.colour.data())
-                                        : curves::compress(three, how.tolerance, scratch.colour.data());
+    const std::size_t n = how.method == Compression::Method::published
+                              ? curves::compress_published(three, how.tolerance, scratch.colour.data())
+                              : curves::compress(three, how.tolerance, scratch.colour.data());
     const std::size_t first = run.floats.size();
     run.floats.resize(first + 4 * n);
     float* depths = run.floats.data() + first;
@@ -50,7 +64,8 @@ std::size_t PixelScratch::bytes() const {
     for (const curves::Curve& curve : function) vertices += curve.capacity();
     for (const curves::Curve& curve : kept) vertices += curve.capacity();
     for (const curves::Curve& curve : children) vertices += curve.capacity();
-    return vertices * sizeof(curves::Vertex) + colour.capacity() * sizeof(curves::ColourVertex) + sweep.bytes();
+    return vertices * sizeof(curves::Vertex) + colour.capacity() * sizeof(curves::ColourVertex) + sweep.bytes() +
+           fewest.bytes();
 }
 
 void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression) {
@@ -59,7 +74,7 @@ void append(PixelRun& run, PixelScratch& scratch, int functions, const Compressi
     if (coloured)
         append_three(run, scratch, compression);
     else
-        append_one(run, scratch.function[0], compression);
+        append_one(run, scratch, compression);
     if (run.channels == 3) run.coloured.push_back(coloured);
     run.begin.push_back(static_cast<std::uint32_t>(run.floats.size()));
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "curves/compress.h"
+#include "curves/fewest.h"
 #include "curves/sweep.h"
 #include "techniques/deep/deep_level.h"
 
@@ -31,6 +32,7 @@ struct PixelScratch {
     std::array<curves::Curve, 3> function, kept;
     std::vector<curves::ColourVertex> colour;
     curves::SweepScratch sweep;
+    curves::FewestScratch fewest;
     std::array<curves::Curve, 4> children;
 
     std::size_t bytes() const;
@@ -38,8 +40,11 @@ struct PixelScratch {
 
 // How functions are compressed, and how closely.
 struct Compression {
+    // By curves/compress.h; by compress_published.h; by fewest.h, but three functions at once by compress.h.
+    enum class Method { bounded, published, optimal };
+
     float tolerance = 0.0f;
-    bool published = false;  // by curves/compress_published.h, not curves/compress.h
+    Method method = Method::bounded;
 };
 
 // Compresses the first `functions` (1 or 3) of the scratch and appends them as the run's next pixel. Three equal ones
