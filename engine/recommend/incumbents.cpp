@@ -1,6 +1,7 @@
 #include "recommend/incumbents.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "metrics/statistics.h"
 
@@ -11,8 +12,8 @@ namespace {
 constexpr std::array<double, costs> close{1.1, 1.02, 1.1};
 // Points that err by at most this times the error wanted in a trial may turn out to err less.
 constexpr double doubtful = 1.06;
-// Until one is confirmed, the cheapest that errs by at most this is confirmed too: those closer to the error wanted often
-// turn out to err more, and the budget may end before another round.
+// Until a setting of the leading technique is confirmed, one that errs by at most this is confirmed too: those closer to
+// the error wanted often turn out to err more, and the budget may end before another round.
 constexpr double safe = 0.95;
 // How many are confirmed in one round. Trials rank bytes well, and times only roughly.
 constexpr std::array<std::size_t, costs> most_leaders{3, 1, 3}, most_followers{2, 1, 2};
@@ -28,9 +29,11 @@ struct Candidate {
     bool confirmed;
 };
 
-// The unconfirmed points that may be the cheapest: those that seem acceptable, cheapest first, a safe one, and those in
-// doubt, least error first. If there are any, the cheapest confirmed one comes with them.
-void select(const std::vector<Candidate>& candidates, std::size_t k, std::size_t most, std::vector<Point>& chosen) {
+// The unconfirmed points that may be the cheapest: those that seem acceptable, cheapest first, and those in doubt, least
+// error first. If there are any, the cheapest confirmed one comes with them. Returns those that are safe, cheapest
+// first, unless one is confirmed.
+std::vector<Point> select(const std::vector<Candidate>& candidates, std::size_t k, std::size_t most,
+                          std::vector<Point>& chosen) {
     std::vector<Candidate> seem, doubt;
     const Candidate* sure = nullptr;
     for (const Candidate& candidate : candidates) {
@@ -44,13 +47,15 @@ void select(const std::vector<Candidate>& candidates, std::size_t k, std::size_t
     for (const Candidate& candidate : seem)
         if (chosen.size() - before < most && (sure ? candidate.cost < sure->cost : candidate.cost <= least * close[k]))
             chosen.push_back(candidate.point);
-    const auto clear = std::find_if(seem.begin(), seem.end(), [](const auto& c) { return c.excess <= safe; });
-    if (!sure && clear != seem.end()) chosen.push_back(clear->point);
     const std::size_t between = chosen.size();
     for (const Candidate& candidate : doubt)
         if (chosen.size() - between < most_doubtful && candidate.cost < (sure ? std::min(sure->cost, least) : least))
             chosen.push_back(candidate.point);
     if (sure && chosen.size() > before) chosen.push_back(sure->point);
+    std::vector<Point> clear;
+    for (const Candidate& candidate : seem)
+        if (!sure && candidate.excess <= safe) clear.push_back(candidate.point);
+    return clear;
 }
 
 }  // namespace
@@ -80,9 +85,10 @@ Incumbents find_incumbents(std::span<const Family> families, std::span<const Kno
     return found;
 }
 
-std::vector<Point> to_confirm(std::span<const Family> families, std::span<const Knowledge> known,
-                              const std::array<bool, costs>& asked, const Incumbents& incumbents) {
+ToConfirm to_confirm(std::span<const Family> families, std::span<const Knowledge> known,
+                     const std::array<bool, costs>& asked, const Incumbents& incumbents) {
     std::vector<Point> chosen;
+    ToConfirm result;
     for (std::size_t k = 0; k < costs; ++k) {
         if (!asked[k]) continue;
         std::vector<Candidate> leaders, followers, without_map;
@@ -95,14 +101,15 @@ std::vector<Point> to_confirm(std::span<const Family> families, std::span<const 
                                                                                   : followers;
                 list.push_back({Point{f, record.step}, record.cost[k], excess, record.confirmed});
             }
-        select(leaders, k, most_leaders[k], chosen);
+        if (std::vector<Point> clear = select(leaders, k, most_leaders[k], chosen); !clear.empty())
+            result.safe.push_back(std::move(clear));
         select(followers, k, most_followers[k], chosen);
         if (static_cast<Cost>(k) == Cost::lookup) select(without_map, k, 1, chosen);
     }
-    std::vector<Point> unique;
+    std::vector<Point>& unique = result.points;
     for (const Point& point : chosen)
         if (std::find(unique.begin(), unique.end(), point) == unique.end()) unique.push_back(point);
-    return unique;
+    return result;
 }
 
 std::vector<Point> to_time_again(std::span<const Family> families, std::span<const Knowledge> known,

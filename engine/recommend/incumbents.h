@@ -38,11 +38,17 @@ struct Incumbents {
 };
 Incumbents find_incumbents(std::span<const Family> families, std::span<const Knowledge> known);
 
-// The points that an answer needs confirmed, and that are not: per cost asked the best, those within noise of it, and
-// the runner-up of another technique. If there are any and times matter, the best of the confirmed points come along,
-// so that their times are measured together. Empty if all is confirmed.
-std::vector<Point> to_confirm(std::span<const Family> families, std::span<const Knowledge> known,
-                              const std::array<bool, costs>& asked, const Incumbents& incumbents);
+struct ToConfirm {
+    // What an answer needs confirmed and is not: per cost asked the best, those within noise of it, and the runner-up of
+    // another technique. If there are any and times matter, the best of the confirmed points come along, so that their
+    // times are measured together. Empty if all is confirmed.
+    std::vector<Point> points;
+    // Per cost asked of which nothing is confirmed: points of the leading technique that err clearly less than wanted,
+    // cheapest first. The best may turn out to err too much; one of each list stands in for it.
+    std::vector<std::vector<Point>> safe;
+};
+ToConfirm to_confirm(std::span<const Family> families, std::span<const Knowledge> known,
+                     const std::array<bool, costs>& asked, const Incumbents& incumbents);
 
 // The settings whose lookups trials hardly tell from the fastest acceptable one's, with it, fastest first; confirmed ones
 // are left out. Empty if none of them is left to be timed again.

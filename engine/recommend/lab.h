@@ -95,8 +95,9 @@ public:
     // About how many seconds measure() would take now, to order the work: the light rays, unless they are there
     // already, and the rest. Above 0.
     virtual double effort(const Point& point) const = 0;
-    // About how many seconds confirm() would take for this point, besides timing its lookups.
-    virtual double confirm_effort(const Point& point) const = 0;
+    // About how many seconds more confirm() would take for this point, if it also confirms `others`: light rays that
+    // points share are captured once. Besides timing its lookups.
+    virtual double confirm_effort(const Point& point, std::span<const Point> others) const = 0;
     // A lower bound of a cost that is known without measuring; 0 if nothing is known.
     virtual double at_least(const Point& point, Cost cost) const = 0;
     virtual Trial measure(const Point& point) = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -18,6 +19,8 @@ constexpr int confirm_rounds = 8;
 constexpr double first_round_share = 0.6;  // of the time left to confirm: other rounds may follow
 // A point that is not the best known is confirmed only if it takes at most this share of the round's time.
 constexpr double other_share = 0.2;
+// A safe point, which stands in for a best one that turns out to err too much, at most this.
+constexpr double safe_share = 0.3;
 // Of the whole time, that timing lookups again may take, but at most this share of the time left; and how many are.
 constexpr double again_share = 0.1, again_share_left = 0.3;
 constexpr std::size_t most_again = 12;
@@ -66,7 +69,7 @@ double Search::reserve() const {
             points.push_back(*best);
     }
     double seconds = again_share * whole_time();
-    for (const Point& point : points) seconds += reserved_rounds * lab_.confirm_effort(point);
+    for (const Point& point : points) seconds += reserved_rounds * lab_.confirm_effort(point, {});
     return std::clamp(seconds, least_reserve * whole_time(), most_reserve * whole_time());
 }
 
@@ -182,17 +185,39 @@ bool Search::is_best(const Point& point) const {
     return false;
 }
 
+// The best points, for each of them one that is safe, and those of the others that take a small share of these seconds.
+std::vector<Point> Search::affordable(const ToConfirm& wanted, double seconds) {
+    std::vector<Point> kept;
+    std::copy_if(wanted.points.begin(), wanted.points.end(), std::back_inserter(kept),
+                 [&](const Point& point) { return is_best(point); });
+    // Without an answer among the maps, one without a map is due.
+    if (kept.empty() && !wanted.points.empty()) kept.push_back(wanted.points.front());
+    const auto is_kept = [&](const Point& point) { return std::find(kept.begin(), kept.end(), point) != kept.end(); };
+    for (const std::vector<Point>& safe : wanted.safe) {
+        if (std::any_of(safe.begin(), safe.end(), is_kept)) continue;
+        const auto first = std::find_if(safe.begin(), safe.end(), [&](const Point& point) {
+            return lab_.confirm_effort(point, kept) <= safe_share * seconds;
+        });
+        if (first != safe.end()) kept.push_back(*first);
+    }
+    for (const Point& point : wanted.points) {
+        if (is_kept(point)) continue;
+        if (lab_.confirm_effort(point, kept) <= other_share * seconds)
+            kept.push_back(point);
+        else if (found_.end == End::complete)
+            found_.end = End::budget;
+    }
+    return kept;
+}
+
 void Search::confirm() {
     double seconds_a_point = 0.0;
     for (int round = 0; round < confirm_rounds; ++round) {
         // The first round is due even if the budget is spent: without it there is no answer.
         if (round == 0 ? cancelled() : stopped()) return;
-        std::vector<Point> points = to_confirm(found_.families, families_, found_.goal.asked, incumbents_);
         const double round_share = round == 0 ? first_round_share : 1.0;
-        if (std::erase_if(points, [&](const Point& point) {
-                return !is_best(point) && lab_.confirm_effort(point) > other_share * round_share * left();
-            }) > 0 && found_.end == End::complete)
-            found_.end = End::budget;
+        const std::vector<Point> points =
+            affordable(to_confirm(found_.families, families_, found_.goal.asked, incumbents_), round_share * left());
         if (points.empty()) return;
         if (static_cast<double>(points.size()) * seconds_a_point > left()) {
             found_.end = End::budget;

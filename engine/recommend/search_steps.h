@@ -60,6 +60,7 @@ private:
 
     void time_again();
     bool is_best(const Point& point) const;
+    std::vector<Point> affordable(const ToConfirm& wanted, double seconds);
     void confirm();
 
     void report(Stage stage, std::size_t open) const;

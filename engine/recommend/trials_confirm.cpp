@@ -128,10 +128,14 @@ double Trials::judging_seconds(const Point& point) const {
 }
 
 // Every seed has light rays of its own.
-double Trials::confirm_effort(const Point& point) const {
+double Trials::confirm_effort(const Point& point, std::span<const Point> others) const {
     const bench::RayChoice own{space_->resolution(point), space_->samples(point), scenario_->rays.seed};
+    const bool captured = std::any_of(others.begin(), others.end(), [&](const Point& other) {
+        return space_->uses_rays(other.family) && space_->resolution(other) == own.resolution &&
+               space_->samples(other) == own.samples;
+    });
     const double build = build_seconds(point),
-                 capture = space_->uses_rays(point.family) ? store_->estimate_seconds(own) : 0.0;
+                 capture = space_->uses_rays(point.family) && !captured ? store_->estimate_seconds(own) : 0.0;
     return seeds * (capture + build + judging_seconds(point) + rest_of_a_trial) + fewer_builds * build;
 }
 

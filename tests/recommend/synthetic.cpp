@@ -34,8 +34,11 @@ double SyntheticLab::effort(const Point& point) const {
     return captured + 0.1 * rays(point.step) + seconds_of_trial;
 }
 
-double SyntheticLab::confirm_effort(const Point& point) const {
-    return 5.0 * (1.1 * rays(point.step) + seconds_of_trial);
+double SyntheticLab::confirm_effort(const Point& point, std::span<const Point> others) const {
+    const bool shared = std::any_of(others.begin(), others.end(), [&](const Point& other) {
+        return other.step[0] == point.step[0] && other.step[1] == point.step[1];
+    });
+    return 5.0 * ((shared ? 0.1 : 1.1) * rays(point.step) + seconds_of_trial);
 }
 
 double SyntheticLab::at_least(const Point& point, Cost cost) const {

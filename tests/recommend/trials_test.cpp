@@ -153,9 +153,22 @@ TEST(Trials, ConfirmWithIntervalsThatHoldTheMean) {
 TEST(Trials, KnowThatConfirmingSlowLookupsTakesLonger) {
     Trials trials = trials_of(two_layers(), {"ray_traced"});
     const Point point = point_of(trials, "ray_traced", {16, 4, 64});
-    const double unknown = trials.confirm_effort(point);
+    const double unknown = trials.confirm_effort(point, {});
     const double ns = trials.measure(point).cost[static_cast<std::size_t>(Cost::lookup)];
-    EXPECT_NEAR(trials.confirm_effort(point) - unknown, 5 * 500 * 1e-9 * ns, 1e-9 * ns) << "5 seeds of 500 queries";
+    EXPECT_NEAR(trials.confirm_effort(point, {}) - unknown, 5 * 500 * 1e-9 * ns, 1e-9 * ns) << "5 seeds of 500 queries";
+}
+
+// Otherwise a second setting of the same light rays, should the best one err too much, would seem too dear to confirm.
+TEST(Trials, KnowThatConfirmingSharesLightRays) {
+    Trials trials = trials_of(two_layers(), {"deep", "avsm", "ray_traced"});
+    const Point deep = point_of(trials, "deep kernel=tent mip=none", {32, 16, 0.1}),
+                avsm = point_of(trials, "avsm sampling=linear filter=footprint", {32, 16, 8}),
+                finer = point_of(trials, "avsm sampling=linear filter=footprint", {64, 16, 8}),
+                traced = point_of(trials, "ray_traced", {32, 16, 64});
+    const double by_itself = trials.confirm_effort(avsm, {});
+    EXPECT_LT(trials.confirm_effort(avsm, std::vector{deep}), by_itself);
+    EXPECT_EQ(trials.confirm_effort(avsm, std::vector{finer}), by_itself);
+    EXPECT_EQ(trials.confirm_effort(avsm, std::vector{traced}), by_itself) << "which captures none";
 }
 
 // Regular rays have no seed: every repetition errs by the same.
