@@ -70,31 +70,6 @@ double counted(results::TimedPasses& passes, const Pass& pass) {
     return seconds;
 }
 
-void time_order(const Maps& maps, LookupOrder& order, const LookupPlan& plan, bool floor_first) {
-    const int rounds = order.rounds;
-    const double lookups = static_cast<double>(order.queries.size()) * rounds;
-    const double read = static_cast<double>(order.covered) * rounds;
-    // Lookups and floor each warm up, so that what ran before has no influence.
-    const auto time_lookups = [&] {
-        // The floor's reads leave lines in the cache that lookups do not. Reading them here makes the order of the two
-        // irrelevant.
-        if (plan.warm && !order.lines.empty()) warm_up([&] { return seconds_of_floor(order.lines, 1); });
-        if (plan.warm) warm_up([&] { return seconds_of_pass(maps, order.asked(), 1, order.answers); });
-        const double seconds =
-            counted(order.passes, [&] { return seconds_of_pass(maps, order.asked(), rounds, order.answers); });
-        order.ns.push_back(1e9 * seconds / lookups);
-    };
-    const auto time_floor = [&] {
-        if (order.lines.empty()) return;
-        if (plan.warm) warm_up([&] { return seconds_of_floor(order.lines, 1); });
-        const double seconds = counted(order.passes, [&] { return seconds_of_floor(order.lines, rounds); });
-        order.floor_ns.push_back(1e9 * seconds / read);
-    };
-    if (floor_first) time_floor();
-    time_lookups();
-    if (!floor_first) time_floor();
-}
-
 }  // namespace
 
 double seconds_of_pass(const Maps& maps, const Asked& asked, int rounds, std::vector<float>& out) {
@@ -137,7 +112,7 @@ std::size_t random_orders(std::size_t queries, double seconds_a_lookup) {
     return static_cast<std::size_t>(std::clamp(fit, 1.0, std::max(enough, 1.0)));
 }
 
-LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed) {
+LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed, bool floors) {
     const double lookup_seconds = seconds_a_lookup(maps, asked, longest_pass);
     const double fit = longest_pass / lookup_seconds;
     const std::size_t count =
@@ -151,7 +126,7 @@ LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, 
     const std::size_t orders = random_orders(plan.image.queries.size(), lookup_seconds);
     for (std::size_t o = 0; o < orders; ++o) append_shuffled(plan.image, random, plan.random);
     for (LookupOrder* order : {&plan.image, &plan.random}) {
-        order->covered = touched(maps, order->asked(), most_lines, order->lines);
+        if (floors) order->covered = touched(maps, order->asked(), most_lines, order->lines);
         order->lines.shrink_to_fit();
         order->rounds = rounds_of(lookup_seconds * static_cast<double>(order->queries.size()));
     }
@@ -159,9 +134,34 @@ LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, 
     return plan;
 }
 
+void time_order(const Maps& maps, const LookupPlan& plan, LookupOrder& order, bool floor_first) {
+    const int rounds = order.rounds;
+    const double lookups = static_cast<double>(order.queries.size()) * rounds;
+    const double read = static_cast<double>(order.covered) * rounds;
+    // Lookups and floor each warm up, so that what ran before has no influence.
+    const auto time_lookups = [&] {
+        // The floor's reads leave lines in the cache that lookups do not. Reading them here makes the order of the two
+        // irrelevant.
+        if (plan.warm && !order.lines.empty()) warm_up([&] { return seconds_of_floor(order.lines, 1); });
+        if (plan.warm) warm_up([&] { return seconds_of_pass(maps, order.asked(), 1, order.answers); });
+        const double seconds =
+            counted(order.passes, [&] { return seconds_of_pass(maps, order.asked(), rounds, order.answers); });
+        order.ns.push_back(1e9 * seconds / lookups);
+    };
+    const auto time_floor = [&] {
+        if (order.lines.empty()) return;
+        if (plan.warm) warm_up([&] { return seconds_of_floor(order.lines, 1); });
+        const double seconds = counted(order.passes, [&] { return seconds_of_floor(order.lines, rounds); });
+        order.floor_ns.push_back(1e9 * seconds / read);
+    };
+    if (floor_first) time_floor();
+    time_lookups();
+    if (!floor_first) time_floor();
+}
+
 void time_repetition(const Maps& maps, LookupPlan& plan, bool floor_first) {
-    time_order(maps, plan.image, plan, floor_first);
-    time_order(maps, plan.random, plan, floor_first);
+    time_order(maps, plan, plan.image, floor_first);
+    time_order(maps, plan, plan.random, floor_first);
 }
 
 results::LookupTimes summarise(const LookupOrder& order) {

@@ -50,12 +50,14 @@ std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count);
 std::size_t random_orders(std::size_t queries, double seconds_a_lookup);
 
 // Warms up, and chooses for this map how many of the queries (at most `most`, and at least 64 if there are so many)
-// keep one pass at or under 50 ms.
-LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed);
+// keep one pass at or under 50 ms. Without `floors` no lines are noted, so that only lookups are timed.
+LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed, bool floors = true);
 
 // Times one repetition of both orders on this thread, and appends the times to the plan. `floor_first` says whether the
 // floor goes before the lookups. Alternate it, so that neither always finds the other's lines in the cache.
 void time_repetition(const Maps& maps, LookupPlan& plan, bool floor_first);
+// The same for one of the orders of the plan.
+void time_order(const Maps& maps, const LookupPlan& plan, LookupOrder& order, bool floor_first);
 
 results::LookupTimes summarise(const LookupOrder& order);
 

@@ -46,11 +46,12 @@ bool Search::too_few_rays(std::size_t family, const Point& point) const {
 }
 
 // The next rung of a family's climb; nothing if it is done. Rungs that are ruled out, or have too few rays, are left out.
+// Of families that answer alike the first climbs, and tells the others their errors.
 std::optional<std::size_t> Search::next_climb(std::size_t family) const {
     const Knowledge& known = families_[family];
     const std::span<const Record> records = known.records();
     const Climb& climb = climbs_[family];
-    if (known.left_out()) return {};
+    if (known.left_out() || found_.families[family].answers_as) return {};
     if (climb.measured >= 1 && known.acceptable(records[climb.measured - 1])) return {};
     if (climb.measured >= 3) {
         const Record &last = records[climb.measured - 1], &before = records[climb.measured - 3];
@@ -134,10 +135,40 @@ std::optional<Point> Search::best_witness() const {
     return best;
 }
 
-// Climbs go along one line: resolution and samples rise together. A faithful family looks to both sides of it, at about
-// as many light rays: coarser maps with more samples, and finer ones with fewer. What it finds there tells all families
-// which light rays may suffice.
+// Climbs go along one line, all axes together: what each axis does is not known yet.
 void Search::probe() {
+    probe_light_rays();
+    probe_own_axes();
+}
+
+// A family with several axes of its own that climbed to a good enough setting looks at each of them: perhaps its cheapest
+// step suffices there.
+void Search::probe_own_axes() {
+    for (std::size_t f = 0; f < families_.size(); ++f) {
+        const std::size_t climbed = climbs_[f].measured;
+        if (found_.families[f].axes.size() < 4 || climbed == 0) continue;
+        const Record reached = families_[f].records()[climbed - 1];
+        if (!families_[f].acceptable(reached)) continue;
+        for (std::size_t axis = 2; axis < reached.step.size(); ++axis) {
+            Point point{f, reached.step};
+            point.step[axis] = 0;
+            probe_at(point);
+        }
+    }
+}
+
+// Measures a point that may be good enough, if it takes little time.
+void Search::probe_at(const Point& point) {
+    const std::size_t index = families_[point.family].lattice().index(point.step);
+    if (families_[point.family].measured(index) || families_[point.family].ruled_out(index)) return;
+    if (lab_.effort(point) > probe_share * left_to_explore() || exploring_over()) return;
+    report(Stage::refining, 1);
+    measure(point);
+}
+
+// A faithful family looks to both sides of the climbs, at about as many light rays: coarser maps with more samples, and
+// finer ones with fewer. What it finds there tells all families which light rays may suffice.
+void Search::probe_light_rays() {
     const std::optional<Point> from = best_witness();
     if (!from) return;
     const Family& family = found_.families[from->family];
@@ -150,12 +181,7 @@ void Search::probe() {
             }
             for (std::size_t axis = 2; axis < family.axes.size(); ++axis)
                 point.step[axis] = 3 * (family.axes[axis].steps() - 1) / 4;
-            const std::size_t index = families_[from->family].lattice().index(point.step);
-            if (families_[from->family].measured(index) || families_[from->family].ruled_out(index)) continue;
-            const double seconds = lab_.effort(point);
-            if (seconds > probe_share * left_to_explore() || exploring_over()) continue;
-            report(Stage::refining, 1);
-            measure(point);
+            probe_at(point);
         }
 }
 

@@ -1,6 +1,7 @@
 #include "recommend/incumbents.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "metrics/statistics.h"
@@ -21,6 +22,8 @@ constexpr std::size_t most_doubtful = 1;
 // Lookups are timed again whose trials took at most this times the least: trials of a quiet machine are off by up to a
 // tenth, and a cache that another process used makes one slower still.
 constexpr double hardly_told = 1.3;
+constexpr double usual_growth = 1.02;
+constexpr std::size_t enough_ratios = 3;
 
 struct Candidate {
     Point point;
@@ -132,12 +135,15 @@ std::vector<Point> to_time_again(std::span<const Family> families, std::span<con
 }
 
 double growth(const Exploration& found) {
+    const bool limited = std::isfinite(found.goal.budget);
+    const std::size_t enough = limited ? 1 : enough_ratios;
+    const double least = limited ? usual_growth : 1.0;
     std::vector<double> ratios;
     for (const Answered& answered : found.confirmed)
         for (const Measured& measured : found.measured)
             if (measured.point == answered.point && answered.confirmed.failed.empty() && measured.trial.error > 0.0)
                 ratios.push_back(answered.confirmed.error.high / measured.trial.error);
-    return ratios.size() < 3 ? 1.0 : std::max(1.0, metrics::median(ratios));
+    return ratios.size() < enough ? least : std::max(least, metrics::median(ratios));
 }
 
 }  // namespace shadowbench::recommend

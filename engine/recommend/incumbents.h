@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
@@ -55,7 +56,9 @@ ToConfirm to_confirm(std::span<const Family> families, std::span<const Knowledge
 std::vector<Point> to_time_again(std::span<const Family> families, std::span<const Knowledge> known,
                                  const Incumbents& incumbents);
 
-// How much the upper ends of confirmed errors exceed the errors of the trials: the median of the ratios, at least 1.
+// How much the upper ends of confirmed errors exceed the errors of the trials: the median of the ratios, at least 1; 1 if
+// there are few ratios. If time is limited there may be no other round of confirming: then every ratio counts, and it is
+// at least what is usual.
 double growth(const Exploration& found);
 
 }  // namespace shadowbench::recommend

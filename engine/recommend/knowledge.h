@@ -54,6 +54,8 @@ public:
     void add(const Point& point, const Trial& trial);
     void confirm(const Point& point, const Confirmed& confirmed);
     void time_again(const Point& point, double lookup_ns);
+    // The error of this setting, measured with a family that answers alike. Its costs there say nothing of those here.
+    void add_answer(const std::vector<int>& step, double error) { answers_.push_back({step, error}); }
     // What light rays leave of any function counts for this family too.
     void bound_by(const std::vector<Floor>& floors) { floors_ = floors; }
     // What other families reached with light rays that this one was not built from tells about its error there.
@@ -91,11 +93,25 @@ private:
     void bound();
     void rule_out_failures();
     void fit();
+    void smooth_costs();
+    std::vector<Estimate> errors_at(std::span<const std::size_t> indices) const;
+    std::array<std::vector<Estimate>, costs> costs_at(std::span<const std::size_t> indices) const;
     struct Values {
         std::vector<std::vector<double>> positions;
         std::vector<double> logarithms, doubts;
     };
-    void add_borrowed(Values& errors) const;
+    struct Answer {
+        std::vector<int> step;
+        double error;
+    };
+    std::vector<Answer> own_answers() const;
+    std::vector<double> flat_positions(std::span<const std::size_t> indices) const;
+    void add_borrowed(Values& errors, std::span<const Answer> known) const;
+    void drop_hopeless(std::vector<std::size_t>& candidates, const std::vector<std::size_t>& better);
+    void drop_hopeless_rays(std::vector<std::size_t>& candidates);
+    void drop_hopeless_blocks(std::vector<std::size_t>& candidates);
+    std::vector<std::size_t> candidates();
+    double chance_of(const Estimate& error) const;
     void believe();
 
     Lattice lattice_;
@@ -104,6 +120,7 @@ private:
     Wanted wanted_;
     std::vector<Record> records_;
     std::vector<Trial> trials_;  // of the records
+    std::vector<Answer> answers_;  // of families that answer alike
     std::vector<Floor> floors_, others_;
     std::vector<char> coarse_, measured_, ruled_out_;
     bool fine_ = true;

@@ -48,6 +48,9 @@ struct Family {
     // It can store any function as exactly as its own axes allow, so that with their last steps it errs by its light
     // rays and its filter only.
     bool faithful = false;
+    // An earlier family of the same technique whose words differ only in how the same map is laid out: their settings
+    // err alike.
+    std::optional<std::size_t> answers_as = {};
     // It stores no map: its bytes and its builds cost nothing, and so answer nothing. Only its lookups compete.
     bool mapless = false;
 };
@@ -95,8 +98,10 @@ public:
     // About how many seconds measure() would take now, to order the work: the light rays, unless they are there
     // already, and the rest. Above 0.
     virtual double effort(const Point& point) const = 0;
+    // No point takes less. Above 0.
+    virtual double least_effort() const = 0;
     // About how many seconds more confirm() would take for this point, if it also confirms `others`: light rays that
-    // points share are captured once. Besides timing its lookups.
+    // points share are captured once.
     virtual double confirm_effort(const Point& point, std::span<const Point> others) const = 0;
     // A lower bound of a cost that is known without measuring; 0 if nothing is known.
     virtual double at_least(const Point& point, Cost cost) const = 0;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/parallel.h"
+
 namespace shadowbench::recommend {
 namespace {
 
@@ -13,6 +15,8 @@ constexpr double level_sd = 2.0;
 constexpr double range = 3.0;                                // how far a bend reaches, coarse steps
 constexpr double bends[] = {0.05, 0.1, 0.2, 0.4, 0.8, 1.6};  // those tried
 constexpr double noises[] = {1.0, 0.25};                     // likewise, as shares of the most
+
+constexpr std::size_t chunk = 32;  // blocks of points that a thread takes at once
 
 // Matern's correlation of smoothness 5/2.
 double correlation(double distance) {
@@ -101,19 +105,83 @@ void Model::fit(const std::vector<std::vector<double>>& positions, std::span<con
 }
 
 Estimate Model::at(std::span<const double> position) const {
+    std::vector<Estimate> estimate;
+    const Model* const self = this;
+    at_all({&self, 1}, position, position.size(), {&estimate, 1});
+    return estimate.front();
+}
+
+// `sums` of the coordinates of each point, and of their squares.
+void Model::at_some(const std::vector<Relation>& relations, const Lanes& sums, const Lanes& squares, Lanes& mean,
+                    Lanes& variance) const {
     const std::size_t n = positions_.size();
-    Estimate estimate{trend(position), 0.0};
-    std::vector<double> half(n);
-    double variance = covariance(position, position).with(bend_);
-    for (std::size_t i = 0; i < n; ++i) {
-        half[i] = covariance(position, positions_[i]).with(bend_);
-        estimate.mean += half[i] * weights_[i];
-        for (std::size_t k = 0; k < i; ++k) half[i] -= factor_[i * n + k] * half[k];
-        half[i] /= factor_[i * n + i];
-        variance -= half[i] * half[i];
+    const double level = level_sd * level_sd, slope = prior_.slope_sd * prior_.slope_sd, bend = bend_ * bend_;
+    for (std::size_t p = 0; p < side_by_side; ++p) {
+        mean[p] = level_ + prior_.slope * sums[p];
+        variance[p] = level + slope * squares[p] + bend;
     }
-    estimate.sd = std::sqrt(std::max(variance, 0.0));
-    return estimate;
+    std::vector<Lanes> half(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        Lanes sum;
+        for (std::size_t p = 0; p < side_by_side; ++p) {
+            sum[p] = level + slope * relations[i].product[p] + bend * relations[i].correlation[p];
+            mean[p] += sum[p] * weights_[i];
+        }
+        for (std::size_t k = 0; k < i; ++k) {
+            const double factor = factor_[i * n + k];
+            for (std::size_t p = 0; p < side_by_side; ++p) sum[p] -= factor * half[k][p];
+        }
+        const double pivot = factor_[i * n + i];
+        for (std::size_t p = 0; p < side_by_side; ++p) {
+            half[i][p] = sum[p] / pivot;
+            variance[p] -= half[i][p] * half[i][p];
+        }
+    }
+}
+
+void Model::at_all(std::span<const Model* const> models, std::span<const double> points, std::size_t axes,
+                   std::span<std::vector<Estimate>> out) {
+    const std::size_t count = points.size() / axes;
+    for (std::vector<Estimate>& estimates : out) estimates.resize(count);
+    const std::vector<std::vector<double>>& positions = models.front()->positions_;
+    const auto estimate = [&](std::size_t block) {
+        const std::size_t first = block * side_by_side, used = std::min(side_by_side, count - first);
+        std::vector<Lanes> at(axes);  // lanes beyond those used repeat the first point
+        Lanes sums{}, squares{}, mean, variance;
+        for (std::size_t p = 0; p < side_by_side; ++p)
+            for (std::size_t a = 0; a < axes; ++a) {
+                at[a][p] = points[(first + (p < used ? p : 0)) * axes + a];
+                sums[p] += at[a][p];
+                squares[p] += at[a][p] * at[a][p];
+            }
+        std::vector<Relation> relations(positions.size());
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            Lanes product{}, distance{};
+            for (std::size_t a = 0; a < axes; ++a) {
+                const double of = positions[i][a];
+                for (std::size_t p = 0; p < side_by_side; ++p) {
+                    product[p] += at[a][p] * of;
+                    distance[p] += (at[a][p] - of) * (at[a][p] - of);
+                }
+            }
+            relations[i].product = product;
+            for (std::size_t p = 0; p < side_by_side; ++p)
+                relations[i].correlation[p] = correlation(std::sqrt(distance[p]));
+        }
+        for (std::size_t m = 0; m < models.size(); ++m) {
+            models[m]->at_some(relations, sums, squares, mean, variance);
+            for (std::size_t p = 0; p < used; ++p)
+                out[m][first + p] = {mean[p], std::sqrt(std::max(variance[p], 0.0))};
+        }
+    };
+    const std::size_t blocks = (count + side_by_side - 1) / side_by_side, chunks = (blocks + chunk - 1) / chunk;
+    if (chunks <= 1) {
+        for (std::size_t block = 0; block < blocks; ++block) estimate(block);
+        return;
+    }
+    base::parallel_for(chunks, [&](std::size_t c) {
+        for (std::size_t block = c * chunk; block < std::min((c + 1) * chunk, blocks); ++block) estimate(block);
+    });
 }
 
 }  // namespace shadowbench::recommend

@@ -2,6 +2,8 @@
 // Williams 2006, algorithm 2.1; a linear trend with uncertain slopes as in their section 2.7).
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -29,14 +31,26 @@ public:
     void fit(const std::vector<std::vector<double>>& positions, std::span<const double> values,
              std::span<const double> doubts = {});
     Estimate at(std::span<const double> position) const;
+    // The estimates of models of the same positions at many points: out[m][p] is that of model m at point p, whose
+    // coordinates are from p * axes on. On several threads.
+    static void at_all(std::span<const Model* const> models, std::span<const double> points, std::size_t axes,
+                       std::span<std::vector<Estimate>> out);
 
 private:
+    // What the covariances of some points with one position are made of. They are estimated side by side.
+    static constexpr std::size_t side_by_side = 8;
+    using Lanes = std::array<double, side_by_side>;
+    struct Relation {
+        Lanes product, correlation;
+    };
     struct Covariance {
         double trend, correlation;
         double with(double bend) const { return trend + bend * bend * correlation; }
     };
     Covariance covariance(std::span<const double> a, std::span<const double> b) const;
     double trend(std::span<const double> position) const;
+    void at_some(const std::vector<Relation>& relations, const Lanes& sums, const Lanes& squares, Lanes& mean,
+                 Lanes& variance) const;
     double factorise();  // logarithm of the likelihood, but for a constant
 
     Prior prior_;

@@ -96,6 +96,8 @@ std::optional<Point> Search::seemingly_most_promising(std::size_t& open, bool& t
     for (std::size_t f = 0; f < families_.size(); ++f)
         for (const Open& one : open_points(f)) {
             ++open;
+            // Efforts take long to foresee for so many points.
+            if (one.gain <= lab_.least_effort() * std::max(most, least_promise / spent_)) continue;
             const Point& point = families_[f].lattice().point(one.index);
             const double effort = lab_.effort(point), worth = one.gain / effort;
             if (worth <= std::max(most, least_promise / spent_)) continue;

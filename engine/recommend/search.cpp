@@ -14,6 +14,7 @@ namespace shadowbench::recommend {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t not_shared = std::numeric_limits<std::size_t>::max();
 
 constexpr int confirm_rounds = 8;
 constexpr double first_round_share = 0.6;  // of the time left to confirm: other rounds may follow
@@ -24,13 +25,10 @@ constexpr double safe_share = 0.3;
 // Of the whole time, that timing lookups again may take, but at most this share of the time left; and how many are.
 constexpr double again_share = 0.1, again_share_left = 0.3;
 constexpr std::size_t most_again = 12;
-constexpr double seconds_again = 0.2;  // of one, besides building its map
+constexpr double seconds_again = 0.3;  // of one, besides building its map
 // Of the whole time, that exploring leaves at least and at most; in between it leaves so many times what confirming the
 // best settings takes.
-constexpr double least_reserve = 0.25, most_reserve = 0.45, reserved_rounds = 2.0;
-// If time is limited, trials are asked to err so many times less before anything is confirmed: the upper ends of confirmed
-// errors lie above the errors of trials by about this much, and there may be no time for another round.
-constexpr double first_growth = 1.02;
+constexpr double least_reserve = 0.25, most_reserve = 0.45, reserved_rounds = 1.6;
 
 }  // namespace
 
@@ -39,7 +37,7 @@ Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
     found_.goal = goal;
     found_.families = {lab.families().begin(), lab.families().end()};
     found_.scout = lab.scout();
-    wanted_ = {goal.error, std::isfinite(goal.budget) ? goal.error / first_growth : goal.error, goal.at_most};
+    wanted_ = {goal.error, goal.error / growth(found_), goal.at_most};
     const int rungs = ladder_rungs(found_.families);
     for (std::size_t i = 0; i < found_.families.size(); ++i) {
         families_.emplace_back(found_.families[i], i, lab);
@@ -68,8 +66,10 @@ double Search::reserve() const {
         if (found_.goal.asked[k] && best && std::find(points.begin(), points.end(), *best) == points.end())
             points.push_back(*best);
     }
-    double seconds = again_share * whole_time();
-    for (const Point& point : points) seconds += reserved_rounds * lab_.confirm_effort(point, {});
+    double seconds = again_share * whole_time(), once = 0.0;
+    for (const Point& point : points) once += lab_.confirm_effort(point, {});
+    if (!found_.confirmed.empty()) return once;  // what is found after the first round is confirmed in one
+    seconds += reserved_rounds * once;
     return std::clamp(seconds, least_reserve * whole_time(), most_reserve * whole_time());
 }
 
@@ -102,9 +102,22 @@ void Search::measure(const Point& point) {
     Trial trial = lab_.measure(point);
     if (trial.failed.empty() && !std::isfinite(trial.error)) trial.failed = "its error is not finite";
     families_[point.family].add(point, trial);
-    if (trial.failed.empty()) note_floor(point, trial.error);
+    if (trial.failed.empty()) {
+        note_floor(point, trial.error);
+        tell_alike(point, trial.error);
+    }
     found_.measured.push_back({point, std::move(trial)});
     update(point.family);
+}
+
+// Families that answer alike err as this one does. They are brought up to date when one of their points comes next.
+void Search::tell_alike(const Point& point, double error) {
+    const auto first = [&](std::size_t family) { return found_.families[family].answers_as.value_or(family); };
+    for (std::size_t i = 0; i < families_.size(); ++i) {
+        if (i == point.family || first(i) != first(point.family)) continue;
+        families_[i].add_answer(point.step, error);
+        shared_[i] = not_shared;
+    }
 }
 
 // If the light rays of this point certainly err too much, they do so for all families.
@@ -156,18 +169,32 @@ void Search::share_floors(std::size_t family) {
 }
 
 // Trials time one map at a time, so that they rank lookups by chance that differ by less than the machine's noise. The
-// fastest are timed again in turns before a few of them are confirmed.
+// fastest are timed again in turns before a few of them are confirmed; and then those that seemed slower than the fastest,
+// if it turns out to be slower than they seemed.
 void Search::time_again() {
-    if (!found_.goal.asked[static_cast<std::size_t>(Cost::lookup)] || stopped()) return;
+    if (!found_.goal.asked[static_cast<std::size_t>(Cost::lookup)]) return;
     double most_seconds = std::min(again_share * whole_time(), again_share_left * left());
-    std::vector<Point> points;
-    for (const Point& point : to_time_again(found_.families, families_, incumbents_)) {
-        const double seconds = lab_.effort(point) + seconds_again;
-        if (points.size() == most_again || seconds > most_seconds) continue;
-        most_seconds -= seconds;
-        points.push_back(point);
+    while (!stopped()) {
+        std::vector<Point> points;
+        for (const Point& point : to_time_again(found_.families, families_, incumbents_)) {
+            const double seconds = lab_.effort(point) + seconds_again;
+            if (points.size() == most_again || seconds > most_seconds) continue;
+            most_seconds -= seconds;
+            points.push_back(point);
+        }
+        if (std::all_of(points.begin(), points.end(), [&](const Point& point) { return is_timed_again(point); })) return;
+        if (!time_in_turns(points)) return;
     }
-    if (points.size() < 2) return;
+}
+
+bool Search::is_timed_again(const Point& point) const {
+    const std::span<const Record> records = families_[point.family].records();
+    return std::any_of(records.begin(), records.end(),
+                       [&](const Record& record) { return record.timed_again && record.step == point.step; });
+}
+
+// Returns false if none could be timed.
+bool Search::time_in_turns(const std::vector<Point>& points) {
     report(Stage::confirming, points.size());
     const std::vector<std::optional<double>> times = lab_.time_again(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -177,12 +204,18 @@ void Search::time_again() {
             if (measured.point == points[i]) measured.trial.cost[static_cast<std::size_t>(Cost::lookup)] = *times[i];
     }
     update_all();
+    return std::any_of(times.begin(), times.end(), [](const std::optional<double>& time) { return time.has_value(); });
 }
 
 bool Search::is_best(const Point& point) const {
     for (std::size_t k = 0; k < costs; ++k)
         if (found_.goal.asked[k] && incumbents_.best[k] == point) return true;
     return false;
+}
+
+bool Search::is_confirmed(const Point& point) const {
+    return std::any_of(found_.confirmed.begin(), found_.confirmed.end(),
+                       [&](const Answered& answered) { return answered.point == point; });
 }
 
 // The best points, for each of them one that is safe, and those of the others that take a small share of these seconds.
@@ -218,7 +251,7 @@ void Search::confirm() {
         const double round_share = round == 0 ? first_round_share : 1.0;
         const std::vector<Point> points =
             affordable(to_confirm(found_.families, families_, found_.goal.asked, incumbents_), round_share * left());
-        if (points.empty()) return;
+        if (std::all_of(points.begin(), points.end(), [&](const Point& point) { return is_confirmed(point); })) return;
         if (static_cast<double>(points.size()) * seconds_a_point > left()) {
             found_.end = End::budget;
             return;

@@ -3,7 +3,8 @@
 // 1. Every family climbs from its cheapest to its most accurate setting, all axes together, by coarse steps, until it
 //    reaches the error or gets no better. All families meet the same light rays on the way. This gives each technique's
 //    curve of cost against error, and the first settings that are good enough.
-//    A faithful family then probes light rays to both sides of the climbs.
+//    A faithful family then probes light rays to both sides of the climbs, and families with several axes of their own
+//    probe each of these.
 // 2. A model of each family (kriging of the logarithms: constrained expected improvement after Schonlau, Welch and Jones
 //    1998) says where a cheaper setting may be good enough. The point with the most expected gain for its effort is
 //    measured next, first among points that are coarse steps apart, then among all, until no point is left that has a

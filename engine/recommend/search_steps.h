@@ -31,6 +31,7 @@ private:
     bool fits(double seconds) const { return seconds <= left_to_explore(); }
     void measure(const Point& point);
     void note_floor(const Point& point, double error);
+    void tell_alike(const Point& point, double error);
     std::array<double, costs> limits(std::size_t family) const;
     void update_one(std::size_t family);
     void update(std::size_t family);
@@ -47,6 +48,9 @@ private:
     };
     std::optional<Point> best_witness() const;
     void probe();
+    void probe_light_rays();
+    void probe_own_axes();
+    void probe_at(const Point& point);
     double gain(std::size_t family, std::size_t index, bool likely) const;
     bool answered() const;
     const std::vector<Open>& open_points(std::size_t family);
@@ -59,7 +63,10 @@ private:
     void try_variants();
 
     void time_again();
+    bool is_timed_again(const Point& point) const;
+    bool time_in_turns(const std::vector<Point>& points);
     bool is_best(const Point& point) const;
+    bool is_confirmed(const Point& point) const;
     std::vector<Point> affordable(const ToConfirm& wanted, double seconds);
     void confirm();
 

@@ -87,6 +87,15 @@ std::vector<ParameterValues> combinations(const Technique& row) {
     return all;
 }
 
+// The words that answers depend on.
+std::string words_of_answers(const Technique& row, const ParameterValues& values) {
+    std::string words;
+    for (const Trade& trade : row.traits.trades)
+        if (trade.scale == Trade::Scale::choice && !trade.only_layout)
+            words += text_of(values.values.at(trade.parameter)) + ' ';
+    return words;
+}
+
 }  // namespace
 
 std::vector<Axis> Space::Rays::axes() const {
@@ -142,6 +151,11 @@ void Space::add_families(const Technique& row, const Rays& rays) {
         if (!scout_ && !row.promises.opaque_only && !row.traits.traces &&
             row.error_bound(choice.values, rays::MapLayout()) <= exact)
             scout_ = families_.size();
+        const std::string answers = words_of_answers(row, choice.values);
+        const auto alike = std::find_if(choices_.begin(), choices_.end(), [&](const Choice& other) {
+            return other.row == &row && words_of_answers(row, other.values) == answers;
+        });
+        if (alike != choices_.end()) family.answers_as = static_cast<std::size_t>(alike - choices_.begin());
         families_.push_back(std::move(family));
         choices_.push_back(std::move(choice));
     }

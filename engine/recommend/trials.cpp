@@ -33,6 +33,8 @@ constexpr double most_rays = 1 << 28;               // of one map; more take man
 constexpr double quickly_checked_rays = 1 << 18;    // of a map whose functions a short measurement checks
 constexpr std::size_t quickly_checked_cells = 256;  // of it
 constexpr std::size_t checked_cells = 4096;         // of any map, if the error of the stored functions is asked for
+constexpr double large_map = 64e6;        // bytes
+constexpr double large_pixels = 1 << 16;  // of a map that may be so large
 constexpr std::size_t most_kept = 12;               // maps, for settings that differ only in their lookups
 
 Contender contender_of(const Setting& setting) {
@@ -130,19 +132,39 @@ double Trials::effort(const Point& point) const {
     return rest_of_a_trial + build_seconds(point) + (store_->kept(own) ? 0.0 : store_->estimate_seconds(own));
 }
 
-// What building and judging the map takes, as far as maps of the technique tell; 0 before the first.
+double Trials::least_effort() const {
+    return rest_of_a_trial;
+}
+
+// What building and judging the map takes, as far as maps of the technique tell, and large maps of any.
 double Trials::build_seconds(const Point& point) const {
     const base::Vec2i sides = space_->resolution(point);
-    const double rays = static_cast<double>(sides.x) * sides.y * space_->samples(point);
+    const double pixels = static_cast<double>(sides.x) * sides.y;
     const auto before = efforts_.find(&space_->row(point.family));
     const bool grows = space_->uses_rays(point.family) && before != efforts_.end() && before->second.rays > 0.0;
-    return grows ? rays * before->second.seconds / before->second.rays : 0.0;
+    const double by_rays = grows ? pixels * space_->samples(point) * before->second.seconds / before->second.rays : 0.0;
+    // Maps of few pixels are not large: no setting is made for them.
+    if (pixels < large_pixels) return by_rays;
+    const double bytes = at_least(point, Cost::bytes);
+    return bytes < large_map ? by_rays : std::max(by_rays, bytes * large_seconds_ / large_bytes_);
 }
 
 double Trials::at_least(const Point& point, Cost cost) const {
     if (cost != Cost::bytes) return 0.0;
-    const Setting setting = space_->setting(point);
-    return least_bytes(setting, layout(setting));
+    const std::vector<Axis>& axes = families()[point.family].axes;
+    std::size_t index = 0, points = 1;
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+        index = index * axes[a].values.size() + static_cast<std::size_t>(point.step[a]);
+        points *= axes[a].values.size();
+    }
+    least_bytes_.resize(std::max(least_bytes_.size(), point.family + 1));
+    std::vector<double>& known = least_bytes_[point.family];
+    if (known.empty()) known.assign(points, -1.0);
+    if (known[index] < 0.0) {
+        const Setting setting = space_->setting(point);
+        known[index] = least_bytes(setting, layout(setting));
+    }
+    return known[index];
 }
 
 // Why a setting is not measured at all; empty: it is.
@@ -286,9 +308,16 @@ Trial Trials::measure(const Point& point) {
     const Stopwatch after_capture;
     judge_lookups(attempt);
     if (built) {
-        Effort& effort = efforts_[setting.row];
-        effort.seconds += 1e-3 * attempt.build_ms + after_capture.seconds();
-        if (attempt.rays) effort.rays += static_cast<double>(attempt.rays->source->rays());
+        const double seconds = 1e-3 * attempt.build_ms + after_capture.seconds();
+        const double bytes = static_cast<double>(contender.cell.bytes);
+        if (bytes > large_map) {
+            large_seconds_ += seconds;
+            large_bytes_ += bytes;
+        } else {
+            Effort& effort = efforts_[setting.row];
+            effort.seconds += seconds;
+            if (attempt.rays) effort.rays += static_cast<double>(attempt.rays->source->rays());
+        }
     }
     if (built && contender.ok()) check_some(attempt);
     if (contender.ok()) time_quickly(attempt);

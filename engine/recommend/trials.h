@@ -46,6 +46,7 @@ public:
     std::span<const Family> families() const override { return space_->families(); }
     std::optional<std::size_t> scout() const override { return space_->scout(); }
     double effort(const Point& point) const override;
+    double least_effort() const override;
     double confirm_effort(const Point& point, std::span<const Point> others) const override;
     double at_least(const Point& point, Cost cost) const override;
     Trial measure(const Point& point) override;
@@ -86,7 +87,8 @@ private:
     std::size_t lookups_of(const Point& point) const;
     bool time_builds(std::vector<Timed>& timed, int repetitions, const bench::Stopwatch& stopwatch,
                      double most_seconds);
-    void time_lookups(std::vector<Timed>& timed, double longest);
+    void plan_lookups(std::vector<Timed>& timed) const;
+    void time_lookups(std::vector<Timed>& timed, int least, double longest) const;
     results::LightResult* recorded(const Setting& setting);
     results::LightResult& record(const Setting& setting, const bench::StoredRays& rays);
     void keep(results::LightResult& light, const bench::Contender& contender) const;
@@ -108,10 +110,13 @@ private:
     bench::Truth truth_;
     TruthDoubt truth_doubt_;
     mutable std::map<std::pair<int, int>, rays::MapLayout> layouts_;  // by the larger side and the samples
+    mutable std::vector<std::vector<double>> least_bytes_;  // of every point of a family; negative: not yet asked for
     struct Effort {
         double seconds = 0.0, rays = 0.0;  // of attempts without their captures
     };
     std::map<const techniques::Technique*, Effort> efforts_;
+    // Of maps so large that filling their memory takes most of the time; a guess, until some were built.
+    double large_seconds_ = 0.1, large_bytes_ = 1e8;
     std::list<Kept> kept_;  // the last used one first
     std::vector<std::pair<Point, Trial>> trials_;
     std::vector<std::pair<bench::RayChoice, results::LightResult>> recorded_;

@@ -24,10 +24,13 @@ constexpr double capture_share = 0.1;  // seconds of capturing that one repetiti
 // A confirmation repeats its times until the interval of each lookup time is this narrow, as a share of the time.
 constexpr double narrow = 0.03;
 constexpr int least_repetitions = 7, most_repetitions = 101;
+constexpr int least_again = 5;        // of what is only timed again
+constexpr int shown_repetitions = 3;  // in image order, which is only shown
 constexpr double longest_pass = 0.025;   // seconds of lookups in one order
 constexpr int fewer_builds = 3;          // repetitions, if time runs out
 constexpr int shown_builds = 1;          // if build times are only shown
 constexpr double longest_timing = 15.0;  // seconds, after the least repetitions, if time is not limited
+constexpr double timing_seconds = 0.5;   // of the least repetitions of one point
 constexpr double longest_again = 2.0;    // the same, of what is only timed again
 // Shares of a confirmation's time after which it goes on with fewer seeds, if builds are asked for, and with fewer
 // builds.
@@ -74,24 +77,27 @@ bool Trials::time_builds(std::vector<Timed>& timed, int repetitions, const Stopw
     return all;
 }
 
-// Lookups in turns: every point once, then every point again, until the times are settled, or for about `longest` seconds.
-void Trials::time_lookups(std::vector<Timed>& timed, double longest) {
+void Trials::plan_lookups(std::vector<Timed>& timed) const {
     const base::ThreadLimit one_thread(1);
     for (Timed& one : timed)
         one.plan = bench::plan_lookups(one.attempt.contender.maps, asked(all_, one.attempt.frame->view).asked(),
-                                       one.lookups, scenario_->receivers.seed);
+                                       one.lookups, scenario_->receivers.seed, false);
+}
+
+// Planned lookups in random order, in turns: every point once, then every point again, until the times are settled, or
+// for about `longest` seconds, but at least `least` times.
+void Trials::time_lookups(std::vector<Timed>& timed, int least, double longest) const {
+    const base::ThreadLimit one_thread(1);
     const auto settled = [](const Timed& one) {
         const metrics::Interval interval = metrics::median_interval(one.plan.random.ns);
         return interval.high - interval.low <= narrow * metrics::median(one.plan.random.ns);
     };
     const Stopwatch stopwatch;
     for (int r = 0; r < most_repetitions; ++r) {
-        if (r >= least_repetitions &&
-            (stopwatch.seconds() > longest || std::all_of(timed.begin(), timed.end(), settled)))
-            return;
+        if (r >= least && (stopwatch.seconds() > longest || std::all_of(timed.begin(), timed.end(), settled))) return;
         if (progress_)
             progress_({"", "timing", static_cast<std::size_t>(r), static_cast<std::size_t>(most_repetitions)});
-        for (Timed& one : timed) bench::time_repetition(one.attempt.contender.maps, one.plan, r % 2 == 1);
+        for (Timed& one : timed) bench::time_order(one.attempt.contender.maps, one.plan, one.plan.random, false);
     }
 }
 
@@ -109,7 +115,8 @@ std::vector<std::optional<double>> Trials::time_again(std::span<const Point> poi
         attempt.rays = nullptr;
         if (attempt.contender.ok()) timed.push_back({i, setting, lookups_of(points[i]), std::move(attempt)});
     }
-    time_lookups(timed, longest_again);
+    plan_lookups(timed);
+    time_lookups(timed, least_again, longest_again);
     std::vector<std::optional<double>> answers(points.size());
     for (Timed& one : timed) {
         answers[one.index] = metrics::median(one.plan.random.ns);
@@ -136,7 +143,7 @@ double Trials::confirm_effort(const Point& point, std::span<const Point> others)
     });
     const double build = build_seconds(point),
                  capture = space_->uses_rays(point.family) && !captured ? store_->estimate_seconds(own) : 0.0;
-    return seeds * (capture + build + judging_seconds(point) + rest_of_a_trial) + fewer_builds * build;
+    return seeds * (capture + build + judging_seconds(point) + rest_of_a_trial) + fewer_builds * build + timing_seconds;
 }
 
 const Trial* Trials::trial_of(const Point& point) const {
@@ -208,8 +215,14 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, const Conf
     std::erase_if(timed, [&](const Timed& one) { return !answers[one.index].failed.empty(); });
     const bool builds_cut = !time_builds(timed, how.builds_asked ? least_repetitions : shown_builds, stopwatch,
                                          builds_share * how.most_seconds);
-    time_lookups(timed, std::isfinite(how.most_seconds) ? how.lookups_share * how.most_seconds : longest_timing);
+    plan_lookups(timed);
+    time_lookups(timed, least_repetitions,
+                 std::isfinite(how.most_seconds) ? how.lookups_share * how.most_seconds : longest_timing);
     for (Timed& one : timed) {
+        for (int r = 0; r < shown_repetitions; ++r) {
+            const base::ThreadLimit one_thread(1);
+            bench::time_order(one.attempt.contender.maps, one.plan, one.plan.image, false);
+        }
         Contender& contender = one.attempt.contender;
         for (const bench::LookupOrder* order : {&one.plan.image, &one.plan.random})
             bench::check_answers(contender, order->asked(), order->answers);

@@ -166,6 +166,7 @@ struct Trade {
     // choice: at least one value. A single one is set instead of the default.
     std::vector<ParameterValues::Value> choices = {};
     bool only_lookups = false;  // the finished map is the same for all values: see Map::set_lookups
+    bool only_layout = false;   // the answers are the same for all values: only bytes and times differ
 };
 
 // What generic code must know about a technique besides its promises, so that it never checks the name. The tests of

@@ -112,6 +112,17 @@ TEST(LookupPlan, warms_up_at_least_twice_whichever_goes_first) {
     }
 }
 
+// A search times only the order that it ranks by.
+TEST(LookupPlan, times_one_order_without_a_floor) {
+    const Maps maps = fake_maps(3);
+    LookupPlan plan = plan_lookups(maps, some_queries(100), 100, 3, false);
+    for (int r = 0; r < 3; ++r) time_order(maps, plan, plan.random, false);
+    EXPECT_EQ(plan.random.answers, std::vector<float>(plan.random.queries.size(), 1.0f));
+    EXPECT_EQ(plan.random.ns.size(), 3u);
+    EXPECT_TRUE(plan.random.floor_ns.empty());
+    EXPECT_TRUE(plan.image.ns.empty());
+}
+
 TEST(LookupPlan, has_no_floor_for_a_technique_without_a_map) {
     const Maps maps = fake_maps(0);
     LookupPlan plan = plan_lookups(maps, some_queries(100), 100, 3);

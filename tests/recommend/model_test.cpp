@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace shadowbench::recommend {
 namespace {
@@ -60,6 +64,32 @@ TEST(Model, SmoothsNoise) {
         const Estimate estimate = model.at(std::vector<double>{1, 1});
         EXPECT_NEAR(estimate.mean, 2.0, 1e-6);
         EXPECT_NEAR(estimate.sd, 0.07 / std::sqrt(static_cast<double>(values.size())), 0.001) << values.size();
+    }
+}
+
+// Points are estimated side by side, in blocks and on several threads: each must get what it gets by itself.
+TEST(Model, EstimatesManyPointsAsItDoesOne) {
+    const std::vector<std::vector<double>> positions{{0, 0}, {2, 1}, {4, 4}, {1, 3}, {3, 0}};
+    Model errors({-0.3, 0.4, 0.03}), times({0.3, 0.4, 0.07});
+    errors.fit(positions, std::vector<double>{0.1, -1.0, -2.5, 0.4, -0.2});
+    times.fit(positions, std::vector<double>{1.0, 1.4, 2.9, 2.1, 1.7});
+    for (const std::size_t count : {1u, 7u, 8u, 9u, 300u, 1025u}) {
+        std::vector<double> points;
+        for (std::size_t p = 0; p < count; ++p) {
+            points.push_back(0.125 * static_cast<double>(p % 41));
+            points.push_back(0.25 * static_cast<double>(p / 41));
+        }
+        const std::array models{&std::as_const(errors), &std::as_const(times)};
+        std::array<std::vector<Estimate>, 2> all;
+        Model::at_all(models, points, 2, all);
+        for (std::size_t m = 0; m < 2; ++m) {
+            ASSERT_EQ(all[m].size(), count);
+            for (std::size_t p = 0; p < count; ++p) {
+                const Estimate one = models[m]->at(std::span(points).subspan(2 * p, 2));
+                EXPECT_EQ(all[m][p].mean, one.mean);
+                EXPECT_EQ(all[m][p].sd, one.sd);
+            }
+        }
     }
 }
 

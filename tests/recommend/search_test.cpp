@@ -1,70 +1,15 @@
 // The search where laws are not smooth products of powers, and at the borders of what can be asked.
-#include "recommend/search.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.h"
 #include "base/random.h"
-#include "recommend/synthetic.h"
+#include "recommend/usual_law.h"
 
 namespace shadowbench::recommend::test {
 namespace {
-
-using Step = std::vector<int>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// Resolution, samples and one own parameter. Bytes double with every resolution step.
-Law usual(const std::string& technique, double own_scale = 0.3, double bytes = 1000.0) {
-    Law law;
-    law.family = {technique, technique, {axis("resolution", 9, 2), axis("samples", 6, 2), axis("nodes", 8, 2)}};
-    law.error = error_law({{0.3, 0.35}, {0.3, 0.35}, {own_scale, 0.4}}, 0.0);
-    law.cost = [bytes](const Step& step, Cost cost) {
-        switch (cost) {
-            case Cost::lookup: return product_law(10.0, {0.05, 0.1, 0.2}, step);
-            case Cost::bytes: return product_law(bytes, {0.69, 0.05, 0.3}, step);
-            case Cost::build: break;
-        }
-        return product_law(1.0, {0.69, 0.6, 0.1}, step);
-    };
-    return law;
-}
-
-Goal goal_of(double error) {
-    Goal goal;
-    goal.error = error;
-    return goal;
-}
-
-double found_cost(const SyntheticLab& lab, const Exploration& found, Cost cost) {
-    double least = infinity;
-    for (const Answered& answered : found.confirmed) {
-        bool good = answered.confirmed.failed.empty() && answered.confirmed.error.high <= found.goal.error;
-        for (std::size_t k = 0; k < costs; ++k)
-            good = good && answered.confirmed.interval[k].high <= found.goal.at_most[k];
-        if (good) least = std::min(least, lab.cost(answered.point, cost));
-    }
-    return least;
-}
-
-// The search finds the least bytes exactly, and times within 5 %.
-void expect_best(SyntheticLab& lab, const Goal& goal, Exploration* out = nullptr) {
-    const Exploration found = explore(lab, goal, {});
-    for (std::size_t k = 0; k < costs; ++k) {
-        const Cost cost = static_cast<Cost>(k);
-        if (!goal.asked[k]) continue;
-        const double best = cheapest(lab, goal, cost);
-        ASSERT_TRUE(std::isfinite(best));
-        EXPECT_LE(found_cost(lab, found, cost), best * (cost == Cost::bytes ? 1.0 + 1e-12 : 1.05)) << "cost " << k;
-    }
-    EXPECT_EQ(found.end, End::complete);
-    EXPECT_LT(lab.trials(), lab.points().size());
-    if (out) *out = found;
-}
 
 TEST(Search, AFloorOfTheErrorAndAxesThatDoNothingAreNoObstacle) {
     Law floor = usual("floor");
@@ -93,127 +38,6 @@ TEST(Search, CostsThatAreEqualOverSeveralSteps) {
     }
 }
 
-// Ten filters of one technique: the slowest takes 1.45 times the lookup time of the fastest, a trial is off by a seventh,
-// and there is time to confirm only once.
-TEST(Search, LookupsThatTrialsHardlyTellApartAreTimedAgain) {
-    std::vector<Law> laws;
-    for (int i = 0; i < 10; ++i) {
-        Law law = usual("technique");
-        law.family.name = "technique filter=" + std::to_string(i);
-        law.family.axes = {axis("resolution", 5, 2), axis("samples", 1, 2), axis("nodes", 2, 1)};
-        law.cost = [i](const Step& step, Cost of) {
-            return of == Cost::lookup ? 10.0 * (1.0 + 0.05 * (i * 7 % 10)) : product_law(1000.0, {0.69, 0.05, 0.3}, step);
-        };
-        laws.push_back(law);
-    }
-    Goal goal = goal_of(0.5);
-    goal.asked = {true, false, false};
-    goal.budget = 40.0;
-    int missed = 0;
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        SyntheticLab lab(laws, {0.15, 0.0, 0.0}, seed);
-        Hooks hooks;
-        hooks.seconds = [&lab] { return lab.seconds() + 10.0 * static_cast<double>(lab.confirmed()); };
-        const Exploration found = explore(lab, goal, hooks);
-        missed += found_cost(lab, found, Cost::lookup) > 1.05 * cheapest(lab, goal, Cost::lookup);
-    }
-    EXPECT_LE(missed, 5);
-}
-
-// Eight kernels of one technique that store the same map: the budget ends before all are explored. Whatever setting is
-// found, no other kernel looks it up in less time, and with fewer nodes it errs too much.
-TEST(Search, TheBestSettingIsTriedWithAllWordsAndCoarserParametersOfItsTechnique) {
-    std::vector<Law> laws;
-    for (int i = 0; i < 8; ++i) {
-        Law law = usual("technique");
-        law.family.name = "technique kernel=" + std::to_string(i);
-        const auto cost = law.cost;
-        law.cost = [cost, i](const Step& step, Cost of) {
-            return (of == Cost::lookup ? 1.0 - 0.04 * (i * 3 % 8) : 1.0) * cost(step, of);
-        };
-        laws.push_back(law);
-    }
-    for (const double budget : {12.0, 24.0, 48.0}) {
-        SyntheticLab lab(laws, {}, 1);
-        Goal goal = goal_of(0.1);
-        goal.asked = {true, false, false};
-        goal.budget = budget;
-        Hooks hooks;
-        hooks.seconds = [&lab] { return lab.seconds(); };
-        const Exploration found = explore(lab, goal, hooks);
-        ASSERT_TRUE(std::isfinite(found_cost(lab, found, Cost::lookup))) << budget;
-        for (const Answered& answered : found.confirmed) {
-            if (lab.upper_error(answered.point) > goal.error) continue;
-            if (lab.cost(answered.point, Cost::lookup) > found_cost(lab, found, Cost::lookup)) continue;
-            for (std::size_t f = 0; f < laws.size(); ++f)
-                EXPECT_GE(lab.cost({f, answered.point.step}, Cost::lookup), lab.cost(answered.point, Cost::lookup))
-                    << "budget " << budget << ", kernel " << f;
-            Point coarser = answered.point;
-            if (--coarser.step[2] >= 0) {
-                EXPECT_GT(lab.upper_error(coarser), goal.error) << "budget " << budget;
-            }
-        }
-    }
-}
-
-// Confirmed errors exceed those of trials by a twentieth, so that the best setting often errs too much, and the budget
-// ends after one round of confirming. A setting of the same light rays that errs less costs little beside it.
-TEST(Search, ASaferSettingOfTheSameLightRaysIsConfirmedBesideTheBest) {
-    class Slow : public SyntheticLab {
-    public:
-        using SyntheticLab::SyntheticLab;
-        double confirm_effort(const Point&, std::span<const Point> others) const override {
-            return others.empty() ? 10.0 : 0.5;
-        }
-        std::vector<Confirmed> confirm(std::span<const Point> points, const Confirming& how) override {
-            for (std::size_t i = 0; i < points.size(); ++i) confirming += confirm_effort(points[i], points.first(i));
-            return SyntheticLab::confirm(points, how);
-        }
-        double confirming = 0.0;  // seconds
-    };
-    Law law = usual("technique");
-    law.family.axes = {axis("resolution", 1, 2), axis("samples", 1, 2), axis("nodes", 60, 2)};
-    law.error = error_law({{0.0, 0.0}, {0.0, 0.0}, {0.3, 0.03}}, 0.0);
-    law.cost = [](const Step& step, Cost) { return product_law(10.0, {0.0, 0.0, 0.03}, step); };
-    for (int i = 0; i < 20; ++i) {
-        Slow lab({law}, {0.02, 0.0, 0.05}, 1);
-        Goal goal = goal_of(0.1 + 0.005 * i);
-        goal.asked = {true, true, false};
-        goal.budget = 14.0;
-        Hooks hooks;
-        hooks.seconds = [&lab] { return lab.seconds() + lab.confirming; };
-        EXPECT_TRUE(std::isfinite(found_cost(lab, explore(lab, goal, hooks), Cost::lookup))) << goal.error;
-    }
-}
-
-// Confirming shadow rays is slow, but without them there would be no answer.
-TEST(Search, WhereNoMapReachesTheErrorOneWithoutAMapIsConfirmedHoweverDear) {
-    Law floor = usual("floor"), traced = usual("traced");
-    floor.error = error_law({{0.3, 0.35}, {0.3, 0.35}, {0.3, 0.4}}, 0.2);
-    traced.family.mapless = true;
-    for (const double budget : {2.0, 10.0}) {
-        SyntheticLab lab({floor, traced}, {}, 1);
-        Goal goal = goal_of(0.15);
-        goal.asked = {true, true, false};
-        goal.budget = budget;
-        Hooks hooks;
-        hooks.seconds = [&lab] { return lab.seconds(); };
-        EXPECT_TRUE(std::isfinite(found_cost(lab, explore(lab, goal, hooks), Cost::lookup))) << budget;
-    }
-}
-
-// Twelve families whose errors are mostly those of the same light rays. All but the first two cost more.
-std::vector<Law> of_the_same_rays(bool faithful) {
-    std::vector<Law> laws;
-    for (int i = 0; i < 12; ++i) {
-        Law law = usual("technique " + std::to_string(i), 0.1 + 0.01 * i, i < 2 ? 1000.0 : 1500.0 + 100.0 * i);
-        law.error = error_law({{0.5, 0.35}, {0.3, 0.35}, {0.1 + 0.01 * i, 0.4}}, 0.0);
-        law.family.faithful = faithful;
-        laws.push_back(law);
-    }
-    return laws;
-}
-
 TEST(Search, LearnsFromOneFamilyWhatLightRaysLeaveToOthers) {
     for (const double error : {0.3, 0.12, 0.08}) {
         SCOPED_TRACE(error);
@@ -237,16 +61,6 @@ TEST(Search, AFamilyThatFiltersBetterThanOthersIsNotRuledOutByThem) {
         SyntheticLab lab(laws, {}, 5);
         expect_best(lab, goal_of(error));
     }
-}
-
-TEST(Search, EveryWordOfATechniqueIsTried) {
-    // Three filters of one technique: the one in the middle of the list is the best.
-    std::vector<Law> laws{usual("deep"), usual("deep"), usual("deep"), usual("other", 0.6)};
-    laws[0].error = error_law({{0.6, 0.35}, {0.3, 0.35}, {0.3, 0.4}}, 0.0);
-    laws[1].error = error_law({{0.15, 0.35}, {0.3, 0.35}, {0.3, 0.4}}, 0.0);
-    laws[2].error = error_law({{0.5, 0.35}, {0.3, 0.35}, {0.3, 0.4}}, 0.0);
-    SyntheticLab lab(laws, {}, 1);
-    expect_best(lab, goal_of(0.1));
 }
 
 TEST(Search, ATechniqueThatAlwaysFailsIsLeftAfterFewTrials) {
@@ -273,22 +87,6 @@ TEST(Search, SettingsThatFailBeyondSomeStepAreNotTheAnswer) {
             SCOPED_TRACE(testing::Message() << "axis " << failing << " from " << from);
             expect_best(lab, goal_of(0.12));
         }
-}
-
-TEST(Search, AFailureThatOnlyConfirmingShowsIsNotTheAnswer) {
-    class Late : public SyntheticLab {
-    public:
-        using SyntheticLab::SyntheticLab;
-        std::vector<Confirmed> confirm(std::span<const Point> points, const Confirming& how) override {
-            std::vector<Confirmed> answers = SyntheticLab::confirm(points, how);
-            for (std::size_t i = 0; i < points.size(); ++i)
-                if (points[i].family == 0 && points[i].step[2] >= 4) answers[i].failed = "broke its promise with seed 3";
-            return answers;
-        }
-    };
-    Late lab({usual("late", 0.25), usual("sound", 0.4)}, {}, 1);
-    const Exploration found = explore(lab, goal_of(0.1), {});
-    EXPECT_TRUE(std::isfinite(found_cost(lab, found, Cost::bytes)));
 }
 
 TEST(Search, BumpsOfAFewPercentCostAFewPercentAtMost) {
@@ -375,42 +173,6 @@ TEST(Search, TheScoutSavesWorkAndDoesNotBoundFamiliesWithoutLightRays) {
     expect_best(blind, goal_of(0.05));
     expect_best(led, goal_of(0.05));
     EXPECT_LE(led.trials(), blind.trials());
-}
-
-TEST(Search, AShortBudgetIsKeptAndStillGivesAnAnswer) {
-    SyntheticLab whole({usual("a"), usual("b", 0.5)}, {}, 1);
-    explore(whole, goal_of(0.1), {});
-    SyntheticLab lab({usual("a"), usual("b", 0.5)}, {}, 1);
-    Goal goal = goal_of(0.1);
-    goal.budget = 0.5 * whole.seconds();
-    Hooks hooks;
-    hooks.seconds = [&lab] { return lab.seconds(); };
-    const Exploration found = explore(lab, goal, hooks);
-    EXPECT_EQ(found.end, End::budget);
-    EXPECT_LT(lab.seconds(), goal.budget + 1.0);  // the trial under way is finished
-    EXPECT_TRUE(std::isfinite(found_cost(lab, found, Cost::bytes)));
-}
-
-// "slow" reaches the error only where a map takes 10 s, and five times that to confirm.
-TEST(Search, ARunnerUpThatWouldTakeMostOfTheTimeIsLeftIfTimeIsLimited) {
-    Law slow = usual("slow");
-    slow.error = error_law({{1.2, 0.35}, {0.3, 0.35}, {0.3, 0.4}}, 0.0);
-    const std::vector<Law> laws{usual("a"), slow};
-    const auto confirms_slow = [](const Exploration& found) {
-        return std::any_of(found.confirmed.begin(), found.confirmed.end(),
-                           [](const Answered& answered) { return answered.point.family == 1; });
-    };
-    SyntheticLab unlimited(laws, {}, 1);
-    EXPECT_TRUE(confirms_slow(explore(unlimited, goal_of(0.1), {})));
-    SyntheticLab lab(laws, {}, 1);
-    Goal goal = goal_of(0.1);
-    goal.budget = 60.0;
-    Hooks hooks;
-    hooks.seconds = [&lab] { return lab.seconds(); };
-    const Exploration found = explore(lab, goal, hooks);
-    EXPECT_FALSE(confirms_slow(found));
-    EXPECT_EQ(found.end, End::budget) << "the answer says that something was left";
-    EXPECT_LE(found_cost(lab, found, Cost::bytes), cheapest(lab, goal, Cost::bytes) * (1.0 + 1e-12));
 }
 
 TEST(Search, CancellingEndsBeforeTheNextMeasurement) {

@@ -141,5 +141,18 @@ TEST(Space, RefusesATechniqueThatDoesNotExist) {
     EXPECT_THROW(Space(with_resolution(64, 64), std::vector<std::string>{"depp"}), base::Error);
 }
 
+// Otherwise the search would find out the error of each layout anew.
+TEST(Space, KnowsWhichFamiliesLayOutTheSameMap) {
+    const Space space(with_resolution(64, 64), std::vector<std::string>{"pcf", "deep"});
+    const auto named = [&](const std::string& name) -> const Family& { return space.families()[family_named(space, name)]; };
+    for (const std::string factor : {"1", "3"}) {
+        const std::string words = "pcf res_factor=" + factor + " storage=";
+        EXPECT_FALSE(named(words + "raw").answers_as);
+        for (const char* layout : {"bounding_box", "tiles"})
+            EXPECT_EQ(named(words + layout).answers_as, family_named(space, words + "raw"));
+    }
+    EXPECT_FALSE(named("deep kernel=tent mip=none").answers_as) << "another kernel answers otherwise";
+}
+
 }  // namespace
 }  // namespace shadowbench::recommend

@@ -34,6 +34,10 @@ double SyntheticLab::effort(const Point& point) const {
     return captured + 0.1 * rays(point.step) + seconds_of_trial;
 }
 
+double SyntheticLab::least_effort() const {
+    return seconds_of_trial;
+}
+
 double SyntheticLab::confirm_effort(const Point& point, std::span<const Point> others) const {
     const bool shared = std::any_of(others.begin(), others.end(), [&](const Point& other) {
         return other.step[0] == point.step[0] && other.step[1] == point.step[1];

@@ -38,6 +38,7 @@ public:
     std::span<const Family> families() const override { return families_; }
     std::optional<std::size_t> scout() const override { return scout_; }
     double effort(const Point& point) const override;
+    double least_effort() const override;
     double confirm_effort(const Point& point, std::span<const Point> others) const override;
     double at_least(const Point& point, Cost cost) const override;
     Trial measure(const Point& point) override;

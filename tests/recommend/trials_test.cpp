@@ -257,5 +257,15 @@ TEST(Trials, RefuseALightThatSeesNoCaster) {
     EXPECT_THAT(error_of(document).message(), ::testing::HasSubstr("sees nothing"));
 }
 
+// Otherwise a short budget would go into filling the memory of one huge map.
+TEST(Trials, KnowThatLargeMapsTakeLonger) {
+    Trials trials = trials_of(two_layers(), {"opacity", "deep"});
+    const std::string opacity = "opacity bounds=texel filter=footprint";
+    const Point small = point_of(trials, opacity, {1024, 1, 2}), large = point_of(trials, opacity, {1024, 1, 256});
+    const double more = trials.at_least(large, Cost::bytes) - trials.at_least(small, Cost::bytes);
+    ASSERT_GT(more, 1e9);
+    EXPECT_GT(trials.effort(large) - trials.effort(small), 1e-10 * more);
+}
+
 }  // namespace
 }  // namespace shadowbench::recommend

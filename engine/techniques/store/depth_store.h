@@ -29,7 +29,7 @@ inline const Parameter storage_parameter{
     "raw",
     {"raw", "bounding_box", "tiles"}};
 // Its trade of bytes against the time of a lookup; the answers are equal.
-inline const Trade storage_trade{.parameter = "storage", .choices = {"raw", "bounding_box", "tiles"}};
+inline const Trade storage_trade{.parameter = "storage", .choices = {"raw", "bounding_box", "tiles"}, .only_layout = true};
 inline Storage read_storage(const ParameterValues& values) {
     const std::string& word = values.word("storage");
     return word == "raw" ? Storage::raw : word == "tiles" ? Storage::tiles : Storage::bounding_box;
