@@ -40,6 +40,27 @@ TEST(Crossing, MayBeNeverOrAtOnce) {
     EXPECT_EQ(of_line(-1.0, -2.0).fragments, 0.0) << "selection costs nothing";
 }
 
+TEST(Crossing, OutsideTheImagesIsOnlyKnownToLieBeyondThem) {
+    const auto within = [](std::vector<double> places, double most) {
+        std::vector<Crossing> rounds;
+        for (const double place : places) rounds.push_back({1.0, 1.0, place});
+        return crossing_within(rounds, most);
+    };
+    const Value inside = within({1.9, 2.0, 2.1, 2.2, 2.0}, 6.0);
+    EXPECT_EQ(inside.value, 2.0);
+    EXPECT_EQ(inside.low, 1.9);
+    EXPECT_EQ(inside.high, 2.2);
+    const Value beyond = within({9.0, 15.0, 16.0, never, 14.0}, 6.0);
+    EXPECT_EQ(beyond.low, 6.0);
+    EXPECT_EQ(beyond.high, never);
+    EXPECT_EQ(within({5.0, 15.0, 16.0, 20.0, 14.0}, 6.0).low, 5.0) << "part of the interval is inside";
+    const Value nowhere = within(std::vector<double>(5, never), 6.0);
+    EXPECT_EQ(nowhere.low, never);
+    EXPECT_EQ(judge_less(inside, exactly(never)).verdict, Verdict::holds);
+    EXPECT_EQ(judge_less(beyond, exactly(never)).verdict, Verdict::undecided);
+    EXPECT_EQ(judge_less(nowhere, exactly(never)).verdict, Verdict::fails);
+}
+
 TEST(Kernels, AreRequestedAsThePaperDescribesThem) {
     EXPECT_EQ(request({1, 4}), R"({"type":"multi_depth","n":1,"select":"maximum","kernel":4})");
     EXPECT_EQ(request({3, 2}), R"({"type":"multi_depth","n":3,"select":"both","kernel":2})");
