@@ -38,6 +38,10 @@ constexpr Rule rules[] = {
      "Sizes follow from the method and do not depend on the machine."},
     {"exponent", "a quantity grows as x^p", "the fitted exponent is within 0.05 of p", "within 0.25 of p",
      "0.25 separates the laws that the papers compare: 1/4, 1/2, 1."},
+    {"bound", "a quantity grows at most as x^p, or slowly: O(x^p)", "the fitted exponent is at most p + 0.05",
+     "at most p + 0.25",
+     "The counterpart of exponent with one side: what grows less than a bound keeps it. The limits are those of "
+     "exponent."},
     {"constant", "a time does not change, or only slightly", "it grows by at most a factor of 1.25",
      "by at most a factor of 2",
      "Another compiler or cache explains 1.25. A time that followed the samples, the width, the steps of a blurred "
@@ -193,6 +197,10 @@ Judged judge_size(const Value& paper, double without, const Value& measured) {
 Judged judge_exponent(double paper, const Value& measured) {
     return judge("exponent", measured, {paper - near_exponent, paper + near_exponent},
                  {paper - far_exponent, paper + far_exponent});
+}
+
+Judged judge_at_most_exponent(double paper, const Value& measured) {
+    return judge_at_most("bound", measured, paper + near_exponent, paper + far_exponent);
 }
 
 Judged judge_constant(const Value& factor) {

@@ -45,6 +45,7 @@ Judged judge_size(double paper, double without, const Value& measured);
 // The interval of the paper's value holds what is rounded to the digits that it prints.
 Judged judge_size(const Value& paper, double without, const Value& measured);
 Judged judge_exponent(double paper, const Value& measured);
+Judged judge_at_most_exponent(double paper, const Value& measured);  // "O(x^p)": what grows less keeps the bound
 Judged judge_constant(const Value& factor);
 Judged judge_growth(const Value& factor);
 Judged judge_negligible(const Value& share);

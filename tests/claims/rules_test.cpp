@@ -26,8 +26,9 @@ TEST(Rules, AreNamedOnce) {
     }
     for (const Judged& judged :
          {judge_ratio(2, exactly(2)), judge_gain(2, exactly(2)), judge_size(2, 3, exactly(2)),
-          judge_exponent(1, exactly(1)), judge_constant(exactly(1)), judge_growth(exactly(3)),
-          judge_negligible(exactly(0)), judge_less(exactly(1), exactly(2)), judge_much_less(exactly(1), exactly(2)),
+          judge_exponent(1, exactly(1)), judge_at_most_exponent(1, exactly(1)), judge_constant(exactly(1)),
+          judge_growth(exactly(3)), judge_negligible(exactly(0)), judge_less(exactly(1), exactly(2)),
+          judge_much_less(exactly(1), exactly(2)),
           judge_alike(exactly(1), exactly(1)), judge_visible(exactly(2)), judge_likeness(exactly(0)),
           judge_fit(exactly(0)), judge_unnoticed(exactly(0)), judge_offset(exactly(0)), judge_count(1, 0, 1),
           by_construction(true), not_comparable()})
@@ -74,6 +75,15 @@ TEST(Rules, ASizeIsNearerToThePapersThanToThatWithoutItsIdea) {
     EXPECT_EQ(verdict(judge_size(2, 3, exactly(1.2))), Verdict::fails);
     EXPECT_EQ(verdict(judge_size(1.55, 4.0 / 3.0, exactly(1.31))), Verdict::fails);
     EXPECT_EQ(verdict(judge_size(1.55, 4.0 / 3.0, exactly(1.45))), Verdict::holds);
+}
+
+TEST(Rules, ABoundOfGrowthHasOneSide) {
+    EXPECT_EQ(verdict(judge_at_most_exponent(0.25, exactly(0.29))), Verdict::holds);
+    EXPECT_EQ(verdict(judge_at_most_exponent(0.25, exactly(-0.5))), Verdict::holds) << "less than the bound";
+    EXPECT_EQ(verdict(judge_at_most_exponent(0.25, exactly(0.45))), Verdict::in_shape);
+    EXPECT_EQ(verdict(judge_at_most_exponent(0.25, exactly(0.55))), Verdict::fails);
+    EXPECT_EQ(verdict(judge_at_most_exponent(0.25, {0.28, 0.2, 0.36})), Verdict::undecided);
+    EXPECT_EQ(judge_at_most_exponent(0.25, exactly(0.2)).limits, "holds up to 0.3, in shape up to 0.5");
 }
 
 // 0.4 of 4.0, printed with one decimal, may be anything from 0.0875 to 0.1125.
@@ -175,6 +185,7 @@ TEST(Rules, AWiderIntervalSaysTheSameOrNothing) {
                                return judge_size({0.1, 0.0875, 0.1125}, 1.0, v);
                            },
                            [](const Value& v) { return judge_exponent(0.25, v); },
+                           [](const Value& v) { return judge_at_most_exponent(0.25, v); },
                            [](const Value& v) { return judge_constant(v); },
                            [](const Value& v) { return judge_growth(v); },
                            [](const Value& v) { return judge_negligible(v); },
