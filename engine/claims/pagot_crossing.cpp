@@ -180,8 +180,9 @@ void add_points(const Measured& measured, PaperReport& report) {
     report.claims.push_back(
         {"section 6", "the cost analysis of a 3-SM is similar: there is a point where 1-SM with 4 x 4 costs more",
          of_three.text() + "; " + measured.ratio_text(largest, three_depths), point_exists(of_three),
-         "The paper prints no number of the 3-SM. By equation 4, which it gives for both, the point would be that of "
-         "the 2-SM, q / r. So it is asked whether there is a point inside the images.",
+         "The paper calls the analysis similar and prints no number of the 3-SM. From equation 4, which it gives for "
+         "both, we derive the point of the 2-SM, q / r = 1.28 (9 / 7). It is asked whether there is a point inside the "
+         "images, wherever it lies.",
          std::move(values)});
     report.claims.push_back(
         {"section 6, equation 5", "as fragments grow, there is a point where PCF(k + r, 1) costs more than PCF(k, 2)",
