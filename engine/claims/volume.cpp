@@ -119,8 +119,8 @@ void frames_a_second(const Sets& sets, const std::vector<PassTimes>& passes, Pap
          fmt::format("frames a second: {}; 180 everywhere would take {} such threads", fmt::join(texts, ", "),
                      to_text(threads)),
          not_comparable(),
-         "Theirs is a GPU (GeForce GTX 465), ours one thread of a processor. The paper has no table of rates, and does not "
-         "say which data set had which.",
+         "Theirs is a GPU (GeForce GTX 465), ours one thread of a processor. The paper does not say which data set had "
+         "which rate.",
          rates});
 }
 

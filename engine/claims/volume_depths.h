@@ -22,8 +22,8 @@ struct TexelRay {
 // Of texels spread over a map with this layout, which has one ray a texel.
 std::vector<TexelRay> texel_rays(const scene::Scene& scene, const rays::LightView& view, const rays::MapLayout& layout);
 
-// The mean distance of the depths that the map stores from the exact ones, over all levels that the rays reach, in steps
-// of which the map has so many. (Not the rms: a ray that all but loses a level in front of a gap would rule it.)
+// The mean distance of the depths that the map stores from the exact ones, over all levels that the rays reach, in
+// steps of which the map has so many. (Not the rms: a ray that all but loses a level in front of a gap would rule it.)
 double depth_error(const bench::Maps& maps, std::span<const TexelRay> texels, int steps);
 
 }  // namespace shadowbench::claims::volume
