@@ -170,7 +170,8 @@ void add_points(const Measured& measured, PaperReport& report) {
                              "2-SM with 3 x 3 beats 1-SM with 4 x 4 beyond 1.28 fragments a cell (q = 9, r = 7)",
                              of_two.text(), judge_ratio(predicted, of_two.fragments),
                              "The paper counts texture fetches alone, of which the point is q / r by construction; "
-                             "times are judged here, and comparing a depth takes time too. " +
+                             "times are judged here, and comparing a depth takes time too. That a frame has fewer "
+                             "accesses to textures, section 7, follows from the same count. " +
                                  rounds,
                              of_two.values()});
     const auto point_exists = [](const Point& point) { return judge_less(point.fragments, exactly(never)); };

@@ -21,7 +21,8 @@ constexpr Word words[] = {
     {"substantial artifacts", "visible, much less", "Visible, and much larger than those of the paper's method."},
     {"closely, almost exactly, similar: of curves", "fit", "-"},
     {"looks like, similar results: of pictures", "likeness", "-"},
-    {"similar, about as long: of times and costs", "ratio", "Of 1, or of the value that the paper gives."},
+    {"similar, about as long: of times and costs", "ratio",
+     "Of 1, or of the value that the paper gives. An analysis that is called similar has no size: less."},
     {"as good, the same accuracy, no better, no worse", "alike", "-"},
     {"acceptable", "not comparable", "No paper says what it accepts."},
 };
