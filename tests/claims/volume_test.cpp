@@ -68,7 +68,6 @@ TEST(VolumeChannels, OfAMapAreThoseOfTheExactLightRays) {
     });
 }
 
-// A step of a bucket map is crossed anywhere in it, one of a smooth map near the place that is stored.
 TEST(VolumeDepths, AreOfRaysThatHaveLostTheLevelsThere) {
     PaperReport report;
     const Context context = quick_context(report);
@@ -124,7 +123,7 @@ TEST(VolumeCrossings, HaveANumberForEachSeed) {
         EXPECT_GT(box.all.light_apart[seed], 0.0);
         EXPECT_LT(box.all.smooth[seed], box.shadow_map[seed]);
         EXPECT_LT(box.all.smooth_depth[seed], box.all.bucket_depth[seed]);
-        EXPECT_GT(box.all.bucket_depth[seed], 0.3) << "anywhere in a step";
+        EXPECT_GT(box.all.bucket_depth[seed], 0.3) << "a level is crossed anywhere in a step";
         EXPECT_LT(box.all.bucket_depth[seed], 1.0);
         if (seed == 0) continue;
         EXPECT_NE(box.all.smooth[seed], box.all.smooth[0]) << "of other rays";
