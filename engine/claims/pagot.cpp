@@ -101,10 +101,12 @@ void measure_pagot(const Context& context) {
         "with a close view and a place of the map's cells of its own; numbers are means over these with their "
         "intervals. The paper compares pictures by eye. Here the shaded pictures are compared, pixel by pixel, of the "
         "plane in the flat scene and of all else in the curved one: their rms difference, and FLIP's mean (Andersson "
-        "et al. 2020), which weighs differences as an eye does. Errors are of visibility, where surfaces face the "
-        "light. "
+        "et al. 2020), which weighs differences as an eye does. Errors and transitions are of visibility, where "
+        "surfaces face the light: balls so much that no kernel and no footprint reaches the ball's own surface beyond "
+        "the bias, so that what a ball seems to shade of itself is no transition. "
         "Times are of the flat scene as committed, medians over rounds on one thread, where the paper used a GPU. "
-        "Table 1 keeps other depths; its claim says which. Hardware that selects depths (section 4.4) is not tested.",
+        "Table 1 keeps other depths; its claim says which. Hardware that selects depths (section 4.4), and fetching "
+        "several depths with one access to a texture (section 5), are not tested.",
         context.quick ? 256 : 512, pagot::lights, 360 / pagot::lights);
     table_1(context);
     pagot::pictures(context);

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "claims/paper.h"
 
@@ -32,6 +33,10 @@ inline constexpr double never = 1e6;  // fragments a cell
 // Of the straight line through differences in time, by least squares: those of the kernel on more depths less those of
 // the other one, over the fragments a cell. At least two different numbers of fragments.
 Crossing crossing_of(std::span<const std::pair<double, double>> differences);
+
+// The fragments a cell of the crossings of several rounds, with their interval, measured in images of up to `most`. A
+// crossing beyond them is not seen: then the interval begins at `most`, or before it, and ends at `never`.
+Value crossing_within(const std::vector<Crossing>& crossings, double most);
 
 void pictures(const Context& context);  // figures 1, 6 and 7
 void crossing(const Context& context);  // section 6, equations 5 and 6

@@ -1,7 +1,9 @@
 // Pagot, Comba, Oliveira 2004: figures 1, 6 and 7, and what the abstract says of them. The paper compares pictures with
 // each other by eye; so do the claims here, by the difference of what a camera sees.
+#include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -41,17 +43,17 @@ void looks_like(Views& views, const char* place, const Kernel& smaller, const Ke
         values.insert(values.end(), {one.rms, one.flip});
     report.claims.push_back(
         {place, fmt::format("{} looks like {}", title(smaller), title(larger)),
-         fmt::format("means over phases of the cells differ by {}: {} and {} of what {} differs; pictures in one phase "
-                     "by {}: {} and {} of it, where {} differs from itself half a cell on by {}",
+         fmt::format("means over phases of the cells differ by {}: {} and {} of what {} differs. Not judged: pictures "
+                     "in one phase by {}: {} and {} of it, where {} differs from itself half a cell on by {}",
                      apart.text_by_name(), to_text(share.rms), to_text(share.flip), title(without),
                      apart_in_one.text_by_name(), to_text(share_in_one.rms), to_text(share_in_one.flip), title(larger),
                      of_phase.text_by_name()),
-         in_readings({both(judge_likeness(share.rms), judge_likeness(share.flip)),
-                      both(judge_likeness(share_in_one.rms), judge_likeness(share_in_one.flip))}),
-         "The paper does not say how its cells lie. A kernel of an odd side lies around the middle of a cell and one "
-         "of "
-         "an even side around a corner, so that in one phase their steps lie half a cell apart, whatever the kernels "
-         "do. So the likeness is read in two ways: of the means over four phases, and of pictures in one phase.",
+         both(judge_likeness(share.rms), judge_likeness(share.flip)),
+         "A kernel of an odd side lies around the middle of a cell and one of an even side around a corner, so that in "
+         "one phase their steps lie half a cell apart, whatever the kernels do. There even the exact mean over the "
+         "larger kernel's cells, without steps, would be 0.6 of the smaller kernel's difference away at a straight "
+         "edge. So the likeness is judged by the means over four phases, where the steps of both lie at the same "
+         "places.",
          std::move(values)});
 }
 
@@ -90,21 +92,37 @@ void kernel_table(const Views& views, const char* figure, PaperReport& report) {
     report.tables.push_back(std::move(table));
 }
 
+// How far a transition's area is from the standard map's under each light, as a share of it.
+std::vector<double> off_standard(const std::vector<double>& transition, const std::vector<double>& standard) {
+    std::vector<double> off;
+    for (std::size_t i = 0; i < transition.size(); ++i) off.push_back(std::abs(transition[i] / standard[i] - 1.0));
+    return off;
+}
+
 void figure_7(Views& views, PaperReport& report) {
     const Kernel standard{1, 4}, two{2, 3}, three{3, 3};
     const Difference &of_two = views.difference(two, standard), &of_three = views.difference(three, standard);
     const Distance share = ratio(of_three.of_means, of_two.of_means),
                    in_one = ratio(of_three.in_one_phase, of_two.in_one_phase);
+    const std::vector<double>& wide = views.numbers(standard).transition;
+    const std::vector<double> two_off = off_standard(views.numbers(two).transition, wide),
+                              three_off = off_standard(views.numbers(three).transition, wide);
+    std::vector<double> nearer;
+    for (std::size_t i = 0; i < wide.size(); ++i) nearer.push_back(two_off[i] - three_off[i]);
+    const Value area = mean_of(nearer);
     report.claims.push_back(
         {"section 5, figure 7",
          "the 3-SM makes a transition closer to that of the standard map than the 2-SM does",
-         fmt::format("means over phases of the cells differ by {} (rms) and {} (FLIP) of what those of the 2-SM do, "
-                     "pictures in one phase by {} and {}",
-                     to_text(share.rms), to_text(share.flip), to_text(in_one.rms), to_text(in_one.flip)),
-         both(judge_less(share.rms, exactly(1.0)), judge_less(share.flip, exactly(1.0))),
-         "Both have kernels of 3 x 3, the standard map has 4 x 4.",
-         {share.rms, share.flip, in_one.rms, in_one.flip}});
-    const std::vector<double>& wide = views.numbers(standard).transition;
+         fmt::format("means over phases of the cells differ by {} (rms) and {} (FLIP) of what those of the 2-SM do; "
+                     "its transition's area is {} of the standard map's off, that of the 2-SM {}, so that the 3-SM is "
+                     "{} nearer. Not judged: pictures in one phase differ by {} and {}",
+                     to_text(share.rms), to_text(share.flip), to_text(mean_of(three_off)), to_text(mean_of(two_off)),
+                     to_text(area), to_text(in_one.rms), to_text(in_one.flip)),
+         in_readings({both(judge_less(share.rms, exactly(1.0)), judge_less(share.flip, exactly(1.0))),
+                      judge_less(exactly(0.0), area)}),
+         "Both have kernels of 3 x 3, the standard map has 4 x 4. The paper does not say how the transition is closer: "
+         "its words in brackets are of its width, its figure shows pictures. Both are read.",
+         {share.rms, share.flip, mean_of(three_off), mean_of(two_off), area, in_one.rms, in_one.flip}});
     const Value of_two_share = mean_ratio_of(views.numbers(two).transition, wide),
                 of_three_share = mean_ratio_of(views.numbers(three).transition, wide);
     report.claims.push_back(
@@ -114,7 +132,8 @@ void figure_7(Views& views, PaperReport& report) {
                      "covers {}",
                      to_text(of_two_share), to_text(of_three_share)),
          judge_less(of_two_share, exactly(1.0)),
-         "The area of the transitions, by which their widths are compared.",
+         "The area of the transitions, by which their widths are compared, without what balls seem to shade of "
+         "themselves.",
          {of_two_share, of_three_share}});
 }
 
@@ -126,6 +145,7 @@ struct Case {
 
     const Views::Numbers& ours() const { return views.numbers(kernel); }
     const Views::Numbers& plain() const { return views.numbers({1, kernel.side}); }
+    const Views::Numbers& larger() const { return views.numbers({1, kernel.side + 1}); }
     std::string name() const { return fmt::format("{}, {}", scene, title(kernel)); }
 };
 
@@ -159,7 +179,7 @@ void less_aliasing(const std::vector<Case>& cases, PaperReport& report) {
     for (const Case& one : cases) {
         const Value share = mean_ratio_of(one.ours().aliasing, one.plain().aliasing);
         texts.push_back(fmt::format("{}: {}", one.name(), to_text(share)));
-        judged.push_back(judge_much_less(share, exactly(1.0)));
+        judged.push_back(judge_significant(share, exactly(1.0)));
         values.push_back(share);
     }
     report.claims.push_back(
@@ -169,6 +189,26 @@ void less_aliasing(const std::vector<Case>& cases, PaperReport& report) {
          "Aliasing is what depends on where the cells lie: the difference of pictures in four phases from their mean. "
          "More outcomes make smaller steps, but more of them. The paper adds: with a small increase in cost; that is "
          "judged with section 6.",
+         std::move(values)});
+}
+
+void less_aliasing_with_smaller_kernels(const std::vector<Case>& cases, PaperReport& report) {
+    std::vector<std::string> texts;
+    std::vector<Judged> judged;
+    std::vector<Value> values;
+    for (const Case& one : cases) {
+        const Value share = mean_ratio_of(one.ours().aliasing, one.larger().aliasing);
+        texts.push_back(fmt::format("{}: {}", one.name(), to_text(share)));
+        judged.push_back(judge_less(share, exactly(1.0)));
+        values.push_back(share);
+    }
+    report.claims.push_back(
+        {"abstract", "with percentage closer filtering, several depths reduce aliasing artifacts using smaller kernels",
+         fmt::format("aliasing rms over that of a kernel on one depth with one cell more along each side: {}",
+                     fmt::join(texts, "; ")),
+         in_all(judged),
+         "These are the kernels that figures 1, 6 and 7 compare. Aliasing is that of section 1; the abstract does not "
+         "say how much less it is.",
          std::move(values)});
 }
 
@@ -186,6 +226,7 @@ void pictures(const Context& context) {
                                   {curved_views, "curved", three}};
     better_estimates(cases, report);
     less_aliasing(cases, report);
+    less_aliasing_with_smaller_kernels(cases, report);
     looks_like(flat_views, "section 1, figure 1", two, standard, report);
     looks_like(flat_views, "section 5, figure 6", three_small, {1, 3}, report);
     looks_like(flat_views, "section 5, figure 6", three, standard, report);

@@ -11,13 +11,14 @@
 
 #include "bench/queries.h"
 #include "render/render.h"
+#include "render/shading.h"
 
 namespace shadowbench::claims::pagot {
 namespace {
 
 constexpr double turn = 360.0 / lights;  // degrees
 constexpr std::size_t judged = 4096;     // receivers compared with the truth
-constexpr float faces_light = 0.1f;      // least shade of a receiver: what is turned away shows no shadow
+constexpr double faces_light = 0.1;      // least shade of a receiver: what is turned away shows no shadow
 
 // Of close views: a cell is more than a pixel wide.
 constexpr double fov_of_plane = 12.0, fov_of_balls = 20.0;  // degrees
@@ -49,6 +50,18 @@ double sum_of(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+double least_shade(const nlohmann::json& document, Surfaces surfaces) {
+    if (surfaces == Surfaces::plane) return faces_light;
+    const nlohmann::json &light = document.at("lights").at(0), &resolution = document.at("rays").at("resolution");
+    const double cells = resolution.is_array() ? resolution.at(0).get<double>() : resolution.get<double>();
+    const double distance = (vector_of(light.at("target")) - vector_of(light.at("position"))).length();
+    const double angle = light.at("angle").get<double>() * std::numbers::pi / 180.0;
+    const double cell = 2.0 * distance * std::tan(0.5 * angle) / cells;
+    const double reach = 0.5 * std::numbers::sqrt2 * widths[std::size(widths) - 1];  // cells, to a footprint's corner
+    const double slope = document.at("receivers").at("bias").get<double>() / (reach * cell);
+    return render::surface_albedo / std::sqrt(1.0 + slope * slope);
+}
 
 nlohmann::json turned(nlohmann::json document, double light_degrees, double camera_degrees) {
     turn_around_target(document.at("lights").at(0), light_degrees);
@@ -104,6 +117,7 @@ Views::Views(const Context& context, const char* scene, Surfaces surfaces, std::
     if (context.quick) set.insert(set.end(), {"rays.resolution=256", "receivers.resolution=[256,192]"});
     const nlohmann::json document = context.document(scene, set);
     note_document(context, scene, document);
+    least_shade_ = least_shade(document, surfaces_);
     // Twice the turn of the light makes another angle between the light and the camera each time.
     for (int i = 0; i < lights; ++i) {
         nlohmann::json one = turned(document, turn * i, 2.0 * turn * i);
@@ -162,7 +176,7 @@ void Views::add(const nlohmann::json& document, const scene::SearchPath& data) {
 void Views::add_numbers(const Seen& seen) {
     std::vector<std::size_t> receivers;
     for (std::size_t q = 0; q < seen.queries().size(); ++q)
-        if (on_surfaces(seen, q) && seen.shade(q) >= faces_light) receivers.push_back(q);
+        if (on_surfaces(seen, q) && seen.shade(q) >= least_shade_) receivers.push_back(q);
     std::vector<std::size_t> chosen;
     for (const std::size_t i : bench::choose_judged(receivers.size(), judged, 1)) chosen.push_back(receivers[i]);
     std::vector<techniques::Query> asked;

@@ -26,6 +26,11 @@ enum class Surfaces { plane, others };
 // The document with its first light and its camera turned around the vertical axes through their targets.
 nlohmann::json turned(nlohmann::json document, double light_degrees, double camera_degrees);
 
+// The least shade of the receivers whose errors and transitions count: they face the light. On surfaces that cast
+// shadows they face it so much that the widest footprint and the kernels, which reach less far, meet the receiver's own
+// surface nowhere nearer to the light than by the bias. What a ball seems to shade of itself is no shadow's edge.
+double least_shade(const nlohmann::json& document, Surfaces surfaces);
+
 // Where the axis of a document's first light meets the plane.
 base::Vec3d middle_of_shadow(const nlohmann::json& document);
 
@@ -58,7 +63,7 @@ public:
     struct Numbers {
         Apart half_a_cell_on;            // of its picture from that in the opposite phase
         std::vector<double> aliasing;    // rms of its pictures in all phases from their mean
-        std::vector<double> transition;  // share of the receivers that are neither lit nor dark
+        std::vector<double> transition;  // share of the receivers that count: neither lit nor dark
         // RMS error of visibility against the truth over each width.
         std::array<std::vector<double>, std::size(widths)> error;
         std::size_t best_width() const;  // the place of that at which the mean error is least
@@ -78,6 +83,7 @@ private:
     void add_numbers(const Seen& seen);
 
     Surfaces surfaces_;
+    double least_shade_ = 0.0;
     std::vector<Kernel> kernels_;
     std::vector<Measured> measured_;  // of each kernel
     std::map<std::pair<std::size_t, std::size_t>, Difference> differences_;

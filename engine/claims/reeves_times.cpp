@@ -189,7 +189,7 @@ void times(const Context& context) {
         add_image(row, passes, table, parts, report);
         if (row.rebuilt) {
             const Value share = share_of_naive(passes);
-            less.push_back(judge_less(share, exactly(1.0)));
+            less.push_back(judge_significant(share, exactly(1.0)));
             shares.push_back(share);
             measured += (measured.empty() ? "" : ", ") + to_text(share);
             const Value of_image = share_of_image(passes);

@@ -7,6 +7,7 @@
 #include "base/markdown.h"
 #include "claims/former.h"
 #include "claims/report.h"
+#include "claims/words.h"
 #include "results/settled.h"
 
 namespace shadowbench::claims {
@@ -14,7 +15,8 @@ namespace {
 
 constexpr const char* introduction =
     "Every number is measured with the scenarios and on the machine named below. Absolute times cannot be compared "
-    "between machines, so claims are about ratios of times. Numbers in brackets are 95 % intervals:\n\n"
+    "between machines, so claims are about ratios of times. Numbers in brackets are 95 % intervals; of a median of six "
+    "values, their range, which holds it with 97 %:\n\n"
     "- Of a time: the number is the median over repetitions.\n"
     "- Of a ratio of times: the number is the median of the ratios of each repetition. What is compared takes turns, "
     "so that a machine that slows down slows both. Repetitions go on until the interval is within 5 % of the ratio, or "
@@ -22,7 +24,8 @@ constexpr const char* introduction =
     "- Of an error rms: the number is the error expected over seeds of the light rays against the exact truth. The "
     "truth is a mean of rays too; its noise is taken off. The interval covers the noise of both; if the light rays are "
     "regular, only that of the truth.\n"
-    "- Of an exponent: the interval is that of the fit.\n"
+    "- Of an exponent: the interval is that of the fit, or over seeds if each of them gives an exponent; the claim or "
+    "the paper's introduction then says so.\n"
     "- Elsewhere, as for medians over scenes or means over places of the map, the paper's introduction or the title of "
     "the table says what the numbers are over.\n\n"
     "Each claim is judged by rules of the table below, by the whole interval of what is measured: *holds*, *holds in "
@@ -35,7 +38,8 @@ constexpr const char* introduction =
     "counts, but the claim holds in shape if it holds in more than half of them. *In most*: the verdict counts that "
     "more than half of the entries reach. *In all readings*: the paper's words leave open what is compared, or in "
     "which arrangement; each reading is judged, and a verdict stands only if all readings have it. Else the claim is "
-    "undecided.\n\n"
+    "undecided. An undecided part may have any verdict from the best to the worst that its interval or its readings "
+    "allow; where the claim's verdict is the same for all of these, it is decided.\n\n"
     "The captions of pictures give the rms and FLIP of each picture beside the reference, a picture of the truth: the "
     "rms in linear light over all pixels, FLIP as a display shows them. They are of one seed and have no interval, and "
     "no claim is judged by them. Where a claim compares pictures, its paper's introduction says how.\n";
@@ -55,6 +59,12 @@ std::string rules_table() {
     std::vector<std::vector<std::string>> rows;
     for (const Rule& rule : all_rules()) rows.push_back({rule.id, rule.says, rule.holds, rule.in_shape, rule.reason});
     return base::markdown_table({"rule", "the paper says", "holds if", "holds in shape if", "reason"}, rows);
+}
+
+std::string words_table() {
+    std::vector<std::vector<std::string>> rows;
+    for (const Word& word : all_words()) rows.push_back({word.words, word.rules, word.note});
+    return base::markdown_table({"the papers' words", "rule", "note"}, rows);
 }
 
 std::string rule_text(const Judged& judged) {
@@ -122,6 +132,7 @@ std::string to_markdown(std::span<const PaperReport> reports, const Conditions& 
         parts.push_back(fmt::format("{} {}", to_string(static_cast<Verdict>(verdict)), count[verdict]));
     out += fmt::format("Of {} claims: {}.\n\n## Rules\n\n", all, fmt::join(parts, ", "));
     out += rules_table();
+    out += "The same words are judged by the same rules in all papers:\n\n" + words_table();
     if (const std::string former = former_table(reports); !former.empty())
         out += fmt::format("## What became of the first verdicts\n\n{}{}", former_introduction, former);
     for (const PaperReport& report : reports) add_paper(out, report);

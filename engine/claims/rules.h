@@ -35,6 +35,7 @@ struct Judged {
     Verdict verdict = Verdict::fails;
     std::string rule;    // ids, joined by commas
     std::string limits;  // the numbers of the rule for this claim: "holds in [0.91, 1.1], in shape in [0.67, 1.5]"
+    Verdict best = Verdict::holds, worst = Verdict::fails;  // that it may be if it is undecided
 };
 
 // Of each rule below, `measured` is the quantity that the claim is about, and the whole interval of it is judged: if
@@ -45,29 +46,35 @@ Judged judge_size(double paper, double without, const Value& measured);
 // The interval of the paper's value holds what is rounded to the digits that it prints.
 Judged judge_size(const Value& paper, double without, const Value& measured);
 Judged judge_exponent(double paper, const Value& measured);
+Judged judge_at_most_exponent(double paper, const Value& measured);  // "O(x^p)": what grows less keeps the bound
 Judged judge_constant(const Value& factor);
 Judged judge_growth(const Value& factor);
 Judged judge_negligible(const Value& share);
 Judged judge_less(const Value& less, const Value& more);
 Judged judge_much_less(const Value& less, const Value& more);
+Judged judge_significant(const Value& less, const Value& more);
 Judged judge_alike(const Value& one, const Value& other);
 // `share`: the difference of two pictures over that of the picture without the paper's idea from the second.
 Judged judge_likeness(const Value& share);
-Judged judge_visible(const Value& factor);
 Judged judge_fit(const Value& largest_error);
 Judged judge_unnoticed(const Value& difference);
+Judged judge_visible(const Value& difference);
 Judged judge_offset(const Value& pixels);
 Judged judge_count(int exact, int over, int entries);  // entries that reach the number, that exceed it, of all
 Judged by_construction(bool kept);
 Judged not_comparable();
 
-// A claim of two halves: the worse of their verdicts. Does not hold is the worst, then undecided, then in shape.
+// Claims of several parts. An undecided part may have any verdict from its best to its worst. Where the claim's verdict
+// is the same for all of them, it is decided.
+
+// A claim of two halves: the worse of their verdicts. Does not hold is the worst, then not comparable, then in shape.
 Judged both(const Judged& a, const Judged& b);
-// A claim about "most cases": the verdict that more than half of the cases have at least, or undecided.
+// A claim about "most cases": the verdict that more than half of the cases have at least.
 Judged in_most(const std::vector<Judged>& cases);
-// A claim about all cases: the worst of their verdicts, but in shape if it holds in most, and undecided if it may.
+// A claim about all cases: the worst of their verdicts, but in shape if it holds in most.
 Judged in_all(const std::vector<Judged>& cases);
-// A claim whose words can be read in several ways: the verdict of all readings, or undecided if they differ.
+// A claim whose words can be read in several ways: the verdict of all readings. If they differ it is undecided, and may
+// be any of theirs.
 Judged in_readings(const std::vector<Judged>& readings);
 
 }  // namespace shadowbench::claims

@@ -95,7 +95,7 @@ void frames_a_second(const Sets& sets, const std::vector<PassTimes>& passes, Pap
         fmt::format("Times of a frame on one thread: {} lookups of one texel each for a pixel, and 512 x 512 pixels, "
                     "our choice, since the paper gives only the map's size",
                     volume::view_lookups),
-        {"data", "ms a march", "ms a build", "ms of a first pass", "ms of a second pass", "frames a second"},
+        {"data", "voxels", "ms a march", "ms a build", "ms of a first pass", "ms of a second pass", "frames a second"},
         {}};
     Value slowest = exactly(std::numeric_limits<double>::infinity());
     std::vector<std::string> texts;
@@ -103,9 +103,9 @@ void frames_a_second(const Sets& sets, const std::vector<PassTimes>& passes, Pap
     for (std::size_t i = 0; i < sets.size(); ++i) {
         const Frame frame = frame_of(sets[i], passes[i]);
         const Value rate = frame.rate();
-        table.rows.push_back({sets[i].name, to_text(frame.march), to_text(frame.build), to_text(frame.colour),
-                              to_text(frame.opacity), to_text(rate)});
-        texts.push_back(fmt::format("{} {}", sets[i].name, to_text(rate)));
+        table.rows.push_back({sets[i].name, data_sets[i].size, to_text(frame.march), to_text(frame.build),
+                              to_text(frame.colour), to_text(frame.opacity), to_text(rate)});
+        texts.push_back(fmt::format("{} of {} {}", sets[i].name, data_sets[i].size, to_text(rate)));
         rates.push_back(rate);
         slowest = least(slowest, rate);
     }
@@ -133,7 +133,8 @@ void shadows_behind(const Sets& sets, PaperReport& report) {
              list(sets,
                   [&](const MeasuredSet& m) { return fmt::format("{} / {}", to_text(plane(m)), to_text(inside(m))); }),
          in_all(judged(sets, [&](const MeasuredSet& m) { return judge_unnoticed(plane(m)); })),
-         "Behind everything a texel answers with the maximum itself. The remaining error is that of one ray a texel.",
+         "The maximum is the opacity of a whole ray: behind everything a texel answers with it alone, so it must be "
+         "that of exact rays. The remaining error is that of one ray a texel.",
          values(sets, plane)});
 }
 
@@ -149,13 +150,14 @@ void thresholds(const Sets& sets, PaperReport& report) {
     };
     report.claims.push_back(
         {"section Implementation",
-         "the depths of 10, 50 and 90 % opacity and the maximum stand for a ray's whole function",
+         "the depths of 10, 50 and 90 % opacity and the maximum are a representation of the visibility of all depths",
          "curve error max / rms / lookup error rms: " +
              list(sets, [&](const MeasuredSet& m) { return errors(fixed(m)); }) + of_avsm(4) + of_avsm(2),
          not_comparable(),
-         "The paper chooses the levels, and does not say how well they fit. Curve errors are the largest of each "
-         "function: their maximum and rms over all texels, exact for these regular rays. Fixed levels jump by 10 % at "
-         "the first and the last depth. AVSM of 4 nodes takes twice the bytes, of 2 as many.",
+         "The introduction calls deep shadow maps such a representation. The paper chooses the levels, and does not "
+         "say how well they fit: a limit would be ours. Curve errors are the largest of each function: their maximum "
+         "and rms over all texels, exact for these regular rays. Fixed levels jump by 10 % at the first and the last "
+         "depth. AVSM of 4 nodes takes twice the bytes, of 2 as many.",
          values(sets, [&](const MeasuredSet& m) { return exactly(fixed(m).curve->norms.rms); })});
 }
 

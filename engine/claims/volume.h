@@ -13,12 +13,17 @@ namespace shadowbench::claims::volume {
 struct DataSet {
     const char* name;
     const char* scenario;
+    const char* size;  // in voxels
 };
-inline constexpr DataSet data_sets[] = {
-    {"box", "volume_box"}, {"bucky", "volume_bucky"}, {"rods", "volume_rods"}, {"clouds", "volume_clouds"}};
+inline constexpr DataSet data_sets[] = {{"box", "volume_box", "64 x 64 x 64"},
+                                        {"bucky", "volume_bucky", "32 x 32 x 32"},
+                                        {"rods", "volume_rods", "64 x 64 x 64"},
+                                        {"clouds", "volume_clouds", "512 x 512 x 32"}};
 
 inline constexpr int map_steps = 512,
                      view_lookups = 128;  // the paper's: of a ray to build and to render; of a view ray
+
+inline constexpr std::array<float, 3> levels{0.1f, 0.5f, 0.9f};  // opacities
 
 // The four channels of a texel: the depths at which its function has lost 10, 50 and 90 % of the light (or all that it
 // loses, where that is less), and what it loses.

@@ -11,7 +11,6 @@
 namespace shadowbench::claims::volume {
 namespace {
 
-constexpr std::array<float, 3> levels{0.1f, 0.5f, 0.9f};
 constexpr float rounding = 1e-6f;  // of a stored opacity
 
 // The depth that a light ray has passed inside the box when it reaches z.

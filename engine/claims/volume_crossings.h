@@ -19,6 +19,7 @@ struct StepNumbers {
     std::vector<double> smooth_mean, bucket_mean;  // mean errors: above 0 too bright
     std::vector<double> apart;                     // rms difference of both maps' lookups
     std::vector<double> light_apart;               // and of their average opacities along view rays
+    std::vector<double> smooth_depth, bucket_depth;  // mean distance of the stored depths from the exact ones, steps
 };
 
 struct Crossings {

@@ -40,6 +40,7 @@ TEST(Report, EveryClaimIsARowAndVerdictsAreCounted) {
         << "a bar must not end the cell";
     EXPECT_NE(text.find("| undecided | It may be. |"), std::string::npos);
     EXPECT_NE(text.find("| gain | A is r times better than B |"), std::string::npos) << "the table of rules";
+    EXPECT_NE(text.find("| acceptable | not comparable |"), std::string::npos) << "the table of words";
     EXPECT_NE(text.find("| 1 | 2 |"), std::string::npos);
     EXPECT_NE(text.find("plots/x2000_figure1.svg"), std::string::npos);
     EXPECT_EQ(text.find("Quick run"), std::string::npos);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "claims/volume_crossings.h"
+#include "claims/volume_depths.h"
 #include "claims/volume_map.h"
 #include "claims/volume_rays.h"
 #include "rays/grid_media.h"
@@ -67,6 +68,32 @@ TEST(VolumeChannels, OfAMapAreThoseOfTheExactLightRays) {
     });
 }
 
+TEST(VolumeDepths, AreOfRaysThatHaveLostTheLevelsThere) {
+    PaperReport report;
+    const Context context = quick_context(report);
+    with_map(context, "volume_box", 24, [](const VolumeMap& map) {
+        const rays::GridMedia media(map.scenario.scene, true);
+        const std::vector<TexelRay> texels = texel_rays(map.scenario.scene, map.view, *map.maps.layout);
+        ASSERT_EQ(texels.size(), 24u * 24u) << "as many as there are";
+        int reached = 0;
+        for (const TexelRay& texel : texels)
+            for (std::size_t i = 0; i < levels.size(); ++i) {
+                if (texel.exact.most < levels[i]) continue;
+                ++reached;
+                const double z = texel.exact.depth[i];
+                base::Vec3d depth;
+                media.optical_depths(map.view, texel.x + 0.5, texel.y + 0.5, 0.0, std::span(&z, 1),
+                                     std::span(&depth, 1));
+                EXPECT_NEAR(-std::expm1(-depth.x), levels[i], 1e-4);
+            }
+        EXPECT_GT(reached, 100);
+        const double error = depth_error(map.maps, texels, map_steps);
+        EXPECT_GT(error, 0.0);
+        EXPECT_LT(error, 1.0) << "steps";
+        EXPECT_NEAR(depth_error(map.maps, texels, 2 * map_steps), 2.0 * error, 1e-9) << "of half the length";
+    });
+}
+
 TEST(VolumeViews, GoAroundTheTarget) {
     scene::Camera camera;
     camera.position = {4, 2, 0};
@@ -95,6 +122,9 @@ TEST(VolumeCrossings, HaveANumberForEachSeed) {
         EXPECT_LT(box.all.light_apart[seed], box.few.light_apart[seed]);
         EXPECT_GT(box.all.light_apart[seed], 0.0);
         EXPECT_LT(box.all.smooth[seed], box.shadow_map[seed]);
+        EXPECT_LT(box.all.smooth_depth[seed], box.all.bucket_depth[seed]);
+        EXPECT_GT(box.all.bucket_depth[seed], 0.3) << "a level is crossed anywhere in a step";
+        EXPECT_LT(box.all.bucket_depth[seed], 1.0);
         if (seed == 0) continue;
         EXPECT_NE(box.all.smooth[seed], box.all.smooth[0]) << "of other rays";
     }
