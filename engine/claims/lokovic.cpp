@@ -11,8 +11,8 @@
 namespace shadowbench::claims {
 namespace lokovic {
 
-std::string published_deep(const char* kernel, const char* search) {
-    return fmt::format(R"({{"type":"deep","compression":"published","kernel":"{}","search":"{}"}})", kernel, search);
+std::string published_deep(const char* kernel) {
+    return fmt::format(R"({{"type":"deep","compression":"published","kernel":"{}"}})", kernel);
 }
 
 // Filters over exactly the width of the lookup, with this number of samples.
@@ -63,6 +63,7 @@ void measure_lokovic(const Context& context) {
         "intervals are over the eight, too.";
     noise(context);
     three_maps(context);
+    searches(context);
     sampling(context);
     generation(context);
     vertices(context);
