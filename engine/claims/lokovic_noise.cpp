@@ -110,9 +110,9 @@ void noise(const Context& context) {
     report.claims.push_back({"section 2, figure 2a",
                              "at an isolated silhouette the expected error of N jittered samples is O(N^(-3/4))",
                              fmt::format("as N^{}", to_text(edge_exponent)),
-                             judge_at_most_exponent(-0.75, edge_exponent),
-                             "O() is a bound. A horizontal silhouette at a random height; only the parts that it "
-                             "crosses are in doubt.",
+                             judge_exponent(-0.75, edge_exponent),
+                             "A law and not only a bound: the footnote derives it with its constant. A horizontal "
+                             "silhouette at a random height; only the parts that it crosses are in doubt.",
                              {edge_exponent}});
     const Value random_exponent = random_edge.exponent(),
                 gained = edge.error(edge_at_144) / random_edge.error(edge_at_144);
@@ -121,7 +121,7 @@ void noise(const Context& context) {
                              "expected error is O(N^(-1/2))",
                              fmt::format("unstratified as N^{}; the error of 144 stratified samples is {} of theirs",
                                          to_text(random_exponent), to_text(gained)),
-                             both(judge_at_most_exponent(-0.5, random_exponent), judge_much_less(gained, exactly(1.0))),
+                             both(judge_exponent(-0.5, random_exponent), judge_much_less(gained, exactly(1.0))),
                              "By both halves; the second at about the 140 samples that the paper names.",
                              {random_exponent, gained}});
     const Value hair_gained = hair.error(fur_at_2500) / random_hair.error(0);
@@ -130,7 +130,7 @@ void noise(const Context& context) {
                              fmt::format("as N^{}; the error of 2,500 stratified samples is {} of that of unstratified "
                                          "ones",
                                          to_text(hair_exponent), to_text(hair_gained)),
-                             both(judge_at_most_exponent(-0.5, hair_exponent), judge_alike(hair_gained, exactly(1.0))),
+                             both(judge_exponent(-0.5, hair_exponent), judge_alike(hair_gained, exactly(1.0))),
                              "Hairs one cell wide cover half of the map and cross all parts of the region.",
                              {hair_exponent, hair_gained}});
     const Value edge_needs = edge.samples_for(0.01), hair_needs = hair.samples_for(0.01);
