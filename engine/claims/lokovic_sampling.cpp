@@ -118,10 +118,10 @@ void equal_samples(const Rows& measured, PaperReport& report) {
                      at_each_number(at_middles), at_each_number(over_picture), at_each_number(nearest)),
          in_readings({all_alike(at_middles), all_alike(over_picture), all_alike(nearest)}),
          "Judged at each N, in three readings. At the middles of pixels the filter is the deep map's minimum. "
-         "Elsewhere "
-         "a filter as wide as a pixel takes part of the means of up to 4 pixels, and so depth samples outside it. This "
-         "makes the deep map less noisy than the depth map, and blurs by an error that does not fall with N. Weighted "
-         "by pixel centres, as in section 3.4, a box as wide as a pixel takes the one pixel whose centre is nearest.",
+         "Elsewhere a filter as wide as a pixel takes part of the means of up to 4 pixels, and so depth samples "
+         "outside it. This makes the deep map less noisy than the depth map, and blurs by an error that does not fall "
+         "with N. Weighted by pixel centres, as in section 3.4, a box as wide as a pixel takes the one pixel whose "
+         "centre is nearest.",
          std::move(values)});
 }
 

@@ -147,9 +147,8 @@ void searches(const Context& context) {
          in_readings(reduced),
          "Evaluations of single functions in the order of lookups in image order, in figure 6's map of 256 x 256 "
          "pixels. The paper names both other searches and leaves open which one the cost is compared with. Two "
-         "readings "
-         "of where the pointers are: beside each pixel, as the paper stores them, and in a table for each batch of "
-         "lookups, as in this program, whose threads share nothing.",
+         "readings of where the pointers are: beside each pixel, as the paper stores them, and in a table for each "
+         "batch of lookups, as in this program, whose threads share nothing.",
          std::move(values)});
 }
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
-#include "bench/lookup_timing.h"
 #include "claims/answers_over_seeds.h"
 #include "claims/intervals.h"
 #include "claims/lokovic.h"
@@ -126,8 +125,7 @@ void motion(const Context& context) {
     report.claims.push_back(
         {"section 5.5",
          "with depth maps motion blur is very expensive, because of the large filters that it needs, much of which "
-         "deep "
-         "maps do in advance",
+         "deep maps do in advance",
          fmt::format("a deep lookup takes {} of the time of filtering a depth map", to_text(of_depths)),
          judge_much_less(of_depths, exactly(1.0)),
          "Of a pixel with 64 samples, each with a time of its own: a depth map compares all of them, in a region 8 of "

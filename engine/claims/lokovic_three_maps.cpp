@@ -57,10 +57,9 @@ std::string text_of(const Readings& of) {
     return text;
 }
 
-template <class Rule>
-std::vector<Judged> each_judged(const Readings& of, const Rule& rule) {
+std::vector<Judged> each_judged(const Readings& of, Judged (*judge)(const Value&)) {
     std::vector<Judged> each;
-    for (const Value& one : of) each.push_back(rule(one));
+    for (const Value& one : of) each.push_back(judge(one));
     return each;
 }
 
@@ -174,9 +173,8 @@ void costs(const ThreeMaps& maps, PaperReport& report) {
                      text_of(faster_than_subset)),
          in_readings(each_judged(all_faster, [](const Value& times) { return judge_ratio(559.0 / 37.0, times); })),
          "Judged in all readings of the deep map's size, of its filter, and of how the 400 samples are selected, at "
-         "the "
-         "paper's settings: errors are not equal, see the quality below. A lookup searches 25 functions, or 9 of 256 x "
-         "256; by pixel centres 16, or 4.",
+         "the paper's settings: errors are not equal, see the quality below. A lookup searches 25 functions, or 9 of "
+         "256 x 256; by pixel centres 16, or 4.",
          all_faster});
     report.claims.push_back(
         {"section 6, figure 6",

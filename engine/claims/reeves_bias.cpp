@@ -191,10 +191,9 @@ void add_claims(const std::vector<Effects>& effects, PaperReport& report) {
                       judge_less(off(typical), off(large))}),
          "Judged on the sphere, where surfaces lie within the bias of each other, by how far the boundary is from its "
          "true position, to either side. Two readings: over the biases of the figure, and from the figure's last to "
-         "ten "
-         "times as much. A boundary is where half of the light arrives. Below 0 the shadow is too large: where light "
-         "grazes a surface, the filter still meets the surface itself, and a larger bias first brings the boundary "
-         "nearer.",
+         "ten times as much. A boundary is where half of the light arrives. Below 0 the shadow is too large: where "
+         "light grazes a surface, the filter still meets the surface itself, and a larger bias first brings the "
+         "boundary nearer.",
          {share(without), share(small), share(typical), share(large), cast}});
     const Effects& chosen = effects[typical];
     const std::vector<Value> widths{mean_of(chosen.own.lost), mean_of(chosen.own.gained), mean_of(chosen.cast.lost),

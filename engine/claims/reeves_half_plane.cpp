@@ -168,8 +168,7 @@ void quantisation(PaperReport& report) {
                      to_text(one), to_text(three), to_text(eight), to_text(more)),
          both(both(judge_less(one, three), judge_less(three, eight)), judge_less(more, eight)),
          "Off the exact mean over the region. A sample is one step of the intensity; a wider edge has the same steps "
-         "over "
-         "more of the picture.",
+         "over more of the picture.",
          {one, three, eight, more}});
 }
 
