@@ -55,13 +55,15 @@ void measure_lokovic(const Context& context) {
         "that the filter covers. Section 3.4 weighs it by f(centre - x), which for a box takes or leaves whole pixels: "
         "where the filter matters, claims are judged over both readings. Figures 6 to 9, sections 3.3 and 3.4, "
         "vertices, biases and the sizes of mip levels use the paper's compression word for word "
-        "(compression=published), section 5.2 both. All else uses the program's default (compression=bounded), which keeps the same tolerance, and whose functions "
+        "(compression=published), section 5.2 both. All else uses the program's default (compression=bounded), which "
+        "keeps the same tolerance, and whose functions "
         "never rise and stay in [0, 1]. The dense hair of sections 2 and 4 lies at one depth. Lookups are of the whole "
         "picture, unless a claim says otherwise; the paper magnifies the shadow. The paper's times are of whole images "
         "less the time without shadows, on one processor of its day; here they are of lookups in image order, on one "
         "thread. Errors are against exact rays over the footprint that is asked for. Sizes, and the errors of section "
         "5.3, are means over three seeds of the light rays, the tiles of section 5.4 over three views, each with a "
-        "seed of its own; the errors of section 2, and that of dense hair in section 4, over eight. Exponents and numbers of samples of section 2 are read off the law of each seed: their "
+        "seed of its own; the errors of section 2, and that of dense hair in section 4, over eight. Exponents and "
+        "numbers of samples of section 2 are read off the law of each seed: their "
         "intervals are over the eight, too.";
     noise(context);
     three_maps(context);
