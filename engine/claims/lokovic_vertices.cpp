@@ -114,7 +114,8 @@ void add_table(const std::vector<Column>& columns, PaperReport& report) {
         for (const Column& column : columns) row.push_back(to_text(column.vertices.at(i)));
         table.rows.push_back(std::move(row));
     }
-    std::vector<std::string> fitted{"exponent, of the fit to the means"}, of_seeds{"exponent, mean over these seeds"};
+    std::vector<std::string> fitted{"exponent, of the fit to all means"},
+        of_seeds{fmt::format("exponent up to N = {}, mean over {} seeds", most_with_all_seeds, ray_seeds)};
     for (const Column& column : columns) {
         fitted.push_back(to_text(column.vertices.exponent()));
         of_seeds.push_back(to_text(column.vertices.exponent_over_seeds()));
@@ -152,7 +153,7 @@ void vertices(const Context& context) {
     const Value all = exponent(0), hair = exponent(1), geometry = exponent(2), smoke = exponent(3);
     const std::string fit = fmt::format(
         "Fitted over N from 16 to {:.0f}, with the paper's compression word for word; intervals are those of the fits "
-        "(Student's t), and hold what the rays of each N change. The table has the mean over three seeds, too.",
+        "(Student's t), and hold what the rays of each N change. The table has exponents over seeds, too.",
         columns.front().vertices.x(columns.front().vertices.size() - 1));
     report.claims.push_back(
         {"section 4, figure 8",
