@@ -24,7 +24,7 @@ const Cell& printed_cell(const LightResult& light, int samples, int res_factor =
 }
 
 // With ResFactor below 1, which the technique refuses: a region of this width, in cells, where the footprint has 8.
-std::string narrow(int width) {
+std::string narrower(int width) {
     return fmt::format(R"({{"type":"pcf","num_samples":16,"res_factor":1,"min_size":0,"min_samples":1,"region":{}}})",
                        width);
 }
@@ -46,8 +46,8 @@ struct Errors {
 
 void figures_6_and_7(const Context& context) {
     const std::vector<std::string> set{fmt::format(R"(techniques=[{{"type":"shadow_map"}},{},{},{},{},{},{}])",
-                                                   printed(1), printed(4), printed(16), printed(16, 8), narrow(4),
-                                                   narrow(2))};
+                                                   printed(1), printed(4), printed(16), printed(16, 8), narrower(4),
+                                                   narrower(2))};
     const results::Result timed = context.run(sphere, moved(context, sphere, 0, set), {}, Times::taken);
     Errors errors;
     errors.add(light_of(timed));
