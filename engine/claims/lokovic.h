@@ -20,10 +20,10 @@ inline constexpr const char* ball_scene = "lokovic2000_ball";
 inline constexpr const char* cloud_scene = "lokovic2000_cloud";
 inline constexpr const char* smoke_scene = "lokovic2000_smoke";
 
-// The paper's deep map: the compression of section 3.3 word for word, and one of the searches that section 3.4 names.
-// Its filter weights pixel (i, j) by f(i + 1/2 - x, j + 1/2 - y). The default kernel is of this form: f(d) is the part
-// of a pixel at distance d that the footprint covers.
-std::string published_deep(const char* kernel = "box", const char* search = "binary");
+// The paper's deep map: the compression of section 3.3 word for word. Its filter weights pixel (i, j) by
+// f(i + 1/2 - x, j + 1/2 - y). The default kernel is of this form: f(d) is the part of a pixel at distance d that the
+// footprint covers. With kernel=pixels, f is the box of the footprint itself.
+std::string published_deep(const char* kernel = "box");
 
 // Filters over exactly the width of the lookup, with this number of samples.
 std::string pcf(int samples, const char* cells);
@@ -34,6 +34,7 @@ Value bytes_of(const results::Cell& cell);  // its mean over the seeds of the li
 
 void noise(const Context& context);       // sections 2 and 4: the error of N samples
 void three_maps(const Context& context);  // section 6, figure 6
+void searches(const Context& context);    // section 3.4: the segment of a function that holds a depth
 void sampling(const Context& context);    // section 6, figure 7
 void generation(const Context& context);  // sections 4, 5.1 and 6: the time to make a map
 void vertices(const Context& context);    // section 4, figure 8

@@ -120,7 +120,8 @@ double filtering_error(const Cover& cover, int width, int samples, int lookups, 
     return rms_error(cover, queries, 1.0, look_up("pcf", parameters, cover.rays(), z_max, queries));
 }
 
-double deep_error(const Cover& cover, int samples_per_pixel, double pixels, int lookups, std::uint64_t seed) {
+double deep_error(const Cover& cover, int samples_per_pixel, double pixels, int lookups, std::uint64_t seed,
+                  const char* kernel) {
     rays::MapLayout layout;
     layout.width = layout.tile_width = layout.height = layout.tile_height = deep_side;
     layout.jittered = true;
@@ -148,7 +149,9 @@ double deep_error(const Cover& cover, int samples_per_pixel, double pixels, int 
     const std::vector<Query> queries = places(deep_side, width, deep_side - width, lookups, seed);
     const rays::LightView view;
     const techniques::Technique& row = techniques::find("deep", "");
-    const auto map = row.create(techniques::read_parameters(row.parameters, nlohmann::json::object(), ""));
+    nlohmann::json parameters;
+    parameters["kernel"] = kernel;
+    const auto map = row.create(techniques::read_parameters(row.parameters, parameters, ""));
     map->begin({layout, view, nullptr});
     map->add(tile);
     map->finish();

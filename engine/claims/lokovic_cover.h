@@ -40,7 +40,8 @@ double filtering_error(const Cover& cover, int width, int samples, int lookups, 
                        const char* placement = "jittered");
 
 // The same for a deep shadow map of 16 x 16 pixels with this number of jittered light rays each, over squares with the
-// area of `pixels` pixels, at random places.
-double deep_error(const Cover& cover, int samples_per_pixel, double pixels, int lookups, std::uint64_t seed);
+// area of `pixels` pixels, at random places. `kernel`: the technique's way to weight pixels.
+double deep_error(const Cover& cover, int samples_per_pixel, double pixels, int lookups, std::uint64_t seed,
+                  const char* kernel = "box");
 
 }  // namespace shadowbench::claims::lokovic

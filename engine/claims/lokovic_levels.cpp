@@ -1,4 +1,4 @@
-// Lokovic and Veach, Deep Shadow Maps, 2000: section 5.3, the size and the error of mip levels.
+// Lokovic and Veach, Deep Shadow Maps, 2000: section 5.3, the size of mip levels.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -13,7 +13,6 @@
 #include "claims/lokovic_filtering.h"
 #include "claims/seeded_light.h"
 #include "curves/norms.h"
-#include "metrics/statistics.h"
 #include "techniques/deep/deep.h"
 #include "techniques/deep/pixel_run.h"
 
@@ -115,7 +114,7 @@ Table level_table(const std::string& title, const std::vector<Levels>& found,
     const double first = mean_of((found[papers].*number)[0]).value;
     for (std::size_t l = 0; l < (found[papers].*number).size(); ++l) {
         std::vector<std::string> row{std::to_string(l)};
-        for (const Levels& way : found) row.push_back(fmt::format("{:.3g}", mean_of((way.*number)[l]).value));
+        for (const Levels& way : found) row.push_back(to_text(mean_of((way.*number)[l])));
         row.push_back(fmt::format("{:.3g}", first * law(static_cast<double>(l))));
         table.rows.push_back(std::move(row));
     }
@@ -137,10 +136,10 @@ void add_level_tables(PaperReport& report, const std::vector<Levels>& found) {
     report.tables.push_back(std::move(sizes));
 }
 
-// The nodes of each level of at least 8 x 8 pixels over those of two levels before.
+// The nodes of each level over those of two levels before.
 std::vector<Value> growth_over_two_levels(const Levels& found) {
     std::vector<Value> growth;
-    for (std::size_t l = 2; l + 3 < found.nodes.size(); ++l) {
+    for (std::size_t l = 2; l < found.nodes.size(); ++l) {
         std::vector<double> of_seeds;
         for (std::size_t seed = 0; seed < found.nodes[l].size(); ++seed)
             of_seeds.push_back(found.nodes[l][seed] / found.nodes[l - 2][seed]);
@@ -163,25 +162,6 @@ Value largest_error(const Levels& found, std::size_t levels) {
             of_seed[seed] = std::max(of_seed[seed], found.error[l][seed]);
     const auto [low, high] = std::minmax_element(of_seed.begin(), of_seed.end());
     return {*high, *low, *high};
-}
-
-// The map without loss, and maps whose lookups are compared with it.
-struct Filter {
-    const char* name;
-    const char* mip;
-    const char* from;
-};
-constexpr Filter filters[] = {{"no levels", "none", "compressed"},
-                              {"nearest", "nearest", "compressed"},
-                              {"blend", "blend", "compressed"},
-                              {"nearest, from samples", "nearest", "samples"},
-                              {"blend, from samples", "blend", "samples"}};
-constexpr int filter_widths[] = {1, 2, 4, 8, 16, 32};
-
-double rms_difference(std::span<const float> a, std::span<const float> b) {
-    std::vector<double> differences(a.size());
-    for (std::size_t i = 0; i < a.size(); ++i) differences[i] = static_cast<double>(a[i]) - b[i];
-    return metrics::error_norms(differences).rms;
 }
 
 }  // namespace
@@ -214,8 +194,9 @@ void levels(const Context& context) {
                      "from the uncompressed functions",
                      joined(growth), joined(growth_of_samples)),
          in_all(doubled),
-         "Of pixels that hold something, in levels of at least 8 x 8 pixels; intervals are over seeds. The means of "
-         "compressed functions have few vertices to begin with: level 1 often needs fewer than level 0.",
+         "Judged at every level, down to the single pixel of the last; of pixels that hold something. Intervals are "
+         "over seeds. The means of compressed functions have few vertices to begin with: level 1 often needs fewer "
+         "than level 0.",
          std::move(values)});
     const Value error = largest_error(published, published.error.size()), of_map = largest_error(published, 1);
     report.claims.push_back(
@@ -233,46 +214,6 @@ void levels(const Context& context) {
          by_construction(error.high <= 2.0 + 1e-4),
          "The tolerances are a geometric series. The interval is the range over seeds.",
          {error}});
-}
-
-void blends(const Context& context) {
-    const base::ThreadLimit threads(context.threads);
-    std::string list = R"({"type":"deep","tolerance":0})";
-    for (const Filter& filter : filters)
-        list += fmt::format(R"(,{{"type":"deep","mip":"{}","mip_from":"{}"}})", filter.mip, filter.from);
-    const SeededLight light(context, ball_scene, {at_64_samples, "rays.resolution=128", set_techniques(list)},
-                            {"rays.resolution=64"});
-    const bench::QuerySet all = light.queries();
-    bench::QuerySet judged = bench::pick(all.asked(), bench::choose_judged(all.queries.size(), 8192, 1));
-    std::vector<std::vector<std::vector<double>>> errors(  // [width][filter][seed]
-        std::size(filter_widths), std::vector<std::vector<double>>(std::size(filters)));
-    for (int seed = 0; seed < ray_seeds; ++seed) {
-        const std::vector<bench::Maps> maps = light.build(seed);
-        for (std::size_t w = 0; w < std::size(filter_widths); ++w) {
-            for (techniques::Query& query : judged.queries) query.width = static_cast<float>(filter_widths[w]);
-            const std::vector<float> truth = bench::lookup_all(maps[0], judged.queries);
-            for (std::size_t f = 0; f < std::size(filters); ++f)
-                errors[w][f].push_back(rms_difference(bench::lookup_all(maps[f + 1], judged.queries), truth));
-        }
-    }
-    Table table{
-        "Section 5.3: RMS error of mip-mapped lookups over the filter width, in pixels, against the exact mean of "
-        "the uncompressed functions under the filter; a map of 128 x 128 pixels, means over three seeds of the light "
-        "rays",
-        {"width"},
-        {}};
-    for (const Filter& filter : filters) table.header.push_back(filter.name);
-    table.header.push_back("blend / nearest");
-    for (std::size_t w = 0; w < std::size(filter_widths); ++w) {
-        std::vector<std::string> row{std::to_string(filter_widths[w])};
-        for (const std::vector<double>& of_seeds : errors[w]) row.push_back(to_text(mean_of(of_seeds)));
-        std::vector<double> ratio;
-        for (std::size_t seed = 0; seed < errors[w][1].size(); ++seed)
-            ratio.push_back(errors[w][2][seed] / errors[w][1][seed]);
-        row.push_back(to_text(mean_of(ratio)));
-        table.rows.push_back(std::move(row));
-    }
-    context.report->tables.push_back(std::move(table));
 }
 
 }  // namespace shadowbench::claims::lokovic

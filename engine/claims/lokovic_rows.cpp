@@ -31,18 +31,26 @@ std::string both_maps(int samples) {
 }
 
 Row measure_row(const Context& context, int samples) {
-    const results::Result result = context.run(ball_scene, settings_of_row(samples), smaller_row());
+    const std::string more = "," + published_deep("pixels") + R"(,{"type":"deep","tolerance":0})";
+    const results::Result result = context.run(ball_scene, settings(samples, both_maps(samples) + more), smaller_row());
     const LightResult& light = light_of(result);
-    const Cell &deep = cell_of(light, "deep"), &depth = cell_of(light, "pcf");
-    return {samples, bytes_of(deep), bytes_of(depth), error_of(deep), error_of(depth), deep.nodes.mean()};
+    const Cell &deep = cell_of(light, "deep", {"compression=published", "kernel=box"}),
+               &nearest = cell_of(light, "deep", {"compression=published", "kernel=pixels"}),
+               &lossless = cell_of(light, "deep", {"compression=bounded"}), &depth = cell_of(light, "pcf");
+    return {samples,        bytes_of(deep),  bytes_of(depth),   bytes_of(lossless),
+            error_of(deep), error_of(depth), error_of(nearest), deep.nodes.mean()};
 }
 
-// The maps of a row, and a third: the depth map filtered over all its samples.
-enum Map { deep_map, depth_map, all_of_depth_map };
+// The maps of a row in the order of Rows, and a fourth: the depth map filtered over all its samples. In the middle of a
+// pixel that one answers the pixel's function before it is compressed.
+enum Map { deep_map, depth_map, nearest_map, all_of_depth_map };
 
 struct Built {
     Built(const Context& context, int samples)
-        : light(context, ball_scene, settings(samples, both_maps(samples) + "," + placed_pcf(samples, "subset")), {}),
+        : light(context, ball_scene,
+                settings(samples,
+                         both_maps(samples) + "," + published_deep("pixels") + "," + placed_pcf(samples, "subset")),
+                {}),
           maps(light.build(0)) {}
 
     SeededLight light;
@@ -62,7 +70,7 @@ std::vector<Query> middles_of(const bench::QuerySet& image) {
 AtMiddles measure_middles(const Built& built, int samples, std::span<const Query> middles, const bench::Truth& truth) {
     const double tolerance = 0.25 / std::sqrt(static_cast<double>(samples));
     AtMiddles found;
-    AnswersOverSeeds deep(truth), depth(truth);
+    AnswersOverSeeds deep(truth), depth(truth), uncompressed(truth);
     const auto add = [&](const std::vector<bench::Maps>& maps) {
         const std::vector<float> answers = bench::lookup_all(maps[deep_map], middles),
                                  all = bench::lookup_all(maps[all_of_depth_map], middles);
@@ -70,12 +78,14 @@ AtMiddles measure_middles(const Built& built, int samples, std::span<const Query
             found.difference =
                 std::max(found.difference, std::abs(static_cast<double>(answers[q]) - all[q]) / tolerance);
         deep.add(answers);
+        uncompressed.add(all);
         depth.add(bench::lookup_all(maps[depth_map], middles));
     };
     add(built.maps);
     for (int seed = 1; seed < ray_seeds; ++seed) add(built.light.build(seed));
     found.depth_error = depth.rms();
     found.ratio = deep.over(depth);
+    found.compressed = deep.over(uncompressed);
     return found;
 }
 
@@ -84,9 +94,13 @@ Turns time_lookups(const std::vector<std::unique_ptr<const Built>>& rows, const 
     std::vector<TimedLookups> timed;
     std::vector<Compared> compared{{Rows::depth(most), Rows::depth(few)}};
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        for (const Map map : {deep_map, depth_map}) timed.push_back({&rows[row]->maps[map], asked.asked()});
-        compared.push_back({Rows::deep(row), Rows::depth(row)});
-        if (row > few) compared.push_back({Rows::deep(row), Rows::deep(few)});
+        for (const Map map : {deep_map, depth_map, nearest_map})
+            timed.push_back({&rows[row]->maps[map], asked.asked()});
+        for (const std::size_t deep : {Rows::deep(row), Rows::nearest(row)})
+            compared.push_back({deep, Rows::depth(row)});
+        if (row <= few) continue;
+        compared.push_back({Rows::deep(row), Rows::deep(few)});
+        compared.push_back({Rows::nearest(row), Rows::nearest(few)});
     }
     return lookup_turns(timed, compared);
 }

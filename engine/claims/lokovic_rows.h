@@ -19,9 +19,10 @@ inline constexpr std::size_t few = 1, sixteen = 2, most = std::size(all_samples)
 // Two maps of as many samples. Errors are over all places of the picture.
 struct Row {
     int samples;
-    Value deep_bytes, depth_bytes;
+    Value deep_bytes, depth_bytes, lossless_bytes;  // the last: of a deep map that is not compressed
     Value deep_error, depth_error;
-    double nodes;  // a pixel of the deep map
+    Value nearest_error;  // of the deep map, where a lookup reads the pixel whose centre is nearest
+    double nodes;         // a pixel of the deep map
 };
 
 // The same maps at the middles of pixels. There a deep lookup reads one function, and this is the mean of exactly the
@@ -29,6 +30,7 @@ struct Row {
 struct AtMiddles {
     Value depth_error;
     Value ratio;              // the deep map's error over the depth map's: the mean of the ratios of each seed
+    Value compressed;         // and over that of the same functions before they are compressed
     double difference = 0.0;  // the largest, in tolerances, from percentage closer filtering of all those samples
 };
 
@@ -37,10 +39,12 @@ struct Rows {
     std::vector<AtMiddles> middles;
     Turns ns;  // a lookup in the maps of each row, at all places of the picture
 
-    static std::size_t deep(std::size_t row) { return 2 * row; }  // the places of its maps among the turns
-    static std::size_t depth(std::size_t row) { return 2 * row + 1; }
+    static std::size_t deep(std::size_t row) { return 3 * row; }  // the places of its maps among the turns
+    static std::size_t depth(std::size_t row) { return 3 * row + 1; }
+    static std::size_t nearest(std::size_t row) { return 3 * row + 2; }  // the deep map, by the nearest centre
     // The deep map's time over the depth map's.
     Value slower(std::size_t row) const { return ns.ratio(deep(row), depth(row)); }
+    Value nearest_slower(std::size_t row) const { return ns.ratio(nearest(row), depth(row)); }
 };
 Rows measure_rows(const Context& context);
 

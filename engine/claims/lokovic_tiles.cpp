@@ -21,7 +21,16 @@ using techniques::TileCounts;
 constexpr int all_slots[] = {4, 16, 64, 1024};  // the last: one for every tile
 constexpr std::size_t few = 1;                  // the place of the claim's number of slots in that list
 
-const std::vector<std::string> settings{"rays.samples_per_pixel=64"}, smaller{"rays.resolution=128"};
+// The picture decides which tiles are used, and not the rays: so each seed of the rays has a view of its own.
+constexpr const char* views[] = {"receivers.position=[-1.5,4.6,8.2]", "receivers.position=[-3.4,4.1,7.4]",
+                                 "receivers.position=[0.6,5.2,8.0]"};
+static_assert(std::size(views) == ray_seeds);
+
+const std::vector<std::string> smaller{"rays.resolution=128"};
+
+std::vector<std::string> settings(int seed) {
+    return {"rays.samples_per_pixel=64", views[seed]};
+}
 
 std::string maps() {
     std::string list = R"({"type":"deep"})";
@@ -29,15 +38,15 @@ std::string maps() {
     return set_techniques(list);
 }
 
-std::vector<std::string> with_maps() {
-    std::vector<std::string> all = settings;
+std::vector<std::string> with_maps(int seed) {
+    std::vector<std::string> all = settings(seed);
     all.push_back(maps());
     return all;
 }
 
 // Magnified, as figure 6b: the picture shows a part of the shadow.
-std::vector<std::string> magnified() {
-    std::vector<std::string> all = settings;
+std::vector<std::string> magnified(int seed) {
+    std::vector<std::string> all = settings(seed);
     all.insert(all.end(),
                {"receivers.fov=8", "receivers.target=[-1.3,0,-0.5]",
                 set_techniques(fmt::format(R"({{"type":"deep"}},{{"type":"deep","storage":"tiled","slots":{}}})",
@@ -100,12 +109,12 @@ void time_lookups(const std::vector<bench::Maps>& built, const bench::QuerySet& 
 }
 
 Counted count_tiles(const Context& context) {
-    const SeededLight light(context, ball_scene, with_maps(), smaller);
-    const bench::QuerySet image = light.queries();
-    const bench::QuerySet shuffled = bench::pick(image.asked(), in_random_order(image.queries.size(), 16384));
     Counted counted;
     counted.caching.resize(std::size(all_slots));
     for (int seed = 0; seed < ray_seeds; ++seed) {
+        const SeededLight light(context, ball_scene, with_maps(seed), smaller);
+        const bench::QuerySet image = light.queries();
+        const bench::QuerySet shuffled = bench::pick(image.asked(), in_random_order(image.queries.size(), 16384));
         const std::vector<bench::Maps> built = light.build(seed);
         counted.memory.push_back(static_cast<double>(bench::bytes(built[0])));
         for (std::size_t i = 0; i < std::size(all_slots); ++i) {
@@ -127,10 +136,10 @@ Counted count_tiles(const Context& context) {
 
 // The tiles that the lookups of the magnified picture load, for every seed.
 std::vector<double> tiles_of_detail(const Context& context) {
-    const SeededLight light(context, ball_scene, magnified(), smaller);
-    const bench::QuerySet image = light.queries();
     std::vector<double> loaded;
     for (int seed = 0; seed < ray_seeds; ++seed) {
+        const SeededLight light(context, ball_scene, magnified(seed), smaller);
+        const bench::QuerySet image = light.queries();
         const std::vector<bench::Maps> built = light.build(seed);
         loaded.push_back(static_cast<double>(look_up(built[1], built[0], image.queries).misses));
     }
@@ -146,7 +155,8 @@ Table tile_table(const Counted& counted) {
     const std::string memory = bytes_text(mean_of(counted.memory).value);
     Table table{
         fmt::format("Section 5.4: lookups through tiles of 16 x 16 pixels of a file of {}; the map in memory has "
-                    "{}. Hits are pixels read whose tile was held, means over three seeds of the light rays",
+                    "{}. Hits are pixels read whose tile was held; means over three views, each with its own seed of "
+                    "the light rays, times in the first",
                     file, memory),
         {"slots", "ns a lookup, image order", "random order", "hits, image order", "random order", "bytes held"},
         {}};
@@ -156,8 +166,8 @@ Table tile_table(const Counted& counted) {
         const Caching& caching = counted.caching[i];
         const bool all = all_slots[i] >= caching.tiles.front();
         table.rows.push_back({all ? "all" : std::to_string(all_slots[i]), ns(i + 1), ns(maps_in_all + i + 1),
-                              percent(caching.image_hits),
-                              percent(caching.random_hits), bytes_text(mean_of(caching.held).value)});
+                              percent(caching.image_hits), percent(caching.random_hits),
+                              bytes_text(mean_of(caching.held).value)});
         if (all) break;
     }
     return table;
@@ -173,15 +183,16 @@ void tiles(const Context& context) {
 
     const Caching& all = counted.caching.back();
     const Value of_scene = mean_of(all.loaded), of_detail = mean_of(tiles_of_detail(context));
-    const Value in_file = exactly(all.tiles.front());
+    const Value in_file = exactly(all.tiles.front());  // as many in each file
     report.claims.push_back(
         {"section 5.4",
          "the tiled format lets us load and cache only the tiles that are actually accessed",
          fmt::format("the picture of the scene loads {} of {} tiles, a magnified one of the shadow {}",
                      to_text(of_scene), to_text(in_file), to_text(of_detail)),
-         both(judge_less(of_scene, in_file), judge_less(of_detail, of_scene)),
-         "With a slot for every tile, each is loaded once. The file lies in the system's page cache: a disk would add "
-         "its own time to each tile that is loaded.",
+         by_construction(of_scene.value <= in_file.value && of_detail.value < of_scene.value),
+         "Means over three views of each kind. A tile is loaded when it is accessed first, and with a slot for every "
+         "tile only then. The file lies in the system's page cache: a disk would add its own time to each tile that is "
+         "loaded.",
          {of_scene, in_file, of_detail}});
     const Caching& fixed = counted.caching[few];
     const Value held = mean_of(fixed.held), memory = mean_of(counted.memory), hits = 100.0 * mean_of(fixed.image_hits);
