@@ -8,8 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "bench/memory.h"
 #include "bench/ray_source.h"
+#include "curves/norms.h"
+#include "curves/sweep.h"
 #include "rays/capture.h"
 #include "rays/tracer.h"
 #include "render/image_file.h"
@@ -68,6 +71,18 @@ const bench::Contender& View::contender(const std::string& technique,
     return first_.contenders[static_cast<std::size_t>(&cell - listed_.cells.data())];
 }
 
+bench::Maps View::build_within(const bench::Contender& contender, double times_the_range) const {
+    rays::MapLayout layout = first_.light.layout;
+    const double range = static_cast<double>(layout.z_max) - layout.z_min;
+    const auto more = static_cast<float>(0.5 * (times_the_range - 1.0) * range);
+    layout.z_min -= more;
+    layout.z_max += more;
+    bench::Maps maps = bench::begin_maps(*contender.row, contender.values, {layout, first_.light.view, nullptr});
+    base::parallel_for(tiles_.size(), [&](std::size_t t) { bench::add(maps, tiles_[t]); });
+    bench::finish(maps);
+    return maps;
+}
+
 render::Image View::picture(const bench::Maps& maps) const {
     render::Picture picture = render::start_picture(points_);
     render::add_answers(points_, 0, asked_, bench::lookup_all(maps, {asked_.queries, {}}), picture);
@@ -109,11 +124,42 @@ MapErrors map_errors(const nlohmann::json& document, const Context& context) {
     for (const bench::Contender& contender : first.contenders) {
         if (!contender.ok())
             throw base::Error(base::ErrorCode::internal, contender.cell.technique, contender.cell.reason);
-        const results::CurveErrors& curve = contender.cell.curve.value();
-        errors.rms.push_back(curve.norms.rms);
-        errors.mean.push_back(curve.mean_l1 / errors.depth);
+        errors.rms.push_back(contender.cell.curve.value().norms.rms);
     }
     return errors;
+}
+
+ComplexCurves complex_curves(const View& view, const bench::Contender& contender, std::size_t segments) {
+    const bench::Maps maps = view.build(contender, view.tiles());
+    const double low = view.layout().z_min, high = view.layout().z_max;
+    std::vector<ComplexCurves> of_tiles(view.tiles().size());  // sums
+    base::parallel_for(of_tiles.size(), [&](std::size_t t) {
+        const rays::LightRays& tile = view.tiles()[t];
+        curves::SweepScratch scratch;
+        curves::Curve exact, stored;
+        ComplexCurves& sums = of_tiles[t];
+        for (std::size_t r = 0; r < tile.rays(); ++r) {
+            if (tile.begin[r + 1] - tile.begin[r] <= segments) continue;
+            curves::visibility(tile, r, 1, 1e-5, scratch, exact);
+            bench::stored(maps, tile.x0 + static_cast<int>(r) % tile.width, tile.y0 + static_cast<int>(r) / tile.width,
+                          0, {}, stored);
+            const curves::Distance apart = curves::distance(stored, exact, low, high);
+            ++sums.texels;
+            sums.rms += apart.max * apart.max;
+            sums.mean += apart.l1 / (high - low);
+        }
+    });
+    ComplexCurves all;
+    for (const ComplexCurves& sums : of_tiles) {
+        all.texels += sums.texels;
+        all.rms += sums.rms;
+        all.mean += sums.mean;
+    }
+    if (all.texels == 0)
+        throw base::Error(base::ErrorCode::internal, "light rays", "no ray crosses as many segments");
+    all.rms = std::sqrt(all.rms / static_cast<double>(all.texels));
+    all.mean /= static_cast<double>(all.texels);
+    return all;
 }
 
 nlohmann::json with_seeds(nlohmann::json document, int k) {
