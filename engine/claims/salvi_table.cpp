@@ -14,8 +14,8 @@ namespace {
 using results::Cell;
 using results::LightResult;
 
-// A column of table 1: the paper's milliseconds on a Radeon 5870 (lookup, compression) and megabytes of the map, without
-// the buffer of the capture. Table 1 counts this buffer for the deep map, too: 20 of its 40 MB, as beside AVSM's maps.
+// A column of table 1: the paper's milliseconds on a Radeon 5870 (lookup, compression) and megabytes of the map alone.
+// Of the deep map the table gives 40 MB with the buffer of the capture, which is 20 MB in the columns of AVSM.
 struct Column {
     const char* name;
     const char* technique;
@@ -193,8 +193,8 @@ void real_time(const LightResult& light, const Turns& ns, PaperReport& report) {
                 lookup_terms = ns.ratio(place, place_of(terms, light));
     report.claims.push_back(
         {"section 5.3",
-         "without sorting, AVSM renders in a time nearly identical to that of OSM and FOM (table 1, frames: 12.1 ms "
-         "with AVSM 8, 3 ms of them for the optional sort; 8.6 ms and 15 ms)",
+         "without sorting, AVSM renders in a time nearly identical to that of OSM and FOM (frames of table 1: 12.1 ms "
+         "with AVSM 8, 8.6 ms and 15 ms; sorting takes 3 ms)",
          fmt::format("AVSM 8 over OSM 32: build {}, lookup {}; over FOM 16: {} and {}", to_text(build_slices),
                      to_text(lookup_slices), to_text(build_terms), to_text(lookup_terms)),
          not_comparable(),
