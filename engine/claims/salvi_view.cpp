@@ -23,6 +23,10 @@ namespace {
 
 constexpr double most_pixels = 0.99;
 
+double shown(const base::Vec3f& colour, int channel) {
+    return render::to_display(std::clamp(static_cast<double>(colour[channel]), 0.0, 1.0));
+}
+
 // Notes the scenario in the report, once.
 void note(const nlohmann::json& document, const Context& context) {
     const std::string name = document.at("name").get<std::string>();
@@ -96,10 +100,7 @@ Difference View::difference(const render::Image& a, const render::Image& b) cons
         if (points_.begin[p] == points_.begin[p + 1]) continue;
         largest.push_back(0.0);
         for (int c = 0; c < 3; ++c) {
-            const auto shown = [c](const base::Vec3f& colour) {
-                return render::to_display(std::clamp(static_cast<double>(colour[c]), 0.0, 1.0));
-            };
-            const double difference = shown(a.pixels[p]) - shown(b.pixels[p]);
+            const double difference = shown(a.pixels[p], c) - shown(b.pixels[p], c);
             squares += difference * difference;
             largest.back() = std::max(largest.back(), std::abs(difference));
         }
@@ -108,6 +109,23 @@ Difference View::difference(const render::Image& a, const render::Image& b) cons
     const auto rank = static_cast<std::ptrdiff_t>(most_pixels * static_cast<double>(largest.size() - 1));
     std::nth_element(largest.begin(), largest.begin() + rank, largest.end());
     return {rms, render::compare(a, b).flip_mean, largest[static_cast<std::size_t>(rank)]};
+}
+
+double View::change(const Frame& here, const Frame& next) const {
+    double squares = 0.0;
+    std::size_t pixels = 0;
+    for (std::size_t p = 0; p < here.picture.pixels.size(); ++p) {
+        if (points_.begin[p] == points_.begin[p + 1]) continue;
+        ++pixels;
+        for (int c = 0; c < 3; ++c) {
+            const auto wrong = [&](const Frame& frame) {
+                return shown(frame.picture.pixels[p], c) - shown(frame.truth.pixels[p], c);
+            };
+            const double difference = wrong(next) - wrong(here);
+            squares += difference * difference;
+        }
+    }
+    return std::sqrt(squares / (3.0 * static_cast<double>(pixels)));
 }
 
 MapErrors map_errors(const nlohmann::json& document, const Context& context) {

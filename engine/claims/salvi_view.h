@@ -21,6 +21,11 @@ struct Difference {
     double most = 0.0;  // of the channel that differs most; 99 % of the pixels that see anything differ by no more
 };
 
+// A picture through one technique's map, and the one through the uncompressed map.
+struct Frame {
+    render::Image picture, truth;
+};
+
 // Differences of pictures, one a seed; medians.
 struct SeededDifferences {
     std::vector<double> rms, flip, most;
@@ -58,6 +63,9 @@ public:
     }
 
     Difference difference(const render::Image& a, const render::Image& b) const;
+    // How much what is wrong in a picture changes from this frame to the next: the rms over the channels of the pixels
+    // that see anything here, as a display shows them.
+    double change(const Frame& here, const Frame& next) const;
 
 private:
     FirstLight first_;

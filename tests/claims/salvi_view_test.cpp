@@ -77,6 +77,16 @@ TEST(SalviView, ADifferenceIsThatOfTheDisplayOverThePixelsThatSeeAnything) {
     EXPECT_EQ(view.difference(a, a).most, 0.0);
 }
 
+TEST(SalviView, WhatIsWrongInTheSameWayInTwoFramesDoesNotChange) {
+    Measuring measuring;
+    const View view(smoke(), measuring.context);
+    const render::Image coarse = view.picture("avsm", {"nodes=4"}), truth = view.picture("uncompressed");
+    const Frame wrong{coarse, truth}, right{truth, truth};
+    EXPECT_EQ(view.change(wrong, wrong), 0.0);
+    EXPECT_EQ(view.change(right, right), 0.0);
+    EXPECT_DOUBLE_EQ(view.change(right, wrong), view.difference(coarse, truth).rms);
+}
+
 // The background is equal in both pictures, so of all pixels no more than of those that see anything differ by more.
 TEST(SalviView, OnePixelInAHundredMayDifferByMore) {
     Measuring measuring;
