@@ -189,7 +189,7 @@ void claims_of(const Drift& drift, PaperReport& report) {
          fmt::format("all light arrives at {} first node; behind all smoke curves of {} nodes are off by at most {}",
                      drift.avsm_lit ? "every" : "not every", nodes, to_text(ends)),
          by_construction(drift.avsm_lit && ends.value < rounding),
-         "The area is not defined for them, so they are never removed. In the texels above, sorted and in random order.",
+         "Their area is not defined, so they are never removed. In the texels above, sorted and in random order.",
          {ends}});
 }
 
