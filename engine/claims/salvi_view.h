@@ -10,6 +10,7 @@
 #include "claims/first_light.h"
 #include "claims/intervals.h"
 #include "claims/paper.h"
+#include "render/image.h"
 #include "render/point_queries.h"
 
 namespace shadowbench::claims::salvi {
