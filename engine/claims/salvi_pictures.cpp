@@ -166,7 +166,7 @@ void kernel(const Context& context) {
         hair_in_smoke,
         {R"(techniques=[{"type":"avsm","cells":"sample","nodes":12,"filter":"bilinear"},)"
          R"({"type":"avsm","cells":"sample","nodes":12,"filter":"footprint"}])",
-         "receivers.filter_width=3"},
+         "receivers.filter_width=3", "reference.samples_per_pixel=64", "reference.queries=1024"},
         {"rays.resolution=128"});
     const results::LightResult& light = light_of(result);
     const Value bilinear = error_of(cell_of(light, "avsm", {"filter=bilinear"})),

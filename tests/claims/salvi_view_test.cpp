@@ -153,7 +153,7 @@ TEST(SalviView, TexelsThatHoldLittleDoNotCountAsComplex) {
     EXPECT_LT(all.rms, 1e-4);
     const MapErrors of_map = map_errors(smoke(), measuring.context);
     const double texels = 64.0 * 64.0;
-    EXPECT_NEAR(any.rms * std::sqrt(static_cast<double>(any.texels) / texels), of_map.rms[1], 0.01 * of_map.rms[1])
+    EXPECT_NEAR(any.rms * std::sqrt(static_cast<double>(any.texels) / texels), of_map.rms[1], 0.05 * of_map.rms[1])
         << "texels that hold nothing have no error";
     EXPECT_THROW(complex_curves(view, twelve, 100000), base::Error);
 }
