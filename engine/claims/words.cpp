@@ -22,7 +22,7 @@ constexpr Word words[] = {
     {"closely, almost exactly, similar: of curves", "fit", "-"},
     {"looks like, similar results: of pictures", "likeness", "-"},
     {"similar, about as long: of times and costs", "ratio", "Of 1, or of the value that the paper gives."},
-    {"as good, the same accuracy, no better, no worse", "alike", "-"},
+    {"as good, the same accuracy, no better, no worse", "alike", "What is no worse may also be better."},
     {"acceptable", "not comparable", "No paper says what it accepts."},
 };
 
