@@ -17,7 +17,8 @@ constexpr const char* introduction =
     "Every number is measured with the scenarios and on the machine named below. Absolute times cannot be compared "
     "between machines, so claims are about ratios of times. Numbers in brackets are 95 % intervals; of a median of six "
     "values, their range, which holds it with 97 %:\n\n"
-    "- Of a time: the number is the median over repetitions.\n"
+    "- Of a time: the number is the median over repetitions. Times of two tables are taken minutes apart, between "
+    "which a machine may become slower or faster: only those of one table compare.\n"
     "- Of a ratio of times: the number is the median of the ratios of each repetition. What is compared takes turns, "
     "so that a machine that slows down slows both. Repetitions go on until the interval is within 5 % of the ratio, or "
     "a limit of time is reached; where no single ratio is judged by its size, their number is fixed.\n"
@@ -29,10 +30,10 @@ constexpr const char* introduction =
     "- Elsewhere, as for medians over scenes or means over places of the map, the paper's introduction or the title of "
     "the table says what the numbers are over.\n\n"
     "Each claim is judged by rules of the table below, by the whole interval of what is measured: *holds*, *holds in "
-    "shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*. A "
-    "claim about the size of a GPU's times, about numbers of a scene that is not public, or without a value is *not "
-    "comparable*: its number is given, and nothing is judged. What a technique cannot do otherwise is *by "
-    "construction*.\n\n"
+    "shape*, or *does not hold here*. If the interval crosses a limit of the rule, the claim is *undecided*; the best "
+    "and the worst verdict that it may have stand behind. A claim about the size of a GPU's times, about numbers of a "
+    "scene that is not public, or without a value is *not comparable*: its number is given, and nothing is judged. "
+    "What a technique cannot do otherwise is *by construction*.\n\n"
     "The parts of a claim are judged one by one, and the column of rules names the rules and limits of all. Of two "
     "halves (\"A fits, and is closer than B\") the worse verdict counts. *In all*: the worst verdict of all entries "
     "counts, but the claim holds in shape if it holds in more than half of them. *In most*: the verdict counts that "
@@ -71,16 +72,19 @@ std::string rule_text(const Judged& judged) {
     return judged.limits.empty() ? judged.rule : judged.rule + ": " + judged.limits;
 }
 
-std::string text_of(Verdict verdict) {
+std::string text_of(const Judged& judged) {
+    const Verdict verdict = judged.verdict;
     const bool strong = verdict == Verdict::holds || verdict == Verdict::fails;
-    return fmt::format("{0}{1}{0}", strong ? "**" : "", to_string(verdict));
+    const std::string text = fmt::format("{0}{1}{0}", strong ? "**" : "", to_string(verdict));
+    if (verdict != Verdict::undecided || judged.best == judged.worst) return text;
+    return fmt::format("{} ({} to {})", text, to_string(judged.best), to_string(judged.worst));
 }
 
 void add_paper(std::string& out, const PaperReport& report) {
     out += fmt::format("## {}\n\n{}\n\n", report.title, report.conditions);
     std::vector<std::vector<std::string>> rows;
     for (const Claim& claim : report.claims)
-        rows.push_back({claim.place, claim.says, claim.measured, rule_text(claim.judged), text_of(claim.judged.verdict),
+        rows.push_back({claim.place, claim.says, claim.measured, rule_text(claim.judged), text_of(claim.judged),
                         claim.why});
     out += base::markdown_table({"where", "the paper says", "measured here", "rule", "verdict", "why"}, rows);
     for (const Table& table : report.tables) {

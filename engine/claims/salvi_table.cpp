@@ -14,20 +14,22 @@ namespace {
 using results::Cell;
 using results::LightResult;
 
-// A column of table 1: the paper's milliseconds on a Radeon 5870 (lookup, compression) and megabytes (of the map).
+// A column of table 1: the paper's milliseconds on a Radeon 5870 (lookup, compression) and megabytes of the map alone.
+// Of the deep map the table gives 40 MB with the buffer of the capture, which is 20 MB in the columns of AVSM.
 struct Column {
     const char* name;
     const char* technique;
     std::vector<std::string> parameters;
     double lookup_ms, build_ms, megabytes;  // 0: not given
 };
+constexpr double capture_megabytes = 20.0;
 const Column table_columns[] = {
     {"AVSM 4", "avsm", {"nodes=4"}, 3.0, 0.5, 2.0},
     {"AVSM 8", "avsm", {"nodes=8"}, 5.4, 0.7, 4.0},
     {"AVSM 16", "avsm", {"nodes=16"}, 9.5, 1.6, 8.0},
     {"OSM 32", "opacity", {}, 1.4, 1.0, 8.0},
     {"FOM 16", "fourier", {}, 8.9, 1.1, 8.0},
-    {"DSM 0.01", "deep", {}, 52.0, 193.0, 40.0},
+    {"DSM 0.01", "deep", {}, 52.0, 193.0, 20.0},
     {"uncompressed", "uncompressed", {}, 278.0, 0.0, 20.0},
 };
 
@@ -64,8 +66,9 @@ Turns time_lookups(const Context& context, const LightResult& light) {
 // Every column as a ratio to AVSM 8, the paper's value beside ours.
 void ratios(const LightResult& light, const Turns& ns, PaperReport& report) {
     const Cell& eight = avsm(light, 8);
-    Table table{fmt::format("Table 1: ratios to AVSM 8, theirs / ours ({} x {} texels); the floor of a lookup is the "
-                            "time of only reading the cache lines that it reads",
+    Table table{fmt::format("Table 1: ratios to AVSM 8, theirs / ours ({} x {} texels); bytes are of the map alone, "
+                            "theirs allocated, ours used; the floor of a lookup is the time of only reading the cache "
+                            "lines that it reads",
                             light.layout.width, light.layout.height),
                 {"", "lookup", "build", "bytes", "ns a lookup here", "times its floor", "ms a build here", "MiB here",
                  "error rms", "curve error max"},
@@ -106,15 +109,20 @@ void memory(const LightResult& light, PaperReport& report) {
     for (const Column& c : table_columns) {
         const Cell& cell = cell_of(light, c.technique, c.parameters);
         const Value size = exactly(mebibytes(cell));
-        const bool fixed = std::string(c.technique) != "deep" && std::string(c.technique) != "uncompressed";
+        const std::string technique = c.technique;
+        const bool fixed = technique != "deep" && technique != "uncompressed";
+        const std::string says =
+            technique == "deep"
+                ? fmt::format("{} takes {:.0f} MB at 256 x 256, with the {:.0f} MB of the capture's buffer", c.name,
+                              c.megabytes + capture_megabytes, capture_megabytes)
+                : fmt::format("{} takes {:.0f} MB at 256 x 256", c.name, c.megabytes);
         report.claims.push_back(
-            {"section 5.3, table 1",
-             fmt::format("{} takes {:.0f} MB at 256 x 256", c.name, c.megabytes),
+            {"section 5.3, table 1", says,
              fmt::format("{} MiB at {} x {}", to_text(size), light.layout.width, light.layout.height),
              fixed ? by_construction(std::abs(size.value / (c.megabytes * texels) - 1.0) < 0.05) : not_comparable(),
              fixed ? "Every texel has the same size: 8 bytes a node, 4 a slice, 8 a term."
-                   : "Theirs is the memory that was allocated, with the buffer of the capture, not what was used; ours "
-                     "holds what is used.",
+                   : "Theirs is the memory that was allocated, not what was used; ours is the map alone, and what it "
+                     "uses. Theirs uncompressed is the buffer of the capture.",
              {size}});
     }
 }
@@ -148,27 +156,51 @@ void more_nodes(const LightResult& light, const Turns& ns, PaperReport& report) 
 
 // Two claims about whole methods, whose times a processor can set beside each other: figure 3 has AVSM with 12 nodes.
 void speed(const LightResult& light, const Turns& ns, PaperReport& report) {
-    const Cell &twelve = avsm(light, 12), &deep = cell_of(light, "deep"), &all = cell_of(light, "uncompressed");
-    const std::size_t place = place_of(twelve, light);
-    const Value build = build_ratio(deep, twelve), lookup = ns.ratio(place_of(deep, light), place);
-    report.claims.push_back({"section 5.2, figure 3",
-                             "AVSM is one to two orders of magnitude faster than deep shadow maps",
-                             fmt::format("building {} times, lookup {} times as fast", to_text(build), to_text(lookup)),
-                             both(judge_gain(10.0, build), judge_gain(10.0, lookup)),
-                             "Judged, as table 1's rows are not: the paper says it of the methods, and a factor of 10 "
-                             "or more should show on any machine, where a row gives the time of one GPU. On the scene "
-                             "of table 1. Theirs were linked lists on a GPU; here a deep map is one array, searched in "
-                             "a few steps.",
-                             {build, lookup}});
+    const Cell &twelve = avsm(light, 12), &eight = avsm(light, 8), &deep = cell_of(light, "deep"),
+               &all = cell_of(light, "uncompressed");
+    const std::size_t place = place_of(twelve, light), place_of_deep = place_of(deep, light);
+    const Value build = build_ratio(deep, twelve), lookup = ns.ratio(place_of_deep, place),
+                build_of_eight = build_ratio(deep, eight),
+                lookup_of_eight = ns.ratio(place_of_deep, place_of(eight, light));
+    report.claims.push_back(
+        {"section 5.2, figure 3",
+         "AVSM is one to two orders of magnitude faster than deep shadow maps",
+         fmt::format("12 nodes: building {} times, lookup {} times as fast; 8 nodes: {} and {}", to_text(build),
+                     to_text(lookup), to_text(build_of_eight), to_text(lookup_of_eight)),
+         both(judge_gain(10.0, build), judge_gain(10.0, lookup)),
+         "Judged, as table 1's rows are not: the paper says it of the methods, and a factor of 10 or more should show "
+         "on any machine, where a row gives the time of one GPU. With the 12 nodes of figures 3 and 6, on the scene "
+         "and with the deep map of table 1. Theirs were linked lists on a GPU; here a deep map is one array, searched "
+         "in a few steps.",
+         {build, lookup, build_of_eight, lookup_of_eight}});
     const Value plain = ns.ratio(place_of(all, light), place);
     report.claims.push_back(
         {"figure 3",
          "AVSM is one to two orders of magnitude faster than the uncompressed algorithm",
-         fmt::format("lookup {} times as fast", to_text(plain)),
+         fmt::format("12 nodes: lookup {} times as fast", to_text(plain)),
          judge_gain(10.0, plain),
          "Judged for the same reason, on the scene of table 1. An uncompressed lookup searches functions of hundreds "
          "of nodes. Theirs compresses nothing, so there is no build to compare.",
          {plain}});
+}
+
+// Beside the real-time methods: the times of a frame without the sort, of which the paper gives those of one GPU.
+void real_time(const LightResult& light, const Turns& ns, PaperReport& report) {
+    const Cell &eight = avsm(light, 8), &slices = cell_of(light, "opacity"), &terms = cell_of(light, "fourier");
+    const std::size_t place = place_of(eight, light);
+    const Value build_slices = build_ratio(eight, slices), build_terms = build_ratio(eight, terms),
+                lookup_slices = ns.ratio(place, place_of(slices, light)),
+                lookup_terms = ns.ratio(place, place_of(terms, light));
+    report.claims.push_back(
+        {"section 5.3",
+         "without sorting, AVSM renders in a time nearly identical to that of OSM and FOM (frames of table 1: 12.1 ms "
+         "with AVSM 8, 8.6 ms and 15 ms; sorting takes 3 ms)",
+         fmt::format("AVSM 8 over OSM 32: build {}, lookup {}; over FOM 16: {} and {}", to_text(build_slices),
+                     to_text(lookup_slices), to_text(build_terms), to_text(lookup_terms)),
+         not_comparable(),
+         "Their frames hold the rendering of the scene, too, of which a map's work is a part. The abstract's "
+         "\"performs competitively\" says no more.",
+         {build_slices, lookup_slices, build_terms, lookup_terms}});
 }
 
 }  // namespace
@@ -181,6 +213,7 @@ void table_1(const Context& context) {
     memory(light, *context.report);
     more_nodes(light, ns, *context.report);
     speed(light, ns, *context.report);
+    real_time(light, ns, *context.report);
 }
 
 }  // namespace shadowbench::claims::salvi

@@ -55,18 +55,6 @@ TEST(Search, WhereNoMapReachesTheErrorOneWithoutAMapIsConfirmedHoweverDear) {
     }
 }
 
-// Twelve families whose errors are mostly those of the same light rays. All but the first two cost more.
-std::vector<Law> of_the_same_rays(bool faithful) {
-    std::vector<Law> laws;
-    for (int i = 0; i < 12; ++i) {
-        Law law = usual("technique " + std::to_string(i), 0.1 + 0.01 * i, i < 2 ? 1000.0 : 1500.0 + 100.0 * i);
-        law.error = error_law({{0.5, 0.35}, {0.3, 0.35}, {0.1 + 0.01 * i, 0.4}}, 0.0);
-        law.family.faithful = faithful;
-        laws.push_back(law);
-    }
-    return laws;
-}
-
 TEST(Search, AFailureThatOnlyConfirmingShowsIsNotTheAnswer) {
     class Late : public SyntheticLab {
     public:
