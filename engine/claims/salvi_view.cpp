@@ -155,12 +155,15 @@ ComplexCurves complex_curves(const View& view, const bench::Contender& contender
         const rays::LightRays& tile = view.tiles()[t];
         curves::SweepScratch scratch;
         curves::Curve exact, stored;
+        std::vector<float> depths;
         ComplexCurves& sums = of_tiles[t];
         for (std::size_t r = 0; r < tile.rays(); ++r) {
             if (tile.begin[r + 1] - tile.begin[r] <= segments) continue;
             curves::visibility(tile, r, 1, 1e-5, scratch, exact);
+            depths.clear();
+            for (const curves::Vertex& vertex : exact) depths.push_back(vertex.z);
             bench::stored(maps, tile.x0 + static_cast<int>(r) % tile.width, tile.y0 + static_cast<int>(r) / tile.width,
-                          0, {}, stored);
+                          0, depths, stored);
             const curves::Distance apart = curves::distance(stored, exact, low, high);
             ++sums.texels;
             sums.rms += apart.max * apart.max;
