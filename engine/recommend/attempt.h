@@ -39,6 +39,12 @@ struct Trials::Timed {
     std::vector<double> capture_ms{}, build_ms{};
 };
 
+// Whether two settings store the same map, so that only their lookups differ.
+bool same_map(const Setting& a, const Setting& b);
+
+inline constexpr double large_map = 64e6;  // bytes: filling the memory of larger ones takes most of the time
+inline constexpr int seeds = 5;            // of a confirmation, the scenario's own among them
+inline constexpr int fewer_builds = 3;     // repetitions in a confirmation, if time runs out
 inline constexpr double rest_of_a_trial = 0.05;  // seconds: what every measurement takes besides rays and builds
 inline constexpr const char* no_curve = "stores no function, so it has no error of stored functions";
 

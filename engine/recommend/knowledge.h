@@ -21,6 +21,10 @@ namespace shadowbench::recommend {
 inline constexpr double clear_error = 1.1;
 // What a short measurement of a cost may be off by, as a factor.
 inline constexpr std::array<double, costs> cost_noise{1.15, 1.0, 1.15};
+// What the models expect of logarithms before anything is measured. A coarse step is about a factor of 2 in a parameter.
+inline constexpr Prior error_prior{-0.3, 0.4, 0.03};
+inline constexpr Prior bytes_prior{0.4, 0.5, 0.01};
+inline constexpr Prior time_prior{0.3, 0.4, 0.07};
 // Families with at most so many points have no coarse ones: they are modelled fast enough for all to count from the
 // start, which misses less.
 inline constexpr std::size_t small_lattice = 10000;

@@ -33,8 +33,6 @@ constexpr double most_rays = 1 << 28;               // of one map; more take man
 constexpr double quickly_checked_rays = 1 << 18;    // of a map whose functions a short measurement checks
 constexpr std::size_t quickly_checked_cells = 256;  // of it
 constexpr std::size_t checked_cells = 4096;         // of any map, if the error of the stored functions is asked for
-constexpr double large_map = 64e6;        // bytes
-constexpr double large_pixels = 1 << 16;  // of a map that may be so large
 constexpr std::size_t most_kept = 12;               // maps, for settings that differ only in their lookups
 
 Contender contender_of(const Setting& setting) {
@@ -42,7 +40,8 @@ Contender contender_of(const Setting& setting) {
     return bench::make_contender({setting.row->id, techniques::to_json(setting.values).dump(), where}, where);
 }
 
-// Whether two settings store the same map, so that only their lookups differ.
+}  // namespace
+
 bool same_map(const Setting& a, const Setting& b) {
     if (a.row != b.row || a.resolution != b.resolution || a.samples != b.samples) return false;
     const auto only_lookups = [&](const std::string& parameter) {
@@ -55,14 +54,6 @@ bool same_map(const Setting& a, const Setting& b) {
         return named.second == b.values.at(named.first) || only_lookups(named.first);
     });
 }
-
-double least_bytes(const Setting& setting, rays::MapLayout layout) {
-    if (setting.row->coloured) return static_cast<double>(setting.row->least_bytes(setting.values, layout));
-    const int channels = std::exchange(layout.channels, 1);
-    return channels * static_cast<double>(setting.row->least_bytes(setting.values, layout));
-}
-
-}  // namespace
 
 Trials::Trials(const nlohmann::json& document, const bench::RunOptions& options, const std::string& light,
                Measure measure, const bench::ProgressCallback& progress)
@@ -119,52 +110,6 @@ std::optional<double> Trials::footprint_share() const {
     const scene::FilterWidth& width = scenario_->receivers.filter_width;
     if (width.unit != scene::WidthUnit::map_pixels) return {};
     return width.value / scenario_->rays.resolution.x;
-}
-
-double Trials::effort(const Point& point) const {
-    // Asked often: no setting is made unless a map of these light rays is kept.
-    const bench::RayChoice own{space_->resolution(point), space_->samples(point), scenario_->rays.seed};
-    const techniques::Technique* row = &space_->row(point.family);
-    for (const Kept& kept : kept_)
-        if (kept.setting.row == row && kept.setting.resolution == own.resolution && kept.setting.samples == own.samples &&
-            same_map(kept.setting, space_->setting(point)))
-            return rest_of_a_trial;
-    return rest_of_a_trial + build_seconds(point) + (store_->kept(own) ? 0.0 : store_->estimate_seconds(own));
-}
-
-double Trials::least_effort() const {
-    return rest_of_a_trial;
-}
-
-// What building and judging the map takes, as far as maps of the technique tell, and large maps of any.
-double Trials::build_seconds(const Point& point) const {
-    const base::Vec2i sides = space_->resolution(point);
-    const double pixels = static_cast<double>(sides.x) * sides.y;
-    const auto before = efforts_.find(&space_->row(point.family));
-    const bool grows = space_->uses_rays(point.family) && before != efforts_.end() && before->second.rays > 0.0;
-    const double by_rays = grows ? pixels * space_->samples(point) * before->second.seconds / before->second.rays : 0.0;
-    // Maps of few pixels are not large: no setting is made for them.
-    if (pixels < large_pixels) return by_rays;
-    const double bytes = at_least(point, Cost::bytes);
-    return bytes < large_map ? by_rays : std::max(by_rays, bytes * large_seconds_ / large_bytes_);
-}
-
-double Trials::at_least(const Point& point, Cost cost) const {
-    if (cost != Cost::bytes) return 0.0;
-    const std::vector<Axis>& axes = families()[point.family].axes;
-    std::size_t index = 0, points = 1;
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-        index = index * axes[a].values.size() + static_cast<std::size_t>(point.step[a]);
-        points *= axes[a].values.size();
-    }
-    least_bytes_.resize(std::max(least_bytes_.size(), point.family + 1));
-    std::vector<double>& known = least_bytes_[point.family];
-    if (known.empty()) known.assign(points, -1.0);
-    if (known[index] < 0.0) {
-        const Setting setting = space_->setting(point);
-        known[index] = least_bytes(setting, layout(setting));
-    }
-    return known[index];
 }
 
 // Why a setting is not measured at all; empty: it is.

@@ -17,7 +17,6 @@ namespace {
 using bench::Contender;
 using bench::Stopwatch;
 
-constexpr int seeds = 5;               // of a confirmation, the scenario's own among them
 constexpr int fewer_seeds = 3;         // of a point whose trial is clear of the error wanted, or if time runs out
 constexpr double clear_of = 1.25;      // a trial's RMS that is this factor larger or smaller is
 constexpr double capture_share = 0.1;  // seconds of capturing that one repetition times
@@ -27,10 +26,8 @@ constexpr int least_repetitions = 7, most_repetitions = 101;
 constexpr int least_again = 5;        // of what is only timed again
 constexpr int shown_repetitions = 3;  // in image order, which is only shown
 constexpr double longest_pass = 0.025;   // seconds of lookups in one order
-constexpr int fewer_builds = 3;          // repetitions, if time runs out
 constexpr int shown_builds = 1;          // if build times are only shown
 constexpr double longest_timing = 15.0;  // seconds, after the least repetitions, if time is not limited
-constexpr double timing_seconds = 0.5;   // of the least repetitions of one point
 constexpr double longest_again = 2.0;    // the same, of what is only timed again
 // Shares of a confirmation's time after which it goes on with fewer seeds, if builds are asked for, and with fewer
 // builds.
@@ -124,26 +121,6 @@ std::vector<std::optional<double>> Trials::time_again(std::span<const Point> poi
     }
     seconds_ += stopwatch.seconds();
     return answers;
-}
-
-// What comparing the answers of a measured point with the truth takes on one thread. Shadow rays take seconds.
-double Trials::judging_seconds(const Point& point) const {
-    const Trial* trial = trial_of(point);
-    if (!trial) return 0.0;
-    const double ns = trial->cost[static_cast<std::size_t>(Cost::lookup)];
-    return 1e-9 * ns * static_cast<double>(judged_.queries.size());
-}
-
-// Every seed has light rays of its own.
-double Trials::confirm_effort(const Point& point, std::span<const Point> others) const {
-    const bench::RayChoice own{space_->resolution(point), space_->samples(point), scenario_->rays.seed};
-    const bool captured = std::any_of(others.begin(), others.end(), [&](const Point& other) {
-        return space_->uses_rays(other.family) && space_->resolution(other) == own.resolution &&
-               space_->samples(other) == own.samples;
-    });
-    const double build = build_seconds(point),
-                 capture = space_->uses_rays(point.family) && !captured ? store_->estimate_seconds(own) : 0.0;
-    return seeds * (capture + build + judging_seconds(point) + rest_of_a_trial) + fewer_builds * build + timing_seconds;
 }
 
 const Trial* Trials::trial_of(const Point& point) const {

@@ -84,6 +84,17 @@ void put_counts(const std::map<std::string, std::uint64_t>& counts, json& kernel
     }
 }
 
+// Returns the exit code of the program that is counted.
+int count(const std::string& valgrind, const std::vector<std::string>& arguments, const fs::path& log) {
+    try {
+        return run_child("/usr/bin/env", arguments, log);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::internal) throw;
+        throw Error(ErrorCode::internal, valgrind,
+                    error.message() + "; it may not know all instructions of this processor: install a newer valgrind");
+    }
+}
+
 void print(const json& kernels, std::ostream& out) {
     for (const json& kernel : kernels.at("benchmarks")) {
         const std::string name = kernel.at("name").get<std::string>();
@@ -107,7 +118,8 @@ bool instructions_command(const InstructionArguments& arguments, std::ostream& o
     const EndingSignals signals;
     const base::TemporaryFolder folder;
     const fs::path log = folder.path() / "log";
-    const int code = run_child("/usr/bin/env", arguments_of(arguments, program, find_valgrind(), folder.path()), log);
+    const std::string valgrind = find_valgrind();
+    const int code = count(valgrind, arguments_of(arguments, program, valgrind, folder.path()), log);
     const std::string output = base::read_text(log);
     if (code != 0 && code != wrong_answer)
         throw Error(ErrorCode::internal, program,

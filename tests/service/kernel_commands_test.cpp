@@ -66,6 +66,18 @@ TEST_F(KernelCommands, WithoutValgrindNothingIsCountedAndTheRemedyIsNamed) {
     EXPECT_FALSE(fs::exists(path("counts.json")));
 }
 
+// As version 3.19 does on some processors.
+TEST_F(KernelCommands, AValgrindThatDiesOfAnInstructionIsNamedWithTheRemedy) {
+    const std::string valgrind = write("valgrind", "#!/bin/sh\nkill -ILL $$\n");
+    fs::permissions(valgrind, fs::perms::owner_all);
+    const Variable first("PATH", folder_.path().string() + ":/usr/bin:/bin");
+    const Outcome outcome = cli({"instructions", "--kernels", SHADOWBENCH_KERNELS, "--out", path("counts.json")});
+    EXPECT_EQ(outcome.code, 70);
+    EXPECT_NE(outcome.err.find(valgrind), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("install a newer valgrind"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(path("counts.json")));
+}
+
 TEST_F(KernelCommands, AProgramThatIsNotThereIsNamed) {
     for (const char* command : {"instructions", "baseline"}) {
         const Outcome outcome = cli({command, "--kernels", path("none"), "--out", path("counts.json")});

@@ -129,6 +129,25 @@ TEST_P(Invariance, LookupsThatAreSetLaterAnswerAsThoseOfAMapBuiltForThem) {
     });
 }
 
+// A search measures the errors of one layout only.
+TEST_P(Invariance, LayoutsOfOneMapAnswerTheSame) {
+    if (row().traits.traces) return;
+    const ParameterValues usual = read_parameters(row().parameters, nlohmann::json::object(), "");
+    for (const Trade& trade : row().traits.trades) {
+        if (!trade.only_layout) continue;
+        const std::vector<ParameterValues::Value> values = values_of(trade, row().parameters);
+        rc::detail::checkGTest([&] {
+            const HandRays given = testing::rays_of(3, 2, 2, *testing::any_draws(), {.hostile = false});
+            const std::vector<Query> queries = any_queries(given);
+            const auto answers = [&](const ParameterValues::Value& value) {
+                return make_map(row(), with(usual, std::vector<ParameterSetting>{{trade.parameter, value}}), given)
+                    .lookup(queries);
+            };
+            for (std::size_t i = 1; i < values.size(); ++i) RC_ASSERT(answers(values[i]) == answers(values[0]));
+        });
+    }
+}
+
 // The contract leaves the order of hits that begin and end at one depth open.
 TEST_P(Invariance, TheOrderOfHitsAtOneDepthChangesNothing) {
     if (row().traits.traces) return;
