@@ -49,7 +49,7 @@ constexpr Former rows[] = {
      alike},
     {"pagot2004", "section 6", "2-SM pays beyond 1.29 fragments a cell",
      "holds in shape", "3.16 [2.64, 5.93]", "2-SM with 3 x 3 beats",
-     "The crossing is found on measured curves of the whole time, in more rounds, inside images of up to 6 fragments a cell, and no longer by dividing two differences."},
+     "The paper counts samples, of which the point follows by arithmetic, and leaves times to future work. A thread's times stand beside it, and are not judged any more."},
     {"volume", "section Results", "180 to 330 frames a second",
      "does not hold here", "1.5 to 3.3", "180 to 330 frames",
      "A GPU's times against a processor's are not judged any more. A frame now has both of the paper's passes over the volume; then it had one lookup for each sample."},
@@ -88,8 +88,8 @@ constexpr Former rows[] = {
      table_1},
     {"salvi2010", "section 5.1, figure 4", "AVSM 8 is much closer than OSM 32 and FOM 16",
      "does not hold here", "0.0219 against 0.0215 and 0.00751", "AVSM 8 matches the uncompressed picture",
-     "Curves of one arrangement were judged; now pictures are, as in the figure, and curves. The columns' spacing and "
-     "density are estimated from figure 7. The verdict depends on both, so it stands only where all readings agree."},
+     "Curves of one arrangement were judged; now pictures are, as in the figure. The columns' spacing and density "
+     "are estimated from figure 7. The verdict depends on both, so it stands only where all readings agree."},
     {"salvi2010", "section 5.2", "4, 8 and 12 nodes",
      "holds in shape", "0.0672, 0.0184, 0.00894", "curves of 4 nodes show",
      "Judged on curves of several texels, as section 5.2 does, and no longer on lookups."},

@@ -25,6 +25,16 @@ nlohmann::json with_spacing(nlohmann::json document, double spacing) {
     return document;
 }
 
+nlohmann::json with_camera_away(nlohmann::json document, double times) {
+    nlohmann::json& camera = document.at("receivers");
+    for (const std::size_t axis : {0u, 1u, 2u}) {
+        const double target = camera.at("target").at(axis).get<double>();
+        nlohmann::json& place = camera.at("position").at(axis);
+        place = target + times * (place.get<double>() - target);
+    }
+    return document;
+}
+
 nlohmann::json with_density(nlohmann::json document, double density) {
     multiply(document, "extinction", density);
     return document;

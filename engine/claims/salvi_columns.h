@@ -14,6 +14,9 @@ inline constexpr double own_spacing = 4.5, far_spacing = 12.0;
 // light sees them in the same places.
 nlohmann::json with_spacing(nlohmann::json document, double spacing);
 
+// The camera so many times as far from its target.
+nlohmann::json with_camera_away(nlohmann::json document, double times);
+
 // All smoke so many times as dense.
 nlohmann::json with_density(nlohmann::json document, double density);
 

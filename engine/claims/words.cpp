@@ -22,7 +22,7 @@ constexpr Word words[] = {
     {"closely, almost exactly, similar: of curves", "fit", "-"},
     {"looks like, similar results: of pictures", "likeness", "-"},
     {"similar, about as long: of times and costs", "ratio",
-     "Of 1, or of the value that the paper gives. An analysis that is called similar has no size: less."},
+     "Of 1, or of the value that the paper gives."},
     {"as good, the same accuracy, no better, no worse", "alike", "What is no worse may also be better."},
     {"acceptable", "not comparable", "No paper says what it accepts."},
 };

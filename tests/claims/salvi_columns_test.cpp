@@ -15,7 +15,8 @@ nlohmann::json columns() {
             {"type": "smoke_column", "base": [-3.0, 0, -1.5], "extinction": 0.1},
             {"type": "hair_ball", "opacity": 0.12},
             {"type": "quad"}]},
-        "lights": [{"direction": [-1, -0.2, -0.5]}]})");
+        "lights": [{"direction": [-1, -0.2, -0.5]}],
+        "receivers": {"type": "camera", "position": [-4.0, 3.0, 11.0], "target": [0, 1.5, 1.0]}})");
 }
 
 // The light's line through a foot of the near column must meet the middle one at the same height.
@@ -39,6 +40,14 @@ TEST(SalviColumns, OnlySmokeBecomesDenserAndOnlyHairMoreOpaque) {
     EXPECT_DOUBLE_EQ(opaque["scene"]["objects"][3]["opacity"].get<double>(), 0.12 * 3.0);
     EXPECT_EQ(opaque["scene"]["objects"][0], columns()["scene"]["objects"][0]);
     EXPECT_FALSE(opaque["scene"]["objects"][4].contains("opacity"));
+}
+
+TEST(SalviColumns, TheCameraMovesAwayAlongItsView) {
+    const nlohmann::json away = with_camera_away(columns(), 2.0)["receivers"];
+    EXPECT_EQ(away["target"], columns()["receivers"]["target"]);
+    EXPECT_DOUBLE_EQ(away["position"][0].get<double>(), -8.0);
+    EXPECT_DOUBLE_EQ(away["position"][1].get<double>(), 4.5);
+    EXPECT_DOUBLE_EQ(away["position"][2].get<double>(), 21.0);
 }
 
 }  // namespace
