@@ -156,8 +156,8 @@ TEST(Rules, ALikenessIsMuchLessDifferent) {
     EXPECT_EQ(verdict(judge_likeness({0.9, 0.7, 1.1})), Verdict::undecided);
 }
 
-// A first look has other intervals than the full report. Where they hold those of the report, this test and the last
-// one leave it one way to differ: to say undecided.
+// A first look has other intervals than the full report. Where they hold those of the report, this test and the last of
+// rules_joined_test.cpp leave it one way to differ: to say undecided.
 TEST(Rules, AWiderIntervalSaysTheSameOrNothing) {
     using Judge = Judged (*)(const Value&);
     const Judge rules[] = {[](const Value& v) { return judge_ratio(0.5, v); },
