@@ -211,8 +211,8 @@ void accuracy(const Measured& measured, PaperReport& report) {
          "the number of filter samples of a depth map can be held fixed for a fixed accuracy as the filter gets wider",
          fmt::format("error rms over all widths, {}", text), in_all(within),
          fmt::format("Each error of the depth map is compared with 0.5 / sqrt N = {:.3g}, the worst-case expected "
-                     "error of {} samples. The deep map stands beside it, with pixels weighted by their covered part, as "
-                     "the truth's filter is a box of the width; errors of the two maps are not equal.",
+                     "error of {} samples. The deep map stands beside it, with pixels weighted by their covered part, "
+                     "as the truth's filter is a box of the width; errors of the two maps are not equal.",
                      level, samples),
          std::move(values)});
 }

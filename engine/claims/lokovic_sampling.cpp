@@ -218,7 +218,8 @@ void times_over_samples(const Rows& measured, PaperReport& report) {
          std::move(all_slower)});
     const auto from_four = [](const std::vector<std::size_t>& all) { return std::span(all).subspan(few); };
     const Value growth = measured.ns.growth(from_four(filtered)),
-                nearest_growth = measured.ns.growth(from_four(nearest)), from_one = measured.ns.growth(filtered), nearest_from_one = measured.ns.growth(nearest);
+                nearest_growth = measured.ns.growth(from_four(nearest)), from_one = measured.ns.growth(filtered),
+                nearest_from_one = measured.ns.growth(nearest);
     report.claims.push_back(
         {"section 6, figure 7",
          "deep lookup times are virtually constant as N grows",
@@ -229,9 +230,9 @@ void times_over_samples(const Rows& measured, PaperReport& report) {
          in_readings({judge_constant(growth), judge_constant(from_one), judge_constant(nearest_growth),
                       judge_constant(nearest_from_one)}),
          "Judged over the rows of the table, in two readings of the paper's: it has rows of fewer than 4 x 4 samples, "
-         "and whether one of them is N = 1 is not known. There a function is a single step, with hardly anything to search. "
-         "And in two readings of the filter, as above. 64 times the samples would cost 64 times the tests in a depth "
-         "map.",
+         "and whether one of them is N = 1 is not known. There a function is a single step, with hardly anything to "
+         "search. And in two readings of the filter, as above. 64 times the samples would cost 64 times the tests in a "
+         "depth map.",
          {growth, from_one, nearest_growth, nearest_from_one}});
     const Value of_depth = measured.ns.ratio(Rows::depth(most), Rows::depth(few));
     report.claims.push_back({"section 6, figure 7",
