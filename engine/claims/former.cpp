@@ -34,7 +34,7 @@ constexpr Former rows[] = {
      "The whole interval is judged now, and the rule of growth asks for a factor of 2."},
     {"lokovic2000", "section 5.3", "mip levels are 1.55 times the base",
      "holds in shape", "1.31", "all mip levels together are about 1.55",
-     "In shape reached 60 % off; now it begins at 1.41, nearer to the paper's value than to 4/3, which 1.31 would miss, too. The number is of another scene and of the paper's own compression. Level 1 averages functions that are compressed already; levels made from the uncompressed functions stand beside it."},
+     "In shape reached 60 % off; now it begins where holds does, at 1.41, since the middle between the paper's value and 4/3 lies above that: 1.31 would miss it, too. The number is of another scene and of the paper's own compression. Level 1 averages functions that are compressed already; levels made from the uncompressed functions stand beside it."},
     {"lokovic2000", "section 5.2", "three channels are twice as large as one",
      "holds in shape", "2.33", "three-channel maps are only twice",
      "The rule of sizes is two-sided now, and nearer to the paper's value."},

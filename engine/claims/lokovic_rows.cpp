@@ -98,9 +98,10 @@ Turns time_lookups(const std::vector<std::unique_ptr<const Built>>& rows, const 
             timed.push_back({&rows[row]->maps[map], asked.asked()});
         for (const std::size_t deep : {Rows::deep(row), Rows::nearest(row)})
             compared.push_back({deep, Rows::depth(row)});
-        if (row <= few) continue;
-        compared.push_back({Rows::deep(row), Rows::deep(few)});
-        compared.push_back({Rows::nearest(row), Rows::nearest(few)});
+        for (std::size_t fewer = 0; fewer < std::min(row, few + 1); ++fewer) {
+            compared.push_back({Rows::deep(row), Rows::deep(fewer)});
+            compared.push_back({Rows::nearest(row), Rows::nearest(fewer)});
+        }
     }
     return lookup_turns(timed, compared);
 }

@@ -23,11 +23,11 @@ constexpr double grey_step = 1.0 / 255.0;                    // of a picture of 
 constexpr double edge_step = 1.0;                            // pixels
 
 constexpr Rule rules[] = {
-    {"ratio", "A is r times B", "the ratio is within a factor of 1.5 of r",
-     "within a factor of 3, on the same side of 1",
+    {"ratio", "A is r times B, or adds r % to it",
+     "the ratio is within a factor of 1.5 of r, or of the nearer end of a range that the paper names",
+     "within a factor of 3, on the same side of 1 (a percentage that is added has no such side)",
      "Scenes and machines differ; 1.5 is what a rebuilt scene or another compiler explains. Three times more or less "
-     "is "
-     "another effect."},
+     "is another effect."},
     {"gain", "A is r times better than B", "the gain is at least r / 1.5", "at least r / 3, and a gain",
      "As for a ratio, but a larger gain than the paper's fulfils its claim."},
     {"size", "a map is s times as large as another",
@@ -150,6 +150,11 @@ Judged judge_ratio(double paper, const Value& measured) {
     return judge("ratio", measured, {paper / near_ratio, paper * near_ratio},
                  {std::min(std::max(paper / far_ratio, side.low), paper / near_ratio),
                   std::max(std::min(paper * far_ratio, side.high), paper * near_ratio)});
+}
+
+Judged judge_added(const Value& paper, const Value& measured) {
+    return judge("ratio", measured, {paper.low / near_ratio, paper.high * near_ratio},
+                 {paper.low / far_ratio, paper.high * far_ratio});
 }
 
 Judged judge_gain(double paper, const Value& measured) {

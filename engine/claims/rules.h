@@ -41,6 +41,8 @@ struct Judged {
 // Of each rule below, `measured` is the quantity that the claim is about, and the whole interval of it is judged: if
 // all of it lies within a limit, that verdict is certain; if it crosses a limit, the claim is undecided.
 Judged judge_ratio(double paper, const Value& measured);
+// Of percentages that are added, which have no side of 1. The interval of the paper's value is the range that it names.
+Judged judge_added(const Value& paper, const Value& measured);
 Judged judge_gain(double paper, const Value& measured);
 Judged judge_size(double paper, double without, const Value& measured);
 // The interval of the paper's value holds what is rounded to the digits that it prints.
@@ -73,6 +75,8 @@ Judged both(const Judged& a, const Judged& b);
 Judged in_most(const std::vector<Judged>& cases);
 // A claim about all cases: the worst of their verdicts, but in shape if it holds in most.
 Judged in_all(const std::vector<Judged>& cases);
+// A claim that a case can be found: the best of their verdicts.
+Judged in_any(const std::vector<Judged>& cases);
 // A claim whose words can be read in several ways: the verdict of all readings. If they differ it is undecided, and may
 // be any of theirs.
 Judged in_readings(const std::vector<Judged>& readings);

@@ -72,6 +72,11 @@ Verdict all_have(const Verdicts& cases) {
     return worst == Verdict::fails && most_have(cases) == Verdict::holds ? Verdict::in_shape : worst;
 }
 
+Verdict any_has(const Verdicts& cases) {
+    return *std::min_element(cases.begin(), cases.end(),
+                             [](Verdict a, Verdict b) { return badness(a) < badness(b); });
+}
+
 // What a function of decided verdicts gives, from all parts at their best to all at their worst: it never gives a
 // better verdict for a worse part.
 Judged over_parts(Verdict (*of)(const Verdicts&), const std::vector<Judged>& parts, const char* which) {
@@ -96,6 +101,10 @@ Judged in_most(const std::vector<Judged>& cases) {
 
 Judged in_all(const std::vector<Judged>& cases) {
     return over_parts(all_have, cases, "in all");
+}
+
+Judged in_any(const std::vector<Judged>& cases) {
+    return over_parts(any_has, cases, "in any");
 }
 
 Judged in_readings(const std::vector<Judged>& readings) {

@@ -14,12 +14,11 @@ Value Turns::ratio(std::size_t one, std::size_t other) const {
     return ratio_of(times[one], times[other]);
 }
 
-Value Turns::spread(std::span<const std::size_t> of) const {
-    Value widest = exactly(1.0);
-    for (const std::size_t one : of)
-        for (const std::size_t other : of)
-            if (one != other) widest = largest(widest, ratio(one, other));
-    return widest;
+Value Turns::growth(std::span<const std::size_t> of) const {
+    Value most = ratio(of[1], of[0]);
+    for (std::size_t later = 2; later < of.size(); ++later)
+        for (std::size_t before = 0; before < later; ++before) most = largest(most, ratio(of[later], of[before]));
+    return most;
 }
 
 Turns take_turns(std::span<const std::function<double()>> things, std::span<const Compared> compared,

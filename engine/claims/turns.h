@@ -34,8 +34,9 @@ struct Turns {
 
     Value time(std::size_t thing) const;                    // the median over rounds
     Value ratio(std::size_t one, std::size_t other) const;  // the median over rounds of each round's ratio
-    // The largest ratio of any two of these things. Each end of its interval is the largest of all these ratios' ends.
-    Value spread(std::span<const std::size_t> of) const;
+    // The largest ratio of one of these things, at least two, to one that stands before it: how much the time grows in
+    // this order; below 1 if it only falls. Each end of its interval is the largest of all these ratios' ends.
+    Value growth(std::span<const std::size_t> of) const;
 };
 
 // Each thing does its work once and returns the time that it took. Every other round goes backwards, so that no thing

@@ -5,9 +5,10 @@ namespace {
 
 constexpr Word words[] = {
     {"less, faster, better, more expensive", "less", "A direction without a size."},
-    {"significantly less, faster or more expensive; significant deviations", "significant",
+    {"significantly less, faster or more expensive; considerably; significant deviations", "significant",
      "More than slightly. Deviations are significant beside those that are not."},
-    {"much less, much better, much more expensive, dramatically", "much less", "-"},
+    {"much less, much better, much faster or longer, much more efficient or expensive, dramatically", "much less", "-"},
+    {"eliminates an artifact", "much less", "What is left of it must be much less than what was there."},
     {"slightly more expensive", "less, constant", "More, and at most as much more as constant allows."},
     {"slightly better", "less", "As for a gain: to be clearly better fulfils it."},
     {"virtually constant, at no extra cost", "constant", "-"},

@@ -74,14 +74,21 @@ TEST(Turns, ARatioIsTheMedianOfThoseOfTheRounds) {
 }
 
 // A time that falls after it rose: its ends alone would say that it does not change.
-TEST(Turns, TheSpreadIsThatOfTheSlowestAndTheFastest) {
-    const Turns turns{{{2, 2, 2, 2, 2}, {5, 6, 7, 6, 6}, {2, 2, 2, 2, 2}, {9, 9, 9, 9, 9}}};
-    const std::size_t first[] = {0, 1, 2}, alone[] = {3};
+TEST(Turns, ATimeGrowsByTheLargestRatioToAnEarlierOne) {
+    const Turns turns{{{2, 2, 2, 2, 2}, {5, 6, 7, 6, 6}, {2, 2, 2, 2, 2}}};
+    const std::size_t all[] = {0, 1, 2};
     EXPECT_EQ(turns.ratio(2, 0).value, 1.0);
-    EXPECT_EQ(turns.spread(first).value, 3.0);
-    EXPECT_EQ(turns.spread(first).low, 2.5) << "five values: their whole range";
-    EXPECT_EQ(turns.spread(first).high, 3.5);
-    EXPECT_EQ(turns.spread(alone).value, 1.0);
+    EXPECT_EQ(turns.growth(all).value, 3.0);
+    EXPECT_EQ(turns.growth(all).low, 2.5) << "five values: their whole range";
+    EXPECT_EQ(turns.growth(all).high, 3.5);
+}
+
+TEST(Turns, ATimeThatFallsDoesNotGrow) {
+    const Turns turns{{{8, 8, 8, 8, 8}, {4, 4, 4, 4, 4}, {6, 6, 6, 6, 6}, {3, 3, 3, 3, 3}}};
+    const std::size_t all[] = {0, 1, 2, 3}, falling[] = {0, 1, 3}, backwards[] = {3, 2};
+    EXPECT_EQ(turns.growth(all).value, 1.5) << "from the second to the third";
+    EXPECT_EQ(turns.growth(falling).value, 0.75);
+    EXPECT_EQ(turns.growth(backwards).value, 2.0);
 }
 
 }  // namespace
