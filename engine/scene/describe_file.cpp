@@ -135,7 +135,7 @@ std::string describe_source(const DataFile& data) {
                             counted(data.vdb->active, "active voxel", "active voxels"),
                             data.vdb->axes.empty() ? "" : "; its axes run along " + data.vdb->axes);
     if (data.no_box) text += "  the file has no box: its voxels are taken to have edges of 1\n";
-    if (!data.raw_type.empty()) text += fmt::format("  read as {}, the type that fills the file\n", data.raw_type);
+    for (const std::string& fact : data.facts) text += fmt::format("  {}\n", fact);
     if (data.scene.objects.empty()) return text;
     if (const auto* hair = std::get_if<Hair>(&data.scene.objects[0].shape)) text += describe_width(data, *hair);
     return text;

@@ -40,8 +40,8 @@ AlphaTexture read_alpha(const std::filesystem::path& file);
 // always refused.
 enum class Negative { clamp, refuse };
 
-// Raw values, x fastest; type "uint8" (scaled to [0, 1]) or "float32" (little-endian). The file must have exactly the
-// size that these need. The caller sets the box and step.
+// Raw values, x fastest, little-endian, of a type of voxel_values.h by its name; see read_raw_values() of grid_files.h.
+// The file must have exactly the size that these need. The caller sets the box and step.
 GridVolume read_raw_volume(const std::filesystem::path& file, Vec3i size, const std::string& type,
                            Negative negative = Negative::clamp);
 
