@@ -88,6 +88,16 @@ TEST(NewScenario, APastedObjectLoadsWhatWasRead) {
               R"({"file": "a.exr", "layer": "rgba", "part": 0})");
 }
 
+TEST(NewScenario, AVolumeKeepsTheBoxOfItsFile) {
+    const auto file = test::write_file("a.mha",
+                                       "NDims = 3\nDimSize = 1 1 1\nOffset = 1 2 3\nElementSpacing = 2 2 2\n"
+                                       "ElementType = MET_UCHAR\nElementDataFile = LOCAL\nz");
+    const Scenario scenario = loaded(made_from({file}), file.parent_path());
+    const auto& volume = std::get<GridVolume>(scenario.scene.objects[0].shape);
+    EXPECT_EQ(volume.lower, Vec3d(0, 1, 2));
+    EXPECT_EQ(volume.upper, Vec3d(2, 3, 4));
+}
+
 TEST(NewScenario, TheBoxOfAllFilesStandsOnTheGround) {
     const auto low = test::write_file("low.obj", "v 0 -5 0\nv 1 -5 0\nv 0 -4 0\nf 1 2 3\n");
     const auto high = test::write_file("high.obj", "v 0 5 0\nv 1 5 0\nv 0 6 1\nf 1 2 3\n");
