@@ -206,7 +206,7 @@ TEST(DataFile, VolumesAreDescribedWithTheirTypeAxesAndSpace) {
                 AllOf(HasSubstr("a.nrrd: NRRD volume, "), HasSubstr("  values of uint8, divided by 255\n"),
                       HasSubstr("  its axes run along y, -x, z\n"), HasSubstr("  space: scanner-xyz\n"),
                       HasSubstr("bounds [-1, -1, -1] to [1, 1, 1]"),
-                      HasSubstr("note: what follows its 1 voxels is passed over\n")));
+                      HasSubstr("note: what follows its last voxel is passed over\n")));
 }
 
 // A grid that stands alone is read by any number that it has, and no other.

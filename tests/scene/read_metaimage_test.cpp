@@ -122,7 +122,7 @@ TEST(ReadMetaImage, HasItsValuesInAnotherFile) {
     EXPECT_THAT(read_beside("HeaderSize = -1\n", "values.raw").volume.density, ElementsAre(0.2f, 1.0f));
     const GridFile first = read_beside("", "values.raw");
     EXPECT_THAT(first.volume.density, ElementsAre('h' / 255.0f, 'e' / 255.0f));
-    EXPECT_THAT(first.volume.notes.lines, ElementsAre("what follows its 2 voxels is passed over"));
+    EXPECT_THAT(first.volume.notes.lines, ElementsAre("what follows its last voxel is passed over"));
     for (const char* name : {"../values.raw", "/values.raw"})
         EXPECT_THAT(error_of([&] { read_beside("", name); }).message(), HasSubstr("the folder of the header")) << name;
     EXPECT_EQ(error_of([&] { read_beside("", "gone.raw"); }).code(), base::ErrorCode::no_such_file);

@@ -164,7 +164,7 @@ TEST(ReadNrrd, SkipsLinesAndBytes) {
 
 TEST(ReadNrrd, NotesWhatFollowsTheVoxels) {
     EXPECT_THAT(read(header("uchar", "2 1 1") + "abc").volume.notes.lines,
-                ElementsAre("what follows its 2 voxels is passed over"));
+                ElementsAre("what follows its last voxel is passed over"));
 }
 
 class NrrdHeader : public testing::Test {

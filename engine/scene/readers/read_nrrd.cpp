@@ -206,7 +206,7 @@ std::array<Vec3d, 3> read_steps(const HeaderFields& fields, const Directions& di
             continue;
         }
         if (directions[kept[i]].empty())
-            fields.fail(fields.need("spacedirections"), "an axis of several voxels has no direction");
+            fields.fail(fields.need("spacedirections"), "an axis of the volume has no direction");
         steps[i] = as_vector(directions[kept[i]]);
         if (steps[i] == Vec3d(0, 0, 0)) fields.fail(fields.need("spacedirections"), "a direction without length");
     }

@@ -128,7 +128,7 @@ GridVolume read_voxels(FileReader& file, const VoxelLayout& layout, Negative neg
     const std::uint64_t end = bytes.position();
     if (!bytes.at_end()) {
         if (rest == Rest::refused) bytes.fail(end, "more follows the last voxel: the size, type or skip is wrong");
-        volume.notes.lines.push_back(fmt::format("what follows its {} voxels is passed over", voxels));
+        volume.notes.lines.push_back("what follows its last voxel is passed over");
     }
     return volume;
 }
