@@ -16,7 +16,6 @@ namespace {
 
 using test::bytes_of;
 using test::error_of;
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

@@ -43,6 +43,7 @@ ValueType read_encoding(FileReader& file) {
 // Files that state no box have one that is empty, of no number or unbounded.
 void read_box(FileReader& file, GridVolume& volume) {
     std::array<Vec3d, 2> corners;
+    corners.fill(Vec3d(0, 0, 0));
     for (Vec3d& corner : corners)
         for (int axis = 0; axis < 3; ++axis) corner[axis] = static_cast<double>(file.value<float>("header"));
     volume.lower = corners[0];

@@ -199,9 +199,9 @@ double spacing_of(const HeaderFields& fields, std::size_t axis) {
 
 std::array<Vec3d, 3> read_steps(const HeaderFields& fields, const Directions& directions, const Kept& kept) {
     std::array<Vec3d, 3> steps;
+    steps.fill(Vec3d(0, 0, 0));
     for (std::size_t i = 0; i < 3; ++i) {
         if (directions.empty()) {
-            steps[i] = Vec3d(0, 0, 0);
             steps[i][static_cast<int>(i)] = spacing_of(fields, kept[i]);
             continue;
         }

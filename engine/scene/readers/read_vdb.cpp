@@ -58,6 +58,7 @@ GridAxes axes_of(const openvdb::math::Transform& transform, const openvdb::Coord
     if (!transform.isLinear()) fail(file, "the grid is not a box in the world: its transform is a frustum");
     const openvdb::math::Mat4d matrix = transform.baseMap()->getAffineMap()->getMat4();  // row i: a step along axis i
     std::array<Vec3d, 3> steps;
+    steps.fill(Vec3d(0, 0, 0));
     for (int i = 0; i < 3; ++i) {
         Vec3d& step = steps[static_cast<std::size_t>(i)];
         for (int world = 0; world < 3; ++world) {
