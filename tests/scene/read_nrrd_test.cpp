@@ -162,7 +162,9 @@ TEST(ReadNrrd, SkipsLinesAndBytes) {
     EXPECT_THAT(message(header("uchar", "2 1 1", "byte skip: -2\n") + "ab"), HasSubstr("-2 is not from -1"));
 }
 
-TEST(ReadNrrd, NotesWhatFollowsTheVoxels) {
+TEST(ReadNrrd, NotesWhatItPassesOver) {
+    EXPECT_THAT(read(header("uchar", "2 1 1", "axis mins: 1 1 1\naxis maxs: 2 2 2\n") + "ab").volume.notes.lines,
+                ElementsAre(HasSubstr("axis mins and maxs are passed over")));
     EXPECT_THAT(read(header("uchar", "2 1 1") + "abc").volume.notes.lines,
                 ElementsAre("what follows its last voxel is passed over"));
 }
@@ -207,7 +209,8 @@ TEST_F(NrrdHeader, ReachesNoOtherFolder) {
     EXPECT_EQ(missing.code(), base::ErrorCode::no_such_file);
     EXPECT_THAT(missing.where(), HasSubstr("a.nhdr: byte "));
     EXPECT_THAT(missing.message(), HasSubstr("\"gone.raw\""));
-    EXPECT_THAT(error_of([&] { read_nrrd(with_data("LIST\na.raw\nb.raw")); }).message(), HasSubstr("unu save"));
+    for (const char* several : {"LIST\na.raw\nb.raw", "slice%03d.raw 1 2 1"})
+        EXPECT_THAT(error_of([&] { read_nrrd(with_data(several)); }).message(), HasSubstr("unu save"));
 }
 
 TEST(ReadNrrd, NamesTheFaultsOfAHeader) {

@@ -1,10 +1,9 @@
-// Layout: Mitsuba 3, src/volumes/grid.cpp.
+// Layout: Mitsuba 3, src/render/volumegrid.cpp and the documentation of its grid-based volumes.
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <optional>
 
 #include <fmt/format.h>
 

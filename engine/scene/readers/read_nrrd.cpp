@@ -86,8 +86,8 @@ HeaderFields read_fields(FileReader& file) {
         if (value.starts_with('=')) continue;  // a key with a value, for those who know it
         const std::string name = field_name(text.substr(0, colon));
         fields.add(name, trimmed(value), at);
-        // Its lines of file names have no colons.
-        if (name == "datafile" && trimmed(value).starts_with("LIST"))
+        // A list of names follows, or a pattern of names is given.
+        if (name == "datafile" && (trimmed(value).starts_with("LIST") || value.find('%') != std::string_view::npos))
             file.fail(at, "the values are in several files; unu save writes them into one");
     }
 }
@@ -284,6 +284,9 @@ GridFile read_nrrd(const std::filesystem::path& file, Negative negative, std::ui
     read_begin(data, fields, layout, voxels);
     GridFile result{read_voxels(data, layout, negative, Rest::noted), facts_of(fields, layout)};
     set_box(result.volume, layout.axes, steps, origin);
+    if (fields.find("axismins") || fields.find("axismaxs"))
+        result.volume.notes.lines.push_back(
+            "its axis mins and maxs are passed over: spacings or directions give the box");
     if (const std::optional<std::string> fault = box_fault(result.volume)) fields.fail(sizes_field, *fault);
     return result;
 }
