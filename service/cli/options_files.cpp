@@ -11,8 +11,8 @@ namespace shadowbench::service {
 namespace {
 
 constexpr const char* data_formats =
-    "Data files are meshes (.obj, .ply, .stl), hair (.tfx, .hair), volumes (.vdb, .pvm, .dds, .raw), deep images "
-    "(.exr), and images as alpha textures (.png, .jpg, .tif, .tga, .dds, .exr). Raw values must be of uint8 or "
+    "Data files are meshes (.obj, .ply, .stl, .gltf, .glb), hair (.tfx, .hair), volumes (.vdb, .pvm, .dds, .raw), deep "
+    "images (.exr), and images as alpha textures (.png, .jpg, .tif, .tga, .dds, .exr). Raw values must be of uint8 or "
     "float32, and form a cube or have their size in the name of the file, as in ball_32x32x24.raw.";
 
 void add_data_options(CLI::App& command, FileArguments& arguments, const char* files) {
