@@ -207,6 +207,14 @@ TEST(ReadGltfAlpha, AnImageMayBeInTheFileOrHaveNoAlpha) {
     EXPECT_EQ(error_of([&] { read(gone); }).code(), base::ErrorCode::no_such_file);
 }
 
+TEST(ReadGltfAlpha, OlderMaterialsHaveADiffuseColour) {
+    json older{{"alphaMode", "BLEND"}};
+    older["extensions"]["KHR_materials_pbrSpecularGlossiness"]["diffuseFactor"] = json::array({1, 1, 1, 0.75});
+    const Mesh mesh = read(textured(older, {Vec2f(0, 0), Vec2f(1, 0), Vec2f(0, 1)}));
+    ASSERT_TRUE(mesh.alpha);
+    EXPECT_EQ(alpha_at(mesh, 0, Vec3d(1, 0, 0)), 0.75f);
+}
+
 TEST(ReadGltfAlpha, OpaqueMaterialsNeedNoImage) {
     const Mesh mesh = read(textured(material("OPAQUE", 0.5, true), {Vec2f(0, 0), Vec2f(1, 0), Vec2f(0, 1)}));
     EXPECT_FALSE(mesh.alpha);

@@ -198,13 +198,18 @@ private:
             refuse_at(at + "/alphaMode", "must be OPAQUE, MASK or BLEND");
         material.cutoff = number(from, at, "alphaCutoff", 0.5);
         if (find_extension(from, at, "KHR_materials_transmission")) ++model_.transmitting_materials;
-        const Json* surface = find_object(from, at, "pbrMetallicRoughness");
+        // Where a material has both, the extension counts.
+        constexpr const char* gloss = "KHR_materials_pbrSpecularGlossiness";
+        const Json* diffuse = find_extension(from, at, gloss);
+        const Json* surface = diffuse ? diffuse : find_object(from, at, "pbrMetallicRoughness");
         if (!surface) return material;
-        const std::string where = at + "/pbrMetallicRoughness";
-        const std::vector<double> factor = numbers(*surface, where, "baseColorFactor", 4);
+        const std::string where = diffuse ? fmt::format("{}/extensions/{}", at, gloss) : at + "/pbrMetallicRoughness";
+        const char* colour = diffuse ? "diffuseFactor" : "baseColorFactor";
+        const char* image = diffuse ? "diffuseTexture" : "baseColorTexture";
+        const std::vector<double> factor = numbers(*surface, where, colour, 4);
         if (!factor.empty()) material.factor = factor[3];
-        if (const Json* named = find_object(*surface, where, "baseColorTexture"))
-            parse_texture_place(*named, where + "/baseColorTexture", material);
+        if (const Json* named = find_object(*surface, where, image))
+            parse_texture_place(*named, where + "/" + image, material);
         return material;
     }
 
