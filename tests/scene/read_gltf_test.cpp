@@ -95,6 +95,13 @@ TEST(ReadGltf, ReadsTextAndBinaryAlike) {
     EXPECT_EQ(binary.positions, square);
     EXPECT_EQ(text.positions, square);
     EXPECT_EQ(text.triangles, binary.triangles);
+    // A document filled up with a byte of 0: the length of the file stays.
+    GltfMaker spare = maker;
+    for (std::string name = "x"; spare.text("").size() % 4 != 3; name += "x")
+        spare.document["asset"]["generator"] = name;
+    std::string filled = spare.glb();
+    filled[12 + 8 + spare.text("").size()] = '\0';
+    EXPECT_EQ(read_mesh(test::write_file("zero.glb", filled)).mesh.positions, square);
     // The content tells them apart, not the name.
     EXPECT_EQ(read_mesh(test::write_file("b.gltf", maker.glb())).mesh.positions, square);
     EXPECT_EQ(read_mesh(test::write_file("B.GLTF", "\xef\xbb\xbf" + maker.text("my%20data.bin"))).mesh.positions,

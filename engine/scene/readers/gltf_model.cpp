@@ -44,7 +44,10 @@ GltfModel open_binary(const std::filesystem::path& file, FileReader& reader) {
         reader.fail(8, fmt::format("the length is {} bytes, but the file has {}: it is cut", length, reader.size()));
     const Chunk document = read_chunk(reader, header_bytes);
     if (document.type != json_chunk) reader.fail(document.begin, "the first chunk is no JSON: the file is damaged");
-    const std::vector<char> text = reader.array<char>(document.size, "document");
+    const std::vector<char> chunk = reader.array<char>(document.size, "document");
+    std::string text(chunk.begin(), chunk.end());
+    // Some programs fill it up with bytes of 0 instead of spaces.
+    text.erase(text.find_last_not_of('\0') + 1);
     std::optional<GltfBuffer> bytes;
     // Some programs do not count the bytes that fill a chunk up to a multiple of 4.
     const std::uint64_t next = (reader.position() + 3) / 4 * 4;
@@ -52,7 +55,7 @@ GltfModel open_binary(const std::filesystem::path& file, FileReader& reader) {
         const Chunk binary = read_chunk(reader, next);
         if (binary.type == binary_chunk) bytes = GltfBuffer{binary.size, file, binary.begin, {}};
     }
-    return parse_gltf(file, std::string(text.begin(), text.end()), std::move(bytes));
+    return parse_gltf(file, text, std::move(bytes));
 }
 
 bool looks_like_json(std::string_view text) {
