@@ -133,6 +133,8 @@ constexpr std::array formats{
     FileFormat{".obj", "Wavefront OBJ mesh", "mesh", nullptr, read_mesh_file},
     FileFormat{".ply", "PLY mesh", "mesh", nullptr, read_mesh_file},
     FileFormat{".stl", "STL mesh", "mesh", nullptr, read_mesh_file},
+    FileFormat{".gltf", "glTF mesh", "mesh", nullptr, read_mesh_file},
+    FileFormat{".glb", "binary glTF mesh", "mesh", nullptr, read_mesh_file},
     FileFormat{".tfx", "TressFX hair", "hair", nullptr, read_tressfx_file},
     FileFormat{".hair", "hair in Cem Yuksel's format", "hair", nullptr, read_hair_file},
     FileFormat{".vdb", "OpenVDB grid", "volume", nullptr, read_vdb_file},

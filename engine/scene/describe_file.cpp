@@ -52,12 +52,13 @@ std::string describe_texture(const AlphaTexture& texture) {
 }
 
 std::string describe_shape(const Mesh& mesh) {
-    if (mesh.alpha) return describe_texture(*mesh.alpha);
     if (mesh.triangles.empty() && !mesh.positions.empty())
         return fmt::format("  a point cloud: {} and no faces\n", counted(mesh.positions.size(), "point", "points"));
-    return fmt::format("  {}, {}{}\n", counted(mesh.positions.size(), "vertex", "vertices"),
-                       counted(mesh.triangles.size(), "triangle", "triangles"),
-                       mesh.corner_uv.empty() ? "" : ", with texture coordinates");
+    const std::string counts = fmt::format("  {}, {}{}\n", counted(mesh.positions.size(), "vertex", "vertices"),
+                                           counted(mesh.triangles.size(), "triangle", "triangles"),
+                                           mesh.corner_uv.empty() || mesh.alpha ? "" : ", with texture coordinates");
+    return mesh.alpha ? counts + "  the materials as one alpha texture:" + describe_texture(*mesh.alpha).substr(1)
+                      : counts;
 }
 
 std::string describe_shape(const Hair& hair) {
@@ -159,6 +160,8 @@ std::string describe_file(const DataFile& data) {
         fmt::format("{}: {}, {}\n", data.file.string(), data.format->title, base::bytes_text(data.bytes));
     if (data.scene.deep_image)
         text += describe_deep(*data.scene.deep_image);
+    else if (data.format->loader == "quad")
+        text += describe_texture(*std::get<Mesh>(data.scene.objects[0].shape).alpha);
     else
         text += std::visit([](const auto& shape) { return describe_shape(shape); }, data.scene.objects[0].shape);
     text += describe_box(data) + describe_source(data) + describe_notes(data);

@@ -20,6 +20,7 @@ void dds_volume(std::string_view bytes);
 void deep_file(std::string_view bytes);
 void deep_image(std::string_view bytes);
 void functions(std::string_view bytes);
+void gltf(std::string_view bytes);
 void hair(std::string_view bytes);
 void metaimage(std::string_view bytes);
 void mitsuba_volume(std::string_view bytes);

@@ -178,6 +178,10 @@ TEST(DataFile, MeshesAreDescribedWithWhatIsPassedOver) {
                 AllOf(HasSubstr("points.ply: PLY mesh, 126 B\n"), HasSubstr("a point cloud: 4 points and no faces\n"),
                       HasSubstr("bounds [0, 1, -1] to [1, 1, 0], size [1, 0, 1]\n")));
     EXPECT_FALSE(casts_shadow(read_data_file(case_file("points.ply"), {})));
+    EXPECT_THAT(described(case_file("placed.gltf")),
+                AllOf(HasSubstr("placed.gltf: glTF mesh, "), HasSubstr("12 vertices, 6 triangles\n"),
+                      HasSubstr("alpha texture: 3 x 3 pixels, alpha 0.5\n"),
+                      HasSubstr("bounds [-2, 0, 0] to [12, 3, 5], size [14, 3, 5]\n")));
     EXPECT_THAT(described(case_file("edge.obj")),
                 AllOf(HasSubstr("4 vertices, 2 triangles\n"),
                       HasSubstr("note: passed over: faces of fewer than 3 corners (1)\n")));

@@ -42,8 +42,8 @@ Scenario loaded(const ordered_json& scenario, const std::filesystem::path& folde
 }
 
 TEST(NewScenario, OfEachKindOfFileLoads) {
-    for (const char* name : {"bom.obj", "edge.obj", "strips.ply", "noname.vdb", "rot90.vdb", "tinyneg.vdb",
-                             "zback0.exr", "inf.exr", "layered.exr"}) {
+    for (const char* name : {"bom.obj", "edge.obj", "strips.ply", "placed.gltf", "noname.vdb", "rot90.vdb",
+                             "tinyneg.vdb", "zback0.exr", "inf.exr", "layered.exr"}) {
         SCOPED_TRACE(name);
         const Scenario scenario = loaded(made_from({case_file(name)}), case_file(name).parent_path());
         EXPECT_EQ(scenario.name, std::string(name).substr(0, std::string(name).find('.')));
