@@ -176,8 +176,9 @@ TEST(ReadGltfAlpha, EveryMaterialKeepsItsOwn) {
     add_triangle(maker, material("OPAQUE", 0.25, true), uvs);
     add_triangle(maker, material("BLEND", 0.25, false), uvs);
     add_triangle(maker, material("MASK", 0.25, false), uvs);
+    add_triangle(maker, material("BLEND", 0.5, true), uvs);
     const Mesh mesh = read(maker);
-    ASSERT_EQ(mesh.triangles.size(), 4u);
+    ASSERT_EQ(mesh.triangles.size(), 5u);
     const AlphaTexture image{width, height, alphas()};
     for (const Vec3d& shares : spread()) {
         const Vec2d at = mixed(uvs, shares);
@@ -186,6 +187,7 @@ TEST(ReadGltfAlpha, EveryMaterialKeepsItsOwn) {
         EXPECT_EQ(alpha_at(mesh, 1, shares), 1.0f);
         EXPECT_EQ(alpha_at(mesh, 2, shares), 0.25f);
         EXPECT_EQ(alpha_at(mesh, 3, shares), 0.0f);
+        EXPECT_NEAR(alpha_at(mesh, 4, shares), 0.5f * alpha_at(mesh, 0, shares), 1e-4f) << "the same image";
     }
 }
 
@@ -197,7 +199,9 @@ TEST(ReadGltfAlpha, AnImageMayBeInTheFileOrHaveNoAlpha) {
     EXPECT_NEAR(alpha_at(read(inside), 0, Vec3d(1, 0, 0)), alphas()[width], 1e-4f);
 
     write_image("leaf.tif", false);
-    EXPECT_FALSE(read(textured(material("BLEND", 1.0, true), uvs)).alpha);
+    const Mesh opaque = read(textured(material("BLEND", 1.0, true), uvs));
+    EXPECT_FALSE(opaque.alpha);
+    EXPECT_TRUE(opaque.corner_uv.empty());
 
     inside.document["images"][0]["bufferView"] = 0;
     const base::Error error = error_of([&] { read(inside); });

@@ -27,9 +27,9 @@ struct MeshFile {
     std::vector<PassedOver> passed_over;
 };
 
-// Chooses the format by the extension: .obj or .ply (ASCII and binary, faces and triangle strips). Splits polygons into
-// triangles that cover them once (triangulate.h); a polygon that crosses itself is bad input. A file may hold only
-// vertices.
+// Chooses the format by the extension: .obj, .ply (ASCII and binary, faces and triangle strips), .stl, .gltf or .glb.
+// Splits polygons into triangles that cover them once (triangulate.h); a polygon that crosses itself is bad input. A
+// file may hold only vertices.
 MeshFile read_mesh(const std::filesystem::path& file);
 
 // The alpha channel of an image (its luminance where it has none): PNG, JPEG, TIFF, OpenEXR, DDS or TGA.

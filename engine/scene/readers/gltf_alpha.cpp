@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -55,6 +56,7 @@ public:
 
     void add() {
         find_parts();
+        images_.clear();
         if (parts_.size() == 1 && !parts_[0].image && parts_[0].constant == 1.0) parts_.clear();
         if (parts_.empty()) {
             for (Vec2f& uv : file_.mesh.corner_uv) uv.y = 1.0f - uv.y;
@@ -107,9 +109,10 @@ private:
             pass_over(file_, "alpha textures of formats that are not read");
             return part;
         }
-        std::optional<AlphaTexture> image = read_gltf_image(model_, *texture.image);
-        if (!image) return part;
-        check_texels(image->alpha.size());
+        const std::optional<AlphaTexture>& original = image_of(*texture.image);
+        if (!original) return part;
+        check_texels(original->alpha.size());
+        std::optional<AlphaTexture> image = original;
         for (float& texel : image->alpha) texel = static_cast<float>(opacity(material, static_cast<double>(texel)));
         const float first = image->alpha.front();
         if (std::all_of(image->alpha.begin(), image->alpha.end(), [&](float texel) { return texel == first; })) {
@@ -124,6 +127,13 @@ private:
         part.wrap_u = texture.u;
         part.wrap_v = texture.v;
         return part;
+    }
+
+    // Each image is read once, however many materials name it.
+    const std::optional<AlphaTexture>& image_of(std::size_t number) {
+        const auto [known, added] = images_.try_emplace(number);
+        if (added) known->second = read_gltf_image(model_, number);
+        return known->second;
     }
 
     // Refuses images, before they fill the memory.
@@ -265,6 +275,7 @@ private:
     std::vector<Part> parts_;
     std::vector<std::uint32_t> part_of_triangle_;
     std::map<double, std::uint32_t> by_constant_;
+    std::map<std::size_t, std::optional<AlphaTexture>> images_;  // without a texture: opaque ones
     std::uint64_t texels_ = 0;
     int width_ = 0, height_ = 0;  // of the mesh's texture
 };

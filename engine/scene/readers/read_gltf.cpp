@@ -65,6 +65,8 @@ public:
         pass_over_some("other scenes", model_.other_scenes);
         pass_over_some("materials that transmit light", model_.transmitting_materials);
         if (keeps_uv_) add_gltf_alpha(model_, materials_, file_);
+        // Corners of opaque materials got none, since a texture was expected.
+        if (alpha_ && !file_.mesh.alpha) file_.mesh.corner_uv.clear();
         return std::move(file_);
     }
 
