@@ -132,8 +132,22 @@ private:
     // Each image is read once, however many materials name it.
     const std::optional<AlphaTexture>& image_of(std::size_t number) {
         const auto [known, added] = images_.try_emplace(number);
-        if (added) known->second = read_gltf_image(model_, number);
+        if (added) {
+            check_bytes(number);
+            known->second = read_gltf_image(model_, number);
+        }
         return known->second;
+    }
+
+    // Many images of a small file may lie in the same bytes of it.
+    void check_bytes(std::size_t number) {
+        const std::optional<std::size_t> view = model_.images[number].view;
+        if (!view) return;
+        bytes_ += model_.views[*view].length;
+        if (bytes_ > most_gltf_image_bytes)
+            fail(model_, fmt::format("/images/{}", number),
+                 fmt::format("the images up to this one have {} bytes; the limit is {}", bytes_,
+                             most_gltf_image_bytes));
     }
 
     // Refuses images, before they fill the memory.
@@ -276,7 +290,7 @@ private:
     std::vector<std::uint32_t> part_of_triangle_;
     std::map<double, std::uint32_t> by_constant_;
     std::map<std::size_t, std::optional<AlphaTexture>> images_;  // without a texture: opaque ones
-    std::uint64_t texels_ = 0;
+    std::uint64_t texels_ = 0, bytes_ = 0;
     int width_ = 0, height_ = 0;  // of the mesh's texture
 };
 
