@@ -12,7 +12,7 @@
 
 namespace shadowbench::scene {
 
-inline constexpr std::uint64_t most_gltf_texels = std::uint64_t{1} << 28;  // of all materials together
+inline constexpr std::uint64_t most_gltf_texels = std::uint64_t{1} << 28;       // of all materials together
 inline constexpr std::uint64_t most_gltf_image_bytes = std::uint64_t{1} << 32;  // of images in views, together
 inline constexpr std::uint32_t no_material = 0xffffffff;
 
