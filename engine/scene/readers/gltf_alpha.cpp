@@ -146,8 +146,7 @@ private:
         bytes_ += model_.views[*view].length;
         if (bytes_ > most_gltf_image_bytes)
             fail(model_, fmt::format("/images/{}", number),
-                 fmt::format("the images up to this one have {} bytes; the limit is {}", bytes_,
-                             most_gltf_image_bytes));
+                 fmt::format("the images up to here have {} bytes; the limit is {}", bytes_, most_gltf_image_bytes));
     }
 
     // Refuses images, before they fill the memory.
