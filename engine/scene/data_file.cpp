@@ -17,7 +17,10 @@
 #include "scene/limits.h"
 #include "scene/load.h"
 #include "scene/readers/extension.h"
+#include "scene/readers/grid_files.h"
 #include "scene/readers/kinds.h"
+#include "scene/readers/text_lines.h"
+#include "scene/readers/unpacked_bytes.h"
 #include "scene/stage.h"
 
 namespace shadowbench::scene {
@@ -73,6 +76,23 @@ void read_pvm_file(DataFile& data) {
     add_object(data, read_pvm(data.file));
 }
 
+void add_grid(DataFile& data, GridFile file) {
+    data.facts = std::move(file.facts);
+    add_object(data, std::move(file.volume));
+}
+
+void read_nrrd_file(DataFile& data) {
+    add_grid(data, read_nrrd(data.file));
+}
+
+void read_metaimage_file(DataFile& data) {
+    add_grid(data, read_metaimage(data.file));
+}
+
+void read_mitsuba_file(DataFile& data) {
+    add_grid(data, read_mitsuba_volume(data.file));
+}
+
 void add_without_box(DataFile& data, GridVolume volume) {
     volume.upper = Vec3d(volume.size);
     data.no_box = true;
@@ -84,8 +104,11 @@ void read_dds_file(DataFile& data) {
 }
 
 void read_raw_file(DataFile& data) {
-    const RawLayout layout = raw_layout(data.file, data.bytes);
+    const bool packed = extension_of(data.file) == ".gz";
+    const RawLayout layout = raw_layout(data.file, packed ? gzip_bytes(data.file) : data.bytes);
     data.raw_type = layout.type;
+    data.facts.push_back(fmt::format("read as {}, little-endian, {}", layout.type,
+                                     layout.type_stated ? "as its name says" : "the type that fills the file"));
     add_without_box(data, read_raw_volume(data.file, layout.size, layout.type));
 }
 
@@ -110,12 +133,20 @@ constexpr std::array formats{
     FileFormat{".obj", "Wavefront OBJ mesh", "mesh", nullptr, read_mesh_file},
     FileFormat{".ply", "PLY mesh", "mesh", nullptr, read_mesh_file},
     FileFormat{".stl", "STL mesh", "mesh", nullptr, read_mesh_file},
+    FileFormat{".gltf", "glTF mesh", "mesh", nullptr, read_mesh_file},
+    FileFormat{".glb", "binary glTF mesh", "mesh", nullptr, read_mesh_file},
     FileFormat{".tfx", "TressFX hair", "hair", nullptr, read_tressfx_file},
     FileFormat{".hair", "hair in Cem Yuksel's format", "hair", nullptr, read_hair_file},
     FileFormat{".vdb", "OpenVDB grid", "volume", nullptr, read_vdb_file},
     FileFormat{".pvm", "volume of the V3 library", "volume", nullptr, read_pvm_file},
     FileFormat{".dds", "DDS volume texture", "volume", is_dds_volume, read_dds_file},
+    FileFormat{".nrrd", "NRRD volume", "volume", nullptr, read_nrrd_file},
+    FileFormat{".nhdr", "header of an NRRD volume", "volume", nullptr, read_nrrd_file},
+    FileFormat{".mha", "MetaImage volume", "volume", nullptr, read_metaimage_file},
+    FileFormat{".mhd", "header of a MetaImage volume", "volume", nullptr, read_metaimage_file},
+    FileFormat{".vol", "volume of Mitsuba", "volume", nullptr, read_mitsuba_file},
     FileFormat{".raw", "volume of raw values", "volume", nullptr, read_raw_file},
+    FileFormat{".gz", "volume of packed raw values", "volume", nullptr, read_raw_file},
     FileFormat{".exr", "deep OpenEXR image", "deep_image", is_deep_image, read_deep_file},
     FileFormat{".exr", texture_title, "quad", nullptr, read_texture_file},
     FileFormat{".dds", texture_title, "quad", nullptr, read_texture_file},
@@ -160,6 +191,19 @@ std::optional<Vec3i> size_in(std::string_view name) {
     return std::nullopt;
 }
 
+// The type that "ball_32x32x24_int16" states.
+std::optional<ValueType> type_in(std::string_view name) {
+    const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+    const std::string text = lower_case(name);
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        if (!is_letter(text[at]) || (at > 0 && (is_letter(text[at - 1]) || is_digit(text[at - 1])))) continue;
+        std::size_t end = at;
+        while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
+        if (const std::optional<ValueType> type = value_type(std::string_view(text).substr(at, end - at))) return type;
+    }
+    return std::nullopt;
+}
+
 // The cube whose number of voxels is nearest.
 Vec3i cube(std::uint64_t voxels) {
     const int side = static_cast<int>(std::lround(std::cbrt(static_cast<double>(voxels))));
@@ -193,26 +237,33 @@ DataFile read_data_file(const std::filesystem::path& file, const FileChoice& cho
 }
 
 RawLayout raw_layout(const std::filesystem::path& file, std::uint64_t bytes) {
-    const std::optional<Vec3i> named = size_in(file.stem().string());
-    for (const auto& [type, bytes_each] : {std::pair{"uint8", 1}, {"float32", 4}}) {
-        const Vec3i size = named ? *named : cube(bytes / static_cast<std::uint64_t>(bytes_each));
+    const std::string name = file.stem().string();
+    const std::optional<Vec3i> stated = size_in(name);
+    const std::optional<ValueType> stated_type = type_in(name);
+    std::vector<ValueType> types{ValueType::uint8, ValueType::float32};
+    if (stated_type) types.assign(1, *stated_type);
+    for (const ValueType type : types) {
+        const std::uint64_t bytes_each = bytes_of_value(type);
+        const Vec3i size = stated ? *stated : cube(bytes / bytes_each);
         const double voxels = voxels_of(size);
-        if (voxels * bytes_each != static_cast<double>(bytes) || voxels < 1.0) continue;
+        if (voxels * static_cast<double>(bytes_each) != static_cast<double>(bytes) || voxels < 1.0) continue;
         if (voxels > static_cast<double>(max_voxels))
             throw Error(ErrorCode::bad_input, file.string(),
                         fmt::format("{} x {} x {} voxels; the limit is {}", size.x, size.y, size.z, max_voxels));
-        return {size, type};
+        return {size, std::string(name_of(type)), stated_type.has_value()};
     }
-    if (named)
+    const std::string held = stated_type ? std::string(name_of(*stated_type)) : "uint8 or float32";
+    if (stated)
         throw Error(ErrorCode::bad_input, file.string(),
-                    fmt::format("the name states {} x {} x {} voxels, but the file has {} bytes: neither 1 (uint8) nor "
-                                "4 (float32) a voxel, the only types of raw values that are read",
-                                named->x, named->y, named->z, bytes));
+                    fmt::format("the name states {} x {} x {} voxels, but the file has {} bytes, which are not as many "
+                                "of {}: state the type in the name, as in ball_32x32x24_int16.raw, or write a volume "
+                                "with \"format\", \"size\" and \"skip\" into a scenario",
+                                stated->x, stated->y, stated->z, bytes, held));
     throw Error(ErrorCode::bad_input, file.string(),
-                fmt::format("{} bytes of raw values are no cube of uint8 or float32: state the size in the name of the "
-                            "file, as in ball_32x32x24.raw, or write a volume with \"format\", \"size\", \"lower\" "
-                            "and \"upper\" into a scenario",
-                            bytes));
+                fmt::format("{} bytes of raw values are no cube of {}: state the size and the type in the name of the "
+                            "file, as in ball_32x32x24_int16.raw, or write a volume with \"format\", \"size\" and "
+                            "\"spacing\" into a scenario",
+                            bytes, held));
 }
 
 Box3d bounds(const DataFile& data) {

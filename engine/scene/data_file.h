@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/readers/files.h"
 #include "scene/readers/vdb_facts.h"
@@ -44,8 +45,9 @@ struct DataFile {
     bool guessed_radius = false;      // hair: the file has no width, so a 2000th of the diagonal stands in
     std::uint64_t short_strands = 0;  // hair: strands without length, which are left out
     bool no_box = false;              // volume: the file has no box
-    std::string raw_type;             // raw values: "uint8" or "float32"
+    std::string raw_type;             // raw values: as in a scenario, "uint8"
     std::optional<VdbFacts> vdb;
+    std::vector<std::string> facts;  // volume: what else the file says of itself, in lines
 };
 
 // Throws Error: no_such_file, io, or bad_input for what the reader refuses and for extensions that no format has.
@@ -54,10 +56,12 @@ DataFile read_data_file(const std::filesystem::path& file, const FileChoice& cho
 struct RawLayout {
     Vec3i size{0, 0, 0};
     std::string type;
+    bool type_stated = false;  // by the name
 };
 
-// The layout of raw values: the size that the name states, as in "ball_32x32x24.raw", or else a cube; and the type that
-// fills the file. Throws Error{bad_input} if no type does.
+// The layout of raw values: the size and the type that the name states, as in "ball_32x32x24_int16.raw". Without a size
+// it is a cube; without a type, uint8 or float32, whichever fills the file. Throws Error{bad_input} if the values are
+// not as many as the unpacked bytes of the file, `bytes`, hold.
 RawLayout raw_layout(const std::filesystem::path& file, std::uint64_t bytes);
 
 // The box of what casts shadows; of a mesh without triangles, that of its vertices. Empty for a deep image.

@@ -52,12 +52,13 @@ std::string describe_texture(const AlphaTexture& texture) {
 }
 
 std::string describe_shape(const Mesh& mesh) {
-    if (mesh.alpha) return describe_texture(*mesh.alpha);
     if (mesh.triangles.empty() && !mesh.positions.empty())
         return fmt::format("  a point cloud: {} and no faces\n", counted(mesh.positions.size(), "point", "points"));
-    return fmt::format("  {}, {}{}\n", counted(mesh.positions.size(), "vertex", "vertices"),
-                       counted(mesh.triangles.size(), "triangle", "triangles"),
-                       mesh.corner_uv.empty() ? "" : ", with texture coordinates");
+    const std::string counts = fmt::format("  {}, {}{}\n", counted(mesh.positions.size(), "vertex", "vertices"),
+                                           counted(mesh.triangles.size(), "triangle", "triangles"),
+                                           mesh.corner_uv.empty() || mesh.alpha ? "" : ", with texture coordinates");
+    return mesh.alpha ? counts + "  the materials as one alpha texture:" + describe_texture(*mesh.alpha).substr(1)
+                      : counts;
 }
 
 std::string describe_shape(const Hair& hair) {
@@ -135,7 +136,7 @@ std::string describe_source(const DataFile& data) {
                             counted(data.vdb->active, "active voxel", "active voxels"),
                             data.vdb->axes.empty() ? "" : "; its axes run along " + data.vdb->axes);
     if (data.no_box) text += "  the file has no box: its voxels are taken to have edges of 1\n";
-    if (!data.raw_type.empty()) text += fmt::format("  read as {}, the type that fills the file\n", data.raw_type);
+    for (const std::string& fact : data.facts) text += fmt::format("  {}\n", fact);
     if (data.scene.objects.empty()) return text;
     if (const auto* hair = std::get_if<Hair>(&data.scene.objects[0].shape)) text += describe_width(data, *hair);
     return text;
@@ -159,6 +160,8 @@ std::string describe_file(const DataFile& data) {
         fmt::format("{}: {}, {}\n", data.file.string(), data.format->title, base::bytes_text(data.bytes));
     if (data.scene.deep_image)
         text += describe_deep(*data.scene.deep_image);
+    else if (data.format->loader == "quad")
+        text += describe_texture(*std::get<Mesh>(data.scene.objects[0].shape).alpha);
     else
         text += std::visit([](const auto& shape) { return describe_shape(shape); }, data.scene.objects[0].shape);
     text += describe_box(data) + describe_source(data) + describe_notes(data);

@@ -74,9 +74,11 @@ void load_alpha(const json& from, const SearchPath& path, const std::string& whe
     std::string name;
     read(from, "alpha_texture", name);
     if (name.empty()) {
-        mesh.corner_uv.clear();
+        if (!mesh.alpha) mesh.corner_uv.clear();
         return;
     }
+    if (mesh.alpha)
+        refuse(where + "/alpha_texture", "the materials of the file have an alpha texture already; remove this one");
     if (mesh.corner_uv.empty())
         refuse(where + "/alpha_texture", "the mesh has no texture coordinates to place the texture");
     mesh.alpha = std::make_shared<const AlphaTexture>(read_alpha(find_file(path, name, where + "/alpha_texture")));

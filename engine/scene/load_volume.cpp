@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "scene/procedural.h"
 #include "scene/readers/extension.h"
 #include "scene/readers/files.h"
+#include "scene/readers/grid_files.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -54,15 +56,19 @@ GridChoice grid_choice(const json& from) {
     return grid->get<int>();
 }
 
-enum class VolumeKind { raw, vdb, pvm, dds };
+enum class VolumeKind { raw, vdb, pvm, dds, nrrd, metaimage, mitsuba };
 
 // The reader of a file, by its extension. Raw values may have any other extension too.
 struct VolumeFormat {
     std::string_view extension;
     VolumeKind kind;
 };
-constexpr std::array volume_formats{VolumeFormat{".vdb", VolumeKind::vdb}, VolumeFormat{".pvm", VolumeKind::pvm},
-                                    VolumeFormat{".dds", VolumeKind::dds}, VolumeFormat{".raw", VolumeKind::raw}};
+constexpr std::array volume_formats{
+    VolumeFormat{".vdb", VolumeKind::vdb},       VolumeFormat{".pvm", VolumeKind::pvm},
+    VolumeFormat{".dds", VolumeKind::dds},       VolumeFormat{".nrrd", VolumeKind::nrrd},
+    VolumeFormat{".nhdr", VolumeKind::nrrd},     VolumeFormat{".mhd", VolumeKind::metaimage},
+    VolumeFormat{".mha", VolumeKind::metaimage}, VolumeFormat{".vol", VolumeKind::mitsuba},
+    VolumeFormat{".raw", VolumeKind::raw},       VolumeFormat{".gz", VolumeKind::raw}};
 
 // Refuses an unknown extension, unless the scenario says how to read raw values.
 VolumeKind volume_kind(const json& from, const std::filesystem::path& file, const std::string& where) {
@@ -74,7 +80,8 @@ VolumeKind volume_kind(const json& from, const std::filesystem::path& file, cons
     }
     if (!extension.empty() && !from.contains("format") && !from.contains("size"))
         refuse(where + "/file", unknown_extension(file, "volume", known) +
-                                    ", except as raw values, which need \"format\", \"size\", \"lower\" and \"upper\"");
+                                    ", except as raw values, which need \"format\", \"size\", and \"spacing\" or "
+                                    "\"lower\" and \"upper\"");
     return VolumeKind::raw;
 }
 
@@ -90,11 +97,25 @@ void need_keys(const json& from, const std::string& where, std::initializer_list
 }
 
 GridVolume load_raw(const json& from, const std::filesystem::path& file, const std::string& where) {
-    need_keys(from, where, {"format", "size", "lower", "upper"}, "raw values need");
-    Vec3i size(0, 0, 0);
-    read(from, "size", size);
-    check_voxels(size, where + "/size");
-    return read_raw_volume(file, size, from["format"].get<std::string>(), negative_of(from));
+    need_keys(from, where, {"format", "size"}, "raw values need");
+    const bool spaced = from.contains("spacing");
+    if (!spaced) need_keys(from, where, {"lower", "upper"}, "raw values without \"spacing\" need");
+    if (spaced) refuse_keys(from, where, {"upper"}, "\"size\" and \"spacing\" give this corner; remove this key");
+    RawFormat format;
+    read(from, "size", format.size);
+    check_voxels(format.size, where + "/size");
+    format.type = value_type(from["format"].get<std::string>()).value();
+    format.order = from.value("byte_order", "little") == "big" ? ByteOrder::big : ByteOrder::little;
+    read(from, "skip", format.skip);
+    GridVolume volume = read_raw_values(file, format, negative_of(from));
+    if (spaced) {
+        Vec3d spacing(1, 1, 1);
+        read(from, "lower", volume.lower);
+        read(from, "spacing", spacing);
+        volume.upper = volume.lower + spacing * Vec3d(format.size);
+        if (const std::optional<std::string> fault = box_fault(volume)) refuse(where + "/spacing", *fault);
+    }
+    return volume;
 }
 
 GridVolume load_dds(const json& from, const std::filesystem::path& file, const std::string& where) {
@@ -116,6 +137,12 @@ GridVolume load_file(const json& from, const std::filesystem::path& file, Volume
             return read_pvm(file);
         case VolumeKind::dds:
             return load_dds(from, file, where);
+        case VolumeKind::nrrd:
+            return read_nrrd(file, negative_of(from)).volume;
+        case VolumeKind::metaimage:
+            return read_metaimage(file, negative_of(from)).volume;
+        case VolumeKind::mitsuba:
+            return read_mitsuba_volume(file, negative_of(from)).volume;
         case VolumeKind::raw:
             break;
     }
@@ -144,7 +171,7 @@ GridVolume load_volume(const json& from, const SearchPath& path, const std::stri
     if (kind != VolumeKind::dds)
         refuse_keys(from, where, {"channel"}, "only .dds files have channels; remove this key");
     if (kind != VolumeKind::raw)
-        refuse_keys(from, where, {"format", "size"},
+        refuse_keys(from, where, {"format", "size", "byte_order", "skip", "spacing"},
                     fmt::format("a {} file has its own; remove this key", file.extension().string()));
     if (kind == VolumeKind::vdb)
         refuse_keys(from, where, {"lower", "upper"}, "a .vdb file has its own; remove this key");

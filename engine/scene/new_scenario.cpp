@@ -212,8 +212,9 @@ ordered_json scene_object(const DataFile& data, const std::string& name) {
     const auto& shape = data.scene.objects[0].shape;
     const auto* mesh = std::get_if<Mesh>(&shape);
     ordered_json object{{"type", std::string(data.format->loader)}, {"name", as_name(data.file.stem().string())}};
-    object[mesh && mesh->alpha ? "alpha_texture" : "file"] = name;
-    if (mesh && mesh->alpha) put_quad(object, *mesh);
+    const bool texture = data.format->loader == "quad";
+    object[texture ? "alpha_texture" : "file"] = name;
+    if (mesh && texture) put_quad(object, *mesh);
     if (const auto* volume = std::get_if<GridVolume>(&shape)) put_volume(object, data, *volume);
     if (const auto* hair = std::get_if<Hair>(&shape)) {
         if (data.guessed_radius && !hair->radii.empty())
@@ -225,7 +226,9 @@ ordered_json scene_object(const DataFile& data, const std::string& name) {
 
 bool is_opaque(std::span<const DataFile> files) {
     return std::all_of(files.begin(), files.end(), [](const DataFile& data) {
-        return !data.scene.deep_image && std::holds_alternative<Mesh>(data.scene.objects[0].shape);
+        if (data.scene.deep_image) return false;
+        const auto* mesh = std::get_if<Mesh>(&data.scene.objects[0].shape);
+        return mesh && !mesh->alpha;
     });
 }
 

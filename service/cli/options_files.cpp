@@ -11,9 +11,10 @@ namespace shadowbench::service {
 namespace {
 
 constexpr const char* data_formats =
-    "Data files are meshes (.obj, .ply, .stl), hair (.tfx, .hair), volumes (.vdb, .pvm, .dds, .raw), deep images "
-    "(.exr), and images as alpha textures (.png, .jpg, .tif, .tga, .dds, .exr). Raw values must be of uint8 or "
-    "float32, and form a cube or have their size in the name of the file, as in ball_32x32x24.raw.";
+    "Data files are meshes (.obj, .ply, .stl, .gltf, .glb), hair (.tfx, .hair), volumes (.vdb, .nrrd, .nhdr, .mhd, "
+    ".mha, .vol, .pvm, .dds, .raw, .gz), deep images (.exr), and images as alpha textures (.png, .jpg, .tif, .tga, "
+    ".dds, .exr). Raw values, which gzip may have packed (.gz), form a cube of uint8 or float32, or have their size "
+    "and type in the name of the file, as in ball_32x32x24_int16.raw.";
 
 void add_data_options(CLI::App& command, FileArguments& arguments, const char* files) {
     command.add_option("FILE", arguments.files, files)->required();

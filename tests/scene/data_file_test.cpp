@@ -4,12 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
 #include "scene/data_file.h"
 #include "scene/describe_file.h"
+#include "scene/packed_volume.h"
 #include "scene/readers/kinds.h"
 #include "scene/scenario.h"
 #include "scene/support.h"
@@ -56,11 +58,11 @@ TEST(DataFile, TheTableHasTheExtensionsThatLoadersName) {
 }
 
 TEST(DataFile, NamesWhatIsReadInsteadOfAnUnknownExtension) {
-    const auto file = test::write_file("a.nrrd", "NRRD0004\n");
+    const auto file = test::write_file("a.slc", "11111\n");
     const base::Error error = error_of([&] { read_data_file(file, {}); });
     EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
     EXPECT_EQ(error.where(), file.string());
-    for (const char* known : {".obj", ".vdb", ".exr", ".nrrd is not read"})
+    for (const char* known : {".obj", ".vdb", ".exr", ".slc is not read"})
         EXPECT_THAT(error.message(), HasSubstr(known));
     EXPECT_EQ(error_of([&] { read_data_file(file.parent_path() / "gone.obj", {}); }).code(),
               base::ErrorCode::no_such_file);
@@ -121,12 +123,38 @@ TEST(DataFile, RawValuesHaveTheSizeOfTheirNameOrAreACube) {
     expect("cube.raw", 256, Vec3i(4, 4, 4), "float32");
 }
 
+// Collections of volumes name their files so.
+TEST(DataFile, RawValuesHaveTheTypeOfTheirName) {
+    const auto expect = [](const char* name, std::uint64_t bytes, const Vec3i& size, const char* type) {
+        const RawLayout layout = raw_layout(name, bytes);
+        EXPECT_EQ(layout.size, size) << name;
+        EXPECT_EQ(layout.type, type) << name;
+        EXPECT_TRUE(layout.type_stated) << name;
+    };
+    expect("ball_32x32x24_uint16.raw", 49152, Vec3i(32, 32, 24), "uint16");
+    expect("INT16_ball.raw", 54, Vec3i(3, 3, 3), "int16");
+    expect("ball_2x3x4_float64.raw.gz", 192, Vec3i(2, 3, 4), "float64");
+    expect("a_int8.raw", 8, Vec3i(2, 2, 2), "int8");
+    EXPECT_FALSE(raw_layout("uint16s_2x2x2.raw", 8).type_stated) << "another word";
+    EXPECT_EQ(raw_layout("muint16_2x2x2.raw", 8).type, "uint8") << "another word";
+}
+
+TEST(DataFile, PackedRawValuesAreAsManyAsTheirEndStates) {
+    const std::string packed = test::packed(bytes_of(std::int16_t{0}, std::int16_t{32767}), 16 + 15);
+    const DataFile volume = read_data_file(test::write_file("a_2x1x1_int16.raw.gz", packed), {});
+    EXPECT_THAT(std::get<GridVolume>(volume.scene.objects[0].shape).density, testing::ElementsAre(0.0f, 1.0f));
+    EXPECT_THAT(describe_file(volume), AllOf(HasSubstr("volume of packed raw values"),
+                                             HasSubstr("read as int16, little-endian, as its name says\n")));
+}
+
 TEST(DataFile, RawValuesOfAnotherLayoutAreRefused) {
     const auto message = [](const char* name, std::uint64_t bytes) {
         return error_of([&] { raw_layout(name, bytes); }).message();
     };
-    EXPECT_THAT(message("ball_32x32x24_uint16.raw", 49152), HasSubstr("states 32 x 32 x 24 voxels"));
-    EXPECT_THAT(message("ball.raw", 28), HasSubstr("as in ball_32x32x24.raw"));
+    EXPECT_THAT(message("ball_32x32x24.raw", 49152),
+                AllOf(HasSubstr("states 32 x 32 x 24 voxels"), HasSubstr("of uint8 or float32: state the type")));
+    EXPECT_THAT(message("ball_32x32x24_int8.raw", 49152), HasSubstr("not as many of int8"));
+    EXPECT_THAT(message("ball.raw", 28), HasSubstr("as in ball_32x32x24_int16.raw"));
     EXPECT_THAT(message("ball.raw", 0), HasSubstr("no cube"));
     EXPECT_THAT(message("ball_0x1x1.raw", 5), HasSubstr("no cube"));
     EXPECT_THAT(message("2000x2000x2000.raw", 8'000'000'000), HasSubstr("the limit is"));
@@ -150,6 +178,10 @@ TEST(DataFile, MeshesAreDescribedWithWhatIsPassedOver) {
                 AllOf(HasSubstr("points.ply: PLY mesh, 126 B\n"), HasSubstr("a point cloud: 4 points and no faces\n"),
                       HasSubstr("bounds [0, 1, -1] to [1, 1, 0], size [1, 0, 1]\n")));
     EXPECT_FALSE(casts_shadow(read_data_file(case_file("points.ply"), {})));
+    EXPECT_THAT(described(case_file("placed.gltf")),
+                AllOf(HasSubstr("placed.gltf: glTF mesh, "), HasSubstr("12 vertices, 6 triangles\n"),
+                      HasSubstr("alpha texture: 3 x 3 pixels, alpha 0.5\n"),
+                      HasSubstr("bounds [-2, 0, 0] to [12, 3, 5], size [14, 3, 5]\n")));
     EXPECT_THAT(described(case_file("edge.obj")),
                 AllOf(HasSubstr("4 vertices, 2 triangles\n"),
                       HasSubstr("note: passed over: faces of fewer than 3 corners (1)\n")));
@@ -167,6 +199,18 @@ TEST(DataFile, GridsAreDescribedWithTheirAxesAndActiveVoxels) {
     EXPECT_THAT(described(case_file("nonuniform.vdb")),
                 AllOf(HasSubstr("edges [0.1, 0.2, 0.3]\n"), Not(HasSubstr("its axes"))));
     EXPECT_THAT(described(case_file("tinyneg.vdb")), AllOf(HasSubstr("4095 above 0"), HasSubstr("note: 1 of 4096")));
+}
+
+TEST(DataFile, VolumesAreDescribedWithTheirTypeAxesAndSpace) {
+    const auto nrrd = test::write_file("a.nrrd",
+                                       "NRRD0005\ntype: uchar\ndimension: 3\nsizes: 1 1 1\nencoding: raw\n"
+                                       "space: scanner-xyz\nspace directions: (0,2,0) (-2,0,0) (0,0,2)\n"
+                                       "space origin: (0,0,0)\n\nab");
+    EXPECT_THAT(described(nrrd),
+                AllOf(HasSubstr("a.nrrd: NRRD volume, "), HasSubstr("  values of uint8, divided by 255\n"),
+                      HasSubstr("  its axes run along y, -x, z\n"), HasSubstr("  space: scanner-xyz\n"),
+                      HasSubstr("bounds [-1, -1, -1] to [1, 1, 1]"),
+                      HasSubstr("note: what follows its last voxel is passed over\n")));
 }
 
 // A grid that stands alone is read by any number that it has, and no other.

@@ -1,10 +1,13 @@
-// The keys of volumes in .pvm and .dds files.
+// The keys of volumes in files of every format.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "scene/packed_volume.h"
 #include "scene/scenario.h"
 #include "scene/support.h"
 
@@ -60,6 +63,61 @@ TEST(LoadVolumeFiles, DdsNeedsABoxAndMayChooseAChannel) {
                 HasSubstr("\"upper\" is missing"));
     EXPECT_THAT(error_of([&] { load("a.dds", dds(), box + R"(, "channel": "grey")"); }).message(),
                 HasSubstr("red, green"));
+}
+
+const std::string nrrd = "NRRD0001\ntype: uchar\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nspacings: 1 1 4\n\nab",
+                  mha =
+                      "NDims = 3\nDimSize = 2 1 1\nElementSpacing = 1 1 4\nElementType = MET_UCHAR\n"
+                      "ElementDataFile = LOCAL\nab",
+                  vol = "VOL\x03" + bytes_of(3, 2, 1, 1, 1, 0.0f, 0.0f, 0.0f, 2.0f, 1.0f, 4.0f) + "ab";
+
+TEST(LoadVolumeFiles, FilesWithABoxHaveItUnlessTheScenarioGivesOne) {
+    for (const auto& [name, bytes] : {std::pair{"a.nrrd", nrrd},
+                                      {"A.NHDR", nrrd},
+                                      {"a.mha", mha},
+                                      {"a.Mhd", mha},
+                                      {"a.vol", vol},
+                                      {"A.VOL", vol}}) {
+        SCOPED_TRACE(name);
+        const GridVolume own = load(name, bytes, ""),
+                         given = load(name, bytes, R"(, "lower": [-1, -1, -1], "upper": [1, 0, 0])");
+        EXPECT_EQ(own.upper - own.lower, Vec3d(2, 1, 4));
+        EXPECT_EQ(own.step, 0.5);
+        EXPECT_EQ(own.density[1], 'b' / 255.0f);
+        EXPECT_EQ(given.lower, Vec3d(-1, -1, -1));
+        EXPECT_EQ(given.upper, Vec3d(1, 0, 0));
+        for (const char* key :
+             {R"(, "format": "uint8")", R"(, "size": [1, 1, 1])", R"(, "grid": 0)", R"(, "channel": "red")",
+              R"(, "byte_order": "big")", R"(, "skip": 1)", R"(, "spacing": [1, 1, 1])"})
+            EXPECT_TRUE(where_of(name, bytes, key).starts_with("/scene/objects/0/")) << key;
+    }
+}
+
+TEST(LoadVolumeFiles, DensitiesBelow0AreRefusedIfTheScenarioSaysSo) {
+    const std::string negative = R"(, "negative": "refuse")", below = bytes_of(1.0f, -1.0f);
+    const std::string head = "NRRD0001\ntype: float\nendian: little\ndimension: 3\nsizes: 2 1 1\nencoding: raw\n\n";
+    EXPECT_EQ(load("a.nrrd", head + below, "").notes.lines.size(), 1u);
+    EXPECT_THAT(error_of([&] { load("a.nrrd", head + below, negative); }).message(), HasSubstr("below 0"));
+    const std::string float_mha = "NDims = 3\nDimSize = 2 1 1\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n";
+    EXPECT_THAT(error_of([&] { load("a.mha", float_mha + below, negative); }).message(), HasSubstr("below 0"));
+    const std::string float_vol = "VOL\x03" + bytes_of(1, 2, 1, 1, 1, 0.0f, 0.0f, 0.0f, 2.0f, 1.0f, 4.0f);
+    EXPECT_THAT(error_of([&] { load("a.vol", float_vol + below, negative); }).message(), HasSubstr("below 0"));
+}
+
+TEST(LoadVolumeFiles, RawValuesHaveATypeAByteOrderAHeaderAndASpacing) {
+    const std::string bytes("abc\x01\x02\xff\xff", 7),
+        keys = R"(, "format": "uint16", "size": [2, 1, 1], "skip": 3, "byte_order": "big", "spacing": [0.5, 2, 1])";
+    const GridVolume volume = load("a.raw", bytes, keys);
+    EXPECT_THAT(volume.density, testing::ElementsAre(258.0f / 65535.0f, 1.0f));
+    EXPECT_EQ(volume.lower, Vec3d(0, 0, 0));
+    EXPECT_EQ(volume.upper, Vec3d(1, 2, 1));
+    EXPECT_EQ(load("a.raw", bytes, keys + R"(, "lower": [1, 1, 1])").upper, Vec3d(2, 3, 2));
+    EXPECT_EQ(where_of("a.raw", bytes, keys + R"(, "upper": [1, 1, 1])"), "/scene/objects/0/upper");
+    const std::string far = R"(, "format": "uint8", "size": [7, 1, 1], "spacing": [1e18, 1, 1])";
+    EXPECT_EQ(where_of("a.raw", bytes, far), "/scene/objects/0/spacing");
+    EXPECT_THAT(error_of([&] { load("a.raw", bytes, R"(, "format": "uint8", "size": [7, 1, 1])"); }).message(),
+                HasSubstr("without \"spacing\""));
+    EXPECT_THAT(load("a.raw.gz", test::packed(bytes, 16 + 15), keys).density, testing::SizeIs(2));
 }
 
 TEST(LoadVolumeFiles, KeysOfOtherFormatsAreRefused) {

@@ -42,8 +42,8 @@ Scenario loaded(const ordered_json& scenario, const std::filesystem::path& folde
 }
 
 TEST(NewScenario, OfEachKindOfFileLoads) {
-    for (const char* name : {"bom.obj", "edge.obj", "strips.ply", "noname.vdb", "rot90.vdb", "tinyneg.vdb",
-                             "zback0.exr", "inf.exr", "layered.exr"}) {
+    for (const char* name : {"bom.obj", "edge.obj", "strips.ply", "placed.gltf", "noname.vdb", "rot90.vdb",
+                             "tinyneg.vdb", "zback0.exr", "inf.exr", "layered.exr"}) {
         SCOPED_TRACE(name);
         const Scenario scenario = loaded(made_from({case_file(name)}), case_file(name).parent_path());
         EXPECT_EQ(scenario.name, std::string(name).substr(0, std::string(name).find('.')));
@@ -86,6 +86,16 @@ TEST(NewScenario, APastedObjectLoadsWhatWasRead) {
     choice.deep.part = 0;
     EXPECT_EQ(in_one_line(scene_object(read_data_file(case_file("layered.exr"), choice), "a.exr")),
               R"({"file": "a.exr", "layer": "rgba", "part": 0})");
+}
+
+TEST(NewScenario, AVolumeKeepsTheBoxOfItsFile) {
+    const auto file = test::write_file("a.mha",
+                                       "NDims = 3\nDimSize = 1 1 1\nOffset = 1 2 3\nElementSpacing = 2 2 2\n"
+                                       "ElementType = MET_UCHAR\nElementDataFile = LOCAL\nz");
+    const Scenario scenario = loaded(made_from({file}), file.parent_path());
+    const auto& volume = std::get<GridVolume>(scenario.scene.objects[0].shape);
+    EXPECT_EQ(volume.lower, Vec3d(0, 1, 2));
+    EXPECT_EQ(volume.upper, Vec3d(2, 3, 4));
 }
 
 TEST(NewScenario, TheBoxOfAllFilesStandsOnTheGround) {

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 #include "scene/readers/files.h"
+#include "scene/readers/grid_files.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -51,6 +53,26 @@ TEST(ReadCases, ADensityJustBelow0IsTakenAs0AndCounted) {
     EXPECT_EQ(std::count(volume.density.begin(), volume.density.end(), 0.0f), 1);
     EXPECT_EQ(std::count(volume.density.begin(), volume.density.end(), 0.5f), 4095);
     EXPECT_THAT(volume.notes.lines, ElementsAre(HasSubstr("1 of 4096 densities are below 0, the least -1e-06")));
+}
+
+// A gradient along each axis, of several types, byte orders and packings: the density of voxel (x, y, z) is
+// (x + 4 y + 16 z) / 64.
+TEST(ReadCases, ARampIsTheSameInEveryFormat) {
+    for (const char* name : {"ramp.nrrd", "ramp.nhdr", "ramp.mha", "ramp.mhd", "ramp.vol"}) {
+        SCOPED_TRACE(name);
+        const std::string extension = case_file(name).extension().string();
+        const GridVolume volume = (extension == ".vol"                          ? read_mitsuba_volume(case_file(name))
+                                   : extension == ".mha" || extension == ".mhd" ? read_metaimage(case_file(name))
+                                                                                : read_nrrd(case_file(name)))
+                                      .volume;
+        EXPECT_EQ(volume.size, Vec3i(4, 4, 4));
+        ASSERT_EQ(volume.density.size(), 64u);
+        for (std::size_t v = 0; v < 64; ++v) EXPECT_EQ(volume.density[v], static_cast<float>(v) / 64.0f);
+        EXPECT_EQ(volume.lower, Vec3d(0, 0, 0));
+        EXPECT_EQ(volume.upper, Vec3d(4, 8, 2));
+        EXPECT_TRUE(volume.notes.lines.empty());
+    }
+    EXPECT_EQ(read_raw_volume(case_file("ramp_4x4x4_float32.raw"), {4, 4, 4}, "float32").density[63], 63.0f / 64.0f);
 }
 
 TEST(ReadCases, DeepSamplesKeepTheirDepths) {

@@ -104,6 +104,7 @@ TEST_F(FileCommands, WhatNewMakesIsValid) {
     };
     for (const Made& made : {Made{"bom.obj", "OK bom: 1 variant of 1 light and 7 techniques\n"},
                              Made{"strips.ply", "OK strips: 1 variant of 1 light and 7 techniques\n"},
+                             Made{"placed.gltf", "OK placed: 1 variant of 1 light and 7 techniques\n"},
                              Made{"noname.vdb", "OK noname: 1 variant of 1 light and 7 techniques\n"},
                              Made{"tile.vdb", "OK tile: 1 variant of 1 light and 7 techniques\n"},
                              Made{"zback0.exr", "OK zback0: 1 variant of 1 light and 6 techniques\n"},

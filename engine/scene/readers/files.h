@@ -27,9 +27,9 @@ struct MeshFile {
     std::vector<PassedOver> passed_over;
 };
 
-// Chooses the format by the extension: .obj or .ply (ASCII and binary, faces and triangle strips). Splits polygons into
-// triangles that cover them once (triangulate.h); a polygon that crosses itself is bad input. A file may hold only
-// vertices.
+// Chooses the format by the extension: .obj, .ply (ASCII and binary, faces and triangle strips), .stl, .gltf or .glb.
+// Splits polygons into triangles that cover them once (triangulate.h); a polygon that crosses itself is bad input. A
+// file may hold only vertices.
 MeshFile read_mesh(const std::filesystem::path& file);
 
 // The alpha channel of an image (its luminance where it has none): PNG, JPEG, TIFF, OpenEXR, DDS or TGA.
@@ -40,8 +40,8 @@ AlphaTexture read_alpha(const std::filesystem::path& file);
 // always refused.
 enum class Negative { clamp, refuse };
 
-// Raw values, x fastest; type "uint8" (scaled to [0, 1]) or "float32" (little-endian). The file must have exactly the
-// size that these need. The caller sets the box and step.
+// Raw values, x fastest, little-endian, of a type of voxel_values.h by its name; see read_raw_values() of grid_files.h.
+// The file must have exactly the size that these need. The caller sets the box and step.
 GridVolume read_raw_volume(const std::filesystem::path& file, Vec3i size, const std::string& type,
                            Negative negative = Negative::clamp);
 

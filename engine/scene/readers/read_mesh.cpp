@@ -18,7 +18,8 @@ struct MeshFormat {
     MeshFile (*read)(const std::filesystem::path& file);
 };
 constexpr std::array mesh_formats{MeshFormat{".obj", read_obj}, MeshFormat{".ply", read_ply},
-                                  MeshFormat{".stl", read_stl}};
+                                  MeshFormat{".stl", read_stl}, MeshFormat{".gltf", read_gltf},
+                                  MeshFormat{".glb", read_gltf}};
 
 }  // namespace
 

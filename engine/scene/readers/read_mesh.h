@@ -18,6 +18,9 @@ MeshFile read_ply(const std::filesystem::path& file);
 // Text and binary. Corners at equal positions become one vertex; the vertices come in the order of their positions.
 MeshFile read_stl(const std::filesystem::path& file);
 
+// glTF 2.0, text and binary (read_gltf.cpp). The mesh has a texture if the alpha of any material is below 1.
+MeshFile read_gltf(const std::filesystem::path& file);
+
 // If there are many kinds, the rest are counted together as "other things".
 void pass_over(MeshFile& file, std::string_view what, std::uint64_t count = 1);
 

@@ -11,6 +11,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include "scene/limits.h"
 #include "scene/readers/densities.h"
 #include "scene/readers/files.h"
+#include "scene/readers/grid_axes.h"
 #include "scene/readers/vdb_check.h"
 #include "scene/readers/vdb_facts.h"
 
@@ -51,58 +53,28 @@ openvdb::FloatGrid::Ptr read_grid(const std::filesystem::path& file, const VdbGr
     return result;
 }
 
-// The world axis along which each axis of the grid runs, and whether it runs backwards.
-struct Axes {
-    std::array<int, 3> to{0, 1, 2};
-    std::array<bool, 3> mirrored{false, false, false};
-
-    bool as_they_are() const { return to == std::array{0, 1, 2} && mirrored == std::array{false, false, false}; }
-};
-
-std::string text_of(const Axes& axes) {
-    std::string text;
-    for (std::size_t i = 0; i < 3; ++i)
-        text += fmt::format("{}{}{}", i > 0 ? ", " : "", axes.mirrored[i] ? "-" : "", "xyz"[axes.to[i]]);
-    return text;
-}
-
-// The deviation from right angles that float matrices and short values of pi leave: off-axis entries relative to the
-// entry of the axis, and how far they move a voxel of the box at most, in voxels.
-constexpr double most_skew = 1e-5, most_shift = 0.1;
-
-Axes find_axes(const openvdb::math::Transform& transform, const openvdb::Coord& size,
-               const std::filesystem::path& file) {
+GridAxes axes_of(const openvdb::math::Transform& transform, const openvdb::Coord& size,
+                 const std::filesystem::path& file) {
     if (!transform.isLinear()) fail(file, "the grid is not a box in the world: its transform is a frustum");
     const openvdb::math::Mat4d matrix = transform.baseMap()->getAffineMap()->getMat4();  // row i: a step along axis i
-    Axes axes;
-    for (int i = 0; i < 3; ++i)
+    std::array<Vec3d, 3> steps;
+    steps.fill(Vec3d(0, 0, 0));
+    for (int i = 0; i < 3; ++i) {
+        Vec3d& step = steps[static_cast<std::size_t>(i)];
         for (int world = 0; world < 3; ++world) {
             if (!std::isfinite(matrix[i][world])) fail(file, "the grid's transform is not finite");
-            int& to = axes.to[static_cast<std::size_t>(i)];
-            if (std::abs(matrix[i][world]) > std::abs(matrix[i][to])) to = world;
+            step[world] = matrix[i][world];
         }
-    const auto along = [&](int i) { return matrix[i][axes.to[static_cast<std::size_t>(i)]]; };
-    bool skew = false;
-    for (int i = 0; i < 3; ++i) {
-        if (along(i) == 0.0) fail(file, "the grid's transform flattens it");
-        axes.mirrored[static_cast<std::size_t>(i)] = along(i) < 0.0;
-        for (int k = 0; k < 3; ++k) {
-            if (k == i) continue;
-            const double beside = std::abs(matrix[i][axes.to[static_cast<std::size_t>(k)]]);
-            skew =
-                skew || beside > most_skew * std::abs(along(i)) || beside * size[i] > most_shift * std::abs(along(k));
-        }
+        if (step == Vec3d(0, 0, 0)) fail(file, "the grid's transform flattens it");
     }
-    if (skew)
-        fail(file,
-             "the grid's transform shears it or turns it by other than right angles, where only axes that are "
-             "swapped or mirrored are read: resample it to the world's axes in the program that wrote it");
-    return axes;
+    const std::optional<GridAxes> axes = find_axes(steps, Vec3i(size.x(), size.y(), size.z()));
+    if (!axes) fail(file, skewed_grid);
+    return *axes;
 }
 
 // Copies densities, x fastest along the world's axes, one slab of the grid at a time, so that turning it needs little
 // memory.
-void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& box, const Axes& axes,
+void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& box, const GridAxes& axes,
                     GridVolume& volume) {
     using Dense = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
     if (axes.as_they_are()) {
@@ -142,7 +114,7 @@ GridVolume convert(const openvdb::FloatGrid& grid, std::uint64_t most_voxels, co
     if (box.empty()) fail(file, "the grid has no active voxels");
     const double voxels = check_box(box, most_voxels, file);
     const openvdb::Coord size = box.dim();
-    const Axes axes = find_axes(grid.transform(), size, file);
+    const GridAxes axes = axes_of(grid.transform(), size, file);
     facts.active = grid.activeVoxelCount();
     if (!axes.as_they_are()) facts.axes = text_of(axes);
 
@@ -163,13 +135,7 @@ GridVolume convert(const openvdb::FloatGrid& grid, std::uint64_t most_voxels, co
 }
 
 void check_values(GridVolume& volume, Negative negative, const std::filesystem::path& file) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(std::abs(volume.lower[axis]) <= max_coordinate) || !(std::abs(volume.upper[axis]) <= max_coordinate) ||
-            !(volume.upper[axis] - volume.lower[axis] >= min_length))
-            fail(file,
-                 fmt::format("the grid's world box runs from {} to {} along an axis; both must be finite, at most {} "
-                             "from 0 and {} apart at least: mend its transform",
-                             volume.lower[axis], volume.upper[axis], max_coordinate, min_length));
+    if (const std::optional<std::string> fault = box_fault(volume)) fail(file, *fault + ": mend its transform");
     for (const float density : volume.density) {
         if (!(std::abs(density) <= static_cast<float>(max_coordinate)))
             fail(file, fmt::format("the grid has the density {}, which is not a finite number of at most {}", density,
