@@ -1,5 +1,5 @@
-// The only file that uses cpp-httplib (0.11.4), which frames bodies and answers. head.h parses the heads of requests;
-// httplib gets a safe one instead: see canonical_head().
+// The server on top of cpp-httplib (0.11.4), which frames answers and reads bodies of a known length. head.h parses the
+// heads of requests; httplib gets a safe one instead: see canonical_head(). chunks.h reads chunked bodies.
 #include <algorithm>
 #include <atomic>
 #include <mutex>
@@ -14,7 +14,7 @@
 
 #include "base/error.h"
 #include "service/api/problem.h"
-#include "service/http/client.h"
+#include "service/http/chunks.h"
 #include "service/http/guard.h"
 #include "service/http/head.h"
 #include "service/http/server.h"
@@ -46,9 +46,8 @@ std::string canonical_head(const Exchange& exchange) {
     const Head& head = exchange.head;
     if (exchange.refusal) return head.request.method == "HEAD" ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n";
     std::string text = fmt::format("{} / HTTP/1.1\r\n", head.request.method);
-    if (head.chunked)
-        text += "Transfer-Encoding: chunked\r\n";
-    else if (head.request.method == "POST")
+    // Of a chunked body it does not know: see read_body().
+    if (head.request.method == "POST")
         text += fmt::format("Content-Length: {}\r\n", head.content_length.value_or(0));
     if (head.request.has_body && head.expects_continue) text += "Expect: 100-continue\r\n";
     return text + "\r\n";
@@ -282,12 +281,19 @@ private:
         if (!exchange.keep) response.set_header("Connection", "close");
     }
 
-    // httplib does not limit chunked bodies, so this counts their bytes.
+    // httplib takes sizes of chunks that are none, and does not limit chunked bodies.
+    static bool read_body(const httplib::ContentReader& body, Exchange& exchange,
+                          const httplib::ContentReceiver& take) {
+        if (!exchange.head.request.has_body) return true;
+        if (!exchange.head.chunked) return body(take);
+        return read_chunks([&](char* to, std::size_t size) { return exchange.channel.read(to, size); }, take);
+    }
+
     void read_and_respond(const httplib::ContentReader& body, httplib::Response& response) {
         Exchange& exchange = *current;
         std::string& bytes = exchange.head.request.body;
         bool too_long = false;
-        const bool complete = !exchange.head.request.has_body || body([&](const char* piece, size_t size) {
+        const bool complete = read_body(body, exchange, [&](const char* piece, size_t size) {
             too_long = bytes.size() + size > service_.limits().body;
             if (!too_long) bytes.append(piece, size);
             return !too_long;
@@ -350,44 +356,6 @@ void HttpServer::run() {
 void HttpServer::stop() {
     const std::scoped_lock lock(state_->mutex);
     if (!state_->ended && !state_->front.stopping()) state_->front.shut_down();
-}
-
-struct Client::State {
-    httplib::Client client;
-};
-
-Client::Client(const std::string& url, const std::string& token) : url_(url) {
-    if (!url.starts_with("http://") && !url.starts_with("https://"))
-        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port");
-    state_.reset(new State{httplib::Client(url)});
-    if (!state_->client.is_valid())
-        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port");
-    state_->client.set_connection_timeout(10);
-    state_->client.set_read_timeout(120);
-    state_->client.set_tcp_nodelay(true);
-    if (!token.empty()) state_->client.set_bearer_token_auth(token);
-}
-
-Client::~Client() = default;
-
-namespace {
-
-Reply reply_of(const httplib::Result& result, const std::string& url) {
-    if (!result) throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
-    return {result->status, result->get_header_value("Content-Type"), result->body,
-            result->get_header_value("Location")};
-}
-
-}  // namespace
-
-Reply Client::get(const std::string& path) {
-    return reply_of(state_->client.Get(path), url_);
-}
-
-Reply Client::post_json(const std::string& path, const std::string& body, const std::vector<Field>& headers) {
-    httplib::Headers fields;
-    for (const Field& field : headers) fields.emplace(field.name, field.value);
-    return reply_of(state_->client.Post(path, fields, body, "application/json"), url_);
 }
 
 }  // namespace shadowbench::service

@@ -52,7 +52,9 @@ TEST_F(Holes, ChunkedBodiesPastTheLimitAreRefused) {
 TEST_F(Holes, BrokenChunksAreRefused) {
     http_options_.channel.body_seconds = 1.0;  // some leave httplib waiting for more
     restart();
-    for (const char* body : {"zz\r\n", "-5\r\nabcde\r\n0\r\n\r\n", "5\r\nabcdeXX0\r\n\r\n", "\r\n\r\n"})
+    for (const char* body :
+         {"zz\r\n", "-5\r\nabcde\r\n0\r\n\r\n", "5\r\nabcdeXX0\r\n\r\n", "\r\n\r\n", "0x2\r\n{}\r\n0\r\n\r\n",
+          "+2\r\n{}\r\n0\r\n\r\n", " 2\r\n{}\r\n0\r\n\r\n", "2 2\r\n{}\r\n0\r\n\r\n", "2\n{}\n0\n\n"})
         refused(chunked_head + body, 400);
     refused(chunked_head + "ffffffffffffffff\r\n", 400);
     // Chunk sizes that never end.
@@ -61,6 +63,13 @@ TEST_F(Holes, BrokenChunksAreRefused) {
     for (int i = 0; i < 1000 && endless.send(std::string(1000, '0')); ++i) {
     }
     EXPECT_EQ(endless.receive().status, 400);
+}
+
+TEST_F(Holes, TrailersAreSkippedAndNotTakenForTheNextRequest) {
+    Raw raw(port());
+    raw.send(chunked_head + chunk(scenario) + "0\r\nContent-Length: 7\r\nX: y\r\n\r\n" + get("/healthz"));
+    EXPECT_EQ(raw.receive().status, 202);
+    EXPECT_EQ(raw.receive().body, "{\"status\":\"ok\"}\n");
 }
 
 TEST_F(Holes, LargeBodiesAreRefusedBeforeTheyCome) {
