@@ -2,6 +2,8 @@
 // heads of requests; httplib gets a safe one instead: see canonical_head(). chunks.h reads chunked bodies.
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -17,6 +19,7 @@
 #include "service/http/chunks.h"
 #include "service/http/guard.h"
 #include "service/http/head.h"
+#include "service/http/lobby.h"
 #include "service/http/server.h"
 
 namespace shadowbench::service {
@@ -35,6 +38,7 @@ struct Exchange {
     Head head;
     std::optional<ApiResponse> refusal;  // the answer, if the service is not asked
     bool keep = false;                   // the connection stays open afterwards
+    bool at_once = false;                // nothing may wait for the client
 };
 // The request that httplib works on in this thread. Its handlers take no further argument.
 thread_local Exchange* current = nullptr;
@@ -80,35 +84,21 @@ private:
     std::size_t given_ = 0;
 };
 
-// A thread pool that counts the connections that wait for a thread.
-class Pool final : public httplib::TaskQueue {
+// httplib gives this every connection, as a task that calls process_and_close_socket(): that hands it to the lobby, so
+// the accepting thread runs the task itself.
+class Door final : public httplib::TaskQueue {
 public:
-    Pool(std::size_t threads, std::size_t most, std::atomic<std::size_t>& waiting)
-        : pool_(threads), most_(most), waiting_(waiting) {}
+    Door(std::size_t threads, std::size_t most, std::atomic<std::size_t>& waiting, Lobby::Serve serve,
+         Lobby::Serve serve_monitor)
+        : lobby_(threads, most, waiting, std::move(serve), std::move(serve_monitor)) {}
 
-    static thread_local bool refused;  // the connection in work exceeds the limit
-
-    void enqueue(std::function<void()> task) override {
-        if (waiting_ >= most_) {
-            refused = true;
-            task();  // on the accepting thread: it only refuses the connection
-            refused = false;
-            return;
-        }
-        ++waiting_;
-        pool_.enqueue([this, task = std::move(task)] {
-            --waiting_;
-            task();
-        });
-    }
-    void shutdown() override { pool_.shutdown(); }
+    void enqueue(std::function<void()> task) override { task(); }
+    void shutdown() override { lobby_.stop(); }
+    Lobby& lobby() { return lobby_; }
 
 private:
-    httplib::ThreadPool pool_;
-    std::size_t most_;
-    std::atomic<std::size_t>& waiting_;
+    Lobby lobby_;
 };
-thread_local bool Pool::refused = false;
 
 void put_file(const FilePart& part, const std::string& type, httplib::Response& to) {
     const auto provider = [part](size_t offset, size_t length, httplib::DataSink& sink) {
@@ -168,7 +158,9 @@ public:
     Front(Service& service, std::size_t streams, const HttpOptions& options)
         : service_(service), options_(options), guard_{is_loopback(options.host), options.token} {
         new_task_queue = [this, threads = options.workers + streams, most = options.waiting] {
-            return new Pool(threads, most, waiting_);
+            return door_ = new Door(
+                       threads, most, waiting_, [this](int socket) { serve(socket); },
+                       [this](int socket) { serve_monitor(socket); });
         };
         Get("/", [this](const httplib::Request&, httplib::Response& response) { respond(response); });
         Delete("/", [this](const httplib::Request&, httplib::Response& response) { respond(response); });
@@ -207,24 +199,34 @@ public:
 
 private:
     bool process_and_close_socket(socket_t socket) override {
-        Channel channel(socket, options_.channel, stopping_, [this] { return waiting_ > 0; });
         const int yes = 1;
         ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-        if (Pool::refused) {
-            Exchange exchange(channel);
-            exchange.refusal = problem(503, "Too many clients; try again later.");
-            exchange.refusal->headers.push_back({"Retry-After", "5"});
-            pass_on(exchange);
-            return true;
-        }
-        while (!stopping_ && converse(channel)) {
-        }
+        if (door_->lobby().add(socket)) return true;
+        Channel channel(socket, options_.channel, stopping_, [] { return true; });
+        Exchange exchange(channel);
+        exchange.refusal = problem(503, "Too many clients; try again later.");
+        exchange.refusal->headers.push_back({"Retry-After", "5"});
+        pass_on(exchange);
         return true;
     }
 
-    // Answers one request. Returns whether another may follow on the connection.
-    bool converse(Channel& channel) {
+    void serve(int socket) {
+        Channel channel(socket, options_.channel, stopping_, [this] { return waiting_ > 0; });
+        while (!stopping_ && converse(channel, false)) {
+        }
+    }
+
+    // The head of the request is there, it has no body, and the answer is short: nothing waits for the client.
+    void serve_monitor(int socket) {
+        Channel channel(socket, options_.channel, stopping_, [] { return true; });
+        converse(channel, true);
+    }
+
+    // Answers one request. Returns whether another may follow on the connection. `at_once`: closes the connection, and
+    // does not wait until the client has read the answer.
+    bool converse(Channel& channel, bool at_once) {
         Exchange exchange(channel);
+        exchange.at_once = at_once;
         std::string text;
         switch (channel.read_head(text)) {
             case Channel::Outcome::closed:
@@ -242,7 +244,7 @@ private:
         const bool refused = exchange.refusal.has_value();
         if (refused) service_.count_refusal(exchange.head.request, exchange.refusal->status);
         pass_on(exchange);
-        if (!exchange.keep) channel.linger();
+        if (!exchange.keep && !at_once) channel.linger();
         return exchange.keep;
     }
 
@@ -258,7 +260,8 @@ private:
         if (!exchange.refusal && head.content_length.value_or(0) > service_.limits().body)
             exchange.refusal = too_large();
         // A body that was not read must not be taken for the next request.
-        exchange.keep = head.keep_alive && waiting_ == 0 && !(exchange.refusal && head.request.has_body);
+        exchange.keep = head.keep_alive && waiting_ == 0 && !exchange.at_once &&
+                        !(exchange.refusal && head.request.has_body);
         exchange.channel.begin_body(service_.limits().body + framing);
     }
 
@@ -312,6 +315,7 @@ private:
     const GuardOptions guard_;
     std::atomic<bool> stopping_ = false;
     std::atomic<std::size_t> waiting_ = 0;
+    Door* door_ = nullptr;  // httplib owns it, as long as it listens
 };
 
 }  // namespace

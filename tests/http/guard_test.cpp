@@ -39,7 +39,8 @@ TEST(Guard, ComparesWholeTokens) {
 }
 
 TEST(Guard, OnThisMachineAnswersToItsNamesAlone) {
-    for (const char* host : {"localhost", "localhost:8080", "127.0.0.1:1", "[::1]:80", "[::1]", "LOCALHOST", "localhost:"})
+    for (const char* host :
+         {"localhost", "localhost:8080", "127.0.0.1:1", "[::1]:80", "[::1]", "LOCALHOST", "localhost:"})
         EXPECT_EQ(status_of({{"host", host}}, {}), 0) << host;
     for (const char* host :
          {"evil.example", "localhost.evil.example:8080", "127.0.0.1.nip.io", "10.0.0.1", "[::2]", "[", "",

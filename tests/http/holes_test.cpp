@@ -1,4 +1,5 @@
 // What cpp-httplib 0.11.4 would let through, and other ways to harm a server, byte for byte.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -21,6 +22,11 @@ struct Holes : HttpTest {};
 
 const std::string chunked_head =
     "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n";
+
+// A thread waits for the rest of its body.
+const std::string slow_body =
+    "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+    "Content-Length: 5000\r\n\r\n{";
 
 std::string chunk(const std::string& bytes) {
     char size[32];
@@ -197,7 +203,28 @@ TEST_F(Holes, SlowClientsDoNotKeepOthersOut) {
                 "POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
                 "Content-Length: 100\r\n\r\n{");
     }
-    for (int i = 0; i < 10; ++i) EXPECT_EQ(ask(get("/healthz")).status, 200);
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(ask(get("/v1/jobs")).status, 200);
+}
+
+TEST_F(Holes, BodiesThatDripAreCutOff) {
+    http_options_.channel.body_grace = 0.5;
+    http_options_.channel.body_rate = 1000.0;
+    restart();
+    Raw drip(port());
+    const auto start = std::chrono::steady_clock::now();
+    drip.send(slow_body);
+    for (int i = 0; i < 60 && drip.send(" "); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(drip.receive().status, 400);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)) << "and not after 30 s";
+    // One that comes as fast as it must may take longer than that.
+    Raw steady(port());
+    std::string body = scenario + std::string(3000, ' ');
+    steady.send(post("/v1/jobs", body).substr(0, post("/v1/jobs", body).size() - body.size()));
+    for (; !body.empty(); body.erase(0, std::min<std::size_t>(body.size(), 250))) {
+        ASSERT_TRUE(steady.send(body.substr(0, 250)));
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    EXPECT_EQ(steady.receive().status, 202);
 }
 
 TEST_F(Holes, ConnectionsThatWaitForTheirNextRequestMakeRoom) {
