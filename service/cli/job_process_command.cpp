@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <new>
 #include <optional>
@@ -53,6 +54,27 @@ private:
     std::ostream& out_;
     std::chrono::steady_clock::time_point reported_{};
     std::string stage_, place_;
+};
+
+// What the job writes only for a while lies in its folder too, so that a full disk is a fault of one storage.
+class TemporaryPlace {
+public:
+    explicit TemporaryPlace(const std::string& folder) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        ::setenv(name, folder.c_str(), 1);
+    }
+    ~TemporaryPlace() {
+        if (before_)
+            ::setenv(name, before_->c_str(), 1);
+        else
+            ::unsetenv(name);
+    }
+    TemporaryPlace(const TemporaryPlace&) = delete;
+    TemporaryPlace& operator=(const TemporaryPlace&) = delete;
+
+private:
+    static constexpr const char* name = "TMPDIR";
+    std::optional<std::string> before_;
 };
 
 // The number of lights of a variant; a deep image counts as one.
@@ -111,6 +133,7 @@ std::optional<StorageFault> storage_fault(const Error& error, const std::string&
 
 bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
     const fs::path folder = arguments.folder;
+    const TemporaryPlace temporary(arguments.folder);
     const nlohmann::json document = scene::parse_json(base::read_text(folder / "scenario.json"), "scenario.json");
     bench::RunOptions options;
     options.data = scene::SearchPath::confined_to({arguments.data.begin(), arguments.data.end()});

@@ -18,10 +18,12 @@
 #include "service/jobs/folders.h"
 #include "service/jobs/record.h"
 #include "service/jobs/recover.h"
+#include "service/jobs/room.h"
 #include "service/jobs/state_folder.h"
 #include "service/jobs/utc.h"
 #include "service/jobs/worker.h"
 #include "service/store/job_store.h"
+#include "service/store/presence.h"
 
 namespace shadowbench::service {
 namespace {
@@ -137,8 +139,10 @@ struct Jobs::State {
           folders(make_job_folders(path)),
           opened(open_store(folder, folders, say)),
           store(*opened),
+          presence({path, folder.database()}),
           board(store.next_revision()),
-          place{store, board, folders, checked_program, data, limits, hidden_folders(path.string(), data), say} {
+          place{store, board, presence, folders, checked_program, data, limits, hidden_folders(path.string(), data),
+                say} {
         recover(folder, store, folders, say);
     }
 
@@ -151,6 +155,7 @@ struct Jobs::State {
     JobFolders folders;
     std::unique_ptr<JobStore> opened;
     JobStore& store;
+    Presence presence;
     JobBoard board;
     Workplace place;
     std::vector<std::thread> workers;
@@ -201,6 +206,7 @@ Jobs::~Jobs() {
 
 Submitted Jobs::submit(const JobRequest& request) {
     State& all = *state_;
+    check_presence(all.presence);
     NewJob job;
     job.request = request_hash(request);
     if (!request.idempotency_key.empty())
@@ -308,6 +314,11 @@ std::optional<JobInfo> Jobs::wait(const std::string& id, std::uint64_t revision,
 
 bool Jobs::storage_fails() const {
     return state_->board.storage_fails();
+}
+
+JobStorage Jobs::storage() const {
+    return {storage_fails(), state_->presence.gone().has_value(), free_bytes(state_->folders.work),
+            state_->place.limits.min_free};
 }
 
 void Jobs::stop() {

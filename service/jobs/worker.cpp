@@ -95,6 +95,21 @@ auto persist(const Workplace& place, const Body& body) -> std::optional<std::dec
     }
 }
 
+// The free bytes of the disk, if they are fewer than there should be.
+std::optional<std::uintmax_t> too_few_bytes(const Workplace& place) {
+    const auto left = free_bytes(place.folders.work);
+    return left && *left < place.limits.min_free ? left : std::nullopt;
+}
+
+// Throws Error{io} where no job may start.
+void check_storage(const Workplace& place) {
+    check_presence(place.presence);
+    if (const auto left = too_few_bytes(place))
+        throw Error(ErrorCode::io, place.folders.work.string(),
+                    fmt::format("{} MiB of the disk are free, and --min-free asks for {}", *left >> 20,
+                                place.limits.min_free >> 20));
+}
+
 // Returns when there is room for more than the job had written, when the job is no longer queued, or when the server
 // stops.
 void wait_for_room(const Workplace& place, const StoredJob& job, const Waits& waits, Patience& patience) {
@@ -200,8 +215,14 @@ std::optional<Waits> storage_fault(const Workplace& place, const Verdict& verdic
     const bool died = report.end == ChildEnd::exited || report.end == ChildEnd::signalled;
     if (!died || !(std::holds_alternative<JobFault>(verdict) || (requeue && !requeue->uncounted))) return std::nullopt;
     if (const auto& fault = listener.storage_fault()) return Waits{fault->message, bytes_in(work) + fault->bytes};
-    if (has_room(place.folders.work, least_room)) return std::nullopt;
-    return Waits{"nothing can be written to " + place.folders.work.string(), bytes_in(work)};
+    if (!has_room(place.folders.work, least_room))
+        return Waits{"nothing can be written to " + place.folders.work.string(), bytes_in(work)};
+    // Where little is left, a fault of input or output, or a death, may come from that. The job starts again once there
+    // is enough; if the fault is its own, it fails then.
+    const auto* failed = std::get_if<JobFault>(&verdict);
+    const bool other = failed && failed->code != static_cast<int>(ErrorCode::io) && report.end != ChildEnd::signalled;
+    if (other || !too_few_bytes(place)) return std::nullopt;
+    return Waits{"little space is left on the disk of " + place.folders.work.string(), bytes_in(work)};
 }
 
 // Writes the record of the job into its results before they move to their place.
@@ -301,11 +322,20 @@ std::optional<Waits> run_one(const Workplace& place, const StoredJob& job) {
 
 }  // namespace
 
+void check_presence(const Presence& presence) {
+    if (const auto gone = presence.gone())
+        throw Error(ErrorCode::io, gone->string(),
+                    "it was removed or replaced while the server runs; put it back, or start the server anew");
+}
+
 void run_jobs(const Workplace& place) {
     Patience patience;
     while (!place.board.stopping()) {
         const std::uint64_t seen = place.board.work();
-        const auto job = persist(place, [&] { return place.store.claim(now_utc()); });
+        const auto job = persist(place, [&] {
+            check_storage(place);
+            return place.store.claim(now_utc());
+        });
         if (!job || !*job) {
             place.board.wait_for_work(seen);
         } else if (const auto waits = run_one(place, **job)) {

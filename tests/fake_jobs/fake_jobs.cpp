@@ -48,7 +48,8 @@ struct Shared {
     JobRequest last;
     fs::path folder;
     JobLimits limits;
-    bool stopping = false, storage_fails = false;
+    bool stopping = false;
+    JobStorage storage;
     std::uint64_t next = 1;
 
     Kept* find(const std::string& id) {
@@ -231,7 +232,12 @@ bool Jobs::stopping() const {
 
 bool Jobs::storage_fails() const {
     const std::scoped_lock lock(state_->mutex);
-    return state_->storage_fails;
+    return state_->storage.fails;
+}
+
+JobStorage Jobs::storage() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->storage;
 }
 
 namespace fake {
@@ -239,7 +245,13 @@ namespace fake {
 void fail_storage(Jobs& jobs, bool fails) {
     Shared& state = shared(jobs);
     const std::scoped_lock lock(state.mutex);
-    state.storage_fails = fails;
+    state.storage.fails = fails;
+}
+
+void set_storage(Jobs& jobs, const JobStorage& storage) {
+    Shared& state = shared(jobs);
+    const std::scoped_lock lock(state.mutex);
+    state.storage = storage;
 }
 
 void update(Jobs& jobs, const std::string& id, const std::function<void(JobInfo&)>& change) {
