@@ -33,6 +33,7 @@ public:
     void show(Run& run, JobProgress progress, std::uint64_t revision);
     void cancel(const std::string& id);  // no effect on a job that is not running
     bool is_cancelled(const Run& run) const;
+    bool has_run(const std::string& id) const;  // also while a cancelled run ends
 
     struct Shown {
         std::optional<JobProgress> progress;

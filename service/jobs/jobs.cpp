@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <random>
 #include <system_error>
 #include <thread>
@@ -33,6 +34,7 @@ using base::Error;
 using base::ErrorCode;
 
 constexpr std::size_t longest_page = 1000;
+constexpr std::chrono::seconds longest_end{5};  // that a request waits for the process of a cancelled job
 
 constexpr std::pair<JobState, const char*> state_names[] = {{JobState::queued, job_states::queued},
                                                             {JobState::running, job_states::running},
@@ -284,6 +286,32 @@ Jobs::Change Jobs::remove(const std::string& id) {
     if (had_results) remove_folder(removed);
     all.board.announce(all.store.next_revision(), true);
     return Change::done;
+}
+
+// A cancelled job ends a moment before its process, which uses the folder that the next run gets.
+Jobs::Retry Jobs::retry(const std::string& id) {
+    State& all = *state_;
+    check_presence(all.presence);
+    const auto end = JobBoard::Clock::now() + longest_end;
+    for (std::optional<JobInfo> job = find(id); all.board.has_run(id); job = find(id)) {
+        if (!job || (job->state != JobState::failed && job->state != JobState::cancelled)) break;
+        if (all.board.stopping() || JobBoard::Clock::now() > end) return Retry::busy;
+        all.board.pause(std::chrono::milliseconds(10));
+    }
+    const JobStore::Retried retried = all.store.retry(id, program_version(), all.place.limits.queue);
+    switch (retried.outcome) {
+        case JobStore::Retry::not_found:
+            return Retry::not_found;
+        case JobStore::Retry::refused:
+            return Retry::refused;
+        case JobStore::Retry::full:
+            return Retry::full;
+        case JobStore::Retry::queued:
+            break;
+    }
+    all.board.announce(retried.revision, true);
+    all.board.add_work();
+    return Retry::queued;
 }
 
 std::optional<std::string> Jobs::scenario(const std::string& id) const {

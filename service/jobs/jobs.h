@@ -113,6 +113,11 @@ public:
     Change cancel(const std::string& id);  // refused: the job has ended
     Change remove(const std::string& id);  // refused: the job is running
 
+    // Queues a job that failed or was cancelled once more, at its old place and with all its attempts. refused: it is
+    // in another state; busy: its last run is still ending; full: too many jobs wait. Throws as submit() does.
+    enum class Retry { queued, not_found, refused, busy, full };
+    Retry retry(const std::string& id);
+
     // The text of the scenario, and a file of the results by its relative path ("result.json", "images/reference.png").
     // Nothing when the job or file does not exist, the job has not succeeded, or the path leads out of the folder.
     std::optional<std::string> scenario(const std::string& id) const;

@@ -26,6 +26,7 @@ using base::ErrorCode;
 using Clock = JobBoard::Clock;
 
 constexpr std::chrono::milliseconds between_progress{100};
+constexpr std::chrono::milliseconds last_moment{500};
 constexpr std::chrono::milliseconds first_wait{250}, longest_wait{10000};
 constexpr int promise_broken = 2;  // exit code: the result is complete
 
@@ -203,8 +204,13 @@ Verdict judge(const Workplace& place, const StoredJob& job, const JobBoard::Run&
         if (finished && has_result(work)) return Success{report.code == 0};
         return reported.value_or(fault_of_end(report, place.limits, place.hidden));
     }
-    // Another run may not be killed.
-    if (report.end == ChildEnd::signalled && job.attempts < place.limits.attempts) return Requeue{false};
+    if (report.end == ChildEnd::signalled) {
+        // Who ends the server often ends its processes too, in any order. So a death counts once the server has
+        // outlived it for a moment.
+        place.board.pause(last_moment);
+        if (place.board.stopping()) return Requeue{true};
+        if (job.attempts < place.limits.attempts) return Requeue{false};  // another run may not be killed
+    }
     return fault_of_end(report, place.limits, place.hidden);
 }
 

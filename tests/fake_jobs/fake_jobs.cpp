@@ -181,6 +181,22 @@ Jobs::Change Jobs::remove(const std::string& id) {
     return Change::done;
 }
 
+Jobs::Retry Jobs::retry(const std::string& id) {
+    const std::scoped_lock lock(state_->mutex);
+    fake::Shared::Kept* kept = state_->find(id);
+    if (!kept) return Retry::not_found;
+    if (kept->info.state != JobState::failed && kept->info.state != JobState::cancelled) return Retry::refused;
+    if (state_->count(JobState::queued) >= state_->limits.queue) return Retry::full;
+    kept->info.state = JobState::queued;
+    kept->info.started = kept->info.ended = "";
+    kept->info.attempts = 0;
+    kept->info.fault.reset();
+    ++kept->info.revision;
+    state_->place_all();
+    state_->changed.notify_all();
+    return Retry::queued;
+}
+
 std::optional<std::string> Jobs::scenario(const std::string& id) const {
     const std::scoped_lock lock(state_->mutex);
     const fake::Shared::Kept* kept = state_->find(id);

@@ -25,6 +25,7 @@ TEST_F(Server, AnswersEveryEndpoint) {
     const std::string other = nlohmann::json::parse(ask(post("/v1/jobs", scenario)).body).at("id");
     const RawAnswer cancelled = ask(post("/v1/jobs/" + other + "/cancel", ""));
     EXPECT_EQ(cancelled.status, 202) << cancelled.body;
+    EXPECT_EQ(ask(post("/v1/jobs/" + other + "/retry", "")).status, 202);
     const RawAnswer removed = ask(get("/v1/jobs/" + other, "", "DELETE"));
     EXPECT_EQ(removed.status, 204);
     EXPECT_FALSE(removed.has("Content-Length")) << removed.head;

@@ -251,6 +251,32 @@ TEST_F(JobQueue, CancelsWhatWaitsAndWhatRuns) {
     EXPECT_TRUE(work_is_empty());
 }
 
+TEST_F(JobQueue, RunsAFailedOrCancelledJobOnceMore) {
+    start();
+    const std::string gate = (folder.path() / "gate").string();
+    const std::string failed = submit("[ -e " + gate + " ] || exit 7; " + success);
+    EXPECT_EQ(wait_for_end(failed).state, JobState::failed);
+    // Its process may still end when the next run begins.
+    const std::string cancelled = submit("echo left >left; [ -e " + gate + " ] || { " + endless + " }; " + success);
+    wait_for_run(cancelled);
+    EXPECT_EQ(jobs->retry(cancelled), Jobs::Retry::refused) << "it runs";
+    EXPECT_EQ(jobs->cancel(cancelled), Jobs::Change::done);
+    std::ofstream(gate) << "x";
+    EXPECT_EQ(jobs->retry(cancelled), Jobs::Retry::queued);
+    EXPECT_EQ(jobs->retry(failed), Jobs::Retry::queued);
+    for (const std::string& id : {failed, cancelled}) {
+        const JobInfo job = wait_for_end(id);
+        EXPECT_EQ(job.state, JobState::succeeded);
+        EXPECT_EQ(job.attempts, 1);
+        EXPECT_FALSE(job.fault);
+        EXPECT_EQ(text_of(id, "result.json"), fake_result + "\n");
+        EXPECT_EQ(jobs->retry(id), Jobs::Retry::refused) << "it has succeeded";
+    }
+    EXPECT_EQ(jobs->retry("j-0123456789abcdef"), Jobs::Retry::not_found);
+    start();
+    EXPECT_EQ(jobs->find(failed)->state, JobState::succeeded);
+}
+
 TEST_F(JobQueue, RemovesAJobWithItsFiles) {
     start();
     const JobInfo job = run(success);
