@@ -208,7 +208,7 @@ Jobs::~Jobs() {
 
 Submitted Jobs::submit(const JobRequest& request) {
     State& all = *state_;
-    check_presence(all.presence);
+    all.presence.check();
     NewJob job;
     job.request = request_hash(request);
     if (!request.idempotency_key.empty())
@@ -291,7 +291,7 @@ Jobs::Change Jobs::remove(const std::string& id) {
 // A cancelled job ends a moment before its process, which uses the folder that the next run gets.
 Jobs::Retry Jobs::retry(const std::string& id) {
     State& all = *state_;
-    check_presence(all.presence);
+    all.presence.check();
     const auto end = JobBoard::Clock::now() + longest_end;
     for (std::optional<JobInfo> job = find(id); all.board.has_run(id); job = find(id)) {
         if (!job || (job->state != JobState::failed && job->state != JobState::cancelled)) break;

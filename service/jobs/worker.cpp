@@ -1,10 +1,9 @@
 #include "service/jobs/worker.h"
 
-#include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <optional>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -15,6 +14,7 @@
 #include "service/jobs/progress_line.h"
 #include "service/jobs/record.h"
 #include "service/jobs/room.h"
+#include "service/jobs/storage_wait.h"
 #include "service/jobs/utc.h"
 
 namespace shadowbench::service {
@@ -27,7 +27,6 @@ using Clock = JobBoard::Clock;
 
 constexpr std::chrono::milliseconds between_progress{100};
 constexpr std::chrono::milliseconds last_moment{500};
-constexpr std::chrono::milliseconds first_wait{250}, longest_wait{10000};
 constexpr int promise_broken = 2;  // exit code: the result is complete
 
 // How a run ended.
@@ -37,97 +36,8 @@ struct Success {
 struct Requeue {
     bool uncounted;
 };
-// The server's storage failed, which is not a fault of the job: the job waits. `bytes`: space that it needs.
-struct Waits {
-    std::string why;
-    std::uintmax_t bytes;
-};
 struct Cancelled {};
 using Verdict = std::variant<Success, Requeue, Waits, Cancelled, JobFault>;
-
-// Marks the server's storage as failing from begin() to its destructor. The operator gets one message, however often
-// and by however many workers the storage is tried.
-class StorageAlarm {
-public:
-    explicit StorageAlarm(const Workplace& place) : place_(place) {}
-    ~StorageAlarm() {
-        if (begun_ && place_.board.end_storage_fault() && !place_.board.stopping())
-            place_.say("the state folder can be written again; jobs go on");
-    }
-    StorageAlarm(const StorageAlarm&) = delete;
-    StorageAlarm& operator=(const StorageAlarm&) = delete;
-
-    void begin(const std::string& why) {
-        if (!begun_ && place_.board.begin_storage_fault())
-            place_.say("the state folder cannot be written; jobs wait until it can: " + why);
-        begun_ = true;
-    }
-
-private:
-    const Workplace& place_;
-    bool begun_ = false;
-};
-
-// Waits, longer each time, or until the server stops.
-class Patience {
-public:
-    void wait(const JobBoard& board) {
-        board.pause(next_);
-        next_ = std::min(next_ * 2, longest_wait);
-    }
-
-private:
-    std::chrono::milliseconds next_ = first_wait;
-};
-
-// Calls `body` until the storage lets it succeed. Nothing when the server stops first: the next server then finds the
-// job unchanged.
-template <class Body>
-auto persist(const Workplace& place, const Body& body) -> std::optional<std::decay_t<decltype(body())>> {
-    StorageAlarm alarm(place);
-    for (Patience patience;;) {
-        try {
-            return body();
-        } catch (const std::exception& error) {
-            if (place.board.stopping()) return std::nullopt;
-            alarm.begin(error.what());
-            patience.wait(place.board);
-        }
-    }
-}
-
-// The free bytes of the disk, if they are fewer than there should be.
-std::optional<std::uintmax_t> too_few_bytes(const Workplace& place) {
-    const auto left = free_bytes(place.folders.work);
-    return left && *left < place.limits.min_free ? left : std::nullopt;
-}
-
-// Throws Error{io} where no job may start.
-void check_storage(const Workplace& place) {
-    check_presence(place.presence);
-    if (const auto left = too_few_bytes(place))
-        throw Error(ErrorCode::io, place.folders.work.string(),
-                    fmt::format("{} MiB of the disk are free, and --min-free asks for {}", *left >> 20,
-                                place.limits.min_free >> 20));
-}
-
-// Returns when there is room for more than the job had written, when the job is no longer queued, or when the server
-// stops.
-void wait_for_room(const Workplace& place, const StoredJob& job, const Waits& waits, Patience& patience) {
-    StorageAlarm alarm(place);
-    alarm.begin(job.id + ": " + waits.why);
-    const auto in_queue = [&] {
-        try {
-            const std::optional<StoredJob> now = place.store.find(job.id);
-            return now && now->state == job_states::queued;
-        } catch (const Error&) {
-            return true;
-        }
-    };
-    do {
-        patience.wait(place.board);
-    } while (!place.board.stopping() && in_queue() && !has_room(place.folders.work, waits.bytes + least_room));
-}
 
 // What a job's process reads: its scenario and, for a recommendation, what is asked of it.
 constexpr const char *scenario_name = "scenario.json", *recommend_name = "recommend.json";
@@ -227,7 +137,7 @@ std::optional<Waits> storage_fault(const Workplace& place, const Verdict& verdic
     // is enough; if the fault is its own, it fails then.
     const auto* failed = std::get_if<JobFault>(&verdict);
     const bool other = failed && failed->code != static_cast<int>(ErrorCode::io) && report.end != ChildEnd::signalled;
-    if (other || !too_few_bytes(place)) return std::nullopt;
+    if (other || !is_low(place)) return std::nullopt;
     return Waits{"little space is left on the disk of " + place.folders.work.string(), bytes_in(work)};
 }
 
@@ -327,12 +237,6 @@ std::optional<Waits> run_one(const Workplace& place, const StoredJob& job) {
 }
 
 }  // namespace
-
-void check_presence(const Presence& presence) {
-    if (const auto gone = presence.gone())
-        throw Error(ErrorCode::io, gone->string(),
-                    "it was removed or replaced while the server runs; put it back, or start the server anew");
-}
 
 void run_jobs(const Workplace& place) {
     Patience patience;

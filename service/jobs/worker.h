@@ -28,9 +28,6 @@ struct Workplace {
     Say say;
 };
 
-// Throws Error{io} when the state folder is gone.
-void check_presence(const Presence& presence);
-
 // Takes jobs from the queue, one after the other, and runs each to its end. Returns once the board stops. Throws
 // nothing: when the server's storage fails, the job keeps its place in the queue, the run does not count, and the
 // worker tries again, with growing pauses, until the storage works. It starts no job while the state folder is gone, or

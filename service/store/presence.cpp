@@ -31,4 +31,10 @@ std::optional<fs::path> Presence::gone() const {
     return std::nullopt;
 }
 
+void Presence::check() const {
+    if (const std::optional<fs::path> place = gone())
+        throw base::Error(base::ErrorCode::io, place->string(),
+                          "it was removed or replaced while the server runs; put it back, or start the server anew");
+}
+
 }  // namespace shadowbench::service

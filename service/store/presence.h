@@ -17,6 +17,7 @@ public:
 
     // The first of the places where nothing is any more, or something else; nothing: all are as they were.
     std::optional<std::filesystem::path> gone() const;
+    void check() const;  // throws Error{io} for that place
 
 private:
     struct Noted {

@@ -171,39 +171,6 @@ TEST_F(JobQueue, ShowsProgressThatNeverFalls) {
     EXPECT_GT(end.revision, second.revision);
 }
 
-TEST_F(JobQueue, WaitsForTheFreeSpaceThatItIsToLeave) {
-    limits.min_free = std::uint64_t{1} << 62;
-    start();
-    const std::string id = submit(success);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!jobs->storage().fails && std::chrono::steady_clock::now() < end)
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    EXPECT_TRUE(jobs->storage().is_low());
-    EXPECT_TRUE(jobs->storage_fails());
-    EXPECT_EQ(jobs->find(id)->state, JobState::queued);
-    EXPECT_NE(said().find("--min-free"), std::string::npos) << said();
-    limits.min_free = 1;
-    start();
-    EXPECT_EQ(wait_for_end(id).state, JobState::succeeded);
-    EXPECT_FALSE(jobs->storage().is_low());
-}
-
-// What it writes then would go with the files that were removed.
-TEST_F(JobQueue, PromisesNothingWhereItsFolderIsGone) {
-    start();
-    const JobInfo before = run(success);
-    EXPECT_FALSE(jobs->storage().gone);
-    const fs::path away = folder.path() / "away";
-    fs::rename(state(), away);
-    EXPECT_TRUE(jobs->storage().gone);
-    EXPECT_THROW(submit(success), base::Error);
-    EXPECT_FALSE(fs::exists(state())) << "and makes no other in its place";
-    fs::rename(away, state());
-    EXPECT_FALSE(jobs->storage().gone) << "it is back";
-    EXPECT_EQ(run(success).state, JobState::succeeded);
-    EXPECT_EQ(jobs->find(before.id)->state, JobState::succeeded);
-}
-
 TEST_F(JobQueue, RunsJobsInTheOrderTheyCame) {
     start();
     const std::string log = (folder.path() / "log").string();
@@ -249,32 +216,6 @@ TEST_F(JobQueue, CancelsWhatWaitsAndWhatRuns) {
     EXPECT_EQ(jobs->cancel("j-0123456789abcdef"), Jobs::Change::not_found);
     EXPECT_EQ(run(success).state, JobState::succeeded) << "the worker is free again";
     EXPECT_TRUE(work_is_empty());
-}
-
-TEST_F(JobQueue, RunsAFailedOrCancelledJobOnceMore) {
-    start();
-    const std::string gate = (folder.path() / "gate").string();
-    const std::string failed = submit("[ -e " + gate + " ] || exit 7; " + success);
-    EXPECT_EQ(wait_for_end(failed).state, JobState::failed);
-    // Its process may still end when the next run begins.
-    const std::string cancelled = submit("echo left >left; [ -e " + gate + " ] || { " + endless + " }; " + success);
-    wait_for_run(cancelled);
-    EXPECT_EQ(jobs->retry(cancelled), Jobs::Retry::refused) << "it runs";
-    EXPECT_EQ(jobs->cancel(cancelled), Jobs::Change::done);
-    std::ofstream(gate) << "x";
-    EXPECT_EQ(jobs->retry(cancelled), Jobs::Retry::queued);
-    EXPECT_EQ(jobs->retry(failed), Jobs::Retry::queued);
-    for (const std::string& id : {failed, cancelled}) {
-        const JobInfo job = wait_for_end(id);
-        EXPECT_EQ(job.state, JobState::succeeded);
-        EXPECT_EQ(job.attempts, 1);
-        EXPECT_FALSE(job.fault);
-        EXPECT_EQ(text_of(id, "result.json"), fake_result + "\n");
-        EXPECT_EQ(jobs->retry(id), Jobs::Retry::refused) << "it has succeeded";
-    }
-    EXPECT_EQ(jobs->retry("j-0123456789abcdef"), Jobs::Retry::not_found);
-    start();
-    EXPECT_EQ(jobs->find(failed)->state, JobState::succeeded);
 }
 
 TEST_F(JobQueue, RemovesAJobWithItsFiles) {

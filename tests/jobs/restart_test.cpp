@@ -176,30 +176,6 @@ TEST_F(JobRestart, RunsTheJobsOfAnEarlierVersion) {
     EXPECT_EQ(jobs->find("j-000000000000000a")->state, JobState::succeeded);
 }
 
-// As when a service manager ends all processes of a service: the job's process may be the first.
-TEST_F(JobRestart, CountsNoDeathJustBeforeThatOfTheServer) {
-    limits.attempts = 1;
-    const std::string own = (folder.path() / "pid").string(), gate = (folder.path() / "gate").string();
-    const std::string script = "[ -e " + gate + " ] || { echo $$ >" + own + "; " + endless + " }; " + success;
-    for (const int signal : {SIGTERM, SIGKILL}) {
-        fs::remove(own);
-        start();
-        if (jobs->list({}, 1, "").jobs.empty()) submit(script);
-        const std::string id = jobs->list({}, 1, "").jobs.at(0).id;
-        wait_for_run(id);
-        ASSERT_EQ(::kill(std::stoi(base::read_text(own)), signal), 0);
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));  // until its death is seen
-        jobs->stop();
-        EXPECT_EQ(jobs->find(id)->state, JobState::queued);
-        EXPECT_EQ(jobs->find(id)->attempts, 0);
-    }
-    std::ofstream(gate) << "x";
-    start();
-    const JobInfo job = wait_for_end(jobs->list({}, 1, "").jobs.at(0).id);
-    EXPECT_EQ(job.state, JobState::succeeded);
-    EXPECT_EQ(job.attempts, 1);
-}
-
 // Its own crashes count, whatever its servers did in between.
 TEST_F(JobRestart, CountsTheCrashesOfTheJobAlone) {
     const std::string crashes = (folder.path() / "crashes").string();

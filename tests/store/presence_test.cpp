@@ -20,6 +20,7 @@ TEST(Presences, NoticeWhatIsGoneOrAnother) {
     std::ofstream(file) << "x";
     const Presence presence({state, file});
     EXPECT_FALSE(presence.gone());
+    EXPECT_NO_THROW(presence.check());
     std::ofstream(file, std::ios::app) << "more";
     EXPECT_FALSE(presence.gone()) << "what is in it does not matter";
     fs::rename(file, state / "jobs.old");
@@ -30,6 +31,7 @@ TEST(Presences, NoticeWhatIsGoneOrAnother) {
     EXPECT_FALSE(presence.gone()) << "it is back";
     fs::rename(state, away);
     EXPECT_EQ(presence.gone().value_or("").string(), state.string());
+    EXPECT_THROW(presence.check(), base::Error);
     fs::create_directory(state);
     EXPECT_EQ(presence.gone().value_or("").string(), state.string()) << "a new one in its place";
 }
