@@ -62,8 +62,8 @@ std::string Metrics::text(const Jobs& jobs, std::size_t event_streams) const {
                MetricType::Gauge);
     const JobStorage disk = jobs.storage();
     storage.metric.push_back(gauge(disk.fails || disk.gone ? 1.0 : 0.0));
-    MetricFamily left = family("shadowbench_storage_free_bytes", "Free bytes on the disk of the state folder.",
-                               MetricType::Gauge);
+    MetricFamily left =
+        family("shadowbench_storage_free_bytes", "Free bytes on the disk of the state folder.", MetricType::Gauge);
     if (disk.free) left.metric.push_back(gauge(static_cast<double>(*disk.free)));
     MetricFamily least = family("shadowbench_storage_min_free_bytes",
                                 "Bytes that must be free for a job to start (--min-free).", MetricType::Gauge);

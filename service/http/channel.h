@@ -59,7 +59,7 @@ private:
     const ChannelLimits limits_;
     const std::atomic<bool>& stopping_;
     const std::function<bool()> hurry_;
-    std::string buffer_;  // received, but not yet read by a caller
+    std::string buffer_;                         // received, but not yet read by a caller
     std::size_t body_most_ = 0, body_left_ = 0;  // bytes that read() may give, in all and from now on
     Clock::time_point body_begin_{};
     bool first_ = true;

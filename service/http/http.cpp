@@ -51,8 +51,7 @@ std::string canonical_head(const Exchange& exchange) {
     if (exchange.refusal) return head.request.method == "HEAD" ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n";
     std::string text = fmt::format("{} / HTTP/1.1\r\n", head.request.method);
     // Of a chunked body it does not know: see read_body().
-    if (head.request.method == "POST")
-        text += fmt::format("Content-Length: {}\r\n", head.content_length.value_or(0));
+    if (head.request.method == "POST") text += fmt::format("Content-Length: {}\r\n", head.content_length.value_or(0));
     if (head.request.has_body && head.expects_continue) text += "Expect: 100-continue\r\n";
     return text + "\r\n";
 }
@@ -260,8 +259,8 @@ private:
         if (!exchange.refusal && head.content_length.value_or(0) > service_.limits().body)
             exchange.refusal = too_large();
         // A body that was not read must not be taken for the next request.
-        exchange.keep = head.keep_alive && waiting_ == 0 && !exchange.at_once &&
-                        !(exchange.refusal && head.request.has_body);
+        exchange.keep =
+            head.keep_alive && waiting_ == 0 && !exchange.at_once && !(exchange.refusal && head.request.has_body);
         exchange.channel.begin_body(service_.limits().body + framing);
     }
 

@@ -47,8 +47,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
         folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         if (folder_ >= 0) held = hold(folder_);
     }
-    if (held == Held::by_another)
-        fail("another server holds this state folder; stop that one, or use another folder");
+    if (held == Held::by_another) fail("another server holds this state folder; stop that one, or use another folder");
 }
 
 FolderLock::~FolderLock() {

@@ -24,8 +24,7 @@ Presence::Presence(const std::vector<fs::path>& places) {
 std::optional<fs::path> Presence::gone() const {
     for (const Noted& noted : noted_) {
         struct stat status {};
-        if (::stat(noted.place.c_str(), &status) != 0 || status.st_dev != noted.device ||
-            status.st_ino != noted.inode)
+        if (::stat(noted.place.c_str(), &status) != 0 || status.st_dev != noted.device || status.st_ino != noted.inode)
             return noted.place;
     }
     return std::nullopt;

@@ -237,10 +237,10 @@ TEST_F(FullDisk, StartsNoJobBelowTheFreeSpaceAskedFor) {
 TEST_F(FullDisk, BlamesTheDiskBeforeTheJob) {
     limits.min_free = std::size_t{1} << 20;
     start();
-    const std::string id = submit("echo x >>" + path("runs") + "; [ $(wc -l <" + path("runs") + ") = 1 ] || { " +
-                                  success + " exit 0; }; echo '{\"stage\":\"build\"}'; while [ ! -e " + path("gate") +
-                                  " ]; do sleep 0.02; done; " +
-                                  "echo '{\"error\":{\"code\":74,\"where\":\"x\",\"message\":\"full\"}}'; exit 74");
+    const std::string id =
+        submit("echo x >>" + path("runs") + "; [ $(wc -l <" + path("runs") + ") = 1 ] || { " + success +
+               " exit 0; }; echo '{\"stage\":\"build\"}'; while [ ! -e " + path("gate") + " ]; do sleep 0.02; done; " +
+               "echo '{\"error\":{\"code\":74,\"where\":\"x\",\"message\":\"full\"}}'; exit 74");
     wait_for_run(id);
     fill(std::size_t{512} << 10);
     std::ofstream(path("gate")) << "x";
