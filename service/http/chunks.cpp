@@ -8,18 +8,16 @@
 #include <string_view>
 #include <system_error>
 
+#include "service/http/head.h"
+
 namespace shadowbench::service {
 namespace {
 
 using Read = std::function<long(char*, std::size_t)>;
 using Take = std::function<bool(const char*, std::size_t)>;
 
-constexpr std::size_t longest_line = 1024;  // the size of a chunk with its extensions
+constexpr std::size_t longest_size_line = 1024;  // the size of a chunk with its extensions
 constexpr std::size_t most_trailers = 8 * 1024;
-
-bool is_control(char c) {
-    return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f;
-}
 
 // Reads a line, without its CR and LF. Nothing for a line that is longer than `most` or has other control characters.
 std::optional<std::string> read_line(const Read& read, std::size_t most) {
@@ -71,7 +69,7 @@ bool skip_trailers(const Read& read) {
 
 bool read_chunks(const Read& read, const Take& take) {
     for (;;) {
-        const std::optional<std::string> line = read_line(read, longest_line);
+        const std::optional<std::string> line = read_line(read, longest_size_line);
         const std::optional<std::uint64_t> size = line ? read_size(*line) : std::nullopt;
         if (!size) return false;
         if (*size == 0) return skip_trailers(read);

@@ -5,9 +5,18 @@
 #include "base/error.h"
 
 namespace shadowbench::service {
+namespace {
 
 using base::Error;
 using base::ErrorCode;
+
+Reply reply_of(const httplib::Result& result, const std::string& url) {
+    if (!result) throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
+    return {result->status, result->get_header_value("Content-Type"), result->body,
+            result->get_header_value("Location")};
+}
+
+}  // namespace
 
 struct Client::State {
     httplib::Client client;
@@ -26,16 +35,6 @@ Client::Client(const std::string& url, const std::string& token) : url_(url) {
 }
 
 Client::~Client() = default;
-
-namespace {
-
-Reply reply_of(const httplib::Result& result, const std::string& url) {
-    if (!result) throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
-    return {result->status, result->get_header_value("Content-Type"), result->body,
-            result->get_header_value("Location")};
-}
-
-}  // namespace
 
 Reply Client::get(const std::string& path) {
     return reply_of(state_->client.Get(path), url_);

@@ -6,9 +6,12 @@
 #include "service/jobs/room.h"
 
 namespace shadowbench::service {
+namespace {
 
 using base::Error;
 using base::ErrorCode;
+
+}  // namespace
 
 StorageAlarm::~StorageAlarm() {
     if (begun_ && place_.board.end_storage_fault() && !place_.board.stopping())
