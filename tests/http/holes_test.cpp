@@ -50,7 +50,7 @@ TEST_F(Holes, ChunkedBodiesPastTheLimitAreRefused) {
 }
 
 TEST_F(Holes, BrokenChunksAreRefused) {
-    http_options_.channel.body_seconds = 1.0;  // some leave httplib waiting for more
+    http_options_.channel.body_seconds = 1.0;  // some leave the server waiting for more
     restart();
     for (const char* body :
          {"zz\r\n", "-5\r\nabcde\r\n0\r\n\r\n", "5\r\nabcdeXX0\r\n\r\n", "\r\n\r\n", "0x2\r\n{}\r\n0\r\n\r\n",
