@@ -288,18 +288,25 @@ Jobs::Change Jobs::remove(const std::string& id) {
     return Change::done;
 }
 
-// A cancelled job ends a moment before its process, which uses the folder that the next run gets.
+// A job ends a moment before its run, which uses the folder that the next run gets.
 Jobs::Retry Jobs::retry(const std::string& id) {
     State& all = *state_;
     all.presence.check();
     const auto end = JobBoard::Clock::now() + longest_end;
-    for (std::optional<JobInfo> job = find(id); all.board.has_run(id); job = find(id)) {
-        if (!job || (job->state != JobState::failed && job->state != JobState::cancelled)) break;
+    const auto try_once = [&]() -> std::optional<JobStore::Retried> {
+        const std::scoped_lock lock(all.board.starting);
+        const std::optional<StoredJob> job = all.store.find(id);
+        const bool ended = job && (job->state == job_states::failed || job->state == job_states::cancelled);
+        if (job && all.board.has_run(id))
+            return ended ? std::nullopt : std::optional(JobStore::Retried{JobStore::Retry::refused, 0});
+        return all.store.retry(id, program_version(), all.place.limits.queue);
+    };
+    std::optional<JobStore::Retried> retried = try_once();
+    for (; !retried; retried = try_once()) {
         if (all.board.stopping() || JobBoard::Clock::now() > end) return Retry::busy;
         all.board.pause(std::chrono::milliseconds(10));
     }
-    const JobStore::Retried retried = all.store.retry(id, program_version(), all.place.limits.queue);
-    switch (retried.outcome) {
+    switch (retried->outcome) {
         case JobStore::Retry::not_found:
             return Retry::not_found;
         case JobStore::Retry::refused:
@@ -309,7 +316,7 @@ Jobs::Retry Jobs::retry(const std::string& id) {
         case JobStore::Retry::queued:
             break;
     }
-    all.board.announce(retried.revision, true);
+    all.board.announce(retried->revision, true);
     all.board.add_work();
     return Retry::queued;
 }

@@ -24,9 +24,9 @@ void StorageAlarm::begin(const std::string& why) {
     begun_ = true;
 }
 
-bool is_low(const Workplace& place) {
+bool is_low(const Workplace& place, std::uintmax_t own) {
     const auto left = free_bytes(place.folders.work);
-    return left && *left < place.limits.min_free;
+    return left && *left + own < place.limits.min_free;
 }
 
 void check_storage(const Workplace& place) {
@@ -49,9 +49,10 @@ void wait_for_room(const Workplace& place, const StoredJob& job, const Waits& wa
             return true;
         }
     };
+    const auto may_start = [&] { return !is_low(place) && has_room(place.folders.work, waits.bytes + least_room); };
     do {
         patience.wait(place.board);
-    } while (!place.board.stopping() && in_queue() && !has_room(place.folders.work, waits.bytes + least_room));
+    } while (!place.board.stopping() && in_queue() && !may_start());
 }
 
 }  // namespace shadowbench::service

@@ -1,7 +1,10 @@
 #include "service/jobs/worker.h"
 
 #include <chrono>
+#include <cstdint>
 #include <fstream>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -134,11 +137,13 @@ std::optional<Waits> storage_fault(const Workplace& place, const Verdict& verdic
     if (!has_room(place.folders.work, least_room))
         return Waits{"nothing can be written to " + place.folders.work.string(), bytes_in(work)};
     // Where little is left, a fault of input or output, or a death, may come from that. The job starts again once there
-    // is enough; if the fault is its own, it fails then.
+    // is enough; if the fault is its own, it fails then. What the job itself has written counts as free: else a job
+    // that takes the space and dies of its own fault would start again without end.
     const auto* failed = std::get_if<JobFault>(&verdict);
     const bool other = failed && failed->code != static_cast<int>(ErrorCode::io) && report.end != ChildEnd::signalled;
-    if (other || !is_low(place)) return std::nullopt;
-    return Waits{"little space is left on the disk of " + place.folders.work.string(), bytes_in(work)};
+    const std::uintmax_t own = bytes_in(work);
+    if (other || !is_low(place, own)) return std::nullopt;
+    return Waits{"little space is left on the disk of " + place.folders.work.string(), own};
 }
 
 // Writes the record of the job into its results before they move to their place.
@@ -221,8 +226,7 @@ Verdict attempt(const Workplace& place, const StoredJob& job, JobBoard::Run& run
 }
 
 // Runs a job. Returns what it waits for, if it does.
-std::optional<Waits> run_one(const Workplace& place, const StoredJob& job) {
-    const auto run = place.board.begin(job.id);
+std::optional<Waits> run_one(const Workplace& place, const StoredJob& job, const std::shared_ptr<JobBoard::Run>& run) {
     place.board.announce(job.revision, true);
     const fs::path work = attempt_folder(place.folders, job.id, job.attempts);
     const Verdict verdict = attempt(place, job, *run, work);
@@ -242,13 +246,17 @@ void run_jobs(const Workplace& place) {
     Patience patience;
     while (!place.board.stopping()) {
         const std::uint64_t seen = place.board.work();
+        std::shared_ptr<JobBoard::Run> run;
         const auto job = persist(place, [&] {
             check_storage(place);
-            return place.store.claim(now_utc());
+            const std::scoped_lock lock(place.board.starting);
+            auto claimed = place.store.claim(now_utc());
+            if (claimed) run = place.board.begin(claimed->id);
+            return claimed;
         });
         if (!job || !*job) {
             place.board.wait_for_work(seen);
-        } else if (const auto waits = run_one(place, **job)) {
+        } else if (const auto waits = run_one(place, **job, run)) {
             wait_for_room(place, **job, *waits, patience);
         } else {
             patience = {};
