@@ -127,6 +127,8 @@ std::optional<StorageFault> storage_fault(const Error& error, const std::string&
     if (!is_in(folder, error.where())) return std::nullopt;
     if (const auto* write = dynamic_cast<const base::WriteError*>(&error))
         return is_of_storage(write->why()) ? std::optional(StorageFault{error.what(), write->bytes()}) : std::nullopt;
+    // A temporary folder is gone now, and nobody knows how much space it took: the job would start again without end.
+    if (error.where().starts_with(Error(ErrorCode::io, folder + "/shadowbench-", "").where())) return std::nullopt;
     const bool file_fault = error.code() == ErrorCode::io || error.code() == ErrorCode::no_such_file;
     return file_fault ? std::optional(StorageFault{error.what(), 0}) : std::nullopt;
 }
