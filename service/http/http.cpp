@@ -30,6 +30,8 @@ using base::ErrorCode;
 
 constexpr std::size_t framing = 64 * 1024;  // bytes that the framing of chunks may add to a body
 constexpr std::size_t piece_size = 64 * 1024;
+constexpr int monitor_answer = 256 * 1024;  // bytes that a socket takes without waiting
+constexpr double monitor_seconds = 1.0;     // as ChannelLimits::write_seconds
 
 // One request on its way through httplib.
 struct Exchange {
@@ -215,9 +217,13 @@ private:
         }
     }
 
-    // The head of the request is there, it has no body, and the answer is short: nothing waits for the client.
+    // The head of the request is there, no body is read, and the socket takes the whole answer at once. So nothing
+    // waits for the client, even if it reads nothing.
     void serve_monitor(int socket) {
-        Channel channel(socket, options_.channel, stopping_, [] { return true; });
+        ::setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &monitor_answer, sizeof monitor_answer);
+        ChannelLimits limits = options_.channel;
+        limits.write_seconds = std::min(limits.write_seconds, monitor_seconds);
+        Channel channel(socket, limits, stopping_, [] { return true; });
         converse(channel, true);
     }
 
