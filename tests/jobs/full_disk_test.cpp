@@ -259,6 +259,17 @@ TEST_F(FullDisk, BlamesTheDiskBeforeTheJob) {
     EXPECT_EQ(own.fault->code, 74);
 }
 
+// Else it would take the space, die and start again without end.
+TEST_F(FullDisk, BlamesAJobThatTakesTheSpaceItself) {
+    limits.min_free = std::size_t{1} << 20;
+    start();
+    const JobInfo job = run("head -c 3300000 /dev/zero >big; "
+                            "echo '{\"error\":{\"code\":74,\"where\":\"x\",\"message\":\"own\"}}'; exit 74");
+    EXPECT_EQ(job.state, JobState::failed);
+    ASSERT_TRUE(job.fault);
+    EXPECT_EQ(job.fault->message, "own");
+}
+
 TEST_F(FullDisk, RoomIsWhatCanBeWritten) {
     EXPECT_TRUE(has_room(state(), least_room));
     EXPECT_TRUE(has_room(state(), disk / 2));
