@@ -1,4 +1,4 @@
-// The answers under /v1/jobs that submit, list, show, cancel and remove jobs and give their files.
+// The answers under /v1/jobs that submit, list, show, cancel, retry and remove jobs and give their files.
 #include <algorithm>
 #include <charconv>
 
@@ -26,6 +26,10 @@ ApiResponse try_later(int status, const std::string& detail, const char* seconds
     return response;
 }
 
+ApiResponse queue_is_full() {
+    return try_later(429, "The queue of jobs is full; try again later.", "30");
+}
+
 bool is_key(const std::string& key) {
     return !key.empty() && key.size() <= longest_key &&
            std::all_of(key.begin(), key.end(), [](char c) { return c >= 0x20 && c <= 0x7e; });
@@ -36,7 +40,7 @@ ApiResponse submitted(const Context& context, const Submitted& outcome) {
         case Submitted::Outcome::conflict:
             return problem(409, "This Idempotency-Key was already used for another request.");
         case Submitted::Outcome::queue_full:
-            return try_later(429, "The queue of jobs is full; try again later.", "30");
+            return queue_is_full();
         case Submitted::Outcome::created:
         case Submitted::Outcome::existing:
             break;
@@ -124,6 +128,25 @@ ApiResponse cancel_job(Context& context, const Call& call) {
     if (change == Jobs::Change::not_found || !job) return no_such_job();
     if (change == Jobs::Change::refused) return problem(409, "The job has already ended.");
     return json_answer(202, job_json(context.jobs, *job));
+}
+
+ApiResponse retry_job(Context& context, const Call& call) {
+    if (context.jobs.stopping()) return try_later(503, "The server is stopping.", "10");
+    const std::string& id = call.parameter("id");
+    switch (context.jobs.retry(id)) {
+        case Jobs::Retry::not_found:
+            return no_such_job();
+        case Jobs::Retry::refused:
+            return problem(409, "Only a job that failed or was cancelled can be retried.");
+        case Jobs::Retry::busy:
+            return try_later(503, "The last run of the job is still ending; try again later.", "2");
+        case Jobs::Retry::full:
+            return queue_is_full();
+        case Jobs::Retry::queued:
+            break;
+    }
+    const std::optional<JobInfo> job = context.jobs.find(id);
+    return job ? json_answer(202, job_json(context.jobs, *job)) : no_such_job();
 }
 
 ApiResponse delete_job(Context& context, const Call& call) {

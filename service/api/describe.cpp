@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
@@ -77,6 +78,17 @@ std::optional<ordered_json> document_of(const scene::NamedScenario& scenario) {
     return document;
 }
 
+// Why the server runs no jobs; empty: it does.
+std::string why_not_ready(const Jobs& jobs) {
+    if (jobs.stopping()) return "The server is stopping.";
+    const JobStorage storage = jobs.storage();
+    if (storage.gone) return "The state folder of the server was removed or replaced; jobs wait until it is back.";
+    if (storage.is_low())
+        return fmt::format("The disk of the server has {} MiB free and needs {}; jobs wait until it has.",
+                           *storage.free >> 20, storage.min_free >> 20);
+    return storage.fails ? "The server cannot write its storage; jobs wait until it can." : "";
+}
+
 }  // namespace
 
 std::string read_scenarios(const std::vector<fs::path>& folders) {
@@ -124,10 +136,9 @@ ApiResponse get_health(Context&, const Call&) {
 }
 
 ApiResponse get_ready(Context& context, const Call&) {
-    const bool stopping = context.jobs.stopping();
-    if (!stopping && !context.jobs.storage_fails()) return json_answer(200, ordered_json{{"status", "ready"}});
-    ApiResponse response = problem(
-        503, stopping ? "The server is stopping." : "The server cannot write its storage; jobs wait until it can.");
+    const std::string why = why_not_ready(context.jobs);
+    if (why.empty()) return json_answer(200, ordered_json{{"status", "ready"}});
+    ApiResponse response = problem(503, why);
     response.headers.push_back({"Retry-After", "10"});
     return response;
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <optional>
+#include <system_error>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -23,14 +25,26 @@ struct ByteRange {
     std::uint64_t first, length;
 };
 
+// A number that is too large becomes the largest: as the last byte of a range it means the end of the file.
 bool read_number(const std::string& text, std::uint64_t& value) {
     const auto [rest, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return fault == std::errc() && rest == text.data() + text.size();
+    if (fault == std::errc::result_out_of_range) value = std::numeric_limits<std::uint64_t>::max();
+    return fault != std::errc::invalid_argument && rest == text.data() + text.size();
 }
 
-// Reads "bytes=0-99", "bytes=100-", "bytes=-100". Nothing for a range outside of the file, or several.
+constexpr const char* byte_unit = "bytes=";
+
+// The range that decides about the answer; null: the whole file. A server may ignore ranges: this one ignores several
+// of them, other units and, as it must (RFC 9110, 14.2), those of HEAD.
+const std::string* range_of(const ApiRequest& request, const std::string& etag) {
+    const std::string *range = request.header("range"), *if_range = request.header("if-range");
+    if (!range || request.method == "HEAD" || (if_range && *if_range != etag)) return nullptr;
+    return range->starts_with(byte_unit) && range->find(',') == std::string::npos ? range : nullptr;
+}
+
+// Reads "bytes=0-99", "bytes=100-", "bytes=-100". Nothing for a range outside of the file.
 std::optional<ByteRange> read_range(const std::string& text, std::uint64_t size) {
-    const std::string unit = "bytes=";
+    const std::string unit = byte_unit;
     const std::size_t dash = text.find('-');
     if (!text.starts_with(unit) || dash == std::string::npos || size == 0) return {};
     const std::string from = text.substr(unit.size(), dash - unit.size()), to = text.substr(dash + 1);
@@ -80,11 +94,11 @@ ApiResponse file_answer(const ApiRequest& request, const std::filesystem::path& 
     response.type = type_of_file(file);
     response.headers = {{"ETag", etag}, {"Cache-Control", "private, no-cache"}, {"Accept-Ranges", "bytes"}};
     response.file = FilePart{std::move(open), 0, size};
-    const std::string *range = request.header("range"), *if_range = request.header("if-range");
-    if (!range || !range->starts_with("bytes") || (if_range && *if_range != etag)) return response;
+    const std::string* range = range_of(request, etag);
+    if (!range) return response;
     const std::optional<ByteRange> part = read_range(*range, size);
     if (!part) {
-        response = problem(416, "Range must be a single range of bytes within the file.");
+        response = problem(416, "Range must be a range of bytes within the file.");
         response.headers.push_back({"Content-Range", fmt::format("bytes */{}", size)});
         return response;
     }

@@ -60,7 +60,14 @@ std::string Metrics::text(const Jobs& jobs, std::size_t event_streams) const {
     MetricFamily storage =
         family("shadowbench_storage_failing", "1 while jobs wait because the server cannot write its state folder.",
                MetricType::Gauge);
-    storage.metric.push_back(gauge(jobs.storage_fails() ? 1.0 : 0.0));
+    const JobStorage disk = jobs.storage();
+    storage.metric.push_back(gauge(disk.fails || disk.gone ? 1.0 : 0.0));
+    MetricFamily left =
+        family("shadowbench_storage_free_bytes", "Free bytes on the disk of the state folder.", MetricType::Gauge);
+    if (disk.free) left.metric.push_back(gauge(static_cast<double>(*disk.free)));
+    MetricFamily least = family("shadowbench_storage_min_free_bytes",
+                                "Bytes that must be free for a job to start (--min-free).", MetricType::Gauge);
+    least.metric.push_back(gauge(static_cast<double>(disk.min_free)));
     MetricFamily streams = family("shadowbench_event_streams", "Clients that follow events.", MetricType::Gauge);
     streams.metric.push_back(gauge(static_cast<double>(event_streams)));
     MetricFamily requests =
@@ -89,7 +96,7 @@ std::string Metrics::text(const Jobs& jobs, std::size_t event_streams) const {
         metric.histogram.sample_sum = latency.sum;
         latencies.metric.push_back(std::move(metric));
     }
-    for (MetricFamily* other : {&queue, &storage, &streams, &requests, &latencies})
+    for (MetricFamily* other : {&queue, &storage, &left, &least, &streams, &requests, &latencies})
         families.push_back(std::move(*other));
     return prometheus::TextSerializer().Serialize(families);
 }

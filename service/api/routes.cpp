@@ -18,6 +18,7 @@ constexpr Route table[] = {
     {"DELETE", "/v1/jobs/{id}", "", false, delete_job},
     {"GET", "/v1/jobs/{id}/events", "text/event-stream", false, job_events},
     {"POST", "/v1/jobs/{id}/cancel", json_type, false, cancel_job},
+    {"POST", "/v1/jobs/{id}/retry", json_type, false, retry_job},
     {"GET", "/v1/jobs/{id}/scenario", json_type, false, job_scenario},
     {"GET", "/v1/jobs/{id}/result", json_type, false, job_result},
     {"GET", "/v1/jobs/{id}/result.csv", "text/csv", false, job_csv},

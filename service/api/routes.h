@@ -41,6 +41,7 @@ ApiResponse post_recommendation(Context& context, const Call& call);
 ApiResponse list_jobs(Context& context, const Call& call);
 ApiResponse get_job(Context& context, const Call& call);
 ApiResponse cancel_job(Context& context, const Call& call);
+ApiResponse retry_job(Context& context, const Call& call);
 ApiResponse delete_job(Context& context, const Call& call);
 ApiResponse job_events(Context& context, const Call& call);
 ApiResponse job_result(Context& context, const Call& call);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <new>
 #include <optional>
@@ -55,6 +56,27 @@ private:
     std::string stage_, place_;
 };
 
+// What the job writes only for a while lies in its folder too, so that a full disk is a fault of one storage.
+class TemporaryPlace {
+public:
+    explicit TemporaryPlace(const std::string& folder) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        ::setenv(name, folder.c_str(), 1);
+    }
+    ~TemporaryPlace() {
+        if (before_)
+            ::setenv(name, before_->c_str(), 1);
+        else
+            ::unsetenv(name);
+    }
+    TemporaryPlace(const TemporaryPlace&) = delete;
+    TemporaryPlace& operator=(const TemporaryPlace&) = delete;
+
+private:
+    static constexpr const char* name = "TMPDIR";
+    std::optional<std::string> before_;
+};
+
 // The number of lights of a variant; a deep image counts as one.
 std::size_t lights_of(const document::Variant& variant) {
     const auto lights = variant.document->find("lights");
@@ -105,12 +127,15 @@ std::optional<StorageFault> storage_fault(const Error& error, const std::string&
     if (!is_in(folder, error.where())) return std::nullopt;
     if (const auto* write = dynamic_cast<const base::WriteError*>(&error))
         return is_of_storage(write->why()) ? std::optional(StorageFault{error.what(), write->bytes()}) : std::nullopt;
+    // A temporary folder is gone now, and nobody knows how much space it took: the job would start again without end.
+    if (error.where().starts_with(Error(ErrorCode::io, folder + "/shadowbench-", "").where())) return std::nullopt;
     const bool file_fault = error.code() == ErrorCode::io || error.code() == ErrorCode::no_such_file;
     return file_fault ? std::optional(StorageFault{error.what(), 0}) : std::nullopt;
 }
 
 bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
     const fs::path folder = arguments.folder;
+    const TemporaryPlace temporary(arguments.folder);
     const nlohmann::json document = scene::parse_json(base::read_text(folder / "scenario.json"), "scenario.json");
     bench::RunOptions options;
     options.data = scene::SearchPath::confined_to({arguments.data.begin(), arguments.data.end()});

@@ -40,6 +40,11 @@ void add_limits(CLI::App& serve, ServeArguments& a) {
     serve.add_option("--samples", a.samples, "Most rays per pixel, of maps and of the reference")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
+    serve
+        .add_option("--min-free", a.min_free,
+                    "MiB that must be free on the disk of --state for a job to start. With less, jobs wait")
+        ->check(CLI::Range(0.0, 1e9))
+        ->capture_default_str();
     serve.add_option("--body", a.body, "Largest body of a request, in MiB")
         ->check(CLI::Range(0.001, 1024.0))
         ->capture_default_str();

@@ -1,5 +1,6 @@
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <ostream>
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 using base::Error;
 using base::ErrorCode;
 
-constexpr double gib = 1024.0 * 1024.0 * 1024.0;
+constexpr double mib = 1024.0 * 1024.0, gib = 1024.0 * mib;
 constexpr double helper_memory = 4.0;  // GiB
 
 std::vector<fs::path> folders_of(const std::vector<std::string>& names) {
@@ -73,6 +74,7 @@ JobLimits job_limits(const ServeArguments& arguments) {
     limits.memory = static_cast<std::size_t>(arguments.job_memory * gib);
     limits.parallel = arguments.parallel;
     limits.grace = arguments.grace;
+    limits.min_free = static_cast<std::uint64_t>(arguments.min_free * mib);
     return limits;
 }
 
@@ -80,7 +82,7 @@ ServiceOptions service_options(const ServeArguments& arguments, const std::strin
     ServiceOptions options;
     options.data = folders_of(arguments.data);
     options.scenarios = scenario_folders();
-    options.limits.body = static_cast<std::size_t>(arguments.body * 1024.0 * 1024.0);
+    options.limits.body = static_cast<std::size_t>(arguments.body * mib);
     options.limits.resolution = arguments.resolution;
     options.limits.samples_per_pixel = arguments.samples;
     options.limits.bytes = arguments.job_memory * gib;

@@ -22,7 +22,8 @@ struct ServeArguments {
     double job_seconds = 3600.0, job_memory = 8.0;  // GiB
     double estimate_seconds = 1800.0;
     int resolution = 4096, samples = 4096;
-    double body = 4.0;  // MiB
+    double body = 4.0;        // MiB
+    double min_free = 512.0;  // MiB
     std::size_t workers = 32, event_clients = 64;
 };
 

@@ -90,8 +90,13 @@ Channel::Outcome Channel::read_head(std::string& head) {
 }
 
 void Channel::begin_body(std::size_t most) {
-    body_left_ = most;
-    body_end_ = Clock::now() + duration(limits_.body_seconds);
+    body_most_ = body_left_ = most;
+    body_begin_ = Clock::now();
+}
+
+Channel::Clock::time_point Channel::end_of_body() const {
+    const double expected = static_cast<double>(body_most_ - body_left_) / limits_.body_rate;
+    return body_begin_ + duration(std::min(limits_.body_seconds, limits_.body_grace + expected));
 }
 
 long Channel::read(char* to, std::size_t size) {
@@ -101,7 +106,7 @@ long Channel::read(char* to, std::size_t size) {
     if (buffer_.empty()) {
         char piece[16384];
         do {
-            if (wait(POLLIN, body_end_, [&] { return stopping_.load(); }) != Ready::yes) return -1;
+            if (wait(POLLIN, end_of_body(), [&] { return stopping_.load(); }) != Ready::yes) return -1;
             n = receive(piece, sizeof piece);
         } while (n < 0 && errno == EAGAIN);
         if (n <= 0) return n;

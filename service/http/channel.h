@@ -17,6 +17,8 @@ struct ChannelLimits {
     double head_seconds = 10.0;   // for a head; a tenth of it when others wait for a thread
     double body_seconds = 30.0;   // for a body
     double write_seconds = 10.0;  // the longest time in which a client receives nothing
+    // A body must come at this rate, in bytes a second, counted from some seconds after its head.
+    double body_rate = 1024.0, body_grace = 5.0;
 };
 
 class Channel {
@@ -32,7 +34,7 @@ public:
     // stops.
     Outcome read_head(std::string& head);
 
-    // Allows read() this many bytes, until the time for a body is over.
+    // Allows read() this many bytes, until the time for a body is over or it comes too slowly.
     void begin_body(std::size_t most);
     // Reads as recv() does: 0 at the end, -1 when it failed, took too long or exceeded the limit.
     long read(char* to, std::size_t size);
@@ -51,14 +53,15 @@ private:
     enum class Ready { yes, timed_out, failed };
     Ready wait(short what, Clock::time_point end, const std::function<bool()>& give_up) const;
     long receive(char* to, std::size_t size) const;
+    Clock::time_point end_of_body() const;
 
     const int socket_;
     const ChannelLimits limits_;
     const std::atomic<bool>& stopping_;
     const std::function<bool()> hurry_;
-    std::string buffer_;  // received, but not yet read by a caller
-    std::size_t body_left_ = 0;
-    Clock::time_point body_end_{};
+    std::string buffer_;                         // received, but not yet read by a caller
+    std::size_t body_most_ = 0, body_left_ = 0;  // bytes that read() may give, in all and from now on
+    Clock::time_point body_begin_{};
     bool first_ = true;
 };
 

@@ -1,6 +1,7 @@
 #include "service/http/guard.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string_view>
 
 #include "service/api/problem.h"
@@ -9,10 +10,19 @@
 namespace shadowbench::service {
 namespace {
 
-// "[::1]:8080" -> "::1", "localhost:8080" -> "localhost".
-std::string without_port(const std::string& host) {
-    if (host.starts_with('[')) return host.substr(1, host.find(']') - 1);
-    return host.substr(0, host.find(':'));
+bool is_port(std::string_view text) {
+    return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// "[::1]:8080" -> "::1", "localhost:8080" -> "localhost"; empty where anything but a port follows the name.
+std::string without_port(std::string_view host) {
+    const bool bracketed = host.starts_with('[');
+    if (bracketed) host.remove_prefix(1);
+    const std::size_t end = host.find(bracketed ? ']' : ':');
+    if (end == std::string_view::npos) return bracketed ? std::string() : std::string(host);
+    const std::string_view rest = host.substr(end + std::size_t{bracketed});
+    const bool good = rest.empty() || (rest.starts_with(':') && is_port(rest.substr(1)));
+    return good ? std::string(host.substr(0, end)) : std::string();
 }
 
 std::string token_of(const ApiRequest& request) {

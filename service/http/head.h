@@ -28,6 +28,9 @@ struct HeadFault {
 // `text` ends with the empty line. Returns the first fault; `head` then has the parts before it.
 std::optional<HeadFault> parse_head(std::string_view text, Head& head);
 
+// Whether it is a control character other than a tab.
+bool is_control(char c);
+
 // Makes ASCII letters lower case.
 std::string lower(std::string_view text);
 

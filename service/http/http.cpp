@@ -1,7 +1,9 @@
-// The only file that uses cpp-httplib (0.11.4), which frames bodies and answers. head.h parses the heads of requests;
-// httplib gets a safe one instead: see canonical_head().
+// The server on top of cpp-httplib (0.11.4), which frames answers and reads bodies of a known length. head.h parses the
+// heads of requests; httplib gets a safe one instead: see canonical_head(). chunks.h reads chunked bodies.
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -14,9 +16,10 @@
 
 #include "base/error.h"
 #include "service/api/problem.h"
-#include "service/http/client.h"
+#include "service/http/chunks.h"
 #include "service/http/guard.h"
 #include "service/http/head.h"
+#include "service/http/lobby.h"
 #include "service/http/server.h"
 
 namespace shadowbench::service {
@@ -27,6 +30,8 @@ using base::ErrorCode;
 
 constexpr std::size_t framing = 64 * 1024;  // bytes that the framing of chunks may add to a body
 constexpr std::size_t piece_size = 64 * 1024;
+constexpr int monitor_answer = 256 * 1024;  // bytes that a socket takes without waiting
+constexpr double monitor_seconds = 1.0;     // as ChannelLimits::write_seconds
 
 // One request on its way through httplib.
 struct Exchange {
@@ -35,6 +40,7 @@ struct Exchange {
     Head head;
     std::optional<ApiResponse> refusal;  // the answer, if the service is not asked
     bool keep = false;                   // the connection stays open afterwards
+    bool at_once = false;                // nothing may wait for the client
 };
 // The request that httplib works on in this thread. Its handlers take no further argument.
 thread_local Exchange* current = nullptr;
@@ -46,10 +52,8 @@ std::string canonical_head(const Exchange& exchange) {
     const Head& head = exchange.head;
     if (exchange.refusal) return head.request.method == "HEAD" ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n";
     std::string text = fmt::format("{} / HTTP/1.1\r\n", head.request.method);
-    if (head.chunked)
-        text += "Transfer-Encoding: chunked\r\n";
-    else if (head.request.method == "POST")
-        text += fmt::format("Content-Length: {}\r\n", head.content_length.value_or(0));
+    // Of a chunked body it does not know: see read_body().
+    if (head.request.method == "POST") text += fmt::format("Content-Length: {}\r\n", head.content_length.value_or(0));
     if (head.request.has_body && head.expects_continue) text += "Expect: 100-continue\r\n";
     return text + "\r\n";
 }
@@ -81,35 +85,21 @@ private:
     std::size_t given_ = 0;
 };
 
-// A thread pool that counts the connections that wait for a thread.
-class Pool final : public httplib::TaskQueue {
+// httplib gives this every connection, as a task that calls process_and_close_socket(): that hands it to the lobby, so
+// the accepting thread runs the task itself.
+class Door final : public httplib::TaskQueue {
 public:
-    Pool(std::size_t threads, std::size_t most, std::atomic<std::size_t>& waiting)
-        : pool_(threads), most_(most), waiting_(waiting) {}
+    Door(std::size_t threads, std::size_t most, std::atomic<std::size_t>& waiting, Lobby::Serve serve,
+         Lobby::Serve serve_monitor)
+        : lobby_(threads, most, waiting, std::move(serve), std::move(serve_monitor)) {}
 
-    static thread_local bool refused;  // the connection in work exceeds the limit
-
-    void enqueue(std::function<void()> task) override {
-        if (waiting_ >= most_) {
-            refused = true;
-            task();  // on the accepting thread: it only refuses the connection
-            refused = false;
-            return;
-        }
-        ++waiting_;
-        pool_.enqueue([this, task = std::move(task)] {
-            --waiting_;
-            task();
-        });
-    }
-    void shutdown() override { pool_.shutdown(); }
+    void enqueue(std::function<void()> task) override { task(); }
+    void shutdown() override { lobby_.stop(); }
+    Lobby& lobby() { return lobby_; }
 
 private:
-    httplib::ThreadPool pool_;
-    std::size_t most_;
-    std::atomic<std::size_t>& waiting_;
+    Lobby lobby_;
 };
-thread_local bool Pool::refused = false;
 
 void put_file(const FilePart& part, const std::string& type, httplib::Response& to) {
     const auto provider = [part](size_t offset, size_t length, httplib::DataSink& sink) {
@@ -169,7 +159,9 @@ public:
     Front(Service& service, std::size_t streams, const HttpOptions& options)
         : service_(service), options_(options), guard_{is_loopback(options.host), options.token} {
         new_task_queue = [this, threads = options.workers + streams, most = options.waiting] {
-            return new Pool(threads, most, waiting_);
+            return door_ = new Door(
+                       threads, most, waiting_, [this](int socket) { serve(socket); },
+                       [this](int socket) { serve_monitor(socket); });
         };
         Get("/", [this](const httplib::Request&, httplib::Response& response) { respond(response); });
         Delete("/", [this](const httplib::Request&, httplib::Response& response) { respond(response); });
@@ -208,24 +200,38 @@ public:
 
 private:
     bool process_and_close_socket(socket_t socket) override {
-        Channel channel(socket, options_.channel, stopping_, [this] { return waiting_ > 0; });
         const int yes = 1;
         ::setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
-        if (Pool::refused) {
-            Exchange exchange(channel);
-            exchange.refusal = problem(503, "Too many clients; try again later.");
-            exchange.refusal->headers.push_back({"Retry-After", "5"});
-            pass_on(exchange);
-            return true;
-        }
-        while (!stopping_ && converse(channel)) {
-        }
+        if (door_->lobby().add(socket)) return true;
+        Channel channel(socket, options_.channel, stopping_, [] { return true; });
+        Exchange exchange(channel);
+        exchange.refusal = problem(503, "Too many clients; try again later.");
+        exchange.refusal->headers.push_back({"Retry-After", "5"});
+        pass_on(exchange);
         return true;
     }
 
-    // Answers one request. Returns whether another may follow on the connection.
-    bool converse(Channel& channel) {
+    void serve(int socket) {
+        Channel channel(socket, options_.channel, stopping_, [this] { return waiting_ > 0; });
+        while (!stopping_ && converse(channel, false)) {
+        }
+    }
+
+    // The head of the request is there, no body is read, and the socket takes the whole answer at once. So nothing
+    // waits for the client, even if it reads nothing.
+    void serve_monitor(int socket) {
+        ::setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &monitor_answer, sizeof monitor_answer);
+        ChannelLimits limits = options_.channel;
+        limits.write_seconds = std::min(limits.write_seconds, monitor_seconds);
+        Channel channel(socket, limits, stopping_, [] { return true; });
+        converse(channel, true);
+    }
+
+    // Answers one request. Returns whether another may follow on the connection. `at_once`: closes the connection, and
+    // does not wait until the client has read the answer.
+    bool converse(Channel& channel, bool at_once) {
         Exchange exchange(channel);
+        exchange.at_once = at_once;
         std::string text;
         switch (channel.read_head(text)) {
             case Channel::Outcome::closed:
@@ -243,7 +249,7 @@ private:
         const bool refused = exchange.refusal.has_value();
         if (refused) service_.count_refusal(exchange.head.request, exchange.refusal->status);
         pass_on(exchange);
-        if (!exchange.keep) channel.linger();
+        if (!exchange.keep && !at_once) channel.linger();
         return exchange.keep;
     }
 
@@ -259,7 +265,8 @@ private:
         if (!exchange.refusal && head.content_length.value_or(0) > service_.limits().body)
             exchange.refusal = too_large();
         // A body that was not read must not be taken for the next request.
-        exchange.keep = head.keep_alive && waiting_ == 0 && !(exchange.refusal && head.request.has_body);
+        exchange.keep =
+            head.keep_alive && waiting_ == 0 && !exchange.at_once && !(exchange.refusal && head.request.has_body);
         exchange.channel.begin_body(service_.limits().body + framing);
     }
 
@@ -282,12 +289,19 @@ private:
         if (!exchange.keep) response.set_header("Connection", "close");
     }
 
-    // httplib does not limit chunked bodies, so this counts their bytes.
+    // httplib takes sizes of chunks that are none, and does not limit chunked bodies.
+    static bool read_body(const httplib::ContentReader& body, Exchange& exchange,
+                          const httplib::ContentReceiver& take) {
+        if (!exchange.head.request.has_body) return true;
+        if (!exchange.head.chunked) return body(take);
+        return read_chunks([&](char* to, std::size_t size) { return exchange.channel.read(to, size); }, take);
+    }
+
     void read_and_respond(const httplib::ContentReader& body, httplib::Response& response) {
         Exchange& exchange = *current;
         std::string& bytes = exchange.head.request.body;
         bool too_long = false;
-        const bool complete = !exchange.head.request.has_body || body([&](const char* piece, size_t size) {
+        const bool complete = read_body(body, exchange, [&](const char* piece, size_t size) {
             too_long = bytes.size() + size > service_.limits().body;
             if (!too_long) bytes.append(piece, size);
             return !too_long;
@@ -306,6 +320,7 @@ private:
     const GuardOptions guard_;
     std::atomic<bool> stopping_ = false;
     std::atomic<std::size_t> waiting_ = 0;
+    Door* door_ = nullptr;  // httplib owns it, as long as it listens
 };
 
 }  // namespace
@@ -350,44 +365,6 @@ void HttpServer::run() {
 void HttpServer::stop() {
     const std::scoped_lock lock(state_->mutex);
     if (!state_->ended && !state_->front.stopping()) state_->front.shut_down();
-}
-
-struct Client::State {
-    httplib::Client client;
-};
-
-Client::Client(const std::string& url, const std::string& token) : url_(url) {
-    if (!url.starts_with("http://") && !url.starts_with("https://"))
-        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port");
-    state_.reset(new State{httplib::Client(url)});
-    if (!state_->client.is_valid())
-        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port");
-    state_->client.set_connection_timeout(10);
-    state_->client.set_read_timeout(120);
-    state_->client.set_tcp_nodelay(true);
-    if (!token.empty()) state_->client.set_bearer_token_auth(token);
-}
-
-Client::~Client() = default;
-
-namespace {
-
-Reply reply_of(const httplib::Result& result, const std::string& url) {
-    if (!result) throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
-    return {result->status, result->get_header_value("Content-Type"), result->body,
-            result->get_header_value("Location")};
-}
-
-}  // namespace
-
-Reply Client::get(const std::string& path) {
-    return reply_of(state_->client.Get(path), url_);
-}
-
-Reply Client::post_json(const std::string& path, const std::string& body, const std::vector<Field>& headers) {
-    httplib::Headers fields;
-    for (const Field& field : headers) fields.emplace(field.name, field.value);
-    return reply_of(state_->client.Post(path, fields, body, "application/json"), url_);
 }
 
 }  // namespace shadowbench::service

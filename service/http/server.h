@@ -14,7 +14,7 @@ struct HttpOptions {
     std::string host = "127.0.0.1";
     int port = 0;               // 0: any free port
     std::string token;          // empty: none; allowed only on loopback
-    std::size_t workers = 32;   // threads, besides one for each client that may follow events
+    std::size_t workers = 32;   // threads, besides one for each client that may follow events and one for monitors
     std::size_t waiting = 512;  // connections that may wait for a thread; more get 503
     ChannelLimits channel;
 };

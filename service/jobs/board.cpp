@@ -43,6 +43,11 @@ bool JobBoard::is_cancelled(const Run& run) const {
     return run.cancelled;
 }
 
+bool JobBoard::has_run(const std::string& id) const {
+    const Lock lock(mutex_);
+    return runs_.contains(id);
+}
+
 JobBoard::Shown JobBoard::shown(const std::string& id) const {
     const Lock lock(mutex_);
     const auto place = runs_.find(id);

@@ -33,6 +33,9 @@ public:
     void show(Run& run, JobProgress progress, std::uint64_t revision);
     void cancel(const std::string& id);  // no effect on a job that is not running
     bool is_cancelled(const Run& run) const;
+    bool has_run(const std::string& id) const;  // also while a cancelled run ends
+    // Held while a worker takes a job from the store and begins its run: else has_run() may not see that run yet.
+    std::mutex starting;
 
     struct Shown {
         std::optional<JobProgress> progress;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <random>
 #include <system_error>
 #include <thread>
@@ -18,10 +19,12 @@
 #include "service/jobs/folders.h"
 #include "service/jobs/record.h"
 #include "service/jobs/recover.h"
+#include "service/jobs/room.h"
 #include "service/jobs/state_folder.h"
 #include "service/jobs/utc.h"
 #include "service/jobs/worker.h"
 #include "service/store/job_store.h"
+#include "service/store/presence.h"
 
 namespace shadowbench::service {
 namespace {
@@ -31,6 +34,7 @@ using base::Error;
 using base::ErrorCode;
 
 constexpr std::size_t longest_page = 1000;
+constexpr std::chrono::seconds longest_end{5};  // that a request waits for the process of a cancelled job
 
 constexpr std::pair<JobState, const char*> state_names[] = {{JobState::queued, job_states::queued},
                                                             {JobState::running, job_states::running},
@@ -137,8 +141,10 @@ struct Jobs::State {
           folders(make_job_folders(path)),
           opened(open_store(folder, folders, say)),
           store(*opened),
+          presence({path, folder.database()}),
           board(store.next_revision()),
-          place{store, board, folders, checked_program, data, limits, hidden_folders(path.string(), data), say} {
+          place{store, board, presence, folders, checked_program, data, limits, hidden_folders(path.string(), data),
+                say} {
         recover(folder, store, folders, say);
     }
 
@@ -151,6 +157,7 @@ struct Jobs::State {
     JobFolders folders;
     std::unique_ptr<JobStore> opened;
     JobStore& store;
+    Presence presence;
     JobBoard board;
     Workplace place;
     std::vector<std::thread> workers;
@@ -201,6 +208,7 @@ Jobs::~Jobs() {
 
 Submitted Jobs::submit(const JobRequest& request) {
     State& all = *state_;
+    all.presence.check();
     NewJob job;
     job.request = request_hash(request);
     if (!request.idempotency_key.empty())
@@ -280,6 +288,39 @@ Jobs::Change Jobs::remove(const std::string& id) {
     return Change::done;
 }
 
+// A job ends a moment before its run, which uses the folder that the next run gets.
+Jobs::Retry Jobs::retry(const std::string& id) {
+    State& all = *state_;
+    all.presence.check();
+    const auto end = JobBoard::Clock::now() + longest_end;
+    const auto try_once = [&]() -> std::optional<JobStore::Retried> {
+        const std::scoped_lock lock(all.board.starting);
+        const std::optional<StoredJob> job = all.store.find(id);
+        const bool ended = job && (job->state == job_states::failed || job->state == job_states::cancelled);
+        if (job && all.board.has_run(id))
+            return ended ? std::nullopt : std::optional(JobStore::Retried{JobStore::Retry::refused, 0});
+        return all.store.retry(id, program_version(), all.place.limits.queue);
+    };
+    std::optional<JobStore::Retried> retried = try_once();
+    for (; !retried; retried = try_once()) {
+        if (all.board.stopping() || JobBoard::Clock::now() > end) return Retry::busy;
+        all.board.pause(std::chrono::milliseconds(10));
+    }
+    switch (retried->outcome) {
+        case JobStore::Retry::not_found:
+            return Retry::not_found;
+        case JobStore::Retry::refused:
+            return Retry::refused;
+        case JobStore::Retry::full:
+            return Retry::full;
+        case JobStore::Retry::queued:
+            break;
+    }
+    all.board.announce(retried->revision, true);
+    all.board.add_work();
+    return Retry::queued;
+}
+
 std::optional<std::string> Jobs::scenario(const std::string& id) const {
     return state_->store.scenario(id);
 }
@@ -308,6 +349,11 @@ std::optional<JobInfo> Jobs::wait(const std::string& id, std::uint64_t revision,
 
 bool Jobs::storage_fails() const {
     return state_->board.storage_fails();
+}
+
+JobStorage Jobs::storage() const {
+    return {storage_fails(), state_->presence.gone().has_value(), free_bytes(state_->folders.work),
+            state_->place.limits.min_free};
 }
 
 void Jobs::stop() {

@@ -72,6 +72,16 @@ struct JobLimits {
     int attempts = 3;                            // runs of a job whose process dies
     int parallel = 1;                            // jobs that run at a time
     double grace = 10.0;                         // seconds that stop() waits for running jobs before it requeues them
+    std::uint64_t min_free = 0;                  // bytes of the disk that must be free for a job to start
+};
+
+// The disk of the state folder.
+struct JobStorage {
+    bool fails = false;                 // jobs wait because the server cannot write to it
+    bool gone = false;                  // the state folder or its database was removed or replaced: nothing can be kept
+    std::optional<std::uint64_t> free;  // bytes; nothing where it does not say
+    std::uint64_t min_free = 0;         // as in JobLimits
+    bool is_low() const { return free && *free < min_free; }  // jobs wait for space
 };
 
 struct JobPage {
@@ -92,7 +102,8 @@ public:
     Jobs(const Jobs&) = delete;
     Jobs& operator=(const Jobs&) = delete;
 
-    Submitted submit(const JobRequest& request);  // the job is on the disk once it returns
+    // The job is on the disk once it returns. Throws base::Error{io} when the state folder is gone.
+    Submitted submit(const JobRequest& request);
     std::optional<JobInfo> find(const std::string& id) const;
     // `cursor` is a JobPage::next; empty: from the newest. Throws base::Error{usage} for any other text.
     JobPage list(std::optional<JobState> state, std::size_t limit, const std::string& cursor) const;
@@ -101,6 +112,11 @@ public:
     enum class Change { done, not_found, refused };
     Change cancel(const std::string& id);  // refused: the job has ended
     Change remove(const std::string& id);  // refused: the job is running
+
+    // Queues a job that failed or was cancelled once more, at its old place and with all its attempts. refused: it is
+    // in another state; busy: its last run is still ending; full: too many jobs wait. Throws as submit() does.
+    enum class Retry { queued, not_found, refused, busy, full };
+    Retry retry(const std::string& id);
 
     // The text of the scenario, and a file of the results by its relative path ("result.json", "images/reference.png").
     // Nothing when the job or file does not exist, the job has not succeeded, or the path leads out of the folder.
@@ -114,6 +130,7 @@ public:
 
     // Whether jobs wait because the state folder cannot be written, for example on a full disk.
     bool storage_fails() const;
+    JobStorage storage() const;
 
     // Starts no more jobs. Running jobs have `grace` seconds to finish; then they are killed and requeued. Ends all
     // waits.

@@ -53,6 +53,12 @@ bool is_room_file(const fs::path& file) {
            fs::is_regular_file(fs::symlink_status(file, ignored));
 }
 
+std::optional<std::uintmax_t> free_bytes(const fs::path& folder) {
+    std::error_code failed;
+    const fs::space_info space = fs::space(folder, failed);
+    return failed ? std::nullopt : std::optional(space.available);
+}
+
 std::uintmax_t bytes_in(const fs::path& folder) {
     std::uintmax_t bytes = 0;
     std::error_code failed;

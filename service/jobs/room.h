@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 namespace shadowbench::service {
 
@@ -15,6 +16,9 @@ inline constexpr std::uintmax_t least_room = std::uintmax_t{64} << 10;
 // recognises.
 bool has_room(const std::filesystem::path& folder, std::uintmax_t bytes);
 bool is_room_file(const std::filesystem::path& file);
+
+// Free bytes of the file system of a folder; nothing where it does not say.
+std::optional<std::uintmax_t> free_bytes(const std::filesystem::path& folder);
 
 // Bytes on the disk of all readable files in a folder.
 std::uintmax_t bytes_in(const std::filesystem::path& folder);

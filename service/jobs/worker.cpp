@@ -1,10 +1,12 @@
 #include "service/jobs/worker.h"
 
-#include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <fstream>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -15,6 +17,7 @@
 #include "service/jobs/progress_line.h"
 #include "service/jobs/record.h"
 #include "service/jobs/room.h"
+#include "service/jobs/storage_wait.h"
 #include "service/jobs/utc.h"
 
 namespace shadowbench::service {
@@ -26,7 +29,7 @@ using base::ErrorCode;
 using Clock = JobBoard::Clock;
 
 constexpr std::chrono::milliseconds between_progress{100};
-constexpr std::chrono::milliseconds first_wait{250}, longest_wait{10000};
+constexpr std::chrono::milliseconds last_moment{500};
 constexpr int promise_broken = 2;  // exit code: the result is complete
 
 // How a run ended.
@@ -36,82 +39,8 @@ struct Success {
 struct Requeue {
     bool uncounted;
 };
-// The server's storage failed, which is not a fault of the job: the job waits. `bytes`: space that it needs.
-struct Waits {
-    std::string why;
-    std::uintmax_t bytes;
-};
 struct Cancelled {};
 using Verdict = std::variant<Success, Requeue, Waits, Cancelled, JobFault>;
-
-// Marks the server's storage as failing from begin() to its destructor. The operator gets one message, however often
-// and by however many workers the storage is tried.
-class StorageAlarm {
-public:
-    explicit StorageAlarm(const Workplace& place) : place_(place) {}
-    ~StorageAlarm() {
-        if (begun_ && place_.board.end_storage_fault() && !place_.board.stopping())
-            place_.say("the state folder can be written again; jobs go on");
-    }
-    StorageAlarm(const StorageAlarm&) = delete;
-    StorageAlarm& operator=(const StorageAlarm&) = delete;
-
-    void begin(const std::string& why) {
-        if (!begun_ && place_.board.begin_storage_fault())
-            place_.say("the state folder cannot be written; jobs wait until it can: " + why);
-        begun_ = true;
-    }
-
-private:
-    const Workplace& place_;
-    bool begun_ = false;
-};
-
-// Waits, longer each time, or until the server stops.
-class Patience {
-public:
-    void wait(const JobBoard& board) {
-        board.pause(next_);
-        next_ = std::min(next_ * 2, longest_wait);
-    }
-
-private:
-    std::chrono::milliseconds next_ = first_wait;
-};
-
-// Calls `body` until the storage lets it succeed. Nothing when the server stops first: the next server then finds the
-// job unchanged.
-template <class Body>
-auto persist(const Workplace& place, const Body& body) -> std::optional<std::decay_t<decltype(body())>> {
-    StorageAlarm alarm(place);
-    for (Patience patience;;) {
-        try {
-            return body();
-        } catch (const std::exception& error) {
-            if (place.board.stopping()) return std::nullopt;
-            alarm.begin(error.what());
-            patience.wait(place.board);
-        }
-    }
-}
-
-// Returns when there is room for more than the job had written, when the job is no longer queued, or when the server
-// stops.
-void wait_for_room(const Workplace& place, const StoredJob& job, const Waits& waits, Patience& patience) {
-    StorageAlarm alarm(place);
-    alarm.begin(job.id + ": " + waits.why);
-    const auto in_queue = [&] {
-        try {
-            const std::optional<StoredJob> now = place.store.find(job.id);
-            return now && now->state == job_states::queued;
-        } catch (const Error&) {
-            return true;
-        }
-    };
-    do {
-        patience.wait(place.board);
-    } while (!place.board.stopping() && in_queue() && !has_room(place.folders.work, waits.bytes + least_room));
-}
 
 // What a job's process reads: its scenario and, for a recommendation, what is asked of it.
 constexpr const char *scenario_name = "scenario.json", *recommend_name = "recommend.json";
@@ -188,8 +117,13 @@ Verdict judge(const Workplace& place, const StoredJob& job, const JobBoard::Run&
         if (finished && has_result(work)) return Success{report.code == 0};
         return reported.value_or(fault_of_end(report, place.limits, place.hidden));
     }
-    // Another run may not be killed.
-    if (report.end == ChildEnd::signalled && job.attempts < place.limits.attempts) return Requeue{false};
+    if (report.end == ChildEnd::signalled) {
+        // Who ends the server often ends its processes too, in any order. So a death counts once the server has
+        // outlived it for a moment.
+        place.board.pause(last_moment);
+        if (place.board.stopping()) return Requeue{true};
+        if (job.attempts < place.limits.attempts) return Requeue{false};  // another run may not be killed
+    }
     return fault_of_end(report, place.limits, place.hidden);
 }
 
@@ -200,8 +134,16 @@ std::optional<Waits> storage_fault(const Workplace& place, const Verdict& verdic
     const bool died = report.end == ChildEnd::exited || report.end == ChildEnd::signalled;
     if (!died || !(std::holds_alternative<JobFault>(verdict) || (requeue && !requeue->uncounted))) return std::nullopt;
     if (const auto& fault = listener.storage_fault()) return Waits{fault->message, bytes_in(work) + fault->bytes};
-    if (has_room(place.folders.work, least_room)) return std::nullopt;
-    return Waits{"nothing can be written to " + place.folders.work.string(), bytes_in(work)};
+    if (!has_room(place.folders.work, least_room))
+        return Waits{"nothing can be written to " + place.folders.work.string(), bytes_in(work)};
+    // Where little is left, a fault of input or output, or a death, may come from that. The job starts again once there
+    // is enough; if the fault is its own, it fails then. What the job itself has written counts as free: else a job
+    // that takes the space and dies of its own fault would start again without end.
+    const auto* failed = std::get_if<JobFault>(&verdict);
+    const bool other = failed && failed->code != static_cast<int>(ErrorCode::io) && report.end != ChildEnd::signalled;
+    const std::uintmax_t own = bytes_in(work);
+    if (other || !is_low(place, own)) return std::nullopt;
+    return Waits{"little space is left on the disk of " + place.folders.work.string(), own};
 }
 
 // Writes the record of the job into its results before they move to their place.
@@ -284,8 +226,7 @@ Verdict attempt(const Workplace& place, const StoredJob& job, JobBoard::Run& run
 }
 
 // Runs a job. Returns what it waits for, if it does.
-std::optional<Waits> run_one(const Workplace& place, const StoredJob& job) {
-    const auto run = place.board.begin(job.id);
+std::optional<Waits> run_one(const Workplace& place, const StoredJob& job, const std::shared_ptr<JobBoard::Run>& run) {
     place.board.announce(job.revision, true);
     const fs::path work = attempt_folder(place.folders, job.id, job.attempts);
     const Verdict verdict = attempt(place, job, *run, work);
@@ -305,10 +246,17 @@ void run_jobs(const Workplace& place) {
     Patience patience;
     while (!place.board.stopping()) {
         const std::uint64_t seen = place.board.work();
-        const auto job = persist(place, [&] { return place.store.claim(now_utc()); });
+        std::shared_ptr<JobBoard::Run> run;
+        const auto job = persist(place, [&] {
+            check_storage(place);
+            const std::scoped_lock lock(place.board.starting);
+            auto claimed = place.store.claim(now_utc());
+            if (claimed) run = place.board.begin(claimed->id);
+            return claimed;
+        });
         if (!job || !*job) {
             place.board.wait_for_work(seen);
-        } else if (const auto waits = run_one(place, **job)) {
+        } else if (const auto waits = run_one(place, **job, run)) {
             wait_for_room(place, **job, *waits, patience);
         } else {
             patience = {};

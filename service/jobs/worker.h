@@ -11,6 +11,7 @@
 #include "service/jobs/state_folder.h"
 #include "service/privacy/hidden_folders.h"
 #include "service/store/job_store.h"
+#include "service/store/presence.h"
 
 namespace shadowbench::service {
 
@@ -18,6 +19,7 @@ namespace shadowbench::service {
 struct Workplace {
     JobStore& store;
     JobBoard& board;
+    const Presence& presence;  // of the state folder and its database
     JobFolders folders;
     std::string program;
     std::vector<std::string> data;
@@ -28,7 +30,8 @@ struct Workplace {
 
 // Takes jobs from the queue, one after the other, and runs each to its end. Returns once the board stops. Throws
 // nothing: when the server's storage fails, the job keeps its place in the queue, the run does not count, and the
-// worker tries again, with growing pauses, until the storage works.
+// worker tries again, with growing pauses, until the storage works. It starts no job while the state folder is gone, or
+// the disk has less free space than limits.min_free.
 void run_jobs(const Workplace& place);
 
 }  // namespace shadowbench::service

@@ -17,31 +17,46 @@ namespace {
 constexpr int attempts = 50;
 constexpr std::chrono::milliseconds between{20};
 
+enum class Held { yes, by_another, impossible };  // impossible: errno says why
+
+// Waits a second for a server that is stopping.
+Held hold(int file) {
+    for (int i = 0; ::flock(file, LOCK_EX | LOCK_NB) != 0; ++i) {
+        if (errno == EINTR) continue;
+        if (errno != EWOULDBLOCK) return Held::impossible;
+        if (i >= attempts) return Held::by_another;
+        std::this_thread::sleep_for(between);
+    }
+    return Held::yes;
+}
+
 }  // namespace
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
-    using base::Error, base::ErrorCode;
     const auto fail = [&](const std::string& message) {
-        const std::string why = std::generic_category().message(errno);
-        if (file_ >= 0) ::close(file_);
-        throw Error(ErrorCode::io, folder.string(), message + ": " + why);
+        release();
+        throw base::Error(base::ErrorCode::io, folder.string(), message);
     };
+    const auto because = [] { return ": " + std::generic_category().message(errno); };
     file_ = ::open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (file_ < 0) fail("the state folder cannot be written");
-    for (int i = 0; ::flock(file_, LOCK_EX | LOCK_NB) != 0; ++i) {
-        if (errno == EINTR) continue;
-        if (errno != EWOULDBLOCK) fail("the state folder cannot be locked");
-        if (i >= attempts) {
-            ::close(file_);
-            throw Error(ErrorCode::io, folder.string(),
-                        "another server holds this state folder; stop that one, or use another folder");
-        }
-        std::this_thread::sleep_for(between);
+    if (file_ < 0) fail("the state folder cannot be written" + because());
+    Held held = hold(file_);
+    if (held == Held::impossible) fail("the state folder cannot be locked" + because());
+    // A file system that cannot lock folders leaves it at the file.
+    if (held == Held::yes) {
+        folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (folder_ >= 0) held = hold(folder_);
     }
+    if (held == Held::by_another) fail("another server holds this state folder; stop that one, or use another folder");
 }
 
 FolderLock::~FolderLock() {
-    ::close(file_);
+    release();
+}
+
+void FolderLock::release() {
+    for (const int held : {folder_, file_})
+        if (held >= 0) ::close(held);
 }
 
 }  // namespace shadowbench::service

@@ -5,8 +5,8 @@
 
 namespace shadowbench::service {
 
-// Holds a folder for one server at a time, by a lock on its file "lock". The lock ends with the process, however that
-// ends.
+// Holds a folder for one server at a time, by a lock on its file "lock" and one on the folder itself, which holds when
+// the file is removed. The locks end with the process, however that ends.
 class FolderLock {
 public:
     // Waits a second for a server that is stopping. Throws Error{io}, place the folder, when the folder cannot be
@@ -17,7 +17,8 @@ public:
     FolderLock& operator=(const FolderLock&) = delete;
 
 private:
-    int file_ = -1;
+    void release();
+    int file_ = -1, folder_ = -1;
 };
 
 }  // namespace shadowbench::service

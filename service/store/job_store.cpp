@@ -281,6 +281,22 @@ std::optional<std::uint64_t> JobStore::requeue_running(const std::string& id, bo
     });
 }
 
+JobStore::Retried JobStore::retry(const std::string& id, const std::string& program, std::size_t most_queued) {
+    Database& database = state_->writer;
+    return state_->write([&]() -> Retried {
+        const std::optional<StoredJob> job = find_by_id(database, id);
+        if (!job) return {Retry::not_found, 0};
+        if (job->state != job_states::failed && job->state != job_states::cancelled) return {Retry::refused, 0};
+        if (count_in(database, job_states::queued) >= most_queued) return {Retry::full, 0};
+        const std::uint64_t revision = state_->take_revision();
+        run(database,
+            "UPDATE jobs SET state = ?, program = ?, attempts = 0, started = '', ended = '', kept = NULL, "
+            "fault_code = NULL, fault_where = NULL, fault_message = NULL, revision = ? WHERE id = ?",
+            {job_states::queued, program, value(revision), id});
+        return {Retry::queued, revision};
+    });
+}
+
 bool JobStore::remove(const std::string& id) {
     return state_->write([&] {
         return run(state_->writer, "DELETE FROM jobs WHERE id = ? AND state <> ?", {id, job_states::running}) == 1;

@@ -95,6 +95,15 @@ public:
     // uncounted: the attempt does not count against the limit.
     std::optional<std::uint64_t> requeue_running(const std::string& id, bool uncounted);
 
+    enum class Retry { queued, not_found, refused, full };
+    struct Retried {
+        Retry outcome;
+        std::uint64_t revision;  // of a job that was queued
+    };
+    // Queues a job that failed or was cancelled at its old place, as if it had not run; refused: another state.
+    // `program`: the version that will run it.
+    Retried retry(const std::string& id, const std::string& program, std::size_t most_queued);
+
     bool remove(const std::string& id);  // only a job that is not running
 
     // Adds jobs whose results are complete, all or none: jobs that the store does not have, and jobs that it has as

@@ -214,6 +214,48 @@ TEST_F(JobsApi, IsNotReadyWhileItsStorageFails) {
     EXPECT_EQ(answer(request("GET", "/readyz")).status, 200);
 }
 
+TEST_F(JobsApi, RetriesWhatFailedOrWasCancelled) {
+    JobLimits limits;
+    limits.queue = 1;
+    start(standard_options(), limits);
+    const std::string id = submit(), retry = "/v1/jobs/" + id + "/retry";
+    refused(post("/v1/jobs/j-9/retry", ""), 404, "no such job");
+    refused(post(retry, ""), 409, "failed or was cancelled");
+    fake::update(*jobs_, id, [](JobInfo& job) {
+        job.state = JobState::failed;
+        job.attempts = 3;
+        job.fault = JobFault{70, "", "a fault"};
+    });
+    const std::string other = submit();
+    EXPECT_TRUE(answer(post(retry, "")).header("Retry-After"));
+    refused(post(retry, ""), 429, "queue");
+    fake::run(*jobs_, other);
+    const nlohmann::json job = json(post(retry, ""), 202);
+    EXPECT_EQ(job["id"], id);
+    EXPECT_EQ(job["state"], "queued");
+    EXPECT_EQ(job["attempts"], 0);
+    EXPECT_TRUE(job["error"].is_null());
+    EXPECT_EQ(answer(request("GET", retry)).status, 405);
+    EXPECT_EQ(answer(post(retry, "{}")).status, 400) << "it takes no body";
+    jobs_->stop();
+    refused(post(retry, ""), 503, "stopping");
+}
+
+TEST_F(JobsApi, SaysWhatIsWrongWithItsDisk) {
+    fake::set_storage(*jobs_, {false, false, std::uint64_t{100} << 20, std::uint64_t{512} << 20});
+    const nlohmann::json low = refused(request("GET", "/readyz"), 503, "100 MiB free and needs 512");
+    EXPECT_NE(low["detail"].get<std::string>().find("jobs wait"), std::string::npos);
+    const std::string metrics = answer(request("GET", "/metrics")).body;
+    EXPECT_NE(metrics.find("shadowbench_storage_free_bytes 104857600\n"), std::string::npos) << metrics;
+    EXPECT_NE(metrics.find("shadowbench_storage_min_free_bytes 536870912\n"), std::string::npos) << metrics;
+    EXPECT_EQ(answer(request("GET", "/v1/jobs")).status, 200);
+    fake::set_storage(*jobs_, {false, false, std::uint64_t{512} << 20, std::uint64_t{512} << 20});
+    EXPECT_EQ(answer(request("GET", "/readyz")).status, 200);
+    fake::set_storage(*jobs_, {false, true, std::nullopt, std::uint64_t{512} << 20});
+    EXPECT_EQ(refused(request("GET", "/readyz"), 503, "removed").dump().find(folder_.string()), std::string::npos);
+    EXPECT_NE(answer(request("GET", "/metrics")).body.find("shadowbench_storage_failing 1\n"), std::string::npos);
+}
+
 TEST_F(JobsApi, ExaminesTheSameScenarioOnce) {
     for (int i = 0; i < 5; ++i) submit();
     EXPECT_EQ(helpers_, 1);

@@ -48,7 +48,8 @@ struct Shared {
     JobRequest last;
     fs::path folder;
     JobLimits limits;
-    bool stopping = false, storage_fails = false;
+    bool stopping = false;
+    JobStorage storage;
     std::uint64_t next = 1;
 
     Kept* find(const std::string& id) {
@@ -180,6 +181,22 @@ Jobs::Change Jobs::remove(const std::string& id) {
     return Change::done;
 }
 
+Jobs::Retry Jobs::retry(const std::string& id) {
+    const std::scoped_lock lock(state_->mutex);
+    fake::Shared::Kept* kept = state_->find(id);
+    if (!kept) return Retry::not_found;
+    if (kept->info.state != JobState::failed && kept->info.state != JobState::cancelled) return Retry::refused;
+    if (state_->count(JobState::queued) >= state_->limits.queue) return Retry::full;
+    kept->info.state = JobState::queued;
+    kept->info.started = kept->info.ended = "";
+    kept->info.attempts = 0;
+    kept->info.fault.reset();
+    ++kept->info.revision;
+    state_->place_all();
+    state_->changed.notify_all();
+    return Retry::queued;
+}
+
 std::optional<std::string> Jobs::scenario(const std::string& id) const {
     const std::scoped_lock lock(state_->mutex);
     const fake::Shared::Kept* kept = state_->find(id);
@@ -231,7 +248,12 @@ bool Jobs::stopping() const {
 
 bool Jobs::storage_fails() const {
     const std::scoped_lock lock(state_->mutex);
-    return state_->storage_fails;
+    return state_->storage.fails;
+}
+
+JobStorage Jobs::storage() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->storage;
 }
 
 namespace fake {
@@ -239,7 +261,13 @@ namespace fake {
 void fail_storage(Jobs& jobs, bool fails) {
     Shared& state = shared(jobs);
     const std::scoped_lock lock(state.mutex);
-    state.storage_fails = fails;
+    state.storage.fails = fails;
+}
+
+void set_storage(Jobs& jobs, const JobStorage& storage) {
+    Shared& state = shared(jobs);
+    const std::scoped_lock lock(state.mutex);
+    state.storage = storage;
 }
 
 void update(Jobs& jobs, const std::string& id, const std::function<void(JobInfo&)>& change) {

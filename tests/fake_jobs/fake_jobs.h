@@ -20,6 +20,7 @@ void progress(Jobs& jobs, const std::string& id, const JobProgress& progress);
 void succeed(Jobs& jobs, const std::string& id, const std::map<std::string, std::string>& files);
 
 void fail_storage(Jobs& jobs, bool fails);
+void set_storage(Jobs& jobs, const JobStorage& storage);
 
 // The folder of its files.
 std::filesystem::path folder(Jobs& jobs, const std::string& id);

@@ -39,10 +39,13 @@ TEST(Guard, ComparesWholeTokens) {
 }
 
 TEST(Guard, OnThisMachineAnswersToItsNamesAlone) {
-    for (const char* host : {"localhost", "localhost:8080", "127.0.0.1:1", "[::1]:80", "LOCALHOST"})
+    for (const char* host :
+         {"localhost", "localhost:8080", "127.0.0.1:1", "[::1]:80", "[::1]", "LOCALHOST", "localhost:"})
         EXPECT_EQ(status_of({{"host", host}}, {}), 0) << host;
     for (const char* host :
-         {"evil.example", "localhost.evil.example:8080", "127.0.0.1.nip.io", "10.0.0.1", "[::2]", "[", ""})
+         {"evil.example", "localhost.evil.example:8080", "127.0.0.1.nip.io", "10.0.0.1", "[::2]", "[", "",
+          "[::1].evil.example", "[::1].evil.example:80", "[::1]evil", "[::1", "[::1]:80.evil.example",
+          "localhost:80.evil.example", "localhost:x", "127.0.0.1:80:80", "::1"})
         EXPECT_EQ(status_of({{"host", host}}, {}), 421) << host;
     EXPECT_EQ(status_of({{"host", "bench.example"}}, {false, ""}), 0);
 }

@@ -209,6 +209,67 @@ TEST_F(FullDisk, LetsTheProgramsJobsWait) {
     }
 }
 
+// Less than --min-free is left, and that is enough to write small files: no job starts, and none fails.
+TEST_F(FullDisk, StartsNoJobBelowTheFreeSpaceAskedFor) {
+    limits.min_free = std::size_t{1} << 20;
+    start();
+    EXPECT_EQ(run(success).state, JobState::succeeded);
+    fill(std::size_t{768} << 10);
+    EXPECT_TRUE(jobs->storage().is_low());
+    EXPECT_GT(jobs->storage().free.value_or(0), std::size_t{512} << 10);
+    std::vector<std::string> ids;
+    for (int i = 0; i < 6; ++i) ids.push_back(submit("echo x >>" + path("runs") + "; " + success));
+    wait_for_fault(true);
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    EXPECT_EQ(jobs->count(JobState::queued), 6u);
+    EXPECT_EQ(runs(), 0u);
+    EXPECT_THAT(said(), HasSubstr("--min-free"));
+    EXPECT_EQ(jobs->cancel(ids[0]), Jobs::Change::done);
+    EXPECT_EQ(jobs->remove(ids[0]), Jobs::Change::done);
+    ids.erase(ids.begin());
+    empty();
+    for (const std::string& id : ids) EXPECT_EQ(wait_for_end(id).state, JobState::succeeded) << "by itself";
+    EXPECT_FALSE(jobs->storage().is_low());
+    wait_for_fault(false);
+}
+
+// A fault of input or output while little space is left is not held against the job.
+TEST_F(FullDisk, BlamesTheDiskBeforeTheJob) {
+    limits.min_free = std::size_t{1} << 20;
+    start();
+    const std::string id =
+        submit("echo x >>" + path("runs") + "; [ $(wc -l <" + path("runs") + ") = 1 ] || { " + success +
+               " exit 0; }; echo '{\"stage\":\"build\"}'; while [ ! -e " + path("gate") + " ]; do sleep 0.02; done; " +
+               "echo '{\"error\":{\"code\":74,\"where\":\"x\",\"message\":\"full\"}}'; exit 74");
+    wait_for_run(id);
+    fill(std::size_t{512} << 10);
+    std::ofstream(path("gate")) << "x";
+    wait_for_fault(true);
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    EXPECT_EQ(jobs->find(id)->state, JobState::queued);
+    EXPECT_EQ(runs(), 1u);
+    empty();
+    const JobInfo job = wait_for_end(id);
+    EXPECT_EQ(job.state, JobState::succeeded);
+    EXPECT_EQ(job.attempts, 1);
+    EXPECT_EQ(runs(), 2u);
+    // With space enough, the same fault is its own.
+    const JobInfo own = run("echo '{\"error\":{\"code\":74,\"where\":\"x\",\"message\":\"own\"}}'; exit 74");
+    EXPECT_EQ(own.state, JobState::failed);
+    EXPECT_EQ(own.fault->code, 74);
+}
+
+// Else it would take the space, die and start again without end.
+TEST_F(FullDisk, BlamesAJobThatTakesTheSpaceItself) {
+    limits.min_free = std::size_t{1} << 20;
+    start();
+    const JobInfo job = run("head -c 3300000 /dev/zero >big; "
+                            "echo '{\"error\":{\"code\":74,\"where\":\"x\",\"message\":\"own\"}}'; exit 74");
+    EXPECT_EQ(job.state, JobState::failed);
+    ASSERT_TRUE(job.fault);
+    EXPECT_EQ(job.fault->message, "own");
+}
+
 TEST_F(FullDisk, RoomIsWhatCanBeWritten) {
     EXPECT_TRUE(has_room(state(), least_room));
     EXPECT_TRUE(has_room(state(), disk / 2));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -68,6 +69,22 @@ TEST_F(JobCommand, DistinguishesFaultsOfItsStorageFromItsOwn) {
     EXPECT_NE(lines.back()["storage"]["message"].get<std::string>().find("No space left"), std::string::npos);
     EXPECT_EQ(run_in(folder.path() / "nowhere"), 66);
     EXPECT_TRUE(lines.back().contains("storage")) << "the server put its scenario there";
+}
+
+// Else a full /tmp would fail the jobs of a server whose own disk has room.
+TEST_F(JobCommand, KeepsInItsFolderWhatItWritesForAWhile) {
+    scenario["techniques"] = json::parse(R"([{"type": "deep", "storage": "tiled"}])");
+    const char* const set = std::getenv("TMPDIR");
+    const std::string before = set ? set : "";
+    ::setenv("TMPDIR", "/nowhere", 1);
+    EXPECT_EQ(run(), 0);
+    EXPECT_STREQ(std::getenv("TMPDIR"), "/nowhere") << "as it was";
+    if (before.empty())
+        ::unsetenv("TMPDIR");
+    else
+        ::setenv("TMPDIR", before.c_str(), 1);
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        EXPECT_FALSE(entry.path().filename().string().starts_with("shadowbench-")) << entry.path().string();
 }
 
 TEST_F(JobCommand, ReportsItsProgress) {

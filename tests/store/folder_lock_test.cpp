@@ -5,6 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <filesystem>
+
 #include "base/error.h"
 #include "temporary_folder.h"
 
@@ -45,6 +47,16 @@ TEST(FolderLocks, EndWithAProcessThatIsKilled) {
     EXPECT_NO_THROW(FolderLock(folder.path()));
     ::close(ready[0]);
     ::close(ready[1]);
+}
+
+TEST(FolderLocks, OutliveTheirFile) {
+    const TemporaryFolder folder;
+    {
+        const FolderLock lock(folder.path());
+        ASSERT_TRUE(std::filesystem::remove(folder.path() / "lock"));
+        EXPECT_THROW(FolderLock(folder.path()), base::Error) << "two servers would write one database";
+    }
+    EXPECT_NO_THROW(FolderLock(folder.path()));
 }
 
 TEST(FolderLocks, NeedAFolder) {

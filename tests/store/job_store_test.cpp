@@ -126,6 +126,35 @@ TEST_F(JobStores, ChangeAJobOnlyInTheStateThatIsMeant) {
     EXPECT_EQ(state("j-1"), "none");
 }
 
+TEST_F(JobStores, QueueOnceMoreWhatFailedOrWasCancelled) {
+    using Retry = JobStore::Retry;
+    for (const char* id : {"j-1", "j-2", "j-3"}) add(id);
+    EXPECT_EQ(store->retry("j-1", "2.0 def", many).outcome, Retry::refused) << "it waits";
+    store->claim("now");
+    EXPECT_EQ(store->retry("j-1", "2.0 def", many).outcome, Retry::refused) << "it runs";
+    EXPECT_TRUE(store->end_running("j-1", {job_states::failed, "then", {}, StoredFault{70, "here", "a fault"}}));
+    EXPECT_TRUE(store->end_waiting("j-3", {job_states::cancelled, "then", {}, {}}));
+    EXPECT_EQ(store->retry("j-1", "2.0 def", 1).outcome, Retry::full) << "j-2 waits";
+    EXPECT_EQ(state("j-1"), job_states::failed);
+    const std::uint64_t before = store->find("j-1")->revision;
+    const JobStore::Retried retried = store->retry("j-1", "2.0 def", 2);
+    EXPECT_EQ(retried.outcome, Retry::queued);
+    EXPECT_GT(retried.revision, before);
+    const auto job = store->find("j-1");
+    EXPECT_EQ(job->state, job_states::queued);
+    EXPECT_EQ(job->revision, retried.revision);
+    EXPECT_EQ(job->attempts, 0);
+    EXPECT_EQ(job->started + job->ended, "");
+    EXPECT_FALSE(job->fault);
+    EXPECT_EQ(job->ahead, 0u) << "at its old place";
+    EXPECT_EQ(job->key.program, "2.0 def") << "its result is that of this version";
+    EXPECT_EQ(store->retry("j-3", "2.0 def", many).outcome, Retry::queued);
+    EXPECT_EQ(store->claim("now")->id, "j-1");
+    EXPECT_TRUE(store->end_running("j-1", {job_states::succeeded, "then", true, {}}));
+    EXPECT_EQ(store->retry("j-1", "2.0 def", many).outcome, Retry::refused);
+    EXPECT_EQ(store->retry("j-9", "2.0 def", many).outcome, Retry::not_found);
+}
+
 TEST_F(JobStores, TellWhyAJobFailed) {
     add("j-1");
     store->claim("now");

@@ -1,13 +1,39 @@
 #include <algorithm>
+#include <cstddef>
 
 #include "fuzz/expect.h"
 #include "fuzz/target.h"
+#include "service/http/chunks.h"
 #include "service/http/guard.h"
 #include "service/http/head.h"
 
 namespace shadowbench::fuzz {
+namespace {
 
+void read_as_chunks(std::string_view bytes) {
+    std::string_view left = bytes;
+    std::size_t data = 0;
+    const bool whole = service::read_chunks(
+        [&](char* to, std::size_t size) {
+            const std::size_t n = std::min(size, left.size());
+            std::copy_n(left.data(), n, to);
+            left.remove_prefix(n);
+            return static_cast<long>(n);
+        },
+        [&](const char*, std::size_t size) {
+            data += size;
+            return true;
+        });
+    expect(data <= bytes.size(), "the data of chunks is a part of the body");
+    expect(!whole || bytes.substr(0, bytes.size() - left.size()).ends_with("\r\n\r\n"),
+           "a body of chunks ends with an empty line");
+}
+
+}  // namespace
+
+// The same bytes as a chunked body too.
 void request_head(std::string_view bytes) {
+    read_as_chunks(bytes);
     service::Head head;
     if (const auto fault = service::parse_head(bytes, head)) {
         expect(fault->status >= 400 && fault->status < 600, "a fault is an answer");
