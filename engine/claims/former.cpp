@@ -14,7 +14,7 @@ namespace {
 constexpr const char* alike =
     "The pictures are compared with each other, as the paper does, and no longer by their errors; as means over the phases of the cells, and under five lights.";
 constexpr const char* table_1 =
-    "A GPU's times against a processor's are not judged any more. The number is of another scene: its columns lie farther apart, and their smoke is thinner.";
+    "A GPU's times against a processor's are not judged any more. The number is of another scene: its columns lie farther apart than in the first report's, and their smoke is thinner.";
 
 constexpr Former rows[] = {
     {"reeves1987", "section 5, table 2", "Bike store: bounding box 0.70",

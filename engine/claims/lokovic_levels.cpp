@@ -180,7 +180,7 @@ void levels(const Context& context) {
                      to_text(size_of_samples)),
          judge_size(1.55, 4.0 / 3.0, size),
          "Judged as published: each level is averaged from the compressed functions of the one before, with half its "
-         "tolerance.",
+         "tolerance. Section 6 also prints \"approximately 1.5 times larger\".",
          {size, size_of_samples}});
     const std::vector<Value> growth = growth_over_two_levels(published),
                              growth_of_samples = growth_over_two_levels(of_samples);

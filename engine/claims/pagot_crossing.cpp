@@ -230,7 +230,7 @@ void add_screens(const Measured& measured, PaperReport& report) {
                      measured.images[as_large_as_map].fragments, to_text(small)),
          not_comparable(),
          "3 x 3 cells. Aliasing is judged in a row of its own. How small the increase is, the paper does not say: it has "
-         "no times.",
+         "no times. The test by itself is judged in section 6.",
          {small}});
 }
 

@@ -72,7 +72,7 @@ constexpr Rule rules[] = {
      "A picture shows the place of an edge to a pixel."},
     {"count", "a number of outcomes is reached", "it is reached in every entry and never exceeded",
      "never exceeded, but not always reached", "Counting is exact."},
-    {"construction", "a size or a format", "not judged: the technique cannot do otherwise", "-",
+    {"construction", "a size, a format, or arithmetic of a cost that the paper counts", "not judged: the technique cannot do otherwise", "-",
      "Tests check it; measuring it shows nothing about the method."},
     {"not comparable",
      "the size of a GPU's time, a number of a scene that is not public, or a method without a stated accuracy",

@@ -29,7 +29,7 @@ void measure_salvi(const Context& context) {
         "rms of a difference is over the pixels that see anything. What the paper's words leave open is read in "
         "several ways, which the claims name: how near is near (the rms, 99 % of the pixels or FLIP of pictures; the "
         "largest or the mean distance of curves), how far apart the columns are, and how dense smoke and hair are. The "
-        "paper's frames a second and milliseconds of whole frames are of its GPU and its scenes; they are not listed.";
+        "paper's frames a second and milliseconds of whole frames are of its GPU and its scenes; they are not judged.";
     table_1(context);
     depth_range(context);
     pictures(context);

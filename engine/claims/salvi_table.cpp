@@ -181,8 +181,7 @@ void speed(const LightResult& light, const Turns& ns, PaperReport& report) {
          fmt::format("12 nodes: lookup {} times as fast", to_text(plain)),
          not_comparable(),
          "Figure 3 says it of a GPU implementation, and nowhere of the method. On the scene of table 1, where an "
-         "uncompressed lookup searches functions of hundreds of nodes. It compresses nothing, so there is no build to "
-         "compare.",
+         "uncompressed lookup searches functions of hundreds of nodes. Theirs has no build to compare.",
          {plain}});
 }
 

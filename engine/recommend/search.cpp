@@ -294,6 +294,11 @@ Exploration explore(Lab& lab, const Goal& goal, const Hooks& hooks) {
     if (!(goal.budget > 0.0)) throw Error(ErrorCode::usage, "--budget", "the budget must be above 0 seconds");
     if (std::none_of(goal.asked.begin(), goal.asked.end(), [](bool asked) { return asked; }))
         throw Error(ErrorCode::usage, "--cheapest", "ask for the least lookup time, bytes or build time");
+    const std::span<const Family> families = lab.families();
+    if (!goal.asked[static_cast<std::size_t>(Cost::lookup)] &&
+        std::all_of(families.begin(), families.end(), [](const Family& family) { return family.mapless; }))
+        throw Error(ErrorCode::usage, "--cheapest",
+                    "a technique that stores no map holds no bytes and builds nothing; ask for lookup");
     return Search(lab, goal, hooks).run();
 }
 

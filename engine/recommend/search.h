@@ -37,7 +37,8 @@ struct Hooks {
     std::function<bool()> cancelled;                // may be empty; asked before every measurement
 };
 
-// Throws Error usage if no cost is asked, or if the error or the budget is not above 0.
+// Throws Error usage if no cost is asked, or none that techniques without a map have where all are such, or if the error
+// or the budget is not above 0.
 Exploration explore(Lab& lab, const Goal& goal, const Hooks& hooks);
 
 }  // namespace shadowbench::recommend

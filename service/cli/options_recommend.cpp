@@ -4,11 +4,23 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/error.h"
 #include "recommend/request.h"
 #include "service/cli/options.h"
 #include "service/cli/recommend_command.h"
 
 namespace shadowbench::service {
+namespace {
+
+// What says how to measure, where nothing is measured.
+void refuse_without_measuring(const CLI::App& recommend, const RecommendArguments& arguments) {
+    if (arguments.from.empty() || !arguments.beside.empty()) return;
+    for (const char* option : {"--budget", "--set", "--threads"})
+        if (recommend.count(option) > 0)
+            throw base::Error(base::ErrorCode::usage, option, "nothing is measured with --from, unless with --beside");
+}
+
+}  // namespace
 
 void add_recommend(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<RecommendArguments>();
@@ -54,13 +66,17 @@ void add_recommend(CLI::App& app, Commands& commands) {
     recommend
         ->add_option("--from", arguments->from,
                      "Answer from the result.json in this folder, which recommend or run wrote, without measuring")
-        ->excludes(scenario);
+        ->excludes(scenario)
+        ->excludes("--only")
+        ->excludes("--out");
     recommend
         ->add_option("--beside", arguments->beside,
                      "With --from: measure the cheapest settings of both again, in turns, beside those of the run or "
                      "exploration in this folder")
         ->needs("--from");
-    commands.push_back({recommend, [arguments](std::ostream& out, std::ostream& err) {
+    commands.push_back({recommend, [arguments, recommend](std::ostream& out, std::ostream& err) {
+                            arguments->measure_given = recommend->count("--measure") > 0;
+                            refuse_without_measuring(*recommend, *arguments);
                             return recommend_command(*arguments, out, err) ? 0 : promise_broken;
                         }});
 }

@@ -76,12 +76,27 @@ void refuse_times_of_machines(const nlohmann::json& result, const recommend::Goa
     }
 }
 
-// Of an exploration, which says its light and measure, or of a run.
+// An exploration is of one light and one measure: nothing else can be asked of it.
+void refuse_other_questions(const Recommendation& found, const RecommendArguments& arguments) {
+    const char* measure = measure_words[static_cast<std::size_t>(found.measure)];
+    if (arguments.measure_given && arguments.measure != measure)
+        throw Error(ErrorCode::usage, "--measure " + arguments.measure,
+                    fmt::format("the exploration in --from was judged by {}; explore again for another measure", measure));
+    if (!arguments.light.empty() && arguments.light != found.light)
+        throw Error(ErrorCode::usage, "--light " + arguments.light,
+                    fmt::format("the exploration in --from is of light \"{}\"", found.light));
+}
+
+// Of an exploration, which says its light and measure, or of a run. `asked`: these must be those, if they are given.
 Recommendation read_recommendation(const fs::path& folder, const std::string& light, recommend::Measure measure,
-                                   const recommend::Goal& goal) {
+                                   const recommend::Goal& goal, const RecommendArguments* asked = nullptr) {
     const std::string file = (folder / "result.json").string();
     const nlohmann::json document = scene::parse_json(base::read_text(file), file);
-    if (recommend::is_recommendation(document)) return recommend::recommendation_from_json(document, file);
+    if (recommend::is_recommendation(document)) {
+        Recommendation found = recommend::recommendation_from_json(document, file);
+        if (asked) refuse_other_questions(found, *asked);
+        return found;
+    }
     refuse_times_of_machines(document, goal, file);
     return recommend::recommendation_of(results::from_json(document, file), light, measure, file);
 }
@@ -138,7 +153,7 @@ bool recommend_command(const RecommendArguments& arguments, std::ostream& out, s
     const Recommendation found =
         arguments.from.empty()
             ? explore_scenario(arguments, goal, folder, err)
-            : read_recommendation(arguments.from, arguments.light, read_measure(arguments.measure), goal);
+            : read_recommendation(arguments.from, arguments.light, read_measure(arguments.measure), goal, &arguments);
     const recommend::AnswerText answer = recommend::answer_text(found, goal);
     out << answer.text;
     if (arguments.from.empty()) out << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());

@@ -12,6 +12,7 @@ namespace shadowbench::service {
 struct RecommendArguments : ScenarioArguments {
     double error = 0.0;
     std::string measure = "rms";                 // rms, max, p99 or curve
+    bool measure_given = false;
     std::vector<std::string> cheapest, at_most;  // costs, all if none is given; cost=limit
     std::string budget = "5min";
     std::string light;  // a name, or a number, from 0; empty: the only one

@@ -231,6 +231,18 @@ TEST(Search, AnErrorThatIsNotANumberCountsAsAFailure) {
     EXPECT_FALSE(found.confirmed.empty());
 }
 
+TEST(Search, BytesOfTechniquesWithoutAMapAreNoQuestion) {
+    Law traced = usual("traced");
+    traced.family.mapless = true;
+    SyntheticLab lab({traced}, {}, 1);
+    Goal goal = goal_of(0.1);
+    goal.asked = {false, true, true};
+    EXPECT_THROW(explore(lab, goal, {}), base::Error);
+    EXPECT_EQ(lab.trials(), 0u);
+    goal.asked = {true, true, true};
+    EXPECT_TRUE(std::isfinite(found_cost(lab, explore(lab, goal, {}), Cost::lookup)));
+}
+
 TEST(Search, GoalsWithoutMeaningAreRefused) {
     SyntheticLab lab({usual("a")}, {}, 1);
     Goal nothing = goal_of(0.1), hasty = goal_of(0.1);

@@ -47,6 +47,19 @@ TEST(Recommend, AnswersWritesWhatItMeasuredAndAnswersFromThat) {
     const Outcome again = cli({"recommend", "--from", out, "--error", "0.3"});
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_EQ(cli({"recommend", "--from", out, "--error", "0.000001"}).code, 2);
+    // An exploration answers only what it measured; what says how to measure is refused.
+    for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{"--measure", "p99"},
+                                                                                      {"--light", "none"},
+                                                                                      {"--only", "deep"},
+                                                                                      {"--budget", "5s"},
+                                                                                      {"--set", "rays.seed=2"}}) {
+        std::vector<std::string> asked{"recommend", "--from", out, "--error", "0.3"};
+        asked.insert(asked.end(), more.begin(), more.end());
+        const Outcome refused = cli(asked);
+        EXPECT_EQ(refused.code, 64) << more[0];
+        EXPECT_NE(refused.err.find(more[0]), std::string::npos) << refused.err;
+        EXPECT_EQ(refused.out, "");
+    }
 }
 
 TEST(Recommend, AnswersFromARun) {
