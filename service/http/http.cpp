@@ -1,5 +1,6 @@
-// The server on top of cpp-httplib (0.11.4), which frames answers and reads bodies of a known length. head.h parses the
-// heads of requests; httplib gets a safe one instead: see canonical_head(). chunks.h reads chunked bodies.
+// The server and the client on top of cpp-httplib (0.11.4), which frames answers and reads bodies of a known length.
+// head.h parses the heads of requests; httplib gets a safe one instead: see canonical_head(). chunks.h reads chunked
+// bodies.
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -17,6 +18,7 @@
 #include "base/error.h"
 #include "service/api/problem.h"
 #include "service/http/chunks.h"
+#include "service/http/client.h"
 #include "service/http/guard.h"
 #include "service/http/head.h"
 #include "service/http/lobby.h"
@@ -365,6 +367,44 @@ void HttpServer::run() {
 void HttpServer::stop() {
     const std::scoped_lock lock(state_->mutex);
     if (!state_->ended && !state_->front.stopping()) state_->front.shut_down();
+}
+
+namespace {
+
+Reply reply_of(const httplib::Result& result, const std::string& url) {
+    if (!result) throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
+    return {result->status, result->get_header_value("Content-Type"), result->body,
+            result->get_header_value("Location")};
+}
+
+}  // namespace
+
+struct Client::State {
+    httplib::Client client;
+};
+
+Client::Client(const std::string& url, const std::string& token) : url_(url) {
+    if (!url.starts_with("http://") && !url.starts_with("https://"))
+        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port");
+    state_.reset(new State{httplib::Client(url)});
+    if (!state_->client.is_valid())
+        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port");
+    state_->client.set_connection_timeout(10);
+    state_->client.set_read_timeout(120);
+    state_->client.set_tcp_nodelay(true);
+    if (!token.empty()) state_->client.set_bearer_token_auth(token);
+}
+
+Client::~Client() = default;
+
+Reply Client::get(const std::string& path) {
+    return reply_of(state_->client.Get(path), url_);
+}
+
+Reply Client::post_json(const std::string& path, const std::string& body, const std::vector<Field>& headers) {
+    httplib::Headers fields;
+    for (const Field& field : headers) fields.emplace(field.name, field.value);
+    return reply_of(state_->client.Post(path, fields, body, "application/json"), url_);
 }
 
 }  // namespace shadowbench::service

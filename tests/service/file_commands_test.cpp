@@ -86,7 +86,7 @@ TEST_F(FileCommands, RefuseFilesWithTheirPlace) {
     for (const std::string command : {"inspect", "new"}) {
         fails({command}, 64, "FILE");
         fails({command, path("gone.obj")}, 66, "gone.obj: there is no such file");
-        fails({command, write("a.nrrd", "NRRD0004\n")}, 65, "a.nrrd: the name of a data file must end in .obj, ");
+        fails({command, write("a.xyz", "1 2 3\n")}, 65, "a.xyz: the name of a data file must end in .obj, ");
         fails({command, write("b.obj", "v 0 0 0\nv 1 zero 0\n")}, 65, "b.obj:2");
     }
     fails({"new", case_file("points.ply")}, 65, "points.ply: a point cloud");

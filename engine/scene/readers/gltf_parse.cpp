@@ -18,7 +18,7 @@
 #include "scene/readers/gltf_json.h"
 #include "scene/readers/gltf_model.h"
 #include "scene/readers/gltf_uri.h"
-#include "scene/scenario.h"
+#include "scene/parse_json.h"
 
 namespace shadowbench::scene {
 namespace {

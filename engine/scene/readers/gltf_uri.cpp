@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "scene/scenario.h"
+#include "scene/readers/beside.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -83,13 +83,13 @@ std::optional<std::vector<char>> data_of_uri(std::string_view uri) {
 fs::path file_of_uri(const fs::path& gltf, const std::string& uri, const std::string& where) {
     if (uri.find("://") != std::string::npos)
         throw Error(ErrorCode::bad_input, where, "an address in a network is not read: put the file beside this one");
-    const fs::path folder = gltf.has_parent_path() ? gltf.parent_path() : fs::path(".");
-    try {
-        return find_file(SearchPath::confined_to({folder}), without_percent(uri), where);
-    } catch (const Error& error) {
-        throw Error(error.code(), where,
-                    fmt::format("{}; what a glTF file names must lie in its own folder", error.message()));
-    }
+    const std::string name = without_percent(uri);
+    const Beside beside = find_beside(gltf, name);
+    if (beside.state == Beside::State::found) return beside.file;
+    const bool missing = beside.state == Beside::State::missing;
+    throw Error(missing ? ErrorCode::no_such_file : ErrorCode::bad_input, where,
+                fmt::format("{} \"{}\"; what a glTF file names must lie in its own folder",
+                            missing ? "there is no file" : "the name leads out of the folder:", name));
 }
 
 }  // namespace shadowbench::scene

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "scene/limits.h"
+#include "scene/readers/beside.h"
 #include "scene/readers/text_lines.h"
 
 namespace shadowbench::scene {
@@ -119,28 +120,24 @@ Vec3i size_of(const HeaderFields& header, const HeaderField& field, const std::v
 
 std::filesystem::path file_beside(const std::filesystem::path& header_file, const HeaderFields& header,
                                   const HeaderField& field) {
-    namespace fs = std::filesystem;
-    const fs::path name(field.value);
-    const bool goes_up = std::find(name.begin(), name.end(), "..") != name.end();
     const std::string shown(shortened(field.value));
-    if (name.empty() || name.is_absolute() || goes_up || field.value.find('\0') != std::string::npos)
-        header.fail(field,
-                    fmt::format("the file of the values, \"{}\", must be a name in the folder of the header: not "
-                                "absolute, and without ..",
-                                shown));
-    const fs::path file = header_file.parent_path() / name;
-    std::error_code fault, other_fault;
-    if (!fs::is_regular_file(file, fault))
-        throw base::Error(base::ErrorCode::no_such_file, fmt::format("{}: byte {}", header_file.string(), field.at),
-                          fmt::format("there is no file \"{}\" with the values beside the header", shown));
-    const fs::path real = fs::canonical(file, fault), header_itself = fs::canonical(header_file, other_fault);
-    const fs::path folder = header_itself.parent_path();
-    const bool inside = std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
-    if (fault || other_fault || !inside)
-        header.fail(
-            field,
-            fmt::format("the file of the values, \"{}\", leads out of the folder of the header: copy it there", shown));
-    return file;
+    const Beside beside = find_beside(header_file, field.value);
+    switch (beside.state) {
+        case Beside::State::found: break;
+        case Beside::State::not_a_name:
+            header.fail(field,
+                        fmt::format("the file of the values, \"{}\", must be a name in the folder of the header: not "
+                                    "absolute, and without ..",
+                                    shown));
+        case Beside::State::missing:
+            throw base::Error(base::ErrorCode::no_such_file, fmt::format("{}: byte {}", header_file.string(), field.at),
+                              fmt::format("there is no file \"{}\" with the values beside the header", shown));
+        case Beside::State::outside:
+            header.fail(
+                field, fmt::format("the file of the values, \"{}\", leads out of the folder of the header: copy it there",
+                                   shown));
+    }
+    return beside.file;
 }
 
 }  // namespace shadowbench::scene
