@@ -196,10 +196,9 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, const Conf
     time_lookups(timed, least_repetitions,
                  std::isfinite(how.most_seconds) ? how.lookups_share * how.most_seconds : longest_timing);
     for (Timed& one : timed) {
-        for (int r = 0; r < shown_repetitions; ++r) {
-            const base::ThreadLimit one_thread(1);
+        const base::ThreadLimit one_thread(1);
+        for (int r = 0; r < shown_repetitions; ++r)
             bench::time_order(one.attempt.contender.maps, one.plan, one.plan.image, false);
-        }
         Contender& contender = one.attempt.contender;
         for (const bench::LookupOrder* order : {&one.plan.image, &one.plan.random})
             bench::check_answers(contender, order->asked(), order->answers);

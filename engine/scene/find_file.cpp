@@ -1,9 +1,9 @@
-#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "scene/readers/beside.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::scene {
@@ -14,24 +14,10 @@ using base::ErrorCode;
 
 namespace {
 
-void refuse_way_out(const std::string& name, const std::string& where) {
-    const fs::path path(name);
-    const bool goes_up = std::find(path.begin(), path.end(), "..") != path.end();
-    if (path.is_absolute() || goes_up || name.find('\0') != std::string::npos)
+fs::path find_confined(const SearchPath& path, const std::string& name, const std::string& where) {
+    if (names_way_out(name))
         throw Error(ErrorCode::bad_input, where,
                     fmt::format("\"{}\" must be a name inside the data folders: not absolute, and without ..", name));
-}
-
-// Resolves links first.
-bool lies_in(const fs::path& file, const fs::path& folder) {
-    std::error_code file_fault, folder_fault;
-    const fs::path real = fs::canonical(file, file_fault), top = fs::canonical(folder, folder_fault);
-    return !file_fault && !folder_fault &&
-           std::mismatch(top.begin(), top.end(), real.begin(), real.end()).first == top.end();
-}
-
-fs::path find_confined(const SearchPath& path, const std::string& name, const std::string& where) {
-    refuse_way_out(name, where);
     std::error_code ignored;
     for (const fs::path& folder : path.folders) {
         const fs::path file = folder / name;

@@ -9,6 +9,7 @@
 
 #include "scene/packed_volume.h"
 #include "scene/readers/grid_files.h"
+#include "scene/refusal.h"
 #include "scene/support.h"
 
 namespace shadowbench::scene {
@@ -31,10 +32,7 @@ GridFile read(const std::string& bytes, Negative negative = Negative::clamp) {
 }
 
 std::string message(const std::string& bytes) {
-    const base::Error error = error_of([&] { read(bytes); });
-    EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
-    EXPECT_THAT(error.where(), HasSubstr("a.mha: byte "));
-    return error.message();
+    return test::message_at_byte("a.mha", [&] { read(bytes); });
 }
 
 // The offset, 0 where the file has none, is the centre of the first voxel.

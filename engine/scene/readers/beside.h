@@ -18,4 +18,9 @@ struct Beside {
 };
 Beside find_beside(const std::filesystem::path& file, const std::string& name);
 
+// Whether a name can lead out of the folder that it is looked up in: it is absolute, has .., or a zero byte.
+bool names_way_out(const std::string& name);
+// Resolves links first. False if either is not there.
+bool lies_in(const std::filesystem::path& file, const std::filesystem::path& folder);
+
 }  // namespace shadowbench::scene

@@ -19,14 +19,8 @@
 namespace shadowbench::scene {
 namespace {
 
-bool has_alpha(const std::filesystem::path& file) {
-    const std::unique_ptr<OIIO::ImageInput> input = open_image(file);
-    const OIIO::ImageSpec& spec = input->spec();
-    return spec.channelindex("A") >= 0 || spec.alpha_channel >= 0;
-}
-
 std::optional<AlphaTexture> read_file(const std::filesystem::path& file) {
-    if (!has_alpha(file)) return std::nullopt;
+    if (alpha_channel(open_image(file)->spec()) < 0) return std::nullopt;
     return read_alpha(file);
 }
 

@@ -19,13 +19,13 @@
 #include "scene/readers/files.h"
 
 namespace shadowbench::scene {
-namespace {
 
-// The index of the channel that holds alpha, or -1.
 int alpha_channel(const OIIO::ImageSpec& spec) {
     const int named = spec.channelindex("A");
     return named >= 0 ? named : spec.alpha_channel;
 }
+
+namespace {
 
 // Checks pixels without compression: `bits` bits for each pixel, and the masks of the channels.
 void check_dds_masks(const OIIO::ImageSpec& spec, const std::filesystem::path& file, std::uint32_t bits,
