@@ -13,7 +13,7 @@
 
 #include "base/error.h"
 #include "base/utf8.h"
-#include "scene/scenario.h"
+#include "scene/parse_json.h"
 
 namespace shadowbench::scene {
 namespace {

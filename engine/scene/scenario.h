@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "base/error.h"
+#include "scene/parse_json.h"
 #include "scene/scene.h"
 
 namespace shadowbench::scene {
@@ -29,9 +30,6 @@ struct SearchPath {
 // Finds `name` in the path. Throws Error{no_such_file} that lists the folders it looked in; for a confined path,
 // Error{bad_input} if the name is refused.
 std::filesystem::path find_file(const SearchPath& path, const std::string& name, const std::string& where);
-
-// Parses JSON text, UTF-8 with or without a byte-order mark. Throws Error{bad_input} whose place is origin:line:column.
-nlohmann::json parse_json(const std::string& text, const std::string& origin);
 
 // The schema of the source tree, without the parameters of techniques (bench adds those from the registry).
 const nlohmann::json& scenario_schema();

@@ -108,5 +108,26 @@ TEST(Search, LayoutsOfOneMapShareTheirErrors) {
     }
 }
 
+// All axes rise together in a climb: where it ends, each own axis is also tried with its cheapest step, which may suffice.
+TEST(Search, EachOfSeveralOwnAxesIsProbedWhereAClimbEnds) {
+    Law law = usual("technique");
+    law.family.axes.push_back(axis("kernel", 8, 2));
+    law.error = error_law({{0.3, 0.35}, {0.3, 0.35}, {0.3, 0.4}, {0.01, 0.4}}, 0.0);
+    law.cost = [](const Step& step, Cost) { return product_law(10.0, {0.1, 0.1, 0.1, 0.3}, step); };
+    SyntheticLab lab({law}, {}, 1);
+    const Exploration found = explore(lab, goal_of(0.1), {});
+    const auto reached = std::find_if(found.measured.begin(), found.measured.end(),
+                                      [](const Measured& one) { return one.trial.error <= 0.1; });
+    ASSERT_NE(reached, found.measured.end());
+    for (const std::size_t own : {2u, 3u}) {
+        Point probed = reached->point;
+        probed.step[own] = 0;
+        const auto at = std::find_if(found.measured.begin(), found.measured.end(),
+                                     [&](const Measured& one) { return one.point == probed; });
+        ASSERT_NE(at, found.measured.end()) << own;
+        EXPECT_LE(at - reached, 2) << "right after the climb";
+    }
+}
+
 }  // namespace
 }  // namespace shadowbench::recommend::test
