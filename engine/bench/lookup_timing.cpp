@@ -13,7 +13,7 @@
 namespace shadowbench::bench {
 namespace {
 
-constexpr double longest_pass = 0.050;         // seconds
+constexpr double longest_pass = 0.020;         // seconds
 constexpr double longest_warm_pass = 0.100;    // seconds: only passes of 64 lookups that take longer stay cold
 constexpr double longest_random_pass = 0.010;  // seconds, of several random orders
 constexpr double beyond_prediction = 65536.0;  // number of lookups beyond what a branch predictor learns
@@ -54,11 +54,11 @@ int rounds_of(double seconds_a_round) {
     return static_cast<int>(std::min(1000.0, std::ceil(shortest_pass / seconds_a_round)));
 }
 
-// Makes untimed passes until the caches have settled: at least two, then more while there is time.
+// Makes untimed passes until the caches have settled: at least two, then more for `time` seconds.
 template <typename Pass>
-void warm_up(const Pass& pass) {
+void warm_up(double time, const Pass& pass) {
     double seconds = 0.0;
-    for (int p = 0; p < least_warm_passes || (p < most_warm_passes && seconds < warm_time); ++p) seconds += pass();
+    for (int p = 0; p < least_warm_passes || (p < most_warm_passes && seconds < time); ++p) seconds += pass();
 }
 
 // The seconds of a timed pass, which is counted.
@@ -134,23 +134,31 @@ LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, 
     return plan;
 }
 
-void time_order(const Maps& maps, const LookupPlan& plan, LookupOrder& order, bool floor_first) {
+namespace {
+
+// `settled`: what was timed last read the same lines, so the cache holds those of the map that it can hold.
+void time_order(const Maps& maps, const LookupPlan& plan, LookupOrder& order, bool floor_first, bool settled) {
     const int rounds = order.rounds;
     const double lookups = static_cast<double>(order.queries.size()) * rounds;
     const double read = static_cast<double>(order.covered) * rounds;
+    const auto warm_lookups = [&](double time) {
+        warm_up(time, [&] { return seconds_of_pass(maps, order.asked(), 1, order.answers); });
+    };
+    const auto warm_floor = [&] { warm_up(0.0, [&] { return seconds_of_floor(order.lines, 1); }); };
+    if (plan.warm && !settled) warm_lookups(warm_time);
     // Lookups and floor each warm up, so that what ran before has no influence.
     const auto time_lookups = [&] {
         // The floor's reads leave lines in the cache that lookups do not. Reading them here makes the order of the two
         // irrelevant.
-        if (plan.warm && !order.lines.empty()) warm_up([&] { return seconds_of_floor(order.lines, 1); });
-        if (plan.warm) warm_up([&] { return seconds_of_pass(maps, order.asked(), 1, order.answers); });
+        if (plan.warm && !order.lines.empty()) warm_floor();
+        if (plan.warm) warm_lookups(0.0);
         const double seconds =
             counted(order.passes, [&] { return seconds_of_pass(maps, order.asked(), rounds, order.answers); });
         order.ns.push_back(1e9 * seconds / lookups);
     };
     const auto time_floor = [&] {
         if (order.lines.empty()) return;
-        if (plan.warm) warm_up([&] { return seconds_of_floor(order.lines, 1); });
+        if (plan.warm) warm_floor();
         const double seconds = counted(order.passes, [&] { return seconds_of_floor(order.lines, rounds); });
         order.floor_ns.push_back(1e9 * seconds / read);
     };
@@ -159,9 +167,15 @@ void time_order(const Maps& maps, const LookupPlan& plan, LookupOrder& order, bo
     if (!floor_first) time_floor();
 }
 
+}  // namespace
+
+void time_order(const Maps& maps, const LookupPlan& plan, LookupOrder& order, bool floor_first) {
+    time_order(maps, plan, order, floor_first, false);
+}
+
 void time_repetition(const Maps& maps, LookupPlan& plan, bool floor_first) {
-    time_order(maps, plan, plan.image, floor_first);
-    time_order(maps, plan, plan.random, floor_first);
+    time_order(maps, plan, plan.image, floor_first, false);
+    time_order(maps, plan, plan.random, floor_first, true);
 }
 
 results::LookupTimes summarise(const LookupOrder& order) {

@@ -1,6 +1,7 @@
 #include "bench/time_light.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -51,13 +52,10 @@ double warm_builds(std::span<Contender> contenders, const RaySource& source, con
     return stopwatch.seconds();
 }
 
-bool all_narrow(const BuildSeconds& seconds, const std::vector<LookupMeasurement>& plans, double goal) {
-    const auto narrow = [goal](std::vector<double> times) {
-        return results::is_narrow(results::summarise(std::move(times)), goal);
-    };
+bool all_narrow(const std::vector<LookupMeasurement>& plans, double goal,
+                const std::function<std::vector<double>(const LookupMeasurement&)>& times) {
     return std::all_of(plans.begin(), plans.end(), [&](const LookupMeasurement& measured) {
-        return narrow(milliseconds(seconds[measured.contender])) && narrow(measured.plan.image.ns) &&
-               narrow(measured.plan.random.ns);
+        return results::is_narrow(results::summarise(times(measured)), goal);
     });
 }
 
@@ -81,18 +79,28 @@ results::TimingReport time_light(const LightJob& job, std::span<Contender> conte
     const RepeatRule rule{static_cast<std::size_t>(timing.repetitions),
                           static_cast<std::size_t>(timing.most_repetitions), timing.seconds};
     const bool warm = warm_builds(contenders, source, input) <= longest_warm_builds;
-    repeat(
-        rule,
-        [&](std::size_t r) {
-            if (warm && r > 0) warm_builds(contenders, source, input);
-            time_builds(contenders, source, input, seconds, report.builds);
-            if (job.watch) job.watch("timing builds", r + 1, rule.most);
-            const base::ThreadLimit one_thread(1);
-            for (LookupMeasurement& measured : plans)
-                time_repetition(contenders[measured.contender].maps, measured.plan, r % 2 == 1);
-            if (job.watch) job.watch("timing lookups", r + 1, rule.most);
-        },
-        [&] { return all_narrow(seconds, plans, timing.goal); });
+    const auto builds = [&](std::size_t r) {
+        if (warm && r > 0) warm_builds(contenders, source, input);
+        time_builds(contenders, source, input, seconds, report.builds);
+        if (job.watch) job.watch("timing builds", r + 1, rule.most);
+    };
+    const auto lookups = [&](std::size_t r) {
+        const base::ThreadLimit one_thread(1);
+        for (LookupMeasurement& measured : plans)
+            time_repetition(contenders[measured.contender].maps, measured.plan, r % 2 == 1);
+        if (job.watch) job.watch("timing lookups", r + 1, rule.most);
+    };
+    const auto narrow = [&](const auto& times) { return all_narrow(plans, timing.goal, times); };
+    const RoundPart parts[] = {
+        {builds,
+         [&] {
+             return narrow([&](const LookupMeasurement& one) { return milliseconds(seconds[one.contender]); });
+         }},
+        {lookups, [&] {
+             return narrow([](const LookupMeasurement& one) { return one.plan.image.ns; }) &&
+                    narrow([](const LookupMeasurement& one) { return one.plan.random.ns; });
+         }}};
+    repeat(rule, parts);
     report.seconds = stopwatch.seconds();
     if (const std::optional<double> after = steal_seconds(); after && steal_before)
         report.steal_seconds = std::max(0.0, *after - *steal_before);

@@ -69,6 +69,17 @@ TEST(Repeat, MakesNoRoundThatIsLongerThanTheTimeLeft) {
     EXPECT_EQ(rounds, 5u);
 }
 
+// A part whose intervals are narrow is left out of further rounds; the others go on to their own end.
+TEST(Repeat, PartsEndByThemselves) {
+    std::vector<std::size_t> first, second;
+    const RoundPart parts[] = {{[&](std::size_t r) { first.push_back(r); }, [&] { return first.size() >= 10; }},
+                               {[&](std::size_t r) { second.push_back(r); }, [&] { return second.size() >= 18; }}};
+    repeat({7, 31, 1e9}, parts);
+    EXPECT_EQ(first.size(), 11u) << "looked at after 7 and 11 rounds";
+    EXPECT_EQ(second.size(), 19u);
+    for (std::size_t i = 0; i < second.size(); ++i) EXPECT_EQ(second[i], i);
+}
+
 // Times with a known median. `median` takes the number of rounds made: for a machine that slows down, it is that of the
 // mixture of their distributions.
 struct Noise {
