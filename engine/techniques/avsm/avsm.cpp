@@ -44,7 +44,8 @@ public:
           order_(read_order(values)),
           seed_(static_cast<std::uint64_t>(values.integer("seed"))),
           sampling_(read_sampling(values)),
-          evaluate_(texel_evaluator(nodes_, sampling_)) {}
+          evaluate_(texel_evaluator(nodes_, sampling_)),
+          evaluate_all_(reads_evaluator(nodes_, sampling_)) {}
     static int floats_a_texel(const ParameterValues& values) { return 2 * values.integer("nodes"); }
 
     Avsm(const ParameterValues& values, std::span<const curves::Curve> functions) : Avsm(values) {
@@ -86,6 +87,9 @@ public:
 
     float prepare(float z) const { return z; }
     float evaluate(const float* texel, float z) const { return evaluate_(texel, nodes_, z); }
+    void evaluate_all(Reads& reads, const std::array<float, block_queries>& depths) const {
+        evaluate_all_(reads, depths, nodes_);
+    }
     // The number of nodes, except those that repeat the one at the far plane.
     int nodes_of(const float* t) const {
         int n = nodes_;
@@ -169,6 +173,7 @@ private:
     std::uint64_t seed_;
     Sampling sampling_;
     TexelEvaluator evaluate_;
+    ReadsEvaluator evaluate_all_;
 };
 
 }  // namespace

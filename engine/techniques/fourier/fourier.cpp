@@ -56,8 +56,14 @@ public:
         make_weights(normalised(z), terms_, weights);
         return weights;
     }
+    void prepare_all(std::span<const Query> block, std::array<Weights, block_queries>& weights) const {
+        for (std::size_t k = 0; k < block.size(); ++k) make_weights(normalised(block[k].z), terms_, weights[k]);
+    }
     float evaluate(const float* texel, const Weights& weights) const {
-        return std::min(std::exp(-integral(texel, weights, texels_.stride)), highest_);
+        return transmittance(texel, weights, texels_.stride, highest_);
+    }
+    void evaluate_all(Reads& reads, const std::array<Weights, block_queries>& weights) const {
+        transmittances(reads, weights, texels_.stride, highest_);
     }
     int nodes_of(const float* texel) const { return texel[0] == 0.0f ? 0 : terms_; }  // a_0 is twice all absorption
 
@@ -100,7 +106,7 @@ Technique fourier() {
     return {.id = "fourier",
             .title = "Fourier opacity map: a truncated series of the absorption",
             .paper = "Jansen, Bavoil 2010",
-            .version = 3,
+            .version = 4,
             .promises = {.monotone = false, .localised = false, .leak = std::exp(-5.545)},
             .parameters = parameters,
             .create = create_map<Fourier>,

@@ -1,9 +1,13 @@
 #include "techniques/fourier/series.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <numbers>
+
+#include "techniques/store/simd_path.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -96,20 +100,81 @@ void Series::store(int terms, float* texel) const {
     std::fill(texel + 2 * terms, texel + padded(terms), 0.0f);
 }
 
+namespace {
+
 // Calls no library function. Angles are counted in turns of 2^32 steps, so that k d loses its whole turns without
 // error: with r the rest, in [-1/2, 1/2), sin(2 pi k d) = 2 sin(pi r) cos(pi r) and 1 - cos(2 pi k d) = 2 sin(pi r)^2,
 // which keeps its digits where it is small.
-void make_weights(double d, int terms, Weights& weights) {
+SHADOWBENCH_SIMD_LOOP inline void weights_at(double d, int terms, const float* scale, float* __restrict of) {
     const auto step = static_cast<std::uint32_t>(static_cast<std::uint64_t>(d * 0x1p32 + 0.5));
-    const std::array<float, most_terms>& scale = weight_scales();
     for (int k = 0; k < terms; ++k) {
         const float r = static_cast<float>(static_cast<std::int32_t>(step * static_cast<std::uint32_t>(k))) * 0x1p-32f;
         const float sine = sine_of_turn(0.5f * r), cosine = sine_of_turn(0.25f - 0.5f * std::abs(r));
-        weights.of[k] = scale[k] * (sine * cosine);
-        weights.of[terms + k] = scale[k] * (sine * sine);
+        of[k] = scale[k] * (sine * cosine);
+        of[terms + k] = scale[k] * (sine * sine);
     }
-    weights.of[0] = static_cast<float>(0.5 * d);
-    std::fill(weights.of.begin() + 2 * terms, weights.of.begin() + padded(terms), 0.0f);
+}
+
+// The integral: the sum of the products, as `lanes` partial sums. Of these it adds the first half to the second; the
+// rest is for whole().
+SHADOWBENCH_SIMD_LOOP inline void integrate(const float* texel, const float* weights, int floats, float* halves) {
+    // A vector of the compiler's: one AVX register, or two of SSE.
+    using Lanes = float __attribute__((vector_size(lanes * sizeof(float))));
+    Lanes sums{}, coefficients, factors;
+    for (int i = 0; i < floats; i += lanes) {
+        std::memcpy(&coefficients, texel + i, sizeof coefficients);
+        std::memcpy(&factors, weights + i, sizeof factors);
+        sums += coefficients * factors;
+    }
+    float all[lanes];
+    std::memcpy(all, &sums, sizeof sums);
+    for (int l = 0; l < lanes / 2; ++l) halves[l] = all[l] + all[l + lanes / 2];
+}
+SHADOWBENCH_SIMD_LOOP inline float whole(const float* halves) {
+    return (halves[0] + halves[2]) + (halves[1] + halves[3]);
+}
+
+// exp(x), as a power of 2 times the polynomial of Cephes' expf (S. Moshier), for a loop that becomes vector
+// instructions.
+SHADOWBENCH_SIMD_LOOP inline float exponential(float x) {
+    x = std::min(std::max(x, -87.0f), 80.0f);
+    const float power = (x * 1.44269504f + 0x1.8p23f) - 0x1.8p23f;  // to the nearest whole number
+    const float r = (x - power * 0.693359375f) + power * 2.12194440e-4f;
+    float p = 1.9875691500e-4f;
+    p = p * r + 1.3981999507e-3f;
+    p = p * r + 8.3334519073e-3f;
+    p = p * r + 4.1665795894e-2f;
+    p = p * r + 1.6666665459e-1f;
+    p = p * r + 5.0000001201e-1f;
+    const float of_rest = p * (r * r) + r + 1.0f;
+    return of_rest * std::bit_cast<float>((static_cast<std::int32_t>(power) + 127) << 23);
+}
+
+}  // namespace
+
+void make_weights(double d, int terms, Weights& weights) {
+    float* of = weights.of.data();
+    on_simd_path([=, scale = weight_scales().data()]() SHADOWBENCH_SIMD_LOOP { weights_at(d, terms, scale, of); });
+    of[0] = static_cast<float>(0.5 * d);
+    std::fill(of + 2 * terms, of + padded(terms), 0.0f);
+}
+
+float transmittance(const float* texel, const Weights& weights, int floats, float highest) {
+    std::array<float, lanes / 2> halves;
+    integrate(texel, weights.of.data(), floats, halves.data());
+    return std::min(exponential(-whole(halves.data())), highest);
+}
+
+void transmittances(Reads& reads, const std::array<Weights, block_queries>& weights, int floats, float highest) {
+    on_simd_path([&reads, &weights, floats, highest]() SHADOWBENCH_SIMD_LOOP {
+        constexpr std::size_t half = lanes / 2;
+        std::array<float, half * Reads::most> halves;
+        for (std::size_t r = 0; r < reads.count; ++r)
+            integrate(reads.texel[r], weights[reads.query[r]].of.data(), floats, halves.data() + half * r);
+        float* __restrict values = reads.value.data();
+        for (std::size_t r = 0; r < reads.count; ++r)
+            values[r] = std::min(exponential(-whole(halves.data() + half * r)), highest);
+    });
 }
 
 }  // namespace shadowbench::techniques

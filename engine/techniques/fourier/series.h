@@ -8,7 +8,8 @@
 #pragma once
 
 #include <array>
-#include <experimental/simd>
+
+#include "techniques/store/reads.h"
 
 namespace shadowbench::techniques {
 
@@ -46,14 +47,10 @@ struct Weights {
 };
 void make_weights(double d, int terms, Weights& weights);
 
-// The integral: the sum of the products, as `lanes` partial sums.
-inline float integral(const float* texel, const Weights& weights, int floats) {
-    namespace simd = std::experimental;
-    using Lanes = simd::fixed_size_simd<float, lanes>;
-    Lanes sums = 0.0f;
-    for (int i = 0; i < floats; i += lanes)
-        sums += Lanes(texel + i, simd::element_aligned) * Lanes(weights.of.data() + i, simd::element_aligned);
-    return simd::reduce(sums);
-}
+// exp(-(the integral of a texel of this many floats)), at most `highest`: the transmittance. Within two units in the
+// last place for integrals in [-80, 87]; others count as the nearest of these.
+float transmittance(const float* texel, const Weights& weights, int floats, float highest);
+// The same for all reads, with the same bits; weights[reads.query[r]] are those of read r.
+void transmittances(Reads& reads, const std::array<Weights, block_queries>& weights, int floats, float highest);
 
 }  // namespace shadowbench::techniques

@@ -58,14 +58,10 @@ public:
     }
 
     // If all texels have the same slices, the position among them is the same for all texels of a lookup.
-    void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
-        if (own_bounds_) return TexelMap::lookup(queries, visibility);
-        texels_.lookup(
-            queries, visibility, [&](float z) { return slices_.place(z); },
-            [&](const float* texel, float place) { return evaluate_at(texel, place); });
+    float prepare(float z) const { return own_bounds_ ? z : slices_.place(z); }
+    float evaluate(const float* texel, float prepared) const {
+        return evaluate_at(texel, own_bounds_ ? slices_of(texel).place(prepared) : prepared);
     }
-    float prepare(float z) const { return z; }
-    float evaluate(const float* texel, float z) const { return evaluate_at(texel, slices_of(texel).place(z)); }
 
     void touched(const Query& q, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();

@@ -17,6 +17,7 @@
 // create_map<Own>, Own::least_bytes, texel_traits().
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -61,14 +62,31 @@ public:
     void set_lookups(const ParameterValues& values) override { texels_.filter = read_filter(values); }
 
     void lookup(std::span<const Query> queries, std::span<float> visibility) const override {
-        const auto prepare = [this](float z) { return own().prepare(z); };
-        const auto evaluate = [this](const auto* texel, const auto& prepared) {
-            return own().evaluate(texel, prepared);
-        };
-        if constexpr (Own::filtered_floats > 0)
-            texels_.template lookup_means<Own::filtered_floats>(queries, visibility, prepare, evaluate);
-        else
-            texels_.lookup(queries, visibility, prepare, evaluate);
+        if constexpr (Own::filtered_floats > 0) {
+            texels_.template lookup_means<Own::filtered_floats>(
+                queries, visibility, [this](float z) { return own().prepare(z); },
+                [this](const auto* texel, const auto& prepared) { return own().evaluate(texel, prepared); });
+        } else {
+            std::array<decltype(own().prepare(0.0f)), block_queries> prepared;
+            texels_.lookup(
+                queries, visibility,
+                [&](std::span<const Query> block) {
+                    own().prepare_all(block, prepared);
+                    std::fill(prepared.begin() + block.size(), prepared.end(), prepared[0]);
+                },
+                [&](Reads& reads) { own().evaluate_all(reads, prepared); });
+        }
+    }
+    // prepared[k]: of the depth of query k of a block.
+    template <class Prepared>
+    void prepare_all(std::span<const Query> block, std::array<Prepared, block_queries>& prepared) const {
+        for (std::size_t k = 0; k < block.size(); ++k) prepared[k] = own().prepare(block[k].z);
+    }
+    // The values of all reads; prepared[reads.query[r]] is what prepare() made of the depth of read r.
+    template <class Prepared>
+    void evaluate_all(Reads& reads, const std::array<Prepared, block_queries>& prepared) const {
+        for (std::size_t r = 0; r < reads.count; ++r)
+            reads.value[r] = own().evaluate(reads.texel[r], prepared[reads.query[r]]);
     }
     void touched(const Query& query, std::vector<const void*>& lines) const override {
         const std::size_t before = lines.size();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "techniques/store/cells.h"
+#include "techniques/store/reads.h"
 
 namespace shadowbench::techniques {
 
@@ -68,28 +70,36 @@ struct Texels {
     std::size_t bytes() const { return grid.count() * sizeof(float) * stride; }
     float* at(std::size_t cell) const { return memory_.get() + cell * stride; }
 
-    // visibility[i]: the weighted mean of evaluate(texel, prepare(z)) over the texels of queries[i]'s filter. prepare
-    // computes once for each query what depends only on the depth.
+    // visibility[i]: the weighted mean, over the texels of queries[i]'s filter, of the values that `evaluate` gives them.
+    // Lookups go in blocks: all texels of a block are prefetched first, so that their misses overlap, and evaluated
+    // side by side. For each block, prepare(queries) is called first; then evaluate(reads), once or more often, sets
+    // reads.value from reads.texel and reads.query.
     template <class Prepare, class Evaluate>
     void lookup(std::span<const Query> queries, std::span<float> visibility, const Prepare& prepare,
                 const Evaluate& evaluate) const {
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            int x, y;
-            if (!grid.find(queries[i].x, queries[i].y, x, y)) {
-                visibility[i] = 1.0f;
+        Reads reads;
+        Cover covered;
+        std::array<double, block_queries> sums, weights;  // over up to millions of texels: float sums would stop growing
+        for (std::size_t start = 0; start < queries.size(); start += block_queries) {
+            const std::span<const Query> block = queries.subspan(start, std::min(block_queries, queries.size() - start));
+            const std::span<float> answers = visibility.subspan(start, block.size());
+            prepare(block);
+            if (read_slots(block, covered, reads)) {
+                evaluate(reads);
+                average(reads, covered.inside, highest, answers);
                 continue;
             }
-            const auto depth = prepare(queries[i].z);
-            if (filter == Filter::point) {
-                visibility[i] = evaluate(at(grid.index(x, y)), depth);
-                continue;
-            }
-            double sum = 0.0, weights = 0.0;  // over up to millions of texels: float sums would stop growing
-            for_each(queries[i], [&](std::size_t cell, double weight) {
-                sum += weight * evaluate(at(cell), depth);
-                weights += weight;
+            sums.fill(0.0);
+            weights.fill(0.0);
+            read(block, covered, reads, [&] {
+                evaluate(reads);
+                for (std::size_t r = 0; r < reads.count; ++r) {
+                    sums[reads.query[r]] += reads.weight[r] * reads.value[r];
+                    weights[reads.query[r]] += reads.weight[r];
+                }
             });
-            visibility[i] = std::min(static_cast<float>(sum / weights), highest);
+            for (std::size_t k = 0; k < block.size(); ++k)
+                answers[k] = covered.inside[k] ? std::min(static_cast<float>(sums[k] / weights[k]), highest) : 1.0f;
         }
     }
 
@@ -98,19 +108,31 @@ struct Texels {
     template <int count, class Prepare, class Evaluate>
     void lookup_means(std::span<const Query> queries, std::span<float> visibility, const Prepare& prepare,
                       const Evaluate& evaluate) const {
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            double means[count] = {}, weights = 0.0;
-            for_each(queries[i], [&](std::size_t cell, double weight) {
-                const float* texel = at(cell);
-                for (int k = 0; k < count; ++k) means[k] += weight * texel[k];
-                weights += weight;
-            });
-            if (weights == 0.0) {  // outside the map
-                visibility[i] = 1.0f;
-                continue;
+        Reads reads;
+        Cover covered;
+        std::array<std::array<double, count>, block_queries> means;
+        std::array<double, block_queries> weights;
+        for (std::size_t start = 0; start < queries.size(); start += block_queries) {
+            const std::span<const Query> block = queries.subspan(start, std::min(block_queries, queries.size() - start));
+            for (std::array<double, count>& mean : means) mean.fill(0.0);
+            weights.fill(0.0);
+            const auto add = [&] {
+                for (std::size_t r = 0; r < reads.count; ++r) {
+                    const std::size_t k = reads.query[r];
+                    for (int i = 0; i < count; ++i) means[k][i] += reads.weight[r] * reads.texel[r][i];
+                    weights[k] += reads.weight[r];
+                }
+            };
+            if (read_slots(block, covered, reads))
+                add();
+            else
+                read(block, covered, reads, add);
+            for (std::size_t k = 0; k < block.size(); ++k) {
+                visibility[start + k] = 1.0f;
+                if (!covered.inside[k]) continue;
+                for (double& mean : means[k]) mean /= weights[k];
+                visibility[start + k] = evaluate(means[k].data(), prepare(block[k].z));
             }
-            for (double& mean : means) mean /= weights;
-            visibility[i] = evaluate(means, prepare(queries[i].z));
         }
     }
 
@@ -126,6 +148,72 @@ struct Texels {
     }
 
 private:
+    // Arranges the reads of a block in slots, and prefetches them. Returns false if a query has too many texels for
+    // that, or if the block is so short that its empty places would take longer; then only `covered` is set.
+    bool read_slots(std::span<const Query> block, Cover& covered, Reads& reads) const {
+        constexpr std::size_t fewest_queries = 8;
+        filter == Filter::footprint ? cover(grid, block, covered) : cover_nearest(grid, block, covered);
+        if (block.size() < fewest_queries || covered.across.longest > 2 || covered.down.longest > 2) return false;
+        if (filter == Filter::point) {
+            reads.begin(1);
+            std::fill_n(reads.weight.begin(), block_queries, 1.0);
+            for (std::size_t k = 0; k < block_queries; ++k) put(reads, k, covered.across.begin[k], covered.down.begin[k]);
+            return true;
+        }
+        reads.begin(4);
+        if (filter == Filter::footprint) {
+            set_weights(covered, reads);
+            for (std::size_t k = 0; k < block_queries; ++k) {
+                const int x0 = covered.across.begin[k], x1 = covered.across.end[k] - 1;
+                const int y0 = covered.down.begin[k], y1 = covered.down.end[k] - 1;
+                put(reads, k, x0, y0);
+                put(reads, block_queries + k, x1, y0);
+                put(reads, 2 * block_queries + k, x0, y1);
+                put(reads, 3 * block_queries + k, x1, y1);
+            }
+            return true;
+        }
+        for (std::size_t k = 0; k < block_queries; ++k) {
+            std::size_t slot = k;
+            for_each_of_four(grid, k < block.size() && covered.inside[k] ? block[k] : Query{},
+                             [&](int x, int y, float weight) {
+                                 put(reads, slot, x, y);
+                                 reads.weight[slot] = weight;
+                                 slot += block_queries;
+                             });
+        }
+        return true;
+    }
+    void put(Reads& reads, std::size_t r, int x, int y) const {
+        const float* texel = at(grid.index(x, y));
+        prefetch_texel(texel, stride);
+        reads.texel[r] = texel;
+    }
+
+    // Collects the texels of a block's queries in any order, and calls take() whenever `reads` is full and at the end.
+    template <class Take>
+    void read(std::span<const Query> block, const Cover& covered, Reads& reads, const Take& take) const {
+        reads.begin(0);
+        const auto add = [&](int x, int y, std::size_t number, double weight) {
+            if (reads.full()) {
+                take();
+                reads.begin(0);
+            }
+            const float* texel = at(grid.index(x, y));
+            prefetch_texel(texel, stride);
+            reads.add(texel, number, weight);
+        };
+        for (std::size_t k = 0; k < block.size(); ++k) {
+            if (!covered.inside[k]) continue;
+            const auto add_to = [&](int x, int y, double weight) { add(x, y, k, weight); };
+            if (filter == Filter::bilinear)
+                for_each_of_four(grid, block[k], add_to);
+            else
+                for_each_of(covered.across[k], covered.down[k], add_to);
+        }
+        if (reads.count > 0) take();
+    }
+
     struct Free {
         void operator()(float* p) const { ::operator delete[](p, std::align_val_t{64}); }
     };
