@@ -27,8 +27,7 @@ double step_length(const scene::Scene& scene, int lookups) {
     base::Box3d box;
     for (const scene::Object& object : scene.objects) {
         if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {
-            box.extendBy(grid->lower);
-            box.extendBy(grid->upper);
+            box.extendBy(scene::world_box(*grid));
         } else if (const auto* puffs = std::get_if<scene::Particles>(&object.shape)) {
             for (std::size_t i = 0; i < puffs->centres.size(); ++i)
                 for (const float r : {-puffs->radii[i], puffs->radii[i]})

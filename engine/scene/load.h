@@ -1,6 +1,7 @@
 // The parts of load_scenario. Each takes JSON that has passed the schema; `where` is its JSON pointer.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -32,5 +33,18 @@ GridVolume load_volume(const nlohmann::json& from, const SearchPath& path, const
 GridVolume load_cloud(const nlohmann::json& from, const std::string& where);
 GridVolume load_density_box(const nlohmann::json& from, const std::string& where);
 GridVolume load_crossed_rods(const nlohmann::json& from, const std::string& where);
+
+// The step of a volume that has its place in the world.
+void read_step(const nlohmann::json& from, const std::string& where, GridVolume& volume);
+
+// Reads the keys of an object that has passed the schema: first up, then scale, rotate (around x, then y, then z) and
+// translate, or instead of these three the matrix. Empty if the object stays as it is. Throws Error{bad_input} if the
+// keys contradict each other, or flatten the object.
+std::optional<base::Matrix4d> load_transform(const nlohmann::json& from, const std::string& where);
+
+// Moves all points. Radii and half-widths grow with the cube root of the growth of volumes. A volume keeps its voxels
+// and its densities. Throws Error{bad_input} if something leaves the range of coordinates, or if spheres would become
+// ellipsoids.
+void apply(const base::Matrix4d& transform, Object& object, const std::string& where);
 
 }  // namespace shadowbench::scene

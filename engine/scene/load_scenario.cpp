@@ -45,7 +45,7 @@ double parts_of_ray(const Scene& scene, Media media) {
     for (const Object& object : scene.objects)
         if (const auto* volume = std::get_if<GridVolume>(&object.shape); volume && object.casts_shadow)
             parts += media == Media::cells ? static_cast<double>(volume->size.x) + volume->size.y + volume->size.z
-                                           : (volume->upper - volume->lower).length() / volume->step;
+                                           : longest_way(*volume) / volume->step;
     return parts;
 }
 
