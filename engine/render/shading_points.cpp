@@ -40,7 +40,7 @@ double step_length(const scene::Scene& scene, int lookups) {
 struct Row {
     std::vector<std::uint32_t> count;  // points of each pixel
     std::vector<Vec3d> place;
-    std::vector<Vec3f> across, down;
+    std::vector<Vec3f> across, down, normal;
     std::vector<Vec3f> coverage, radiance;  // radiance: point after point, all lights of a point together
 };
 
@@ -56,6 +56,7 @@ void add_place(const bench::CameraPoint& point, Row& row) {
     row.place.push_back(point.position);
     row.across.push_back(Vec3f(point.across));
     row.down.push_back(Vec3f(point.down));
+    row.normal.push_back(Vec3f(point.normal));
 }
 
 void add_medium_point(const Eye& eye, const Vec3d& share, Row& row) {
@@ -98,7 +99,7 @@ void trace(const Eye& eye, double x, double y, double part, Scratch& scratch, Ro
     }
     for (std::size_t i = 0; i < march.surfaces.size(); ++i) {
         if (march.surfaces[i] == Vec3d(0.0)) continue;
-        add_place(bench::camera_point(eye.plane, through, surfaces[i].position, surfaces[i].normal), row);
+        add_place(bench::camera_point(eye.plane, through, surfaces[i]), row);
         add_surface_point(eye, surfaces[i], -direction, march.surfaces[i] * part, row);
     }
 }
@@ -119,7 +120,7 @@ Row trace_row(const Eye& eye, int y, int width, int rays_per_side) {
 
 // Bytes per point: the points, the queries and truth of one light, and one technique's answers.
 std::size_t bytes_a_point(std::size_t lights) {
-    return sizeof(Vec3d) + sizeof(Vec3f) * (3 + 2 * lights) + 64;
+    return sizeof(Vec3d) + sizeof(Vec3f) * (4 + 2 * lights) + 64;
 }
 
 void append(const Row& row, std::size_t lights, ShadingPoints& points, std::vector<std::vector<Vec3f>>& radiance) {
@@ -127,6 +128,7 @@ void append(const Row& row, std::size_t lights, ShadingPoints& points, std::vect
     points.place.insert(points.place.end(), row.place.begin(), row.place.end());
     points.across.insert(points.across.end(), row.across.begin(), row.across.end());
     points.down.insert(points.down.end(), row.down.begin(), row.down.end());
+    points.normal.insert(points.normal.end(), row.normal.begin(), row.normal.end());
     points.coverage.insert(points.coverage.end(), row.coverage.begin(), row.coverage.end());
     for (std::size_t i = 0; i < row.radiance.size(); ++i) radiance[i % lights].push_back(row.radiance[i]);
 }

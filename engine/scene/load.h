@@ -18,6 +18,16 @@ std::string light_name(const nlohmann::json& from, std::size_t index);
 // Aims a directional light without "target" at the middle of `casters`.
 Light load_light(const nlohmann::json& from, std::size_t index, const Box3d& casters, const std::string& where);
 
+// Whether a light casts shadows. Those of the list that do are the scenario's lights, the others its fills; throws
+// Error{bad_input} if none does.
+bool has_map(const nlohmann::json& light);
+void load_lights(const nlohmann::json& list, Scenario& scenario);
+
+// The width that an object like {"share": 0.01} gives; that of the receivers; and the receivers.
+FilterWidth footprint_width(const nlohmann::json& from);
+FilterWidth load_filter_width(const nlohmann::json& from);
+Receivers load_receivers(const nlohmann::json& from);
+
 // Throws Error{bad_input}, also if the object holds nothing.
 Object load_object(const nlohmann::json& from, std::size_t index, const SearchPath& path, const std::string& where);
 

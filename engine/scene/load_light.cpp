@@ -1,3 +1,7 @@
+#include <set>
+#include <string>
+#include <utility>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -32,6 +36,10 @@ void load_spot(const json& from, const std::string& where, Light& light) {
 
 }  // namespace
 
+bool has_map(const json& light) {
+    return light.value("casts_shadow", true);
+}
+
 std::string light_name(const json& from, std::size_t index) {
     std::string name = fmt::format("{}_{}", from["type"].get<std::string>(), index);
     read(from, "name", name);
@@ -40,10 +48,12 @@ std::string light_name(const json& from, std::size_t index) {
 
 Light load_light(const json& from, std::size_t index, const Box3d& casters, const std::string& where) {
     Light light;
+    light.where = where;
     const std::string type = from["type"].get<std::string>();
     light.name = light_name(from, index);
     read(from, "colour", light.colour);
     read(from, "up", light.up);
+    if (from.contains("softness")) light.softness = footprint_width(from["softness"]);
     if (type == "spot")
         load_spot(from, where, light);
     else
@@ -53,6 +63,20 @@ Light load_light(const json& from, std::size_t index, const Box3d& casters, cons
         check_not_parallel(*light.up, light.direction, where + "/up", "up points along the light");
     }
     return light;
+}
+
+void load_lights(const json& list, Scenario& scenario) {
+    const Box3d casters = bounds(scenario.scene, true);
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const std::string where = fmt::format("/lights/{}", i);
+        Light light = load_light(list[i], i, casters, where);
+        if (!names.insert(light.name).second)
+            refuse(where + "/name", fmt::format("two lights are called \"{}\"", light.name));
+        (has_map(list[i]) ? scenario.lights : scenario.fills).push_back(std::move(light));
+    }
+    if (scenario.lights.empty())
+        refuse("/lights", "no light casts a shadow; set casts_shadow to true for at least one");
 }
 
 }  // namespace shadowbench::scene

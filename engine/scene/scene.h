@@ -234,6 +234,9 @@ int channels(const Scene& scene);
 // What the readers of the scene's files passed over, one line each after its place: "/scene/objects/0: ...". Printable.
 std::vector<std::string> read_notes(const Scene& scene);
 
+// The same, and which lights have no map.
+std::vector<std::string> notes(const Scenario& scenario);
+
 // Whether any shadow caster is a medium; whether any moves.
 bool has_media(const Scene& scene);
 bool has_motion(const Scene& scene);

@@ -77,10 +77,14 @@ private:
     std::optional<std::string> before_;
 };
 
-// The number of lights of a variant; a deep image counts as one.
+// The number of lights of a variant that have maps; a deep image counts as one.
 std::size_t lights_of(const document::Variant& variant) {
     const auto lights = variant.document->find("lights");
-    return lights == variant.document->end() ? 1 : std::max<std::size_t>(lights->size(), 1);
+    if (lights == variant.document->end()) return 1;
+    const auto maps = std::count_if(lights->begin(), lights->end(), [](const nlohmann::json& light) {
+        return !light.is_object() || light.value("casts_shadow", nlohmann::json(true)) != nlohmann::json(false);
+    });
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(maps, 1));
 }
 
 // Whether the scene has objects for a camera to see; a deep image has none.

@@ -44,6 +44,24 @@ double world_x(double x, double y) {
     return (x + 0.5 - 40.0) / 20.0 * half;
 }
 
+// All surfaces face up, as the fill does: it adds the same to the shadow and to the light, and no map is made for it.
+TEST(Render, adds_lights_that_cast_no_shadow) {
+    json document = quad_over_plane();
+    document["receivers"]["resolution"] = {40, 20};
+    const Rendering without = render(document, {}, {});
+    document["lights"].push_back(
+        {{"type", "directional"}, {"direction", {0, -1, 0}}, {"colour", 0.5}, {"casts_shadow", false}});
+    const Rendering with = render(document, {}, {});
+    ASSERT_EQ(with.lights.size(), 1u);
+    for (const auto& [more, less] : {std::pair(&with.reference, &without.reference),
+                                     std::pair(&with.techniques[1].picture, &without.techniques[1].picture)})
+        for (std::size_t p = 0; p < with.seen.size(); ++p) {
+            const float shadow = 1.0f - less->shadow.pixels[p].y;
+            EXPECT_NEAR(more->shaded.pixels[p].y, less->shaded.pixels[p].y + 0.5 * surface_albedo * with.seen[p], 1e-6);
+            EXPECT_NEAR(more->shadow.pixels[p].y, 1.0f - 0.5f * shadow, 1e-6) << "half of the lights are shadowed";
+        }
+}
+
 TEST(Render, puts_the_edge_of_a_shadow_where_geometry_says) {
     const Rendering result = render(quad_over_plane(), {}, {});
     const double lit = surface_albedo * std::sqrt(0.5);

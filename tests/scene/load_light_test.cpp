@@ -56,6 +56,41 @@ TEST(LoadLight, ReadsEveryKey) {
     EXPECT_EQ(lights[1].colour, Vec3f(2, 2, 2));
 }
 
+TEST(LoadLight, LightsThatCastNoShadowHaveNoMapAndKeepTheirPlaces) {
+    const char* lights = R"([{"type": "directional", "direction": [0, -1, 0], "casts_shadow": false},
+                             {"type": "directional", "direction": [0, -1, 0], "softness": {"length": 0.5}},
+                             {"type": "spot", "position": [0, 9, 0], "target": [0, 0, 0], "softness": {"share": 0.25}}])";
+    const Scenario scenario = load(lights);
+    ASSERT_EQ(scenario.lights.size(), 2u);
+    ASSERT_EQ(scenario.fills.size(), 1u);
+    EXPECT_EQ(scenario.fills[0].name, "directional_0");
+    EXPECT_EQ(scenario.lights[0].name, "directional_1");
+    EXPECT_EQ(scenario.lights[0].where, "/lights/1") << "errors must point into the file";
+    EXPECT_EQ(scenario.lights[1].where, "/lights/2");
+    EXPECT_FALSE(scenario.fills[0].softness);
+    EXPECT_TRUE((scenario.lights[0].softness == FilterWidth{WidthUnit::length, 0.5}));
+    EXPECT_TRUE((scenario.lights[1].softness == FilterWidth{WidthUnit::share, 0.25}));
+    EXPECT_THAT(notes(scenario), testing::ElementsAre(testing::HasSubstr("\"directional_0\" casts no shadow")));
+
+    json document = json::parse(R"({"scene": {"objects": []}, "receivers": {"filter_width": 3}})");
+    document["lights"] = json::parse(lights);
+    EXPECT_EQ(light_names(document), (std::vector<std::string>{"directional_1", "spot_2"}));
+    EXPECT_TRUE((lookup_width(document, "directional_1") == FilterWidth{WidthUnit::length, 0.5}));
+    EXPECT_TRUE((lookup_width(document, "directional_0") == FilterWidth{WidthUnit::map_pixels, 3.0}));
+}
+
+TEST(LoadLight, RefusesScenesWithoutAnyShadowAndWidthsThatAreNone) {
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "casts_shadow": false}])"), "/lights");
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "softness": 2}])"), "/lights/0/softness");
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "softness": {"length": 0}}])"),
+              "/lights/0/softness/length");
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "softness": {"share": 1, "length": 1}}])"),
+              "/lights/0/softness");
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "casts_shadow": false},
+                        {"type": "directional", "direction": [0, -1, 0], "name": "directional_0"}])"),
+              "/lights/1/name");
+}
+
 TEST(LoadLight, RefusesDirectionsWithoutLength) {
     EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, 0, 0]}])"), "/lights/0/direction");
     EXPECT_EQ(place(R"([{"type": "spot", "position": [1, 1, 1], "target": [1, 1, 1]}])"), "/lights/0/target");
