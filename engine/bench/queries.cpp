@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "scene/cube_face.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -118,6 +119,8 @@ Footprint footprint_of(const CameraPoint& point, const rays::LightView& view) {
 std::optional<Query> query_of_point(const CameraPoint& point, const scene::Receivers& receivers,
                                     const rays::LightView& view, const std::optional<scene::FilterWidth>& softness) {
     const scene::FilterWidth filter = softness.value_or(receivers.filter_width);
+    // The face is that of the surface itself, so that all biases ask one face.
+    if (view.face >= 0 && scene::cube_face(point.position - view.origin) != view.face) return std::nullopt;
     Vec3d place = rays::to_light(view, off_surface(point, receivers.normal_bias, view));
     if (view.perspective && !(place.z > view.z_near)) return std::nullopt;
     const double width = filter.unit == scene::WidthUnit::receiver_pixels
@@ -155,11 +158,16 @@ QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView&
     QuerySet set;
     const scene::FilterWidth filter = softness.value_or(receivers.filter_width);
     const double range = view.z_max - view.z_min;
+    base::Vec2d low(0.0, 0.0), high(view.resolution);
+    if (view.face >= 0) {  // without the border
+        low = (base::Vec2d(-1.0, -1.0) - view.lower) / view.pixel;
+        high = (base::Vec2d(1.0, 1.0) - view.lower) / view.pixel;
+    }
     for (int i = 0; i < receivers.count; ++i) {
         base::Random random(base::hash(receivers.seed, static_cast<std::uint64_t>(i)));
         Vec3d place;
-        place.x = random.uniform(0.0, view.resolution.x);
-        place.y = random.uniform(0.0, view.resolution.y);
+        place.x = random.uniform(low.x, high.x);
+        place.y = random.uniform(low.y, high.y);
         place.z = random.uniform(view.z_min, view.z_max + behind * range);
         append(query_if_seen(place, width_at(place.z, filter, view), view), set);
     }
@@ -175,8 +183,9 @@ QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& l
     if (!set.queries.empty()) return set;
     throw base::Error(base::ErrorCode::bad_input, "/receivers",
                       set.dropped == 0 ? "there are no receivers: the camera sees no surface and no medium"
-                                       : fmt::format("none of the {} receivers is inside the map of light \"{}\"",
-                                                     set.dropped, light.name));
+                                       : fmt::format("none of the {} receivers is inside the map of light \"{}\"{}",
+                                                     set.dropped, light.name,
+                                                     view.face < 0 ? "" : ": leave this face out of its faces"));
 }
 
 QuerySet judged_queries(const scene::Scenario& scenario, const QuerySet& set) {

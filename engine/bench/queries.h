@@ -43,7 +43,8 @@ QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Rec
 QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView& view,
                        const std::optional<scene::FilterWidth>& softness = {});
 
-// Points spread evenly over the map and over the depth range of the casters, and a little behind it.
+// Points spread evenly over the map (of a cube's face: without its border) and over the depth range of the casters, and
+// a little behind it.
 QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView& view,
                        const std::optional<scene::FilterWidth>& softness = {});
 

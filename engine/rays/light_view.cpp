@@ -108,7 +108,10 @@ LightView spot_view(const scene::Light& light, const base::Box3d& casters, Vec2i
         view.z_max = 2.0 * std::max(axis.length(), view.z_near);
     }
 
-    if (light.angle) {
+    if (light.face) {
+        view.face = *light.face;
+        fit(view, {0, 0}, {2.0 * (1.0 + light.border), 2.0 * (1.0 + light.border)});
+    } else if (light.angle) {
         const double half = std::tan(*light.angle * std::numbers::pi / 360.0);
         const double pixel = 2.0 * half / std::max(resolution.x, resolution.y);
         fit(view, {0, 0}, {pixel * resolution.x, pixel * resolution.y});

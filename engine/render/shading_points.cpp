@@ -13,6 +13,7 @@
 #include "rays/image_plane.h"
 #include "render/shading.h"
 #include "render/view_march.h"
+#include "scene/cube_face.h"
 
 namespace shadowbench::render {
 namespace {
@@ -59,15 +60,25 @@ void add_place(const bench::CameraPoint& point, Row& row) {
     row.normal.push_back(Vec3f(point.normal));
 }
 
-void add_medium_point(const Eye& eye, const Vec3d& share, Row& row) {
+// A face of a point light lights only its part of the world.
+bool lights_place(const scene::Light& light, const Vec3d& place) {
+    return !light.face || scene::cube_face(place - light.position) == *light.face;
+}
+
+void add_medium_point(const Eye& eye, const Vec3d& place, const Vec3d& share, Row& row) {
     row.coverage.push_back(Vec3f(share));
     for (const scene::Light& light : eye.lights)
-        row.radiance.push_back(Vec3f(share * medium_albedo * Vec3d(light.colour)));
+        row.radiance.push_back(lights_place(light, place) ? Vec3f(share * medium_albedo * Vec3d(light.colour))
+                                                          : Vec3f(0.0f));
 }
 
 void add_surface_point(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d& to_eye, const Vec3d& share, Row& row) {
     row.coverage.push_back(Vec3f(share));
     for (const scene::Light& light : eye.lights) {
+        if (!lights_place(light, hit.position)) {
+            row.radiance.emplace_back(0.0f);
+            continue;
+        }
         const Vec3d to_light = towards(light, hit.position);
         const bool hair = hit.tangent != Vec3d(0.0);
         const double shade = hair ? shade_hair(hit.tangent, to_light, to_eye) : shade_surface(hit.normal, to_light);
@@ -94,8 +105,9 @@ void trace(const Eye& eye, double x, double y, double part, Scratch& scratch, Ro
     }
     march_view_ray(segments, surfaces, eye.step, march);
     for (const ViewStep& step : march.steps) {
-        add_place(bench::camera_point(eye.plane, through, eye.plane.origin + direction * step.t, direction), row);
-        add_medium_point(eye, step.share * part, row);
+        const Vec3d place = eye.plane.origin + direction * step.t;
+        add_place(bench::camera_point(eye.plane, through, place, direction), row);
+        add_medium_point(eye, place, step.share * part, row);
     }
     for (std::size_t i = 0; i < march.surfaces.size(); ++i) {
         if (march.surfaces[i] == Vec3d(0.0)) continue;
@@ -142,6 +154,7 @@ ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const sce
     const Eye eye{lights, tracer, plane, step, std::isfinite(step)};
     ShadingPoints points;
     points.size = settings.size;
+    for (const scene::Light& light : lights) points.lamps += light.face ? 1.0 / scene::cube_faces.size() : 1.0;
     points.begin.push_back(0);
     std::vector<std::vector<Vec3f>> radiance(lights.size());
     const auto height = static_cast<std::size_t>(settings.size.y);
@@ -182,7 +195,7 @@ Picture start_picture(const ShadingPoints& points) {
 void add_light(const ShadingPoints& points, std::size_t light, std::span<const float> visibility, Picture& picture) {
     const std::size_t count = points.points(), stride = visibility.size() > count ? count : 0;
     const Vec3f* radiance = points.radiance.data() + light * count;
-    const double lights = static_cast<double>(points.lights());
+    const double lights = points.lamps;
     const auto width = static_cast<std::size_t>(points.size.x);
     base::parallel_for(static_cast<std::size_t>(points.size.y), [&](std::size_t y) {
         for (std::size_t p = y * width; p < (y + 1) * width; ++p) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -18,9 +19,10 @@ std::string light_name(const nlohmann::json& from, std::size_t index);
 // Aims a directional light without "target" at the middle of `casters`.
 Light load_light(const nlohmann::json& from, std::size_t index, const Box3d& casters, const std::string& where);
 
-// Whether a light casts shadows. Those of the list that do are the scenario's lights, the others its fills; throws
-// Error{bad_input} if none does.
-bool has_map(const nlohmann::json& light);
+// The names of the maps of a light: none if it casts no shadow, one for each face of a point light, else its own name.
+std::vector<std::string> map_names(const nlohmann::json& light, std::size_t index);
+
+// One light for each map of the list, and the others as fills. Throws Error{bad_input} if there is no map.
 void load_lights(const nlohmann::json& list, Scenario& scenario);
 
 // The width that an object like {"share": 0.01} gives; that of the receivers; and the receivers.

@@ -192,8 +192,11 @@ std::vector<TechniqueRequest> load_techniques(const json& list) {
 
 FilterWidth lookup_width(const json& document, const std::string& light) {
     std::size_t index = 0;
-    for (const json& each : section(document, "lights"))
-        if (light_name(each, index++) == light && each.contains("softness")) return footprint_width(each["softness"]);
+    for (const json& each : section(document, "lights")) {
+        const std::vector<std::string> maps = map_names(each, index++);
+        if (std::count(maps.begin(), maps.end(), light) > 0 && each.contains("softness"))
+            return footprint_width(each["softness"]);
+    }
     return load_filter_width(section(document, "receivers"));
 }
 
@@ -201,10 +204,8 @@ std::vector<std::string> light_names(const json& document) {
     if (document["scene"].contains("deep_image")) return {deep_image_name};
     std::vector<std::string> names;
     std::size_t index = 0;
-    for (const json& light : section(document, "lights")) {
-        std::string name = light_name(light, index++);
-        if (has_map(light)) names.push_back(std::move(name));
-    }
+    for (const json& light : section(document, "lights"))
+        for (std::string& name : map_names(light, index++)) names.push_back(std::move(name));
     return names;
 }
 

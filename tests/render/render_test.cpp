@@ -62,6 +62,30 @@ TEST(Render, adds_lights_that_cast_no_shadow) {
         }
 }
 
+// The seam of two faces runs along x = 0 of the plane. A spot light at the same place has no seam.
+TEST(Render, lights_every_place_by_one_face_of_a_point_light) {
+    json document = quad_over_plane();
+    document["receivers"]["resolution"] = {41, 21};
+    document["rays"] = {{"resolution", 128}, {"samples_per_pixel", 1}};
+    document["techniques"] = {{{"type", "ray_traced"}}};
+    document["lights"] = {{{"type", "spot"}, {"position", {-4, 4, 0.25}}, {"target", {0, 0, 0}}}};
+    const Rendering spot = render(document, {}, {});
+    document["lights"] = {{{"type", "point"}, {"position", {-4, 4, 0.25}}}};
+    const Rendering point = render(document, {}, {});
+    EXPECT_EQ(point.lights.size(), 6u);
+    std::size_t lit = 0, shadowed = 0, other = 0;
+    for (std::size_t p = 0; p < point.seen.size(); ++p) {
+        const float expected = spot.reference.shadow.pixels[p].y;
+        if (expected > 0.0f && expected < 1.0f) continue;  // an edge, where the footprints of the maps differ
+        ++(expected > 0.0f ? lit : shadowed);
+        other += std::abs(point.reference.shadow.pixels[p].y - expected) > 1e-4f ||
+                 std::abs(point.reference.shaded.pixels[p].y - spot.reference.shaded.pixels[p].y) > 1e-4f;
+    }
+    EXPECT_GT(lit, 300u);
+    EXPECT_GT(shadowed, 50u);
+    EXPECT_LT(other, 12u) << "only where the edge of the shadow lies between the footprints";
+}
+
 TEST(Render, puts_the_edge_of_a_shadow_where_geometry_says) {
     const Rendering result = render(quad_over_plane(), {}, {});
     const double lit = surface_albedo * std::sqrt(0.5);
