@@ -1,6 +1,7 @@
 #include "bench/queries.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -74,6 +75,21 @@ double depth_slope(const Vec3d& normal, const Vec3d& place, const rays::LightVie
     return most == 0.0 ? 0.0 : (view.perspective ? place.z : 1.0) * most / across;
 }
 
+// For a face of a point light that no receiver is in: which faces have some.
+std::string remedy(const scene::Receivers& receivers, const scene::Light& light, std::span<const CameraPoint> seen) {
+    if (!light.face) return "";
+    std::array<bool, scene::cube_faces.size()> has{};
+    const auto note = [&](const Vec3d& point) {
+        has[static_cast<std::size_t>(scene::cube_face(point - light.position))] = true;
+    };
+    for (const CameraPoint& point : seen) note(point.position);
+    for (const Vec3d& point : receivers.points) note(point);
+    std::string faces;
+    for (std::size_t i = 0; i < has.size(); ++i)
+        if (has[i]) faces += fmt::format("{}\"{}\"", faces.empty() ? "" : ", ", scene::cube_faces[i]);
+    return fmt::format("; give its light \"faces\": [{}]", faces);
+}
+
 // Relative to the size of the map. The pixels must also keep their shape, since a query has one width.
 constexpr double frame_rounding = 1e-9;
 
@@ -128,8 +144,8 @@ std::optional<Query> query_of_point(const CameraPoint& point, const scene::Recei
                              : width_at(place.z, filter, view);
     if (receivers.slope_bias > 0.0) {
         const double first = std::max(view.z_min, std::nextafter(view.z_near, view.z_max));
-        place.z = std::max(place.z - receivers.slope_bias * depth_slope(point.normal, place, view),
-                           std::min(place.z, first));
+        place.z =
+            std::max(place.z - receivers.slope_bias * depth_slope(point.normal, place, view), std::min(place.z, first));
     }
     if (receivers.bias > 0.0) place.z -= receivers.bias / rays::length_per_depth(view, place.x, place.y);
     return query_if_seen(place, width, view);
@@ -184,8 +200,7 @@ QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& l
     throw base::Error(base::ErrorCode::bad_input, "/receivers",
                       set.dropped == 0 ? "there are no receivers: the camera sees no surface and no medium"
                                        : fmt::format("none of the {} receivers is inside the map of light \"{}\"{}",
-                                                     set.dropped, light.name,
-                                                     view.face < 0 ? "" : ": leave this face out of its faces"));
+                                                     set.dropped, light.name, remedy(receivers, light, seen)));
 }
 
 QuerySet judged_queries(const scene::Scenario& scenario, const QuerySet& set) {

@@ -27,9 +27,10 @@ struct QuerySet {
 // The pixel of a point, projected into the light's map.
 techniques::Footprint footprint_of(const CameraPoint& point, const rays::LightView& view);
 
-// A point as a query of one light, moved by the biases; absent if it is outside the light's map. Only widths in receiver
-// pixels need the point's edges; where they are unbounded, the width is infinite. `softness`, the light's, stands for
-// the receivers' width. The slope bias moves a point no farther than before all casters, where everything is lit.
+// A point as a query of one light, moved by the biases; absent if it is outside the light's map. Only widths in
+// receiver pixels need the point's edges; where they are unbounded, the width is infinite. `softness`, the light's,
+// stands for the receivers' width. The slope bias moves a point no farther than before all casters, where everything is
+// lit.
 std::optional<techniques::Query> query_of_point(const CameraPoint& point, const scene::Receivers& receivers,
                                                 const rays::LightView& view,
                                                 const std::optional<scene::FilterWidth>& softness = {});

@@ -146,8 +146,8 @@ void check_volumes(const LightView& view, const scene::Scene& scene, const std::
         const auto* volume = std::get_if<scene::GridVolume>(&object.shape);
         if (!volume || !object.casts_shadow) continue;
         const base::Box3d box = scene::world_box(*volume);
-        const double away = std::max({largest(box.min - view.origin), largest(box.max - view.origin),
-                                      largest(box.min), largest(box.max), largest(view.origin)});
+        const double away = std::max({largest(box.min - view.origin), largest(box.max - view.origin), largest(box.min),
+                                      largest(box.max), largest(view.origin)});
         if (away > farthest * scene::voxel_width(*volume))
             throw base::Error(base::ErrorCode::bad_input, where,
                               "the light, or the world's origin, is more than 1e13 voxels away from the volume \"" +

@@ -26,7 +26,7 @@ struct ShadingPoints {
     std::vector<base::Vec3f> radiance;  // light after light: what light l adds to the pixel when nothing shadows it,
                                         // at [l * points + i]
 
-    double lamps = 0.0;                 // the number of lights; the six faces of a point light are one
+    double lamps = 0.0;  // the number of lights; the six faces of a point light are one
 
     std::size_t points() const { return place.size(); }
     std::size_t lights() const { return points() ? radiance.size() / points() : 0; }

@@ -102,8 +102,8 @@ struct Mover {
         for (Vec3f& point : points) {
             const Vec3d moved = base::map_point(matrix, Vec3d(point));
             if (!(std::max({std::abs(moved.x), std::abs(moved.y), std::abs(moved.z)}) <= max_coordinate))
-                refuse(where, fmt::format("its scale, rotate, translate or matrix moves a point beyond {}",
-                                          max_coordinate));
+                refuse(where,
+                       fmt::format("its scale, rotate, translate or matrix moves a point beyond {}", max_coordinate));
             point = Vec3f(moved);
         }
     }

@@ -173,8 +173,8 @@ std::vector<std::string> read_notes(const Scene& scene) {
 std::vector<std::string> notes(const Scenario& scenario) {
     std::vector<std::string> lines = read_notes(scenario.scene);
     for (const Light& light : scenario.fills)
-        lines.push_back(base::printable(
-            fmt::format("{}: \"{}\" casts no shadow, so it has no map: only pictures show it", light.where, light.name)));
+        lines.push_back(base::printable(fmt::format(
+            "{}: \"{}\" casts no shadow, so it has no map: only pictures show it", light.where, light.name)));
     return lines;
 }
 

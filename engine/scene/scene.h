@@ -151,7 +151,7 @@ struct Light {
     std::optional<double> angle;  // spot: full angle across the map's larger side, degrees in (0, 179); absent: fits
     double near = 0.0;            // spot: nearest planar depth; 0: a thousandth of the distance to the target
     std::optional<FilterWidth> softness;  // the width of its lookups; absent: that of the receivers
-    std::optional<int> face;  // spot: the face of a point light (cube_face.h) that this is; it lights only receivers there
+    std::optional<int> face;  // spot: it is this face of a point light (cube_face.h), and lights only receivers there
     double border = 0.0;      // face: how far its map reaches over its neighbours, as a share of half the face
 };
 

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/random.h"
 #include "bench/queries.h"
 #include "bench/reference.h"
@@ -39,7 +41,9 @@ nlohmann::json wall(double edge) {
 }
 
 scene::Scenario scenario(const nlohmann::json& object) {
-    nlohmann::json document{{"name", "lamp"}, {"techniques", {{{"type", "deep"}}}}, {"scene", {{"objects", nlohmann::json::array({object})}}}};
+    nlohmann::json document{{"name", "lamp"},
+                            {"techniques", {{{"type", "deep"}}}},
+                            {"scene", {{"objects", nlohmann::json::array({object})}}}};
     document["lights"] = {{{"type", "point"}, {"position", {lamp.x, lamp.y, lamp.z}}, {"border", border}}};
     document["rays"] = {{"resolution", resolution}, {"samples_per_pixel", 16}};
     return scene::load_scenario(document, {});
@@ -113,6 +117,25 @@ TEST(PointLight, ALookupAcrossASeamEqualsTheOneFromARotatedCube) {
             const double middle = visible(rotated, lamp + at_azimuth(azimuth - 45.0, 5.0), 0.5 * width);
             EXPECT_NEAR(across, middle, 0.06) << edge << " " << azimuth;
         }
+    }
+}
+
+// The camera of a room rarely looks in all directions from its lamp.
+TEST(PointLight, SaysWhichFacesHaveReceivers) {
+    scene::Scenario made = scenario(wall(0.0));
+    made.receivers.points = {lamp + Vec3d(3, 1, 0), lamp + Vec3d(0, -3, 1), lamp + Vec3d(3, 0, 1)};
+    const auto ask = [&](const scene::Light& light) {
+        const rays::LightView view = rays::make_light_view(light, made.scene, made.rays.resolution, light.where);
+        return scenario_queries(made, light, {}, view).queries.size();
+    };
+    EXPECT_EQ(ask(made.lights[0]), 2u);
+    try {
+        ask(made.lights[2]);
+        FAIL() << "nothing would be measured in this face";
+    } catch (const base::Error& error) {
+        EXPECT_EQ(error.where(), "/receivers");
+        EXPECT_NE(error.message().find("\"point_0 +y\"; give its light \"faces\": [\"+x\", \"-y\"]"), std::string::npos)
+            << error.message();
     }
 }
 

@@ -22,7 +22,7 @@ Matrix4d rows(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Vec3d& origi
 
 const std::vector<Matrix4d>& maps() {
     static const std::vector<Matrix4d> list{
-        rows({2, 0, 0}, {0, 0.5, 0}, {0, 0, 3}, {1, -2, 0.5}),                // along the axes
+        rows({2, 0, 0}, {0, 0.5, 0}, {0, 0, 3}, {1, -2, 0.5}),               // along the axes
         rows({0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 0, 0}),                    // axes swapped
         rows({-1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {3, 0, 1}),                  // mirrored
         rows({0.6, 0.8, 0}, {-0.8, 0.6, 0}, {0, 0, 1}, {0.1, 0.2, 0.3}),     // turned

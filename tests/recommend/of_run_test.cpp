@@ -52,10 +52,12 @@ results::Result run() {
     made.document = R"({"receivers": {"footprint": {"share": 0.01}}})";
     const std::string tent = R"({"type": "deep", "kernel": "tent", "tolerance": 0.02})";
     made.variants = {
-        variant(64, 2, {cell("deep", "kernel=tent tolerance=0.02", tent, small_errors, 2000, 30, 5),
-                        cell("variance", "", R"({"type": "variance"})", large_errors, 500, 10, 4)}),
-        variant(32, 4, {cell("deep", "kernel=tent tolerance=0.02", tent, large_errors, 900, 20, 3),
-                        cell("ray_traced", "", R"({"type": "ray_traced", "samples": 16})", small_errors, 0, 900, 0)})};
+        variant(64, 2,
+                {cell("deep", "kernel=tent tolerance=0.02", tent, small_errors, 2000, 30, 5),
+                 cell("variance", "", R"({"type": "variance"})", large_errors, 500, 10, 4)}),
+        variant(32, 4,
+                {cell("deep", "kernel=tent tolerance=0.02", tent, large_errors, 900, 20, 3),
+                 cell("ray_traced", "", R"({"type": "ray_traced", "samples": 16})", small_errors, 0, 900, 0)})};
     return made;
 }
 
@@ -133,11 +135,19 @@ TEST(RecommendationOfARun, RefusesRowsThatDoNotAnswerOneQuestion) {
     refused([](auto& made) { made.variants[0].settings.push_back({"/rays/seed", "2"}); }, Measure::rms, "/rays/seed");
     refused([](auto& made) { made.document = R"({"receivers": {"filter_width": 2}})"; }, Measure::rms,
             "receivers.footprint");
+    refused(
+        [](auto& made) {
+            made.document = R"({"receivers": {"type": "camera", "footprint": {"share": 0.1}, "slope_bias": 0.5}})";
+        },
+        Measure::rms, "slope_bias is in map pixels");
     refused([](auto& made) { made.variants[1].lights[0].cells[0].over_seeds.clear(); }, Measure::rms, "spread_seeds");
     refused([](auto&) {}, Measure::curve, "stored functions");
     refused([](auto& made) { made.variants.clear(); }, Measure::rms, "no rows");
-    refused([](auto& made) { for (auto& v : made.variants) v.lights.push_back(v.lights[0]), v.lights[1].name = "sky"; },
-            Measure::rms, "name one of: sun, sky");
+    refused(
+        [](auto& made) {
+            for (auto& v : made.variants) v.lights.push_back(v.lights[0]), v.lights[1].name = "sky";
+        },
+        Measure::rms, "name one of: sun, sky");
 }
 
 TEST(RecommendationOfARun, GivesAFootprintInMapPixelsAsAShare) {
@@ -145,6 +155,14 @@ TEST(RecommendationOfARun, GivesAFootprintInMapPixelsAsAShare) {
     made.document = R"({"receivers": {"filter_width": 2}})";
     made.variants.resize(1);
     EXPECT_DOUBLE_EQ(recommendation_of(made, "", Measure::rms, "run").footprint_share.value(), 2.0 / 64.0);
+}
+
+// The light's softness is a width in light space, so maps of all resolutions were asked the same.
+TEST(RecommendationOfARun, TakesTheSoftnessOfItsLightForTheFootprint) {
+    results::Result made = run();
+    made.document = R"({"receivers": {"filter_width": 2}, "lights": [{"type": "directional", "direction": [0, -1, 0],
+                        "name": "sun", "softness": {"share": 0.1}}]})";
+    EXPECT_FALSE(recommendation_of(made, "", Measure::rms, "run").footprint_share);
 }
 
 }  // namespace

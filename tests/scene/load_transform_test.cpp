@@ -26,7 +26,8 @@ Object load(const std::string& object, const std::string& keys) {
     return load_scenario(document, {}).scene.objects[0];
 }
 
-const std::string triangle = R"("type": "mesh", "vertices": [[1, 0, 0], [0, 2, 0], [0, 0, 3]], "triangles": [[0, 1, 2]])";
+const std::string triangle =
+    R"("type": "mesh", "vertices": [[1, 0, 0], [0, 2, 0], [0, 0, 3]], "triangles": [[0, 1, 2]])";
 const std::string ball = R"("type": "sphere", "centre": [1, 2, 3], "radius": 2)";
 
 std::vector<Vec3f> corners(const std::string& keys) {
@@ -91,7 +92,8 @@ TEST(Transform, TakesEveryTypeOfObjectWithItsRadii) {
 
 // A shear keeps volumes, and [1, 2, 4] doubles every length in the mean; a sphere would no longer be one.
 TEST(Transform, GivesRadiiTheUniformPartAndRefusesEllipsoids) {
-    const std::string shear = R"("matrix": [[1, 3, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]])", stretch = R"("scale": [1, 2, 4])";
+    const std::string shear = R"("matrix": [[1, 3, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]])",
+                      stretch = R"("scale": [1, 2, 4])";
     const std::string puff = R"("type": "particles", "centres": [[1, 1, 1]], "radii": [0.5], "density": [3])";
     const auto sheared = std::get<Particles>(load(puff, shear).shape);
     EXPECT_EQ(sheared.centres[0], Vec3f(4, 1, 1));
@@ -150,8 +152,9 @@ TEST(Transform, RefusesWhatContradictsFlattensOrLeavesTheWorld) {
     EXPECT_THAT(failure(ball, R"("scale": 1e18)").message(), HasSubstr("beyond"));
     EXPECT_THAT(failure(R"("type": "sphere", "centre": [0, 0, 0], "radius": 1e-10)", R"("scale": 1e-10)").message(),
                 HasSubstr("a radius"));
-    EXPECT_THAT(failure(R"("type": "cloud", "size": [2, 2, 2])", R"("translate": [1e18, 0, 0], "scale": 1e17)").message(),
-                HasSubstr("the volume runs"));
+    EXPECT_THAT(
+        failure(R"("type": "cloud", "size": [2, 2, 2])", R"("translate": [1e18, 0, 0], "scale": 1e17)").message(),
+        HasSubstr("the volume runs"));
     EXPECT_THAT(failure(R"("type": "hair_ball", "strands": 2)", R"("translate": [1e17, 1e17, 1e17])").message(),
                 HasSubstr("no strands that have a length"));
 }
