@@ -52,12 +52,10 @@ results::Result run() {
     made.document = R"({"receivers": {"footprint": {"share": 0.01}}})";
     const std::string tent = R"({"type": "deep", "kernel": "tent", "tolerance": 0.02})";
     made.variants = {
-        variant(64, 2,
-                {cell("deep", "kernel=tent tolerance=0.02", tent, small_errors, 2000, 30, 5),
-                 cell("variance", "", R"({"type": "variance"})", large_errors, 500, 10, 4)}),
-        variant(32, 4,
-                {cell("deep", "kernel=tent tolerance=0.02", tent, large_errors, 900, 20, 3),
-                 cell("ray_traced", "", R"({"type": "ray_traced", "samples": 16})", small_errors, 0, 900, 0)})};
+        variant(64, 2, {cell("deep", "kernel=tent tolerance=0.02", tent, small_errors, 2000, 30, 5),
+                        cell("variance", "", R"({"type": "variance"})", large_errors, 500, 10, 4)}),
+        variant(32, 4, {cell("deep", "kernel=tent tolerance=0.02", tent, large_errors, 900, 20, 3),
+                        cell("ray_traced", "", R"({"type": "ray_traced", "samples": 16})", small_errors, 0, 900, 0)})};
     return made;
 }
 
@@ -143,11 +141,8 @@ TEST(RecommendationOfARun, RefusesRowsThatDoNotAnswerOneQuestion) {
     refused([](auto& made) { made.variants[1].lights[0].cells[0].over_seeds.clear(); }, Measure::rms, "spread_seeds");
     refused([](auto&) {}, Measure::curve, "stored functions");
     refused([](auto& made) { made.variants.clear(); }, Measure::rms, "no rows");
-    refused(
-        [](auto& made) {
-            for (auto& v : made.variants) v.lights.push_back(v.lights[0]), v.lights[1].name = "sky";
-        },
-        Measure::rms, "name one of: sun, sky");
+    refused([](auto& made) { for (auto& v : made.variants) v.lights.push_back(v.lights[0]), v.lights[1].name = "sky"; },
+            Measure::rms, "name one of: sun, sky");
 }
 
 TEST(RecommendationOfARun, GivesAFootprintInMapPixelsAsAShare) {
