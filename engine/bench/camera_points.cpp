@@ -97,7 +97,7 @@ void see_pixel(const scene::Receivers& receivers, const rays::Tracer& tracer, co
                        static_cast<std::uint64_t>(x);
     const double u = base::to_unit(base::hash(receivers.seed, pixel, which_surface));
     const rays::SurfaceHit& drawn = surfaces[draw_surface(surfaces, segments, u)];
-    out.push_back(camera_point(plane, through, drawn.position, drawn.normal));
+    out.push_back(camera_point(plane, through, drawn));
 }
 
 }  // namespace
@@ -109,6 +109,12 @@ CameraPoint camera_point(const rays::ImagePlane& plane, const Vec3d& through, co
         return (step - through * (normal.dot(step) / normal.dot(through))) * scale;
     };
     return {point, edge(plane.across), edge(plane.down)};
+}
+
+CameraPoint camera_point(const rays::ImagePlane& plane, const Vec3d& through, const rays::SurfaceHit& hit) {
+    CameraPoint point = camera_point(plane, through, hit.position, hit.normal);
+    if (hit.tangent == Vec3d(0.0)) point.normal = hit.normal;
+    return point;
 }
 
 std::size_t draw_surface(const std::vector<rays::SurfaceHit>& surfaces,

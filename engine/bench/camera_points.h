@@ -16,12 +16,16 @@ namespace shadowbench::bench {
 struct CameraPoint {
     base::Vec3d position;
     base::Vec3d across{0, 0, 0}, down{0, 0, 0};
+    base::Vec3d normal{0, 0, 0};  // unit length; 0 in media and on hair, whose ribbons face every light
 };
 
 // The camera point of the pixel whose ray runs along `through` (of the plane) and sees `point` on a surface with this
 // normal. Its edges are exact to first order in the pixel.
 CameraPoint camera_point(const rays::ImagePlane& plane, const base::Vec3d& through, const base::Vec3d& point,
                          const base::Vec3d& normal);
+
+// The same of a surface, with its normal.
+CameraPoint camera_point(const rays::ImagePlane& plane, const base::Vec3d& through, const rays::SurfaceHit& hit);
 
 // Draws one of the surfaces that a view ray meets (as from Tracer::surfaces, at least one) for u in [0, 1). The
 // probability of each is its share of what is seen of all of them: the transmittance in front of it times its own

@@ -32,7 +32,7 @@ results::SweepCell CellRunner::measure(const results::CellPlace& place, const Pr
         scenario_ = &runs_.load(place.variant);
         loaded_ = place.variant;
     }
-    add_notes(scenario_->scene, cell.result.notes);
+    add_notes(*scenario_, cell.result.notes);
     results::VariantResult& variant = cell.result.variants.emplace_back();
     variant.settings = runs_.variants()[place.variant].settings;
     variant.lights.push_back(runs_.measure(place.light, progress));

@@ -33,6 +33,7 @@ const scene::Scenario& ScenarioLoader::load(const document::Variant& variant) {
         scene::Scenario next = scene::load_scenario(without_scene(document), data_);
         next.scene = std::move(scenario_.scene);
         next.lights = std::move(scenario_.lights);
+        next.fills = std::move(scenario_.fills);
         scenario_ = std::move(next);
         scene::check_marching(scenario_);
     } else {

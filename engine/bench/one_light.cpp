@@ -71,7 +71,7 @@ void OneLight::capture(std::span<Contender> contenders, const ProgressCallback& 
     const RaySource source(capture, prepared.layout, options_.limits.kept_rays,
                            stage(progress, "capture", prepared.layout));
     if (source.segments() == 0)
-        throw Error(ErrorCode::bad_input, pointer_of(*scenario_, index_),
+        throw Error(ErrorCode::bad_input, light_->where,
                     fmt::format("light \"{}\" sees nothing that casts a shadow", light_->name));
     visit(source, prepared);
 }

@@ -19,9 +19,6 @@ struct PreparedLight {
     double least_bytes = 0.0;  // of a run with the contenders: see memory.h
 };
 
-// JSON pointer of a light, or of the deep image that takes its place.
-std::string pointer_of(const scene::Scenario& scenario, std::size_t light);
-
 // Prepares the light with this index. Throws Error{bad_input} at its pointer if it cannot see the scene, and at "/rays"
 // if it needs more than the memory limit.
 PreparedLight prepare_light(const scene::Scenario& scenario, std::size_t light, std::span<const Contender> contenders,

@@ -1,6 +1,7 @@
 #include "bench/queries.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -8,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "scene/cube_face.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -50,6 +52,42 @@ double width_at(double z, const scene::FilterWidth& width, const rays::LightView
 double side_of(const Footprint& f) {
     if (!f.known()) return std::numeric_limits<double>::infinity();
     return std::sqrt(std::abs(static_cast<double>(f.ux) * f.vy - static_cast<double>(f.uy) * f.vx));
+}
+
+// Where a point of a surface is looked up: moved along its normal, which is turned towards the light.
+Vec3d off_surface(const CameraPoint& point, double normal_bias, const rays::LightView& view) {
+    if (!(normal_bias > 0.0)) return point.position;
+    const double z = (point.position - view.origin).dot(view.forward);
+    const Vec3d to_light = view.perspective ? (view.origin - point.position).normalized() : -view.forward;
+    const double pixel = std::max(view.pixel.x, view.pixel.y) * (view.perspective ? std::max(z, 0.0) : 1.0);
+    const double side = point.normal.dot(to_light) < 0.0 ? -1.0 : 1.0;
+    return point.position + point.normal * (side * normal_bias * pixel * point.normal.cross(to_light).length());
+}
+
+// How much the depth of a plane with this normal changes over a map pixel, in the direction of x or of y, whichever is
+// more: rays at slope (x, y) meet the plane through a point of depth z at z (n . p) / (n . (x, y, 1)).
+double depth_slope(const Vec3d& normal, const Vec3d& place, const rays::LightView& view) {
+    if (normal == Vec3d(0.0)) return 0.0;
+    const double nx = normal.dot(view.right), ny = normal.dot(view.up), nz = normal.dot(view.forward);
+    const double x = view.lower.x + place.x * view.pixel.x, y = view.lower.y + place.y * view.pixel.y;
+    const double across = std::abs(view.perspective ? nx * x + ny * y + nz : nz);
+    const double most = std::max(std::abs(nx) * view.pixel.x, std::abs(ny) * view.pixel.y);
+    return most == 0.0 ? 0.0 : (view.perspective ? place.z : 1.0) * most / across;
+}
+
+// For a face of a point light that no receiver is in: which faces have some.
+std::string remedy(const scene::Receivers& receivers, const scene::Light& light, std::span<const CameraPoint> seen) {
+    if (!light.face) return "";
+    std::array<bool, scene::cube_faces.size()> has{};
+    const auto note = [&](const Vec3d& point) {
+        has[static_cast<std::size_t>(scene::cube_face(point - light.position))] = true;
+    };
+    for (const CameraPoint& point : seen) note(point.position);
+    for (const Vec3d& point : receivers.points) note(point);
+    std::string faces;
+    for (std::size_t i = 0; i < has.size(); ++i)
+        if (has[i]) faces += fmt::format("{}\"{}\"", faces.empty() ? "" : ", ", scene::cube_faces[i]);
+    return fmt::format("; give its light \"faces\": [{}]", faces);
 }
 
 // Relative to the size of the map. The pixels must also keep their shape, since a query has one width.
@@ -95,43 +133,59 @@ Footprint footprint_of(const CameraPoint& point, const rays::LightView& view) {
 }
 
 std::optional<Query> query_of_point(const CameraPoint& point, const scene::Receivers& receivers,
-                                    const rays::LightView& view) {
-    Vec3d place = rays::to_light(view, point.position);
+                                    const rays::LightView& view, const std::optional<scene::FilterWidth>& softness) {
+    const scene::FilterWidth filter = softness.value_or(receivers.filter_width);
+    // The face is that of the surface itself, so that all biases ask one face.
+    if (view.face >= 0 && scene::cube_face(point.position - view.origin) != view.face) return std::nullopt;
+    Vec3d place = rays::to_light(view, off_surface(point, receivers.normal_bias, view));
     if (view.perspective && !(place.z > view.z_near)) return std::nullopt;
-    const double width = receivers.filter_width.unit == scene::WidthUnit::receiver_pixels
-                             ? receivers.filter_width.value * side_of(footprint_of(point, view))
-                             : width_at(place.z, receivers.filter_width, view);
+    const double width = filter.unit == scene::WidthUnit::receiver_pixels
+                             ? filter.value * side_of(footprint_of(point, view))
+                             : width_at(place.z, filter, view);
+    if (receivers.slope_bias > 0.0) {
+        const double first = std::max(view.z_min, std::nextafter(view.z_near, view.z_max));
+        place.z =
+            std::max(place.z - receivers.slope_bias * depth_slope(point.normal, place, view), std::min(place.z, first));
+    }
     if (receivers.bias > 0.0) place.z -= receivers.bias / rays::length_per_depth(view, place.x, place.y);
     return query_if_seen(place, width, view);
 }
 
 QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Receivers& receivers,
-                           const rays::LightView& view) {
+                           const rays::LightView& view, const std::optional<scene::FilterWidth>& softness) {
     QuerySet set;
     for (const CameraPoint& point : points) {
-        const std::optional<Query> query = query_of_point(point, receivers, view);
+        const std::optional<Query> query = query_of_point(point, receivers, view, softness);
         append(query, set);
         if (query) set.footprints.push_back(footprint_of(point, view));
     }
     return set;
 }
 
-QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView& view) {
+QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView& view,
+                       const std::optional<scene::FilterWidth>& softness) {
     QuerySet set;
-    for (const Vec3d& point : receivers.points) append(query_of_point({point}, receivers, view), set);
+    for (const Vec3d& point : receivers.points) append(query_of_point({point}, receivers, view, softness), set);
     return set;
 }
 
-QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView& view) {
+QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView& view,
+                       const std::optional<scene::FilterWidth>& softness) {
     QuerySet set;
+    const scene::FilterWidth filter = softness.value_or(receivers.filter_width);
     const double range = view.z_max - view.z_min;
+    base::Vec2d low(0.0, 0.0), high(view.resolution);
+    if (view.face >= 0) {  // without the border
+        low = (base::Vec2d(-1.0, -1.0) - view.lower) / view.pixel;
+        high = (base::Vec2d(1.0, 1.0) - view.lower) / view.pixel;
+    }
     for (int i = 0; i < receivers.count; ++i) {
         base::Random random(base::hash(receivers.seed, static_cast<std::uint64_t>(i)));
         Vec3d place;
-        place.x = random.uniform(0.0, view.resolution.x);
-        place.y = random.uniform(0.0, view.resolution.y);
+        place.x = random.uniform(low.x, high.x);
+        place.y = random.uniform(low.y, high.y);
         place.z = random.uniform(view.z_min, view.z_max + behind * range);
-        append(query_if_seen(place, width_at(place.z, receivers.filter_width, view), view), set);
+        append(query_if_seen(place, width_at(place.z, filter, view), view), set);
     }
     return set;
 }
@@ -139,14 +193,14 @@ QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView&
 QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& light, std::span<const CameraPoint> seen,
                           const rays::LightView& view) {
     const scene::Receivers& receivers = scenario.receivers;
-    QuerySet set = receivers.camera            ? queries_of_points(seen, receivers, view)
-                   : !receivers.points.empty() ? point_queries(receivers, view)
-                                               : probe_queries(receivers, view);
+    QuerySet set = receivers.camera            ? queries_of_points(seen, receivers, view, light.softness)
+                   : !receivers.points.empty() ? point_queries(receivers, view, light.softness)
+                                               : probe_queries(receivers, view, light.softness);
     if (!set.queries.empty()) return set;
     throw base::Error(base::ErrorCode::bad_input, "/receivers",
                       set.dropped == 0 ? "there are no receivers: the camera sees no surface and no medium"
-                                       : fmt::format("none of the {} receivers is inside the map of light \"{}\"",
-                                                     set.dropped, light.name));
+                                       : fmt::format("none of the {} receivers is inside the map of light \"{}\"{}",
+                                                     set.dropped, light.name, remedy(receivers, light, seen)));
 }
 
 QuerySet judged_queries(const scene::Scenario& scenario, const QuerySet& set) {

@@ -27,21 +27,27 @@ struct QuerySet {
 // The pixel of a point, projected into the light's map.
 techniques::Footprint footprint_of(const CameraPoint& point, const rays::LightView& view);
 
-// A point as a query of one light, moved towards it by the bias; absent if it is outside the light's map. Only widths in
-// receiver pixels need the point's edges; where they are unbounded, the width is infinite.
+// A point as a query of one light, moved by the biases; absent if it is outside the light's map. Only widths in
+// receiver pixels need the point's edges; where they are unbounded, the width is infinite. `softness`, the light's,
+// stands for the receivers' width. The slope bias moves a point no farther than before all casters, where everything is
+// lit.
 std::optional<techniques::Query> query_of_point(const CameraPoint& point, const scene::Receivers& receivers,
-                                                const rays::LightView& view);
+                                                const rays::LightView& view,
+                                                const std::optional<scene::FilterWidth>& softness = {});
 
 // All points as queries, in their order, with their pixels projected into the map: the edges are mapped by the
 // derivative of the projection at the point.
 QuerySet queries_of_points(std::span<const CameraPoint> points, const scene::Receivers& receivers,
-                           const rays::LightView& view);
+                           const rays::LightView& view, const std::optional<scene::FilterWidth>& softness = {});
 
 // The receivers' given points as queries, in their order, without footprints.
-QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView& view);
+QuerySet point_queries(const scene::Receivers& receivers, const rays::LightView& view,
+                       const std::optional<scene::FilterWidth>& softness = {});
 
-// Points spread evenly over the map and over the depth range of the casters, and a little behind it.
-QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView& view);
+// Points spread evenly over the map (of a cube's face: without its border) and over the depth range of the casters, and
+// a little behind it.
+QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView& view,
+                       const std::optional<scene::FilterWidth>& softness = {});
 
 // The queries of a scenario's receivers to the light with this view; `seen`: what its camera sees, none without a
 // camera. Throws Error{bad_input} if no receiver is inside the map.

@@ -6,7 +6,6 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "bench/clock.h"
-#include "bench/prepared_light.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -23,7 +22,7 @@ std::shared_ptr<const Frame> RayStore::frame(const RayChoice& choice) const {
     const auto [place, is_new] = views_.try_emplace({choice.resolution.x, choice.resolution.y});
     if (is_new)
         place->second = rays::make_light_view(scenario_.lights[light_], scenario_.scene, choice.resolution,
-                                              pointer_of(scenario_, light_));
+                                              scenario_.lights[light_].where);
     scene::RaySettings settings = scenario_.rays;
     settings.resolution = choice.resolution;
     settings.samples_per_pixel = choice.samples;

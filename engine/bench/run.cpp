@@ -35,7 +35,7 @@ results::Result run(const nlohmann::json& document, const RunOptions& options, c
     results::Result result = runs.describe();
     for (std::size_t v = 0; v < runs.variants().size(); ++v) {
         const scene::Scenario& scenario = runs.load(v);
-        add_notes(scenario.scene, result.notes);
+        add_notes(scenario, result.notes);
         results::VariantResult& out = result.variants.emplace_back();
         out.settings = runs.variants()[v].settings;
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) out.lights.push_back(runs.measure(l, progress));
@@ -51,7 +51,7 @@ Validated validate(const nlohmann::json& document, const RunOptions& options) {
     for (const document::Variant& variant : variants_of(document, options.only)) {
         const scene::Scenario& scenario = loader.load(variant);
         const std::vector<Contender> contenders = make_contenders(scenario, variant);
-        add_notes(scenario.scene, validated.notes);
+        add_notes(scenario, validated.notes);
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
             const PreparedLight light = prepare_light(scenario, l, contenders, options.limits);
             const std::string& name = scenario.lights[l].name;

@@ -32,8 +32,8 @@ std::vector<document::Variant> variants_of(const nlohmann::json& document, const
     return variants;
 }
 
-void add_notes(const scene::Scene& scene, std::vector<std::string>& notes) {
-    for (std::string& note : scene::read_notes(scene))
+void add_notes(const scene::Scenario& scenario, std::vector<std::string>& notes) {
+    for (std::string& note : scene::notes(scenario))
         if (std::count(notes.begin(), notes.end(), note) == 0) notes.push_back(std::move(note));
 }
 

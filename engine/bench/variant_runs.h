@@ -23,7 +23,7 @@ namespace shadowbench::bench {
 std::vector<document::Variant> variants_of(const nlohmann::json& document, const std::vector<std::string>& only);
 
 // Adds the notes of the file readers that are not there yet: variants may share a scene.
-void add_notes(const scene::Scene& scene, std::vector<std::string>& notes);
+void add_notes(const scene::Scenario& scenario, std::vector<std::string>& notes);
 
 class VariantRuns {
 public:

@@ -108,7 +108,10 @@ LightView spot_view(const scene::Light& light, const base::Box3d& casters, Vec2i
         view.z_max = 2.0 * std::max(axis.length(), view.z_near);
     }
 
-    if (light.angle) {
+    if (light.face) {
+        view.face = *light.face;
+        fit(view, {0, 0}, {2.0 * (1.0 + light.border), 2.0 * (1.0 + light.border)});
+    } else if (light.angle) {
         const double half = std::tan(*light.angle * std::numbers::pi / 360.0);
         const double pixel = 2.0 * half / std::max(resolution.x, resolution.y);
         fit(view, {0, 0}, {pixel * resolution.x, pixel * resolution.y});
@@ -142,12 +145,10 @@ void check_volumes(const LightView& view, const scene::Scene& scene, const std::
     for (const scene::Object& object : scene.objects) {
         const auto* volume = std::get_if<scene::GridVolume>(&object.shape);
         if (!volume || !object.casts_shadow) continue;
-        const Vec3d extent = volume->upper - volume->lower;
-        const double voxel =
-            std::min({extent.x / volume->size.x, extent.y / volume->size.y, extent.z / volume->size.z});
-        const double away = std::max({largest(volume->lower - view.origin), largest(volume->upper - view.origin),
-                                      largest(volume->lower), largest(volume->upper), largest(view.origin)});
-        if (away > farthest * voxel)
+        const base::Box3d box = scene::world_box(*volume);
+        const double away = std::max({largest(box.min - view.origin), largest(box.max - view.origin), largest(box.min),
+                                      largest(box.max), largest(view.origin)});
+        if (away > farthest * scene::voxel_width(*volume))
             throw base::Error(base::ErrorCode::bad_input, where,
                               "the light, or the world's origin, is more than 1e13 voxels away from the volume \"" +
                                   object.name + "\": bring them nearer or make the voxels larger");

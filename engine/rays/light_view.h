@@ -28,6 +28,7 @@ struct LightView {
     double z_near = 0.0;     // crossings at z <= z_near are not seen (perspective); orthographic: minus infinity
     double z_min = 0.0;      // depth bounds of the shadow casters
     double z_max = 1.0;
+    int face = -1;  // of the cube around a point light (scene/cube_face.h), whose receivers alone it answers; -1: all
 };
 
 // The view of the scene's casters; it sees nothing if none is in view. Throws Error{bad_input}: at `where` if there is

@@ -115,7 +115,13 @@ double VolumeMarcher::empty_ahead(const Vec3d& index, const Vec3d& slope) const 
     return occupied_[block] ? 0.0 : ahead;
 }
 
-bool VolumeMarcher::enter(const Vec3d& origin, const Vec3d& direction, double t_min, double t_max, Way& way) const {
+bool VolumeMarcher::enter(const Vec3d& world_origin, const Vec3d& world_direction, double t_min, double t_max,
+                          Way& way) const {
+    Vec3d origin = world_origin, direction = world_direction;
+    if (volume_.frame) {
+        origin = base::map_point(volume_.frame->to_grid, origin);
+        direction = base::map_direction(volume_.frame->to_grid, direction);
+    }
     if (!clip(origin, direction, volume_.lower, volume_.upper, t_min, t_max)) return false;
     const Vec3d extent = volume_.upper - volume_.lower;
     way.t_min = t_min;

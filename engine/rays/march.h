@@ -20,7 +20,8 @@ struct MediumSegment {
     double depth;
 };
 
-// A grid prepared for rays: knows which blocks of voxels are empty.
+// A grid prepared for rays: knows which blocks of voxels are empty. Rays are in the world; a grid that is turned or
+// sheared there is met by the ray in its own space, at the same t, so integrals stay exact.
 // Density is trilinear between voxel centres, and constant in the half voxel outside the outermost ones. Along a ray it
 // is a cubic polynomial inside each cell (the box between eight centres), so the two-point Gauss-Legendre rule gives
 // its integral exactly.
@@ -52,7 +53,8 @@ private:
         base::Vec3d start, slope;
         double t_min, length;
     };
-    bool enter(const base::Vec3d& origin, const base::Vec3d& direction, double t_min, double t_max, Way& way) const;
+    bool enter(const base::Vec3d& world_origin, const base::Vec3d& world_direction, double t_min, double t_max,
+               Way& way) const;
     double density(const base::Vec3d& index) const;
     double integral(const Way& way, double from, double to) const;
     double empty_ahead(const base::Vec3d& index, const base::Vec3d& slope) const;

@@ -38,9 +38,17 @@ void check_same_question(const json& ours, const Recommendation& our, const json
         if (ours.value(key, json()) != theirs.value(key, json())) differ(fmt::format("/{}", key).c_str());
     if (our.light != their.light) differ("the light");
     if (our.measure != their.measure) differ("the measure of the error");
-    if (places_of(ours) != places_of(theirs)) differ("/receivers");
+    const json places = places_of(ours);
+    if (places != places_of(theirs)) differ("/receivers");
+    const auto resolution = [](const json& document) {
+        return document.value("rays", json::object()).value("resolution", json());
+    };
+    // These biases are in pixels of the scenario's own map.
+    const bool in_pixels = places.contains("slope_bias") || places.contains("normal_bias");
+    if (in_pixels && resolution(ours) != resolution(theirs)) differ("/rays/resolution");
     const auto footprint = [](const json& document, const Recommendation& of) {
-        return of.footprint_share ? json{{"share", *of.footprint_share}} : document.at("receivers").at("footprint");
+        return of.footprint_share ? json{{"share", *of.footprint_share}}
+                                  : document.value("receivers", json::object()).value("footprint", json());
     };
     if (footprint(ours, our) != footprint(theirs, their)) differ("/receivers/footprint");
 }

@@ -66,7 +66,7 @@ bench::Validated check(const nlohmann::json& document, const bench::RunOptions& 
     const Space space = asked_at(where + "/only", [&] { return Space(scenario, request.only); });
     const bench::PreparedLight light = bench::prepare_light(scenario, index, {}, options.limits);
     if (rays::misses_all(light.view, scenario.scene))
-        throw Error(ErrorCode::bad_input, bench::pointer_of(scenario, index),
+        throw Error(ErrorCode::bad_input, scenario.lights[index].where,
                     fmt::format("light \"{}\" sees nothing that casts a shadow", scenario.lights[index].name));
     std::set<std::string> techniques;
     for (const Family& family : space.families()) techniques.insert(family.technique);
@@ -74,7 +74,7 @@ bench::Validated check(const nlohmann::json& document, const bench::RunOptions& 
     checked.name = scenario.name;
     checked.variants = checked.lights = 1;
     checked.techniques = techniques.size();
-    checked.notes = scene::read_notes(scenario.scene);
+    checked.notes = scene::notes(scenario);
     checked.largest_side = std::max(light.layout.width, light.layout.height);
     checked.most_samples = std::max(light.layout.samples(), scenario.reference.samples_per_pixel);
     checked.least_bytes = light.least_bytes;

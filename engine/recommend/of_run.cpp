@@ -13,6 +13,7 @@
 #include "metrics/student.h"
 #include "recommend/check.h"
 #include "recommend/error_interval.h"
+#include "scene/scenario.h"
 #include "scene/scene.h"
 #include "techniques/technique.h"
 
@@ -67,16 +68,24 @@ void check_sweeps(const results::Result& run, const std::string& origin) {
                                         setting.pointer));
 }
 
-// The width of all footprints as a share of the map, if the scenario gives it in map pixels.
-std::optional<double> footprint_share(const results::Result& run, const RayAxes& axes, const std::string& origin) {
+// The width of all footprints of the light as a share of the map, if the scenario gives it in map pixels.
+std::optional<double> footprint_share(const results::Result& run, const RayAxes& axes, const std::string& light,
+                                      const std::string& origin) {
     const nlohmann::json document = nlohmann::json::parse(run.document);
     const nlohmann::json receivers = document.value("receivers", nlohmann::json::object());
-    if (receivers.contains("footprint")) return {};
+    for (const char* bias : {"slope_bias", "normal_bias"})
+        if (axes.resolutions.size() > 1 && receivers.value(bias, 0.0) > 0.0)
+            throw Error(ErrorCode::bad_input, origin,
+                        fmt::format("the run sweeps the resolution, and its {} is in map pixels: finer maps were asked "
+                                    "at other places; give receivers.bias alone and run it again",
+                                    bias));
+    const scene::FilterWidth width = scene::lookup_width(document, light);
+    if (width.unit != scene::WidthUnit::map_pixels) return {};
     if (axes.resolutions.size() > 1)
         throw Error(ErrorCode::bad_input, origin,
                     "the run sweeps the resolution, and its footprints are in map pixels: finer maps were asked for "
                     "smaller footprints; give receivers.footprint and run it again");
-    return receivers.value("filter_width", scene::FilterWidth().value) / axes.resolutions.front().first;
+    return width.value / axes.resolutions.front().first;
 }
 
 // The parameters that differ from the row's defaults.
@@ -135,7 +144,7 @@ Recommendation recommendation_of(const results::Result& run, const std::string& 
     std::vector<const LightResult*> lights;
     for (const results::VariantResult& variant : run.variants) lights.push_back(&variant.lights.at(index));
     const RayAxes axes = ray_axes(lights);
-    Recommendation found{run.name, lights.front()->name, measure, footprint_share(run, axes, origin), {}};
+    Recommendation found{run.name, lights.front()->name, measure, footprint_share(run, axes, lights.front()->name, origin), {}};
     found.exploration.end = End::given;
 
     Axis resolutions{"resolution", {}}, samples{"samples_per_pixel", {}};

@@ -74,7 +74,7 @@ Trials::Trials(const nlohmann::json& document, const bench::RunOptions& options,
     const bench::PreparedLight prepared = bench::prepare_light(*scenario_, index_, {}, options_.limits);
     own_ = std::make_shared<const bench::Frame>(bench::Frame{prepared.view, prepared.layout});
     if (rays::misses_all(own_->view, scenario_->scene))
-        throw Error(ErrorCode::bad_input, bench::pointer_of(*scenario_, index_),
+        throw Error(ErrorCode::bad_input, light_->where,
                     fmt::format("light \"{}\" sees nothing that casts a shadow", light_->name));
     std::vector<bench::CameraPoint> seen;
     if (!scenario_->scene.objects.empty()) {
@@ -107,7 +107,7 @@ const rays::MapLayout& Trials::layout(const Setting& setting) const {
 }
 
 std::optional<double> Trials::footprint_share() const {
-    const scene::FilterWidth& width = scenario_->receivers.filter_width;
+    const scene::FilterWidth width = light_->softness.value_or(scenario_->receivers.filter_width);
     if (width.unit != scene::WidthUnit::map_pixels) return {};
     return width.value / scenario_->rays.resolution.x;
 }

@@ -51,7 +51,7 @@ results::Result Trials::result() const {
     const nlohmann::json document = nlohmann::json::parse(document_);
     result.name = document.at("name").get<std::string>();
     result.purpose = document.value("purpose", "");
-    result.notes = scene::read_notes(scenario_->scene);
+    result.notes = scene::notes(*scenario_);
     result.document = document_;
     result.hash = base::hash_text(document_);
     result.only = options_.only;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "rays/light_view.h"
@@ -19,8 +20,8 @@ struct PointQueries {
     std::vector<techniques::Footprint> footprints;
     std::vector<std::uint32_t> point;  // index of each query's point
 };
-PointQueries point_queries(const ShadingPoints& points, const scene::Receivers& receivers,
-                           const rays::LightView& view);
+PointQueries point_queries(const ShadingPoints& points, const scene::Receivers& receivers, const rays::LightView& view,
+                           const std::optional<scene::FilterWidth>& softness = {});
 
 // Adds a light to a picture. answers[c * queries + q] is that of query q in channel c, cut to [0, 1]; points without an
 // answer are lit.

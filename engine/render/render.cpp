@@ -91,7 +91,7 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
 
     result.lights.push_back({light.name, {layout.width, layout.height}, light_map(source, layout)});
 
-    const PointQueries asked = point_queries(work.points, scenario.receivers, view);
+    const PointQueries asked = point_queries(work.points, scenario.receivers, view, light.softness);
     const auto looked_up = watch(work, light, "lookup", contenders.size());
     for (std::size_t i = 0; i < contenders.size(); ++i) {
         TechniquePictures& out = result.techniques[i];
@@ -110,6 +110,17 @@ void render_light(const Work& work, std::size_t index, std::vector<Contender> co
     add_answers(work.points, index, asked, truth.value, result.reference);
     result.reference_standard_error =
         std::max(result.reference_standard_error, metrics::error_norms(truth.standard_error).rms);
+}
+
+// Adds the lights that nothing shadows.
+void add_fills(const scene::Scenario& scenario, const ShadingPoints& points, Rendering& result) {
+    const std::vector<float> lit(scenario.fills.empty() ? 0 : points.points(), 1.0f);
+    for (std::size_t fill = 0; fill < scenario.fills.size(); ++fill) {
+        const std::size_t light = scenario.lights.size() + fill;
+        add_light(points, light, lit, result.reference);
+        for (TechniquePictures& pictures : result.techniques)
+            if (pictures.cell.status != results::CellStatus::failed) add_light(points, light, lit, pictures.picture);
+    }
 }
 
 // The legend of the heat maps reaches to the 99th percentile of the median technique's errors, so that one technique
@@ -151,8 +162,10 @@ ShadingPoints see(const scene::Scenario& scenario, const RenderOptions& options,
     settings.rays_per_side = options.rays_per_side;
     settings.memory_limit = options.run.limits.all / 2;
     const rays::Tracer all(scenario.scene, false);
+    std::vector<scene::Light> lights = scenario.lights;
+    lights.insert(lights.end(), scenario.fills.begin(), scenario.fills.end());
     ShadingPoints points =
-        find_shading_points(scenario.scene, scenario.lights, settings, all, [&](std::size_t done, std::size_t total) {
+        find_shading_points(scenario.scene, lights, settings, all, [&](std::size_t done, std::size_t total) {
             if (progress) progress({"", "view rays", done, total});
         });
     if (points.points() == 0)
@@ -198,6 +211,7 @@ Rendering render(const nlohmann::json& document, const RenderOptions& options,
         for (const Contender& c : contenders) fresh.push_back(bench::unbuilt(c));
         render_light(work, l, std::move(fresh), result);
     }
+    add_fills(scenario, points, result);
     compare_all(result);
     return result;
 }

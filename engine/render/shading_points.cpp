@@ -13,6 +13,7 @@
 #include "rays/image_plane.h"
 #include "render/shading.h"
 #include "render/view_march.h"
+#include "scene/cube_face.h"
 
 namespace shadowbench::render {
 namespace {
@@ -27,8 +28,7 @@ double step_length(const scene::Scene& scene, int lookups) {
     base::Box3d box;
     for (const scene::Object& object : scene.objects) {
         if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {
-            box.extendBy(grid->lower);
-            box.extendBy(grid->upper);
+            box.extendBy(scene::world_box(*grid));
         } else if (const auto* puffs = std::get_if<scene::Particles>(&object.shape)) {
             for (std::size_t i = 0; i < puffs->centres.size(); ++i)
                 for (const float r : {-puffs->radii[i], puffs->radii[i]})
@@ -41,7 +41,7 @@ double step_length(const scene::Scene& scene, int lookups) {
 struct Row {
     std::vector<std::uint32_t> count;  // points of each pixel
     std::vector<Vec3d> place;
-    std::vector<Vec3f> across, down;
+    std::vector<Vec3f> across, down, normal;
     std::vector<Vec3f> coverage, radiance;  // radiance: point after point, all lights of a point together
 };
 
@@ -57,17 +57,28 @@ void add_place(const bench::CameraPoint& point, Row& row) {
     row.place.push_back(point.position);
     row.across.push_back(Vec3f(point.across));
     row.down.push_back(Vec3f(point.down));
+    row.normal.push_back(Vec3f(point.normal));
 }
 
-void add_medium_point(const Eye& eye, const Vec3d& share, Row& row) {
+// A face of a point light lights only its part of the world.
+bool lights_place(const scene::Light& light, const Vec3d& place) {
+    return !light.face || scene::cube_face(place - light.position) == *light.face;
+}
+
+void add_medium_point(const Eye& eye, const Vec3d& place, const Vec3d& share, Row& row) {
     row.coverage.push_back(Vec3f(share));
     for (const scene::Light& light : eye.lights)
-        row.radiance.push_back(Vec3f(share * medium_albedo * Vec3d(light.colour)));
+        row.radiance.push_back(lights_place(light, place) ? Vec3f(share * medium_albedo * Vec3d(light.colour))
+                                                          : Vec3f(0.0f));
 }
 
 void add_surface_point(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d& to_eye, const Vec3d& share, Row& row) {
     row.coverage.push_back(Vec3f(share));
     for (const scene::Light& light : eye.lights) {
+        if (!lights_place(light, hit.position)) {
+            row.radiance.emplace_back(0.0f);
+            continue;
+        }
         const Vec3d to_light = towards(light, hit.position);
         const bool hair = hit.tangent != Vec3d(0.0);
         const double shade = hair ? shade_hair(hit.tangent, to_light, to_eye) : shade_surface(hit.normal, to_light);
@@ -94,12 +105,13 @@ void trace(const Eye& eye, double x, double y, double part, Scratch& scratch, Ro
     }
     march_view_ray(segments, surfaces, eye.step, march);
     for (const ViewStep& step : march.steps) {
-        add_place(bench::camera_point(eye.plane, through, eye.plane.origin + direction * step.t, direction), row);
-        add_medium_point(eye, step.share * part, row);
+        const Vec3d place = eye.plane.origin + direction * step.t;
+        add_place(bench::camera_point(eye.plane, through, place, direction), row);
+        add_medium_point(eye, place, step.share * part, row);
     }
     for (std::size_t i = 0; i < march.surfaces.size(); ++i) {
         if (march.surfaces[i] == Vec3d(0.0)) continue;
-        add_place(bench::camera_point(eye.plane, through, surfaces[i].position, surfaces[i].normal), row);
+        add_place(bench::camera_point(eye.plane, through, surfaces[i]), row);
         add_surface_point(eye, surfaces[i], -direction, march.surfaces[i] * part, row);
     }
 }
@@ -120,7 +132,7 @@ Row trace_row(const Eye& eye, int y, int width, int rays_per_side) {
 
 // Bytes per point: the points, the queries and truth of one light, and one technique's answers.
 std::size_t bytes_a_point(std::size_t lights) {
-    return sizeof(Vec3d) + sizeof(Vec3f) * (3 + 2 * lights) + 64;
+    return sizeof(Vec3d) + sizeof(Vec3f) * (4 + 2 * lights) + 64;
 }
 
 void append(const Row& row, std::size_t lights, ShadingPoints& points, std::vector<std::vector<Vec3f>>& radiance) {
@@ -128,6 +140,7 @@ void append(const Row& row, std::size_t lights, ShadingPoints& points, std::vect
     points.place.insert(points.place.end(), row.place.begin(), row.place.end());
     points.across.insert(points.across.end(), row.across.begin(), row.across.end());
     points.down.insert(points.down.end(), row.down.begin(), row.down.end());
+    points.normal.insert(points.normal.end(), row.normal.begin(), row.normal.end());
     points.coverage.insert(points.coverage.end(), row.coverage.begin(), row.coverage.end());
     for (std::size_t i = 0; i < row.radiance.size(); ++i) radiance[i % lights].push_back(row.radiance[i]);
 }
@@ -141,6 +154,7 @@ ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const sce
     const Eye eye{lights, tracer, plane, step, std::isfinite(step)};
     ShadingPoints points;
     points.size = settings.size;
+    for (const scene::Light& light : lights) points.lamps += light.face ? 1.0 / scene::cube_faces.size() : 1.0;
     points.begin.push_back(0);
     std::vector<std::vector<Vec3f>> radiance(lights.size());
     const auto height = static_cast<std::size_t>(settings.size.y);
@@ -181,7 +195,7 @@ Picture start_picture(const ShadingPoints& points) {
 void add_light(const ShadingPoints& points, std::size_t light, std::span<const float> visibility, Picture& picture) {
     const std::size_t count = points.points(), stride = visibility.size() > count ? count : 0;
     const Vec3f* radiance = points.radiance.data() + light * count;
-    const double lights = static_cast<double>(points.lights());
+    const double lights = points.lamps;
     const auto width = static_cast<std::size_t>(points.size.x);
     base::parallel_for(static_cast<std::size_t>(points.size.y), [&](std::size_t y) {
         for (std::size_t p = y * width; p < (y + 1) * width; ++p) {

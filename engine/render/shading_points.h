@@ -21,9 +21,12 @@ struct ShadingPoints {
     std::vector<base::Vec3d> place;    // world; for each view ray first media, then surfaces, each from front to back
     std::vector<base::Vec3f> across;   // edges of a view ray's footprint at its point, as in bench::CameraPoint
     std::vector<base::Vec3f> down;
+    std::vector<base::Vec3f> normal;    // as in bench::CameraPoint
     std::vector<base::Vec3f> coverage;  // share of the pixel that shows the point; a pixel's sum is at most 1
     std::vector<base::Vec3f> radiance;  // light after light: what light l adds to the pixel when nothing shadows it,
                                         // at [l * points + i]
+
+    double lamps = 0.0;  // the number of lights; the six faces of a point light are one
 
     std::size_t points() const { return place.size(); }
     std::size_t lights() const { return points() ? radiance.size() / points() : 0; }

@@ -60,14 +60,16 @@ std::vector<Gathered> gathered(const BoxRay& ray, const std::vector<ColourStep>&
 
 BoxRay cut_to_box(const Vec3d& origin, const Vec3d& direction, double from, const scene::GridVolume& volume) {
     const BoxRay missed{origin, direction};
+    const Vec3d start = volume.frame ? base::map_point(volume.frame->to_grid, origin) : origin;
+    const Vec3d way = volume.frame ? base::map_direction(volume.frame->to_grid, direction) : direction;
     double front = from, back = std::numeric_limits<double>::infinity();
     for (int a = 0; a < 3; ++a) {
-        const double lower = volume.lower[a] - origin[a], upper = volume.upper[a] - origin[a];
-        if (direction[a] == 0.0) {
+        const double lower = volume.lower[a] - start[a], upper = volume.upper[a] - start[a];
+        if (way[a] == 0.0) {
             if (lower > 0.0 || upper < 0.0) return missed;
             continue;
         }
-        const double one = lower / direction[a], other = upper / direction[a];
+        const double one = lower / way[a], other = upper / way[a];
         front = std::max(front, std::min(one, other));
         back = std::min(back, std::max(one, other));
     }
@@ -107,7 +109,7 @@ ColourPass::ColourPass(const scene::Object& object, int steps) {
         throw base::Error(base::ErrorCode::bad_input, "/scene/objects",
                           "a volume with a single number as its extinction is needed here");
     state_ = std::make_unique<State>(*volume, extinction.x);
-    state_->volume.step = (volume->upper - volume->lower).length() / steps;
+    state_->volume.step = scene::longest_way(*volume) / steps;
 }
 
 ColourPass::~ColourPass() = default;

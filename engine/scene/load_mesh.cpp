@@ -57,19 +57,6 @@ bool in_range(const Vec3d& position) {
     return std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)}) <= max_coordinate;
 }
 
-void place(const json& from, const std::string& where, Mesh& mesh) {
-    double scale = 1.0;
-    Vec3d translate(0, 0, 0);
-    read(from, "scale", scale);
-    read(from, "translate", translate);
-    for (Vec3f& position : mesh.positions) {
-        const Vec3d placed = Vec3d(position.x, position.y, position.z) * scale + translate;
-        if (!in_range(placed))
-            refuse(where, fmt::format("scale and translate move a vertex beyond {}", max_coordinate));
-        position = Vec3f(placed);
-    }
-}
-
 void load_alpha(const json& from, const SearchPath& path, const std::string& where, Mesh& mesh) {
     std::string name;
     read(from, "alpha_texture", name);
@@ -123,7 +110,6 @@ MeshFile load_mesh(const json& from, const SearchPath& path, const std::string& 
     } else {
         file.mesh = inline_mesh(from, where);
     }
-    place(from, where, file.mesh);
     load_alpha(from, path, where, file.mesh);
     return file;
 }

@@ -195,6 +195,8 @@ Object load_object(const json& from, std::size_t index, const SearchPath& path, 
         // The fault is in the object's file: name the scenario's place first, then the file's.
         throw base::Error(error.code(), from.contains("file") ? where + "/file" : where, error.what());
     }
+    if (const auto transform = load_transform(from, where)) apply(*transform, object, where);
+    if (auto* grid = std::get_if<GridVolume>(&object.shape)) read_step(from, where, *grid);
     const std::string empty = std::visit([](const auto& shape) { return std::string(emptiness(shape)); }, object.shape);
     if (!empty.empty()) refuse(where, empty);
     return object;

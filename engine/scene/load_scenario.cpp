@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdint>
-#include <set>
 #include <variant>
 
 #include <fmt/format.h>
@@ -45,7 +44,7 @@ double parts_of_ray(const Scene& scene, Media media) {
     for (const Object& object : scene.objects)
         if (const auto* volume = std::get_if<GridVolume>(&object.shape); volume && object.casts_shadow)
             parts += media == Media::cells ? static_cast<double>(volume->size.x) + volume->size.y + volume->size.z
-                                           : (volume->upper - volume->lower).length() / volume->step;
+                                           : longest_way(*volume) / volume->step;
     return parts;
 }
 
@@ -118,23 +117,12 @@ Scene load_scene(const json& from, const SearchPath& path) {
     return scene;
 }
 
-std::vector<Light> load_lights(const json& list, const Box3d& casters) {
-    std::vector<Light> lights;
-    std::set<std::string> names;
-    for (std::size_t i = 0; i < list.size(); ++i) {
-        const std::string where = fmt::format("/lights/{}", i);
-        lights.push_back(load_light(list[i], i, casters, where));
-        if (!names.insert(lights.back().name).second)
-            refuse(where + "/name", fmt::format("two lights are called \"{}\"", lights.back().name));
-    }
-    return lights;
-}
-
 constexpr const char* deep_image_name = "deep_image";
 
 Light deep_image_light() {
     Light light;
     light.name = deep_image_name;
+    light.where = "/scene/deep_image";
     light.type = LightType::deep_image;
     light.direction = Vec3d(0, 0, 1);
     return light;
@@ -158,62 +146,6 @@ RaySettings load_rays(const json& from) {
                fmt::format("{} x {} pixels of {} samples are {} light rays; the limit is {}", rays.resolution.x,
                            rays.resolution.y, rays.samples_per_pixel, total, max_light_rays));
     return rays;
-}
-
-Camera load_camera(const json& from) {
-    Camera camera;
-    read(from, "position", camera.position);
-    read(from, "target", camera.target);
-    read(from, "up", camera.up);
-    read(from, "fov", camera.fov);
-    const Vec3d view = camera.target - camera.position;
-    if (!(view.length() >= min_length))
-        refuse("/receivers/target", "the camera stands at its target; move one of them");
-    check_direction(camera.up, "/receivers/up");
-    check_not_parallel(camera.up, view, "/receivers/up", "up points along the view");
-    return camera;
-}
-
-FilterWidth load_filter_width(const json& from) {
-    FilterWidth width;
-    read(from, "filter_width", width.value);
-    if (!from.contains("footprint")) return width;
-    if (from.contains("filter_width"))
-        refuse("/receivers/filter_width", "the footprint is given twice: leave out filter_width or footprint");
-    const auto given = from["footprint"].begin();  // the schema asks for exactly one
-    const std::string& unit = given.key();
-    width.unit = unit == "share"             ? WidthUnit::share
-                 : unit == "length"          ? WidthUnit::length
-                 : unit == "receiver_pixels" ? WidthUnit::receiver_pixels
-                                             : WidthUnit::map_pixels;
-    width.value = given->get<double>();
-    if (width.unit == WidthUnit::receiver_pixels && from.value("type", "probes") != "camera")
-        refuse("/receivers/footprint/receiver_pixels",
-               "only receivers of a camera have pixels: give the footprint as a length or a share of the map");
-    return width;
-}
-
-Receivers load_receivers(const json& from) {
-    Receivers receivers;
-    if (from.value("type", "probes") == "camera") receivers.camera = load_camera(from);
-    read(from, "positions", receivers.points);
-    read(from, "resolution", receivers.resolution);
-    read(from, "media_lookups", receivers.media_lookups);
-    read(from, "count", receivers.count);
-    read(from, "seed", receivers.seed);
-    receivers.filter_width = load_filter_width(from);
-    read(from, "bias", receivers.bias);
-    const auto pixels =
-        static_cast<std::uint64_t>(receivers.resolution.x) * static_cast<std::uint64_t>(receivers.resolution.y);
-    if (pixels > max_camera_pixels)
-        refuse("/receivers/resolution", fmt::format("{} pixels; the limit is {}", pixels, max_camera_pixels));
-    const std::uint64_t points = pixels * (static_cast<std::uint64_t>(receivers.media_lookups) + 1);
-    if (receivers.camera && points > max_camera_points)
-        refuse("/receivers/media_lookups",
-               fmt::format("{} pixels of {} places in media are up to {} receivers; the limit is {}: ask for fewer of "
-                           "either",
-                           pixels, receivers.media_lookups, points, max_camera_points));
-    return receivers;
 }
 
 Reference load_reference(const json& from) {
@@ -258,10 +190,22 @@ std::vector<TechniqueRequest> load_techniques(const json& list) {
 
 }  // namespace
 
+FilterWidth lookup_width(const json& document, const std::string& light) {
+    std::size_t index = 0;
+    for (const json& each : section(document, "lights")) {
+        const std::vector<std::string> maps = map_names(each, index++);
+        if (std::count(maps.begin(), maps.end(), light) > 0 && each.contains("softness"))
+            return footprint_width(each["softness"]);
+    }
+    return load_filter_width(section(document, "receivers"));
+}
+
 std::vector<std::string> light_names(const json& document) {
     if (document["scene"].contains("deep_image")) return {deep_image_name};
     std::vector<std::string> names;
-    for (const json& light : section(document, "lights")) names.push_back(light_name(light, names.size()));
+    std::size_t index = 0;
+    for (const json& light : section(document, "lights"))
+        for (std::string& name : map_names(light, index++)) names.push_back(std::move(name));
     return names;
 }
 
@@ -300,7 +244,7 @@ Scenario load_scenario(const json& document, const SearchPath& path) {
         scenario.rays.pattern = Pattern::regular;
     } else {
         check_marching(scenario);
-        scenario.lights = load_lights(document["lights"], bounds(scenario.scene, true));
+        load_lights(document["lights"], scenario);
     }
     return scenario;
 }

@@ -35,16 +35,6 @@ void check_voxels(const Vec3i& size, const std::string& where) {
         refuse(where, fmt::format("{} x {} x {} voxels; the limit is {}", size.x, size.y, size.z, max_voxels));
 }
 
-void read_step(const json& from, const std::string& where, GridVolume& volume) {
-    const Vec3d extent = volume.upper - volume.lower;
-    volume.step = 0.5 * std::min({extent.x / volume.size.x, extent.y / volume.size.y, extent.z / volume.size.z});
-    read(from, "step", volume.step);
-    if (extent.length() > max_march_steps * volume.step)
-        refuse(where + "/step",
-               fmt::format("a step of {} crosses the volume in more than {} steps: make it at least {:.3g}",
-                           volume.step, max_march_steps, extent.length() / max_march_steps));
-}
-
 Negative negative_of(const json& from) {
     return from.value("negative", "clamp") == "refuse" ? Negative::refuse : Negative::clamp;
 }
@@ -156,12 +146,20 @@ GridVolume load_procedural(const json& from, const std::string& where, Parameter
     read(from, "size", parameters.size);
     check_voxels(parameters.size, where + "/size");
     read_box(from, where, parameters.lower, parameters.upper);
-    GridVolume volume = make(parameters);
-    read_step(from, where, volume);
-    return volume;
+    return make(parameters);
 }
 
 }  // namespace
+
+void read_step(const json& from, const std::string& where, GridVolume& volume) {
+    volume.step = 0.5 * voxel_width(volume);
+    read(from, "step", volume.step);
+    const double longest = longest_way(volume);
+    if (longest > max_march_steps * volume.step)
+        refuse(where + "/step",
+               fmt::format("a step of {} crosses the volume in more than {} steps: make it at least {:.3g}",
+                           volume.step, max_march_steps, longest / max_march_steps));
+}
 
 GridVolume load_volume(const json& from, const SearchPath& path, const std::string& where) {
     const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
@@ -177,7 +175,6 @@ GridVolume load_volume(const json& from, const SearchPath& path, const std::stri
         refuse_keys(from, where, {"lower", "upper"}, "a .vdb file has its own; remove this key");
     GridVolume volume = load_file(from, file, kind, where);
     if (kind != VolumeKind::vdb) read_box(from, where, volume.lower, volume.upper);
-    read_step(from, where, volume);
     return volume;
 }
 

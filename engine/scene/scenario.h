@@ -45,8 +45,11 @@ void check_schema(const nlohmann::json& document, const nlohmann::json& schema);
 // Error: bad_input (pointer), no_such_file, io. An empty scene, or one whose files hold nothing, is bad input.
 Scenario load_scenario(const nlohmann::json& document, const SearchPath& path);
 
-// The names of the lights that load_scenario makes from a valid document.
+// The names of the lights with maps that load_scenario makes from a valid document.
 std::vector<std::string> light_names(const nlohmann::json& document);
+
+// The width of the lookups of the light with this name in a valid document: its softness, or that of the receivers.
+FilterWidth lookup_width(const nlohmann::json& document, const std::string& light);
 
 // Refuses light rays that would march through the scene's volumes for days. load_scenario calls it; a caller that
 // changes the settings of a loaded scene must call it again. Throws Error{bad_input}.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -52,8 +53,7 @@ void extend(Box3d& box, const Hair& hair) {
 }
 
 void extend(Box3d& box, const GridVolume& volume) {
-    box.extendBy(volume.lower);
-    box.extendBy(volume.upper);
+    box.extendBy(world_box(volume));
 }
 
 void extend(Box3d& box, const Particles& particles) {
@@ -82,6 +82,57 @@ float sample(const AlphaTexture& texture, float u, float v) {
     const float upper = std::lerp(texel(x.first, y.first), texel(x.second, y.first), x.fraction);
     const float lower = std::lerp(texel(x.first, y.second), texel(x.second, y.second), x.fraction);
     return std::lerp(upper, lower, y.fraction);
+}
+
+void place(GridVolume& volume, const base::Matrix4d& to_world) {
+    bool along_axes = true;  // scaled and moved only, so that a box stays one
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k) along_axes = along_axes && (i == k ? to_world[i][i] > 0.0 : to_world[i][k] == 0.0);
+    if (along_axes) {
+        volume.lower = base::map_point(to_world, volume.lower);
+        volume.upper = base::map_point(to_world, volume.upper);
+    } else {
+        volume.frame = GridFrame{to_world, to_world.inverse()};
+    }
+}
+
+Box3d world_box(const GridVolume& volume) {
+    Box3d box;
+    if (!volume.frame) {
+        box.extendBy(volume.lower);
+        box.extendBy(volume.upper);
+        return box;
+    }
+    for (int i = 0; i < 8; ++i) {
+        const Vec3d corner(i & 1 ? volume.upper.x : volume.lower.x, i & 2 ? volume.upper.y : volume.lower.y,
+                           i & 4 ? volume.upper.z : volume.lower.z);
+        box.extendBy(base::map_point(volume.frame->to_world, corner));
+    }
+    return box;
+}
+
+double longest_way(const GridVolume& volume) {
+    const Vec3d extent = volume.upper - volume.lower;
+    if (!volume.frame) return extent.length();
+    double longest = 0.0;  // of the four diagonals
+    for (int i = 0; i < 4; ++i) {
+        const Vec3d diagonal(i & 1 ? -extent.x : extent.x, i & 2 ? -extent.y : extent.y, extent.z);
+        longest = std::max(longest, base::map_direction(volume.frame->to_world, diagonal).length());
+    }
+    return longest;
+}
+
+double voxel_width(const GridVolume& volume) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+        double width = (volume.upper[i] - volume.lower[i]) / volume.size[i];
+        if (volume.frame) {
+            const base::Matrix4d& to_grid = volume.frame->to_grid;
+            width /= Vec3d(to_grid[0][i], to_grid[1][i], to_grid[2][i]).length();
+        }
+        least = std::min(least, width);
+    }
+    return least;
 }
 
 Box3d bounds(const Scene& scene, bool casters_only) {
@@ -116,6 +167,14 @@ std::vector<std::string> read_notes(const Scene& scene) {
         if (!passed_over.empty()) add(where, {{"passed over: " + passed_over}});
     }
     if (scene.deep_image) add("/scene/deep_image", scene.deep_image->notes);
+    return lines;
+}
+
+std::vector<std::string> notes(const Scenario& scenario) {
+    std::vector<std::string> lines = read_notes(scenario.scene);
+    for (const Light& light : scenario.fills)
+        lines.push_back(base::printable(fmt::format(
+            "{}: \"{}\" casts no shadow, so it has no map: only pictures show it", light.where, light.name)));
     return lines;
 }
 

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/matrix.h"
 #include "base/vec.h"
 #include "scene/read_notes.h"
 
@@ -59,14 +60,25 @@ struct HairSegments {
 };
 HairSegments segments(const Hair& hair);
 
+// Between the world and the space in which the box of a grid stands along the axes.
+struct GridFrame {
+    base::Matrix4d to_world, to_grid;
+};
+
 // Density on a regular grid, trilinear between voxel centres, 0 outside [lower, upper].
 struct GridVolume {
     Vec3i size{0, 0, 0};                   // voxels
     std::vector<float> density;            // x fastest, >= 0
-    Vec3d lower{0, 0, 0}, upper{0, 0, 0};  // world box; voxel centres are half a voxel inside
+    Vec3d lower{0, 0, 0}, upper{0, 0, 0};  // box; voxel centres are half a voxel inside
     double step = 0.0;                     // for Media::steps; world length along the ray, > 0
     ReadNotes notes{};
+    std::optional<GridFrame> frame{};  // absent: the box is in the world
 };
+void place(GridVolume& volume, const base::Matrix4d& to_world);  // moves a volume whose box is in the world
+Box3d world_box(const GridVolume& volume);
+// World lengths: the longest way through the box, and the least distance between neighbouring layers of voxels.
+double longest_way(const GridVolume& volume);
+double voxel_width(const GridVolume& volume);
 
 // Spheres of a constant medium.
 struct Particles {
@@ -108,10 +120,27 @@ struct Scene {
     std::optional<DeepImage> deep_image;  // if present, there are no objects
 };
 
+// The width of a lookup's footprint: a square around the receiver, across the light's rays. Only map pixels change with
+// the resolution of the map; with the other units, maps of different resolutions answer the same question. Widths are
+// measured along the map's x axis, and the footprint is as wide in map pixels along y.
+enum class WidthUnit {
+    map_pixels,
+    share,            // of the map's width
+    length,           // world length, at the receiver
+    receiver_pixels,  // the side of a square as large as the camera's pixel on the receiver, projected into the map
+};
+struct FilterWidth {
+    WidthUnit unit = WidthUnit::map_pixels;
+    double value = 1.0;  // above 0
+
+    bool operator==(const FilterWidth&) const = default;
+};
+
 enum class LightType { directional, spot, deep_image };
 
 struct Light {
     std::string name;
+    std::string where;  // JSON pointer
     LightType type = LightType::directional;
     Vec3d position{0, 0, 0};    // spot: its position
     Vec3d target{0, 0, 0};      // the point at the middle of the map
@@ -121,6 +150,9 @@ struct Light {
     std::optional<Vec2d> extent;  // directional: world width and height of the map; absent: the casters' bounds
     std::optional<double> angle;  // spot: full angle across the map's larger side, degrees in (0, 179); absent: fits
     double near = 0.0;            // spot: nearest planar depth; 0: a thousandth of the distance to the target
+    std::optional<FilterWidth> softness;  // the width of its lookups; absent: that of the receivers
+    std::optional<int> face;  // spot: it is this face of a point light (cube_face.h), and lights only receivers there
+    double border = 0.0;      // face: how far its map reaches over its neighbours, as a share of half the face
 };
 
 enum class Pattern { regular, jittered };
@@ -140,22 +172,6 @@ struct Camera {
     double fov = 40.0;  // vertical, degrees
 };
 
-// The width of a lookup's footprint: a square around the receiver, across the light's rays. Only map pixels change with
-// the resolution of the map; with the other units, maps of different resolutions answer the same question. Widths are
-// measured along the map's x axis, and the footprint is as wide in map pixels along y.
-enum class WidthUnit {
-    map_pixels,
-    share,            // of the map's width
-    length,           // world length, at the receiver
-    receiver_pixels,  // the side of a square as large as the camera's pixel on the receiver, projected into the map
-};
-struct FilterWidth {
-    WidthUnit unit = WidthUnit::map_pixels;
-    double value = 1.0;  // above 0
-
-    bool operator==(const FilterWidth&) const = default;
-};
-
 // The places where visibility is looked up: what a camera sees (one surface for each pixel, drawn with the probability
 // of its contribution, and points inside the media on the way), given points, or points spread evenly over the map and
 // the casters' depths.
@@ -167,7 +183,11 @@ struct Receivers {
     int count = 65536;           // the number of points to spread
     std::uint64_t seed = 7;      // for the spread points, and for the draw between a pixel's surfaces
     FilterWidth filter_width;
-    double bias = 0.0;           // moves every receiver towards the light, world length, >= 0
+    double bias = 0.0;         // moves every receiver towards the light, world length, >= 0
+    double slope_bias = 0.0;   // surfaces that a camera sees: moves them on towards the light, by this many map pixels
+                               // times the change of the surface's depth over a map pixel, >= 0
+    double normal_bias = 0.0;  // surfaces that a camera sees: moves them along their normal, by this many map pixels
+                               // times the sine of the angle between normal and light, >= 0
 };
 
 struct Reference {
@@ -196,7 +216,8 @@ struct TechniqueRequest {
 struct Scenario {
     std::string name, purpose;
     Scene scene;
-    std::vector<Light> lights;
+    std::vector<Light> lights;  // that cast shadows: each has a map
+    std::vector<Light> fills;   // that cast none: only pictures show them
     RaySettings rays;
     Receivers receivers;
     Reference reference;
@@ -214,6 +235,9 @@ int channels(const Scene& scene);
 
 // What the readers of the scene's files passed over, one line each after its place: "/scene/objects/0: ...". Printable.
 std::vector<std::string> read_notes(const Scene& scene);
+
+// The same, and which lights have no map.
+std::vector<std::string> notes(const Scenario& scenario);
 
 // Whether any shadow caster is a medium; whether any moves.
 bool has_media(const Scene& scene);

@@ -109,7 +109,7 @@ void export_command(const ExportArguments& arguments, std::ostream& out, std::os
     const std::string text = arguments.rays ? export_rays(arguments, light, progress)
                                             : export_map(arguments, tiled, light, technique, progress);
     bar.end();
-    err << results::notes_text(scene::read_notes(light.scenario().scene), "");
+    err << results::notes_text(scene::notes(light.scenario()), "");
     out << text;
 }
 

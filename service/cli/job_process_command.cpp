@@ -77,10 +77,11 @@ private:
     std::optional<std::string> before_;
 };
 
-// The number of lights of a variant; a deep image counts as one.
+// The number of maps of a variant; 1 if it is not a scenario, which fails when it is loaded.
 std::size_t lights_of(const document::Variant& variant) {
-    const auto lights = variant.document->find("lights");
-    return lights == variant.document->end() ? 1 : std::max<std::size_t>(lights->size(), 1);
+    const nlohmann::json& document = *variant.document;
+    if (!scene::schema_faults(document, scene::scenario_schema(), 1).empty()) return 1;
+    return std::max<std::size_t>(scene::light_names(document).size(), 1);
 }
 
 // Whether the scene has objects for a camera to see; a deep image has none.

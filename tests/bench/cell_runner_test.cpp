@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "bench/run.h"
@@ -49,6 +53,31 @@ TEST(CellRunner, MeasuresWhatARunDoes) {
     results::strip_times(merged);
     results::strip_times(whole);
     EXPECT_EQ(merged, whole);
+}
+
+// A cell is a map: a point light has one for each face, and a light that casts no shadow has none.
+TEST(CellRunner, CountsMapsAndARunSaysWhichLightHasNone) {
+    json document = swept();
+    document.erase("sweeps");
+    document["lights"] = json::parse(R"([
+        {"type": "directional", "name": "fill", "direction": [0, -1, 0], "casts_shadow": false},
+        {"type": "point", "name": "lamp", "position": [0, 3, 0], "faces": ["-y", "+x"]}])");
+    RunOptions untimed;
+    untimed.times = false;
+    const results::Result whole = run(document, untimed, {});
+    ASSERT_EQ(whole.variants.at(0).lights.size(), 2u);
+    EXPECT_EQ(whole.variants[0].lights[1].name, "lamp -y");
+    EXPECT_EQ(std::count_if(whole.notes.begin(), whole.notes.end(),
+                            [](const std::string& note) { return note.starts_with("/lights/0: \"fill\" casts no"); }),
+              1);
+    const std::vector<CellOfDocument> places = cells_of(document, {});
+    ASSERT_EQ(places.size(), 2u);
+    EXPECT_EQ(places[1].title, "swept light lamp -y");
+    CellRunner runner(document, untimed);
+    for (const CellOfDocument& cell : places) {
+        const results::SweepCell measured = runner.measure(cell.place, {});
+        EXPECT_EQ(measured.result.variants.at(0).lights.at(0).name, whole.variants[0].lights[cell.place.light].name);
+    }
 }
 
 // None of the first variant's receivers is inside the map: known only once it runs.

@@ -121,6 +121,11 @@ void expect_box(const GridVolume& volume) {
                    std::isfinite(volume.upper[axis]),
                "a volume's box has a size");
     expect(volume.step > 0.0 && std::isfinite(volume.step), "a volume's step is above 0");
+    const Box3d box = world_box(volume);
+    expect(is_finite(box.min) && is_finite(box.max), "a volume's place in the world is finite");
+    for (int row = 0; volume.frame && row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            expect(std::isfinite(volume.frame->to_grid[row][column]), "a volume's frame is finite");
 }
 
 void expect_sound(const DeepImage& image) {

@@ -133,6 +133,11 @@ TEST(RecommendationOfARun, RefusesRowsThatDoNotAnswerOneQuestion) {
     refused([](auto& made) { made.variants[0].settings.push_back({"/rays/seed", "2"}); }, Measure::rms, "/rays/seed");
     refused([](auto& made) { made.document = R"({"receivers": {"filter_width": 2}})"; }, Measure::rms,
             "receivers.footprint");
+    refused(
+        [](auto& made) {
+            made.document = R"({"receivers": {"type": "camera", "footprint": {"share": 0.1}, "slope_bias": 0.5}})";
+        },
+        Measure::rms, "slope_bias is in map pixels");
     refused([](auto& made) { made.variants[1].lights[0].cells[0].over_seeds.clear(); }, Measure::rms, "spread_seeds");
     refused([](auto&) {}, Measure::curve, "stored functions");
     refused([](auto& made) { made.variants.clear(); }, Measure::rms, "no rows");
@@ -145,6 +150,14 @@ TEST(RecommendationOfARun, GivesAFootprintInMapPixelsAsAShare) {
     made.document = R"({"receivers": {"filter_width": 2}})";
     made.variants.resize(1);
     EXPECT_DOUBLE_EQ(recommendation_of(made, "", Measure::rms, "run").footprint_share.value(), 2.0 / 64.0);
+}
+
+// The light's softness is a width in light space, so maps of all resolutions were asked the same.
+TEST(RecommendationOfARun, TakesTheSoftnessOfItsLightForTheFootprint) {
+    results::Result made = run();
+    made.document = R"({"receivers": {"filter_width": 2}, "lights": [{"type": "directional", "direction": [0, -1, 0],
+                        "name": "sun", "softness": {"share": 0.1}}]})";
+    EXPECT_FALSE(recommendation_of(made, "", Measure::rms, "run").footprint_share);
 }
 
 }  // namespace

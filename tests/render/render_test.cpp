@@ -44,6 +44,48 @@ double world_x(double x, double y) {
     return (x + 0.5 - 40.0) / 20.0 * half;
 }
 
+// All surfaces face up, as the fill does: it adds the same to the shadow and to the light, and no map is made for it.
+TEST(Render, adds_lights_that_cast_no_shadow) {
+    json document = quad_over_plane();
+    document["receivers"]["resolution"] = {40, 20};
+    const Rendering without = render(document, {}, {});
+    document["lights"].push_back(
+        {{"type", "directional"}, {"direction", {0, -1, 0}}, {"colour", 0.5}, {"casts_shadow", false}});
+    const Rendering with = render(document, {}, {});
+    ASSERT_EQ(with.lights.size(), 1u);
+    for (const auto& [more, less] : {std::pair(&with.reference, &without.reference),
+                                     std::pair(&with.techniques[1].picture, &without.techniques[1].picture)})
+        for (std::size_t p = 0; p < with.seen.size(); ++p) {
+            const float shadow = 1.0f - less->shadow.pixels[p].y;
+            EXPECT_NEAR(more->shaded.pixels[p].y, less->shaded.pixels[p].y + 0.5 * surface_albedo * with.seen[p], 1e-6);
+            EXPECT_NEAR(more->shadow.pixels[p].y, 1.0f - 0.5f * shadow, 1e-6) << "half of the lights are shadowed";
+        }
+}
+
+// The seam of two faces runs along x = 0 of the plane. A spot light at the same place has no seam.
+TEST(Render, lights_every_place_by_one_face_of_a_point_light) {
+    json document = quad_over_plane();
+    document["receivers"]["resolution"] = {41, 21};
+    document["rays"] = {{"resolution", 128}, {"samples_per_pixel", 1}};
+    document["techniques"] = {{{"type", "ray_traced"}}};
+    document["lights"] = {{{"type", "spot"}, {"position", {-4, 4, 0.25}}, {"target", {0, 0, 0}}}};
+    const Rendering spot = render(document, {}, {});
+    document["lights"] = {{{"type", "point"}, {"position", {-4, 4, 0.25}}}};
+    const Rendering point = render(document, {}, {});
+    EXPECT_EQ(point.lights.size(), 6u);
+    std::size_t lit = 0, shadowed = 0, other = 0;
+    for (std::size_t p = 0; p < point.seen.size(); ++p) {
+        const float expected = spot.reference.shadow.pixels[p].y;
+        if (expected > 0.0f && expected < 1.0f) continue;  // an edge, where the footprints of the maps differ
+        ++(expected > 0.0f ? lit : shadowed);
+        other += std::abs(point.reference.shadow.pixels[p].y - expected) > 1e-4f ||
+                 std::abs(point.reference.shaded.pixels[p].y - spot.reference.shaded.pixels[p].y) > 1e-4f;
+    }
+    EXPECT_GT(lit, 300u);
+    EXPECT_GT(shadowed, 50u);
+    EXPECT_LT(other, 12u) << "only where the edge of the shadow lies between the footprints";
+}
+
 TEST(Render, puts_the_edge_of_a_shadow_where_geometry_says) {
     const Rendering result = render(quad_over_plane(), {}, {});
     const double lit = surface_albedo * std::sqrt(0.5);

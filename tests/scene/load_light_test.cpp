@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "scene/scenario.h"
@@ -54,6 +56,84 @@ TEST(LoadLight, ReadsEveryKey) {
     EXPECT_EQ(*lights[1].angle, 30.0);
     EXPECT_EQ(lights[1].near, 0.5);
     EXPECT_EQ(lights[1].colour, Vec3f(2, 2, 2));
+}
+
+TEST(LoadLight, LightsThatCastNoShadowHaveNoMapAndKeepTheirPlaces) {
+    const char* lights = R"([{"type": "directional", "direction": [0, -1, 0], "casts_shadow": false},
+                             {"type": "directional", "direction": [0, -1, 0], "softness": {"length": 0.5}},
+                             {"type": "spot", "position": [0, 9, 0], "target": [0, 0, 0], "softness": {"share": 0.25}}])";
+    const Scenario scenario = load(lights);
+    ASSERT_EQ(scenario.lights.size(), 2u);
+    ASSERT_EQ(scenario.fills.size(), 1u);
+    EXPECT_EQ(scenario.fills[0].name, "directional_0");
+    EXPECT_EQ(scenario.lights[0].name, "directional_1");
+    EXPECT_EQ(scenario.lights[0].where, "/lights/1") << "errors must point into the file";
+    EXPECT_EQ(scenario.lights[1].where, "/lights/2");
+    EXPECT_FALSE(scenario.fills[0].softness);
+    EXPECT_TRUE((scenario.lights[0].softness == FilterWidth{WidthUnit::length, 0.5}));
+    EXPECT_TRUE((scenario.lights[1].softness == FilterWidth{WidthUnit::share, 0.25}));
+    EXPECT_THAT(notes(scenario), testing::ElementsAre(testing::HasSubstr("\"directional_0\" casts no shadow")));
+
+    json document = json::parse(R"({"scene": {"objects": []}, "receivers": {"filter_width": 3}})");
+    document["lights"] = json::parse(lights);
+    EXPECT_EQ(light_names(document), (std::vector<std::string>{"directional_1", "spot_2"}));
+    EXPECT_TRUE((lookup_width(document, "directional_1") == FilterWidth{WidthUnit::length, 0.5}));
+    EXPECT_TRUE((lookup_width(document, "other") == FilterWidth{WidthUnit::map_pixels, 3.0}));
+}
+
+TEST(LoadLight, PointLightsBecomeSixFacesThatShareAPlaceInTheFile) {
+    const char* lights = R"([{"type": "directional", "direction": [0, -1, 0]},
+                             {"type": "point", "name": "lamp", "position": [1, 2, 3], "colour": 2, "border": 0.5,
+                              "near": 0.25, "softness": {"share": 0.1}, "faces": ["-y", "+x"]}])";
+    const Scenario scenario = load(lights);
+    ASSERT_EQ(scenario.lights.size(), 3u);
+    ASSERT_EQ(scenario.fills.size(), 4u) << "the light shines through faces without a map";
+    EXPECT_EQ(scenario.lights[1].name, "lamp +x");
+    EXPECT_EQ(scenario.lights[2].name, "lamp -y");
+    EXPECT_EQ(scenario.lights[2].direction, Vec3d(0, -1, 0));
+    EXPECT_EQ(scenario.lights[2].face, 3);
+    for (const Light* face : {&scenario.lights[1], &scenario.lights[2], &scenario.fills[0], &scenario.fills[3]}) {
+        EXPECT_EQ(face->type, LightType::spot);
+        EXPECT_EQ(face->where, "/lights/1");
+        EXPECT_EQ(face->position, Vec3d(1, 2, 3));
+        EXPECT_EQ(face->colour, Vec3f(2, 2, 2));
+        EXPECT_EQ(face->border, 0.5);
+        EXPECT_EQ(face->near, 0.25);
+        EXPECT_TRUE(face->softness.has_value());
+        // The farthest corner of the casters is [4, 5, 6].
+        EXPECT_NEAR((face->target - face->position).length(), std::sqrt(27.0), 1e-12);
+    }
+    json document = json::parse(R"({"scene": {"objects": []}})");
+    document["lights"] = json::parse(lights);
+    EXPECT_EQ(light_names(document), (std::vector<std::string>{"directional_0", "lamp +x", "lamp -y"}));
+    EXPECT_TRUE((lookup_width(document, "lamp -y") == FilterWidth{WidthUnit::share, 0.1}));
+    EXPECT_EQ(load(R"([{"type": "point", "position": [1, 2, 3]}])").lights.size(), 6u);
+    const Scenario fill = load(R"([{"type": "directional", "direction": [0, -1, 0]},
+                                   {"type": "point", "position": [1, 2, 3], "casts_shadow": false}])");
+    ASSERT_EQ(fill.fills.size(), 1u);
+    EXPECT_FALSE(fill.fills[0].face) << "it lights everything at once";
+}
+
+TEST(LoadLight, RefusesFacesThatAreNone) {
+    EXPECT_EQ(place(R"([{"type": "point", "position": [1, 2, 3], "faces": []}])"), "/lights/0/faces");
+    EXPECT_EQ(place(R"([{"type": "point", "position": [1, 2, 3], "faces": ["x"]}])"), "/lights/0/faces/0");
+    EXPECT_EQ(place(R"([{"type": "point", "position": [1, 2, 3], "border": 0}])"), "/lights/0/border");
+    EXPECT_EQ(place(R"([{"type": "point"}])"), "/lights/0");
+    EXPECT_EQ(place(R"([{"type": "point", "name": "a", "position": [1, 2, 3]},
+                        {"type": "directional", "name": "a +z", "direction": [0, -1, 0]}])"),
+              "/lights/1/name");
+}
+
+TEST(LoadLight, RefusesScenesWithoutAnyShadowAndWidthsThatAreNone) {
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "casts_shadow": false}])"), "/lights");
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "softness": 2}])"), "/lights/0/softness");
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "softness": {"length": 0}}])"),
+              "/lights/0/softness/length");
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "softness": {"share": 1, "length": 1}}])"),
+              "/lights/0/softness");
+    EXPECT_EQ(place(R"([{"type": "directional", "direction": [0, -1, 0], "casts_shadow": false},
+                        {"type": "directional", "direction": [0, -1, 0], "name": "directional_0"}])"),
+              "/lights/1/name");
 }
 
 TEST(LoadLight, RefusesDirectionsWithoutLength) {

@@ -114,9 +114,10 @@ TEST(LoadScenario, ReadsEverySetting) {
                         {"pattern", "regular"},
                         {"media", "cells"},
                         {"seed", 9007199254740991}};
-    document["receivers"] = {{"type", "camera"},    {"position", {1, 2, 3}}, {"target", {0, 1, 0}}, {"up", {0, 0, 1}},
-                             {"fov", 60},           {"resolution", 100},     {"media_lookups", 3},  {"seed", 4},
-                             {"filter_width", 2.5}, {"bias", 0.25}};
+    document["receivers"] = {
+        {"type", "camera"},    {"position", {1, 2, 3}}, {"target", {0, 1, 0}}, {"up", {0, 0, 1}},
+        {"fov", 60},           {"resolution", 100},     {"media_lookups", 3},  {"seed", 4},
+        {"filter_width", 2.5}, {"bias", 0.25},          {"slope_bias", 0.5},   {"normal_bias", 1.5}};
     document["reference"] = {{"samples_per_pixel", 10}, {"queries", 11}, {"spread_seeds", 12}, {"seed", 13}};
     document["timing"] = {
         {"repetitions", 14}, {"most_repetitions", 16}, {"goal", 0.25}, {"seconds", 17.5}, {"lookups", 15}};
@@ -133,6 +134,8 @@ TEST(LoadScenario, ReadsEverySetting) {
     EXPECT_EQ(scenario.receivers.seed, 4u);
     EXPECT_TRUE((scenario.receivers.filter_width == FilterWidth{WidthUnit::map_pixels, 2.5}));
     EXPECT_EQ(scenario.receivers.bias, 0.25);
+    EXPECT_EQ(scenario.receivers.slope_bias, 0.5);
+    EXPECT_EQ(scenario.receivers.normal_bias, 1.5);
     expect_same(scenario.reference, Reference{10, 11, 12, 13});
     expect_same(scenario.timing, Timing{14, 16, 0.25, 17.5, 15});
 }

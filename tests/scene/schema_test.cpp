@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"/scene/objects/0", R"({"type": "sphere", "radius": 1})", "/scene/objects/0",
                           "\"centre\" is missing"},
                     Wrong{"/scene/objects/0/type", "\"shpere\"", "/scene/objects/0/type", "perhaps \"sphere\""},
-                    Wrong{"/lights/0/type", "\"point\"", "/lights/0/type", "one of: directional, spot"},
+                    Wrong{"/lights/0/type", "\"area\"", "/lights/0/type", "one of: directional, spot, point"},
                     Wrong{"/techniques/0", "{}", "/techniques/0", "\"type\" is missing"}));
 
 TEST(CheckSchema, AcceptsAMinimalScenario) {
