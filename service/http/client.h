@@ -28,6 +28,9 @@ public:
     Reply get(const std::string& path);
     Reply post_json(const std::string& path, const std::string& body, const std::vector<Field>& headers);
 
+    // The whole URL of such a path.
+    std::string url_of(const std::string& path) const;
+
 private:
     struct State;
     std::string place_of(const std::string& path) const;

@@ -390,6 +390,10 @@ std::string Client::place_of(const std::string& path) const {
     return path.starts_with(base_ + "/v1/") ? path : base_ + path;
 }
 
+std::string Client::url_of(const std::string& path) const {
+    return url_.substr(0, url_.size() - base_.size()) + place_of(path);
+}
+
 Reply Client::get(const std::string& path) {
     return reply_of(state_->client.Get(place_of(path)), url_);
 }

@@ -1,6 +1,7 @@
 #include "service/log/log.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -71,7 +72,7 @@ std::string json_of(const LogEvent& event) {
         else if (const auto* whole = std::get_if<std::int64_t>(&value))
             line += std::to_string(*whole);
         else
-            line += json(std::get<double>(value)).dump();
+            line += std::isfinite(std::get<double>(value)) ? number(std::get<double>(value)) : "null";
     }
     return line;
 }

@@ -152,6 +152,8 @@ TEST_F(Operator, ClientsFollowLinksBelowThePathOfTheirServer) {
     EXPECT_EQ(posted.status, 202);
     EXPECT_TRUE(posted.location.starts_with("/lab/v1/jobs/")) << posted.location;
     EXPECT_EQ(client.get(posted.location).status, 200);
+    EXPECT_EQ(client.url_of(posted.location), server_->url() + posted.location);
+    EXPECT_EQ(client.url_of("/v1/jobs"), server_->url() + "/lab/v1/jobs");
     for (const char* url : {"localhost:8080", "ftp://localhost", "http://localhost/a/../b", "http://localhost/a?b"})
         EXPECT_THROW(Client(url, ""), base::Error) << url;
 }
