@@ -25,6 +25,7 @@
 #include "service/http/head.h"
 #include "service/http/lobby.h"
 #include "service/http/prefix.h"
+#include "service/http/reception.h"
 #include "service/http/server.h"
 
 namespace shadowbench::service {
@@ -33,7 +34,6 @@ namespace {
 using base::Error;
 using base::ErrorCode;
 
-constexpr std::size_t framing = 64 * 1024;  // bytes that the framing of chunks may add to a body
 constexpr std::size_t piece_size = 64 * 1024;
 constexpr int monitor_answer = 256 * 1024;  // bytes that a socket takes without waiting
 constexpr double monitor_seconds = 1.0;     // as ChannelLimits::write_seconds
@@ -135,7 +135,7 @@ void tidy(httplib::Response& response) {
 class Front final : public httplib::Server {
 public:
     Front(Service& service, std::size_t streams, const HttpOptions& options)
-        : service_(service), options_(options), guard_{is_loopback(options.host), options.tokens} {
+        : service_(service), options_(options), reception_(service_, options_, waiting_) {
         new_task_queue = [this, threads = options.workers + streams, most = options.waiting] {
             return door_ = new Door(
                        threads, most, waiting_, [this](int socket) { serve(socket); },
@@ -210,49 +210,10 @@ private:
     bool converse(Channel& channel, bool at_once) {
         Exchange exchange(channel);
         exchange.at_once = at_once;
-        std::string text;
-        const Channel::Outcome outcome = channel.read_head(text);
-        exchange.begun = std::chrono::steady_clock::now();
-        switch (outcome) {
-            case Channel::Outcome::closed:
-                return false;
-            case Channel::Outcome::too_slow:
-                exchange.refusal = problem(408, "The request took too long to arrive.");
-                break;
-            case Channel::Outcome::too_large:
-                exchange.refusal = problem(431, "The head of the request is too long.");
-                break;
-            case Channel::Outcome::complete:
-                check_head(text, exchange);
-                break;
-        }
-        const bool refused = exchange.refusal.has_value();
-        if (refused) service_.count_refusal(exchange.head.request, exchange.refusal->status);
+        if (!reception_.receive(exchange)) return false;
         pass_on(exchange);
         if (!exchange.keep && !at_once) channel.linger();
         return exchange.keep;
-    }
-
-    // Checks what can be checked before the body is read.
-    void check_head(const std::string& text, Exchange& exchange) {
-        Head& head = exchange.head;
-        if (const auto fault = parse_head(text, head)) {
-            exchange.refusal = problem(fault->status, fault->detail);
-            return;
-        }
-        exchange.refusal = take_prefix(head.request, options_.base_path);
-        if (!exchange.refusal) exchange.refusal = guard(head.request, guard_);
-        if (!exchange.refusal) exchange.refusal = service_.refuse(head.request);
-        if (!exchange.refusal && head.content_length.value_or(0) > service_.limits().body)
-            exchange.refusal = too_large();
-        // A body that was not read must not be taken for the next request.
-        exchange.keep =
-            head.keep_alive && waiting_ == 0 && !exchange.at_once && !(exchange.refusal && head.request.has_body);
-        exchange.channel.begin_body(service_.limits().body + framing);
-    }
-
-    ApiResponse too_large() const {
-        return problem(413, fmt::format("The body is larger than {} bytes.", service_.limits().body));
     }
 
     void pass_on(Exchange& exchange) {
@@ -293,7 +254,7 @@ private:
         if (!complete) {
             exchange.keep = false;
             exchange.refusal =
-                too_long ? too_large() : problem(400, "The body is malformed, or took too long to arrive.");
+                too_long ? reception_.too_large() : problem(400, "The body is malformed, or took too long to arrive.");
             service_.count_refusal(exchange.head.request, exchange.refusal->status);
         }
         respond(response);
@@ -301,9 +262,9 @@ private:
 
     Service& service_;
     const HttpOptions options_;
-    const GuardOptions guard_;
     std::atomic<bool> stopping_ = false;
     std::atomic<std::size_t> waiting_ = 0;
+    const Reception reception_;
     Door* door_ = nullptr;  // httplib owns it, as long as it listens
 };
 
