@@ -109,7 +109,7 @@ std::vector<MetricFamily> job_families(const Jobs& jobs) {
     families.push_back(counter_family("shadowbench_jobs_ended_total", "Jobs that ended, by state.", "state",
                                       with_zeros(tally.ended, {"succeeded", "failed", "cancelled"})));
     families.push_back(counter_family("shadowbench_jobs_requeued_total", "Runs after which a job waits again.",
-                                      "reason", with_zeros(tally.requeued, {"died", "stopped", "storage"})));
+                                      "reason", with_zeros(tally.requeued, {"died", "killed", "stopped", "storage"})));
     families.push_back(counter_family("shadowbench_jobs_removed_total", "Jobs that were removed, by reason.", "reason",
                                       with_zeros(tally.removed, {"request", "age", "number", "space"})));
     MetricFamily seconds =

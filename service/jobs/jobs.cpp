@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <random>
 #include <system_error>
 #include <thread>
@@ -150,7 +151,11 @@ Jobs::State::State(const fs::path& path, const std::string& program, const std::
       presence({path, folder.database()}),
       board(store.next_revision()),
       place{store, board, presence, folders, checked_program, data, limits, hidden_folders(path.string(), data), news} {
+    const std::vector<StoredJob> cut_off = store.list({job_states::running}, INT32_MAX, 0);
     recover(folder, store, folders, [this](const std::string& line) { news.recovered(line); });
+    for (const StoredJob& job : cut_off)
+        if (const auto now = store.find(job.id); now && now->state == job_states::queued)
+            news.requeued(job, "killed", "");
 }
 
 void Jobs::State::reuse_result(NewJob& job) {

@@ -21,7 +21,7 @@ public:
     // `why`: the fault of a job that failed.
     void ended(const StoredJob& job, const std::string& state, const std::string& why, double seconds);
     void cancelled(const std::string& id);
-    // `reason`: "died", "stopped", "storage".
+    // `reason`: "died"; "stopped" or "killed", with the server; "storage".
     void requeued(const StoredJob& job, const char* reason, const std::string& why);
     // `reason`: "request", "age", "number", "space".
     void removed(const std::string& id, const char* reason);

@@ -166,6 +166,14 @@ void sweep_work(StateFolder& state, JobStore& store, const JobFolders& folders, 
     }
 }
 
+void note_bytes(JobStore& store, const JobFolders& folders, const std::string& id) {
+    try {
+        store.set_bytes(id, bytes_in(folders.jobs / id));
+    } catch (const base::Error&) {
+        // As on a full disk: the next start notes it.
+    }
+}
+
 // Reports jobs whose results are missing, and measures results of earlier versions, which did not note their size.
 void check_succeeded(JobStore& store, const JobFolders& folders, const Say& say) {
     std::int64_t before = 0;
@@ -175,7 +183,7 @@ void check_succeeded(JobStore& store, const JobFolders& folders, const Say& say)
             const auto there = read_or_say(say, [&] { return is_published(folders, job.id); });
             if (there == false)
                 say(fmt::format("{}: the results of this job are missing", (folders.jobs / job.id).string()));
-            if (there == true && job.bytes == 0) store.set_bytes(job.id, bytes_in(folders.jobs / job.id));
+            if (there == true && job.bytes == 0) note_bytes(store, folders, job.id);
         }
         if (page.size() < 1000) return;
         before = page.back().sequence;

@@ -116,5 +116,17 @@ TEST_F(RetentionHost, CountsWhatBecomesOfJobs) {
                                           "started failed queued started cancelled "));
 }
 
+TEST_F(RetentionHost, ReportsJobsThatAKilledServerRan) {
+    start();
+    const std::string id = submit(endless);
+    wait_for_run(id);
+    jobs.reset();
+    {
+        JobStore store(state() / "jobs.db");
+        EXPECT_TRUE(store.claim("now"));  // as if the server had been killed
+    }
+    EXPECT_EQ(start().tally().requeued.at("killed"), 1u);
+}
+
 }  // namespace
 }  // namespace shadowbench::service
