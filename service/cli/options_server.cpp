@@ -164,6 +164,11 @@ void add_submit(CLI::App& app, Commands& commands) {
         ->check(CLI::ExistingFile);
     submit->add_option("--set", arguments->set, "path=value: change one value of the scenario, as for run")
         ->allow_extra_args(false);
+    submit->add_option("--label", arguments->labels, "A label of the job, to find it by; may be repeated")
+        ->allow_extra_args(false);
+    submit->add_option("--priority", arguments->priority, "Of your jobs, those of the highest priority run first")
+        ->check(CLI::Range(-100, 100))
+        ->capture_default_str();
     submit->add_flag("--wait", arguments->wait,
                      "Wait for the result and print its table or answer, with the exit codes of run or recommend. A "
                      "server that does not answer is tried "

@@ -42,6 +42,8 @@ struct SubmitArguments {
     std::string server = "http://127.0.0.1:8080";
     std::string token_file;
     std::string cacert;  // a file of certificates; empty: those of the system
+    std::vector<std::string> labels;
+    int priority = 0;
     bool wait = false, fresh = false, no_pictures = false;
     std::optional<double> recommend;  // the error to ask a recommendation for
 };

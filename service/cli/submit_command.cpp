@@ -70,6 +70,8 @@ std::string request_body(const SubmitArguments& arguments) {
     for (const std::string& assignment : arguments.set) document::set_value(document, assignment);
     nlohmann::json body = {{"scenario", std::move(document)},
                            {"options", {{"cache", arguments.fresh ? "fresh" : "reuse"}}}};
+    if (!arguments.labels.empty()) body["options"]["labels"] = arguments.labels;
+    if (arguments.priority != 0) body["options"]["priority"] = arguments.priority;
     if (arguments.recommend)
         body["recommend"] = {{"error", *arguments.recommend}};
     else

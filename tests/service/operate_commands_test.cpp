@@ -89,6 +89,15 @@ TEST_F(Operate, BackUpAndCheckAreCommands) {
     EXPECT_NE(found.err.find("1 fault found"), std::string::npos) << found.err;
 }
 
+TEST_F(Operate, SubmitRefusesWhatNoTryMends) {
+    const std::string scenario = write("tiny.json", "{}");
+    // Not tried again for 60 s: the test would run into its limit.
+    EXPECT_EQ(cli({"submit", scenario, "--wait", "--server", "localhost:1"}).code, 64);
+    EXPECT_EQ(cli({"submit", scenario, "--wait", "--server", "http://localhost/a/../b"}).code, 64);
+    EXPECT_EQ(cli({"submit", scenario, "--cacert", "none"}).code, 64);
+    EXPECT_EQ(cli({"submit", scenario, "--priority", "101"}).code, 64);
+}
+
 TEST_F(Operate, SaysToSystemdThatItIsReady) {
     const std::string place = (folder_.path() / "n").string();
     sockaddr_un address{};
