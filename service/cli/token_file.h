@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "service/store/owner_limits.h"
+#include "service/jobs/jobs.h"
 
 namespace shadowbench::service {
 
