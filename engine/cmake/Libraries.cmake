@@ -9,6 +9,7 @@ shadowbench_mend_engine_libraries()
 find_package(PkgConfig REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(CLI11 REQUIRED CONFIG)
+find_package(spdlog REQUIRED CONFIG)
 find_package(valijson QUIET CONFIG)
 if(NOT TARGET valijson)
   add_library(valijson INTERFACE)  # header only
@@ -21,7 +22,7 @@ pkg_check_modules(prometheus REQUIRED IMPORTED_TARGET prometheus-cpp-core)
 # Headers of other projects need not pass this project's warnings.
 foreach(target IN ITEMS TBB::tbb Imath::Imath fmt::fmt nlohmann_json::nlohmann_json CLI11::CLI11
                         tinyobjloader::tinyobjloader valijson OpenImageIO::OpenImageIO embree OpenVDB::openvdb
-                        SQLite::SQLite3 PkgConfig::httplib PkgConfig::prometheus)
+                        SQLite::SQLite3 spdlog::spdlog PkgConfig::httplib PkgConfig::prometheus)
   get_target_property(includes ${target} INTERFACE_INCLUDE_DIRECTORIES)
   if(includes)
     set_property(TARGET ${target} APPEND PROPERTY INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${includes})

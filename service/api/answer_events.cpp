@@ -35,7 +35,7 @@ private:
 
 // What one client has received.
 struct Follower {
-    std::string id;
+    std::string id, prefix;
     std::uint64_t revision = 0;
     std::optional<JobState> state;
     bool started = false, ended = false;
@@ -48,7 +48,7 @@ std::string event_text(const Jobs& jobs, const JobInfo& job, Follower& follower)
     follower.state = job.state;
     follower.ended = has_ended(job);
     const char* kind = follower.ended ? "end" : new_state ? "state" : "progress";
-    const nlohmann::ordered_json value = job_json(jobs, job);
+    const nlohmann::ordered_json value = job_json(jobs, job, follower.prefix);
     return "id: " + std::to_string(job.revision) + "\nevent: " + kind +
            "\ndata: " + value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n\n";
 }
@@ -84,6 +84,7 @@ ApiResponse job_events(Context& context, const Call& call) {
     if (!job) return problem(404, "There is no such job.");
     Follower follower;
     follower.id = job->id;
+    follower.prefix = call.request.prefix;
     follower.revision = last_event(call.request);
     ApiResponse response;
     if (follower.revision > job->revision) follower.revision = 0;  // from an earlier run of the server

@@ -35,18 +35,22 @@ bool is_key(const std::string& key) {
            std::all_of(key.begin(), key.end(), [](char c) { return c >= 0x20 && c <= 0x7e; });
 }
 
-ApiResponse submitted(const Context& context, const Submitted& outcome) {
+ApiResponse submitted(const Context& context, const ApiRequest& request, const Submitted& outcome) {
     switch (outcome.outcome) {
         case Submitted::Outcome::conflict:
             return problem(409, "This Idempotency-Key was already used for another request.");
         case Submitted::Outcome::queue_full:
             return queue_is_full();
+        case Submitted::Outcome::owner_queue_full:
+            return try_later(429, "As many jobs of this token wait as may; try again later.", "30");
+        case Submitted::Outcome::owner_bytes:
+            return try_later(429, "The results of this token take as much space as they may; delete jobs.", "3600");
         case Submitted::Outcome::created:
         case Submitted::Outcome::existing:
             break;
     }
-    ApiResponse response = json_answer(202, job_json(context.jobs, outcome.job));
-    response.headers.push_back({"Location", "/v1/jobs/" + outcome.job.id});
+    ApiResponse response = json_answer(202, job_json(context.jobs, outcome.job, request.prefix));
+    response.headers.push_back({"Location", request.prefix + "/v1/jobs/" + outcome.job.id});
     return response;
 }
 
@@ -81,8 +85,19 @@ ApiResponse queue(Context& context, const Call& call,
     request.pictures = scenario.pictures;
     request.recommend = std::move(scenario.recommend);
     request.reuse = scenario.reuse;
+    request.labels = std::move(scenario.labels);
+    request.priority = scenario.priority;
+    request.owner = call.request.client;
     if (key) request.idempotency_key = *key;
-    return submitted(context, context.jobs.submit(request));
+    return submitted(context, call.request, context.jobs.submit(request));
+}
+
+ApiResponse set_pinned(Context& context, const Call& call, bool pinned) {
+    const std::string& id = call.parameter("id");
+    const Jobs::Change change = context.jobs.pin(id, pinned);
+    const std::optional<JobInfo> job = context.jobs.find(id);
+    if (change == Jobs::Change::not_found || !job) return no_such_job();
+    return json_answer(200, job_json(context.jobs, *job, call.request.prefix));
 }
 
 }  // namespace
@@ -96,10 +111,14 @@ ApiResponse post_recommendation(Context& context, const Call& call) {
 }
 
 ApiResponse list_jobs(Context& context, const Call& call) {
-    std::optional<JobState> state;
+    JobFilter filter;
+    for (const auto& [name, wanted] :
+         {std::pair("owner", &filter.owner), std::pair("label", &filter.label), std::pair("text", &filter.text)})
+        if (const std::string* text = call.request.parameter(name)) *wanted = *text;
     if (const std::string* text = call.request.parameter("state")) {
-        state = parse_job_state(*text);
-        if (!state) return problem(400, "The parameter state must be queued, running, succeeded, failed or cancelled.");
+        filter.state = parse_job_state(*text);
+        if (!filter.state)
+            return problem(400, "The parameter state must be queued, running, succeeded, failed or cancelled.");
     }
     std::size_t limit = page;
     if (const std::string* text = call.request.parameter("limit")) {
@@ -108,9 +127,9 @@ ApiResponse list_jobs(Context& context, const Call& call) {
             return problem(400, "The parameter limit must be a number from 1 to 200.");
     }
     const std::string* cursor = call.request.parameter("cursor");
-    const JobPage found = context.jobs.list(state, limit, cursor ? *cursor : "");
+    const JobPage found = context.jobs.list(filter, limit, cursor ? *cursor : "");
     nlohmann::ordered_json jobs = nlohmann::ordered_json::array();
-    for (const JobInfo& job : found.jobs) jobs.push_back(job_json(context.jobs, job));
+    for (const JobInfo& job : found.jobs) jobs.push_back(job_json(context.jobs, job, call.request.prefix));
     nlohmann::ordered_json answer = {{"jobs", std::move(jobs)}, {"next", nullptr}};
     if (!found.next.empty()) answer["next"] = found.next;
     return json_answer(200, answer);
@@ -118,7 +137,7 @@ ApiResponse list_jobs(Context& context, const Call& call) {
 
 ApiResponse get_job(Context& context, const Call& call) {
     const std::optional<JobInfo> job = context.jobs.find(call.parameter("id"));
-    return job ? json_answer(200, job_json(context.jobs, *job)) : no_such_job();
+    return job ? json_answer(200, job_json(context.jobs, *job, call.request.prefix)) : no_such_job();
 }
 
 ApiResponse cancel_job(Context& context, const Call& call) {
@@ -127,7 +146,7 @@ ApiResponse cancel_job(Context& context, const Call& call) {
     const std::optional<JobInfo> job = context.jobs.find(id);
     if (change == Jobs::Change::not_found || !job) return no_such_job();
     if (change == Jobs::Change::refused) return problem(409, "The job has already ended.");
-    return json_answer(202, job_json(context.jobs, *job));
+    return json_answer(202, job_json(context.jobs, *job, call.request.prefix));
 }
 
 ApiResponse retry_job(Context& context, const Call& call) {
@@ -146,7 +165,15 @@ ApiResponse retry_job(Context& context, const Call& call) {
             break;
     }
     const std::optional<JobInfo> job = context.jobs.find(id);
-    return job ? json_answer(202, job_json(context.jobs, *job)) : no_such_job();
+    return job ? json_answer(202, job_json(context.jobs, *job, call.request.prefix)) : no_such_job();
+}
+
+ApiResponse pin_job(Context& context, const Call& call) {
+    return set_pinned(context, call, true);
+}
+
+ApiResponse unpin_job(Context& context, const Call& call) {
+    return set_pinned(context, call, false);
 }
 
 ApiResponse delete_job(Context& context, const Call& call) {

@@ -1,4 +1,7 @@
 // GET / and /assets: the page and its files, which the program holds.
+#include <string>
+
+#include "base/hash_text.h"
 #include "service/api/accept.h"
 #include "service/api/problem.h"
 #include "service/api/routes.h"
@@ -12,18 +15,43 @@ constexpr const char* page_policy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-src 'self'; frame-ancestors 'none'";
 
+// The page and its scripts name their files and the API from the root of the host. Behind a proxy these paths begin
+// with its prefix.
+std::string relocated(std::string text, const std::string& prefix) {
+    for (const char quote : {'"', '\'', '`'})
+        for (const char* top : {"/assets/", "/v1/"}) {
+            const std::string path = quote + std::string(top);
+            for (std::size_t at = text.find(path); at != std::string::npos;
+                 at = text.find(path, at + prefix.size() + 1))
+                text.insert(at + 1, prefix);
+        }
+    return text;
+}
+
+bool names_paths(const Asset& asset) {
+    const std::string type(asset.type);
+    return type.starts_with("text/html") || type.starts_with("text/javascript");
+}
+
 ApiResponse asset_answer(const ApiRequest& request, const std::string& path) {
     const Asset* asset = find_asset(path);
     if (!asset) return problem(404, "There is no such file.");
+    const bool moved = !request.prefix.empty() && names_paths(*asset);
+    std::string etag(asset->etag);
+    if (moved) etag.insert(etag.size() - 1, "-" + base::hash_text(request.prefix));
     ApiResponse response;
     response.type = asset->type;
-    response.headers = {{"ETag", std::string(asset->etag)},
+    response.headers = {{"ETag", etag},
                         {"Cache-Control", "private, no-cache"},
                         {"Vary", "Accept-Encoding"},
                         {"Content-Security-Policy", page_policy}};
-    if (has_version(request, std::string(asset->etag))) {
+    if (has_version(request, etag)) {
         response.status = 304;
         response.type.clear();
+        return response;
+    }
+    if (moved) {
+        response.body = relocated(text_of(*asset), request.prefix);
         return response;
     }
     if (asset->gzip) {

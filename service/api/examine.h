@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -20,7 +22,8 @@ namespace shadowbench::service {
 // object.
 nlohmann::json take_answer(const std::string& line);
 
-// Thread-safe. It keeps the last answers, since clients often send the same scenario again.
+// Thread-safe. It keeps the last answers, since clients often send the same scenario again, and the processes that gave
+// them, since starting one takes longer than most answers. A process goes after some hundred answers, or a fault.
 class Examiner {
 public:
     // `seconds`: longest wait for one answer. `waiting`: requests that may wait for their turn.
@@ -32,12 +35,21 @@ public:
                                                                    const std::string& recommend = "");
 
 private:
+    struct Idle {
+        std::unique_ptr<Helper> helper;
+        int answers;  // so far
+    };
+    std::string ask(const std::string& question);
+    std::optional<std::string> ask_idle(const std::string& question);
+    void keep(Idle helper);
+
     StartHelper start_;
     std::vector<std::string> arguments_;
     double seconds_;
     Slots slots_;
     std::mutex mutex_;
     Lru<std::string> answers_;
+    std::vector<Idle> idle_;
 };
 
 }  // namespace shadowbench::service

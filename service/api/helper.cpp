@@ -20,7 +20,8 @@ using base::Error;
 using base::ErrorCode;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* dead = "checking it failed, since the process ended; it may need more memory than this server allows";
+constexpr const char* dead =
+    "checking it failed, since the process ended; it may need more memory than this server allows";
 constexpr std::size_t longest_answer = std::size_t{64} << 20;
 
 [[noreturn]] void fail(const char* what) {

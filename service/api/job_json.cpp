@@ -39,8 +39,9 @@ ordered_json fault_json(const std::optional<JobFault>& fault) {
 
 }  // namespace
 
-nlohmann::ordered_json to_json(const JobInfo& job, const std::vector<std::string>& artifacts) {
-    const std::string self = "/v1/jobs/" + job.id;
+nlohmann::ordered_json to_json(const JobInfo& job, const std::vector<std::string>& artifacts,
+                               const std::string& prefix) {
+    const std::string self = prefix + "/v1/jobs/" + job.id;
     const bool run = job.recommend.empty();
     const ordered_json good = or_null(job.promises_kept);
     return {{"id", job.id},
@@ -61,6 +62,11 @@ nlohmann::ordered_json to_json(const JobInfo& job, const std::vector<std::string
             {"promises_kept", run ? good : nullptr},
             {"reached", run ? nullptr : good},
             {"error", fault_json(job.fault)},
+            {"owner", text_or_null(job.owner)},
+            {"labels", job.labels},
+            {"priority", job.priority},
+            {"pinned", job.pinned},
+            {"bytes", job.bytes},
             {"artifacts", artifacts},
             {"links",
              {{"self", self},
@@ -71,8 +77,8 @@ nlohmann::ordered_json to_json(const JobInfo& job, const std::vector<std::string
               {"report", self + "/report"}}}};
 }
 
-nlohmann::ordered_json job_json(const Jobs& jobs, const JobInfo& job) {
-    return to_json(job, job.state == JobState::queued ? std::vector<std::string>() : jobs.artifacts(job.id));
+nlohmann::ordered_json job_json(const Jobs& jobs, const JobInfo& job, const std::string& prefix) {
+    return to_json(job, job.state == JobState::queued ? std::vector<std::string>() : jobs.artifacts(job.id), prefix);
 }
 
 bool has_ended(const JobInfo& job) {

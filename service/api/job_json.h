@@ -10,10 +10,12 @@
 
 namespace shadowbench::service {
 
-nlohmann::ordered_json to_json(const JobInfo& job, const std::vector<std::string>& artifacts);
+// `prefix`: see ApiRequest.
+nlohmann::ordered_json to_json(const JobInfo& job, const std::vector<std::string>& artifacts,
+                               const std::string& prefix);
 
 // The JSON of a job with the names of its artifacts; a queued job has none.
-nlohmann::ordered_json job_json(const Jobs& jobs, const JobInfo& job);
+nlohmann::ordered_json job_json(const Jobs& jobs, const JobInfo& job, const std::string& prefix);
 
 // Whether the job succeeded, failed or was cancelled.
 bool has_ended(const JobInfo& job);

@@ -22,6 +22,9 @@ struct ApiRequest {
     std::vector<Field> headers;     // names in lower case
     bool has_body = false;          // known before the body is read
     std::string body;
+    std::string id = {};      // names it in the log and in the answer
+    std::string client = {};  // the name of the token that it came with; empty: the server has no named tokens
+    std::string prefix = {};  // where the server appears below its host, as "/lab"; links begin with it
 
     // The value of the first field of this name; null where there is none.
     const std::string* header(const std::string& lower_name) const;

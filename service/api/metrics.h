@@ -5,7 +5,10 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "service/jobs/tally.h"
 
 namespace shadowbench::service {
 
@@ -18,17 +21,13 @@ public:
     // route.
     void count(const std::string& method, const std::string& route, int status, double seconds);
 
-    // All counts in Prometheus' text format, with the jobs by state.
+    // All counts in Prometheus' text format, with those of the jobs, the disk and the process.
     std::string text(const Jobs& jobs, std::size_t event_streams) const;
 
 private:
-    struct Latency {
-        std::vector<std::uint64_t> buckets;  // not cumulative; the last one has no upper bound
-        double sum = 0.0;
-    };
     mutable std::mutex mutex_;
-    std::map<std::vector<std::string>, std::uint64_t> requests_;  // method, route, code
-    std::map<std::string, Latency> latencies_;                    // by route
+    std::map<std::vector<std::string>, std::uint64_t> requests_;          // method, route, code
+    std::map<std::pair<std::string, std::string>, Histogram> latencies_;  // by method and route
 };
 
 }  // namespace shadowbench::service

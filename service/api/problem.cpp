@@ -86,7 +86,14 @@ ApiResponse problem(int status, const std::string& detail, const std::vector<Pro
             value["errors"].push_back({{"pointer", part.pointer}, {"detail", part.detail}});
     }
     value.update(members);
-    return answer(status, value, "application/problem+json");
+    return answer(status, value, problem_type);
+}
+
+void add_request_id(ApiResponse& problem, const std::string& id) {
+    json value = json::parse(problem.body, nullptr, false);
+    if (!value.is_object()) return;
+    value["request_id"] = id;
+    problem.body = text_of(value);
 }
 
 ApiResponse problem_of(const base::Error& error) {

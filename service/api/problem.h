@@ -20,6 +20,10 @@ ApiResponse problem(int status, const std::string& detail, const std::vector<Pro
 ApiResponse problem(int status, const std::string& detail, const std::vector<ProblemPart>& errors,
                     const nlohmann::json& members);
 
+inline constexpr const char* problem_type = "application/problem+json";
+// Gives a problem the member "request_id".
+void add_request_id(ApiResponse& problem, const std::string& id);
+
 // The answer to an error of the engine: 422 with the pointer of its place for bad input, 400 for wrong usage. For a
 // fault of the server 500 or 503, without its cause.
 ApiResponse problem_of(const base::Error& error);

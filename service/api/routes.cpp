@@ -13,12 +13,14 @@ constexpr const char* json_type = "application/json";
 
 constexpr Route table[] = {
     {"POST", "/v1/jobs", json_type, true, post_job},
-    {"GET", "/v1/jobs", json_type, false, list_jobs, {"state", "limit", "cursor"}},
+    {"GET", "/v1/jobs", json_type, false, list_jobs, {"state", "limit", "cursor", "owner", "label", "text"}},
     {"GET", "/v1/jobs/{id}", json_type, false, get_job},
     {"DELETE", "/v1/jobs/{id}", "", false, delete_job},
     {"GET", "/v1/jobs/{id}/events", "text/event-stream", false, job_events},
     {"POST", "/v1/jobs/{id}/cancel", json_type, false, cancel_job},
     {"POST", "/v1/jobs/{id}/retry", json_type, false, retry_job},
+    {"POST", "/v1/jobs/{id}/pin", json_type, false, pin_job},
+    {"POST", "/v1/jobs/{id}/unpin", json_type, false, unpin_job},
     {"GET", "/v1/jobs/{id}/scenario", json_type, false, job_scenario},
     {"GET", "/v1/jobs/{id}/result", json_type, false, job_result},
     {"GET", "/v1/jobs/{id}/result.csv", "text/csv", false, job_csv},

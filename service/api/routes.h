@@ -26,7 +26,7 @@ struct Route {
     const char* type;     // media type of a successful answer; "": several types
     bool takes_body;      // JSON
     ApiResponse (*answer)(Context& context, const Call& call);
-    std::array<const char*, 4> query = {};  // names of its parameters, then null
+    std::array<const char*, 6> query = {};  // names of its parameters, then null
 };
 
 std::span<const Route> routes();
@@ -42,6 +42,8 @@ ApiResponse list_jobs(Context& context, const Call& call);
 ApiResponse get_job(Context& context, const Call& call);
 ApiResponse cancel_job(Context& context, const Call& call);
 ApiResponse retry_job(Context& context, const Call& call);
+ApiResponse pin_job(Context& context, const Call& call);
+ApiResponse unpin_job(Context& context, const Call& call);
 ApiResponse delete_job(Context& context, const Call& call);
 ApiResponse job_events(Context& context, const Call& call);
 ApiResponse job_result(Context& context, const Call& call);

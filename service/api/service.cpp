@@ -73,16 +73,27 @@ std::optional<ApiResponse> refuse_request(const ApiRequest& request, const Route
     return refuse_body(request, *route);
 }
 
+// The cause of a fault on this side goes to the operator, not to the client: it may name folders of the server.
+void log_fault(const Context& context, const ApiRequest& request, const Route& route, const char* cause) {
+    say(context.options.log, {LogLevel::error,
+                              "fault",
+                              cause,
+                              {{"method", request.method}, {"route", route.pattern}, {"request_id", request.id}}});
+}
+
 ApiResponse answer(Context& context, const ApiRequest& request, const Route& route, const PathParameters& parameters) {
     try {
         return route.answer(context, {request, parameters});
     } catch (const base::Error& error) {
+        if (error.code() == base::ErrorCode::io || error.code() == base::ErrorCode::internal)
+            log_fault(context, request, route, error.what());
         return problem_of(error);
     } catch (const Busy&) {
         ApiResponse response = problem(503, "The server works on too many requests of this kind; try again later.");
         response.headers.push_back({"Retry-After", "2"});
         return response;
-    } catch (const std::exception&) {  // its text may name folders of the server
+    } catch (const std::exception& fault) {
+        log_fault(context, request, route, fault.what());
         return problem(500, "Internal fault of the server.");
     }
 }

@@ -1,5 +1,7 @@
 #include "service/api/submit.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -13,20 +15,46 @@ namespace {
 
 using nlohmann::json;
 
+constexpr std::size_t most_labels = 16, longest_label = 64;
+constexpr int most_priority = 100;
+
+bool is_label(const json& value) {
+    if (!value.is_string()) return false;
+    const auto& text = value.get_ref<const std::string&>();
+    return !text.empty() && text.size() <= longest_label &&
+           std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+}
+
+// Reads one of the options into `posted`. Returns what is wrong with it; empty: nothing.
+std::string read_option(const std::string& key, const json& value, bool pictures, PostedScenario& posted) {
+    if (key == "cache" && (value == "reuse" || value == "fresh")) {
+        posted.reuse = value == "reuse";
+    } else if (key == "pictures" && pictures && value.is_boolean()) {
+        posted.pictures = value.get<bool>();
+    } else if (key == "labels") {
+        if (!value.is_array() || value.size() > most_labels || !std::all_of(value.begin(), value.end(), is_label))
+            return fmt::format("must be at most {} texts of 1 to {} bytes, of one line each", most_labels,
+                               longest_label);
+        posted.labels = value.get<std::vector<std::string>>();
+    } else if (key == "priority") {
+        if (!value.is_number_integer() || value < -most_priority || value > most_priority)
+            return fmt::format("must be a whole number from {} to {}", -most_priority, most_priority);
+        posted.priority = value.get<int>();
+    } else {
+        return fmt::format("the options are \"cache\": \"reuse\" or \"fresh\", {}\"labels\", and \"priority\"",
+                           pictures ? "\"pictures\": true or false, " : "");
+    }
+    return "";
+}
+
 std::variant<PostedScenario, ApiResponse> read_options(const json& options, PostedScenario posted) {
     const auto refuse = [](const std::string& pointer, const std::string& detail) {
         return problem(422, detail, {{pointer, detail}});
     };
     if (!options.is_object()) return refuse("/options", "must be an object");
-    for (const auto& [key, value] : options.items()) {
-        if (key == "cache" && (value == "reuse" || value == "fresh"))
-            posted.reuse = value == "reuse";
-        else if (key == "pictures" && value.is_boolean())
-            posted.pictures = value.get<bool>();
-        else
-            return refuse(base::append_token("/options", key),
-                          "the options are \"cache\": \"reuse\" or \"fresh\", and \"pictures\": true or false");
-    }
+    for (const auto& [key, value] : options.items())
+        if (const std::string wrong = read_option(key, value, true, posted); !wrong.empty())
+            return refuse(base::append_token("/options", key), wrong);
     return posted;
 }
 
@@ -85,7 +113,7 @@ std::variant<PostedScenario, ApiResponse> read_posted_recommendation(const std::
     const json& document = std::get<json>(read);
     PostedScenario posted;
     posted.pictures = false;
-    const auto fault = [&](const std::string& pointer, const char* detail) {
+    const auto fault = [&](const std::string& pointer, const std::string& detail) {
         posted.faults.emplace_back(base::ErrorCode::bad_input, pointer, detail);
     };
     if (!document.is_object()) return problem(422, "The body must be an object.", {{"", "must be an object"}});
@@ -97,12 +125,9 @@ std::variant<PostedScenario, ApiResponse> read_posted_recommendation(const std::
         fault("/options", "must be an object");
         options = json::object();
     }
-    for (const auto& [key, value] : options.items()) {
-        if (key == "cache" && (value == "reuse" || value == "fresh"))
-            posted.reuse = value == "reuse";
-        else
-            fault(base::append_token("/options", key), "the only option is \"cache\": \"reuse\" or \"fresh\"");
-    }
+    for (const auto& [key, value] : options.items())
+        if (const std::string wrong = read_option(key, value, false, posted); !wrong.empty())
+            fault(base::append_token("/options", key), wrong);
     const recommend::Request request =
         recommend::read_request(document.value("recommend", json::object()), "/recommend", posted.faults);
     if (!document.contains("scenario")) {

@@ -7,6 +7,7 @@
 #include "recommend/request.h"
 #include "service/cli/options.h"
 #include "service/cli/server_commands.h"
+#include "service/http/prefix.h"
 
 namespace shadowbench::service {
 namespace {
@@ -57,6 +58,54 @@ void add_limits(CLI::App& serve, ServeArguments& a) {
         ->capture_default_str();
 }
 
+void add_retention(CLI::App& serve, ServeArguments& a) {
+    serve
+        .add_option("--keep-days", a.keep_days, "Remove jobs this many days after they ended, unless pinned [keep all]")
+        ->check(CLI::Range(0.0, 1e6));
+    serve
+        .add_option("--keep-jobs", a.keep_jobs,
+                    "Keep this many jobs that have ended, besides pinned ones; remove the others [keep all]")
+        ->check(CLI::Range(0, 100'000'000));
+    serve
+        .add_option("--keep-bytes", a.keep_gib,
+                    "GiB that the results of jobs may take, besides pinned ones; remove the oldest [no limit]")
+        ->check(CLI::Range(0.0, 1e6));
+}
+
+void add_log(CLI::App& serve, ServeArguments& a) {
+    serve.add_option("--log-format", a.log_format, "Lines of the log on standard error: text or json")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->capture_default_str();
+    serve
+        .add_option("--log-level", a.log_level,
+                    "Least level of the log: debug (with requests of monitors), info (with requests and jobs), warning "
+                    "or error")
+        ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+        ->capture_default_str();
+}
+
+// `serve backup` and `serve fsck`.
+void add_state_commands(CLI::App& serve, Commands& commands) {
+    const auto arguments = std::make_shared<StateArguments>();
+    const auto add_state = [&](CLI::App& command) {
+        command.add_option("--state", arguments->state, "State folder of a server, which may be running")
+            ->capture_default_str();
+    };
+    CLI::App* backup = serve.add_subcommand("backup", "Copy a state folder; the server may be running");
+    backup->add_option("DIR", arguments->backup, "New folder, which a server can use with --state")->required();
+    add_state(*backup);
+    commands.push_back({backup, [arguments](std::ostream& out, std::ostream&) {
+                            backup_command(*arguments, out);
+                            return 0;
+                        }});
+    CLI::App* fsck = serve.add_subcommand("fsck", "Check a state folder: database, results, and their checksums");
+    add_state(*fsck);
+    commands.push_back({fsck, [arguments](std::ostream& out, std::ostream&) {
+                            fsck_command(*arguments, out);
+                            return 0;
+                        }});
+}
+
 void add_serve(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<ServeArguments>();
     CLI::App* serve = app.add_subcommand("serve", "Run scenarios that clients send over HTTP; serve their results");
@@ -72,7 +121,16 @@ void add_serve(CLI::App& app, Commands& commands) {
         ->capture_default_str();
     serve->add_option("--port-file", arguments->port_file, "Write the port to this file once the server listens");
     serve->add_option("--token-file", arguments->token_file,
-                      "File with the token that every request must carry. Only its owner may be able to read it");
+                      "File with the tokens, one of which every request must carry: lines of TOKEN, or NAME TOKEN "
+                      "[queued=N] [running=N] [bytes=N]. Only its owner may be able to read it");
+    serve
+        ->add_option("--base-path", arguments->base_path,
+                     "Where a proxy shows the server below its host, as /lab [the proxy sends X-Forwarded-Prefix]")
+        ->check(CLI::Validator(
+            [](const std::string& path) {
+                return is_prefix(path) ? std::string() : "expected a path such as /lab, without a slash at its end";
+            },
+            "PATH"));
     serve
         ->add_option("--state", arguments->state,
                      "Folder of the jobs and their results: a new or empty one, or that of an earlier server")
@@ -82,6 +140,9 @@ void add_serve(CLI::App& app, Commands& commands) {
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
     add_limits(*serve, *arguments);
+    add_retention(*serve, *arguments);
+    add_log(*serve, *arguments);
+    add_state_commands(*serve, commands);
     commands.push_back({serve, [arguments](std::ostream& out, std::ostream& err) {
                             serve_command(*arguments, out, err);
                             return 0;
@@ -97,8 +158,17 @@ void add_submit(CLI::App& app, Commands& commands) {
     submit->add_option("SCENARIO", arguments->scenario, "A scenario file, or the name of one")->required();
     submit->add_option("--server", arguments->server, "URL of the server")->capture_default_str();
     submit->add_option("--token-file", arguments->token_file, "File with the token of the server");
+    submit
+        ->add_option("--cacert", arguments->cacert,
+                     "File with the certificates to trust (PEM) for a server with https [those of the system]")
+        ->check(CLI::ExistingFile);
     submit->add_option("--set", arguments->set, "path=value: change one value of the scenario, as for run")
         ->allow_extra_args(false);
+    submit->add_option("--label", arguments->labels, "A label of the job, to find it by; may be repeated")
+        ->allow_extra_args(false);
+    submit->add_option("--priority", arguments->priority, "Of your jobs, those of the highest priority run first")
+        ->check(CLI::Range(-100, 100))
+        ->capture_default_str();
     submit->add_flag("--wait", arguments->wait,
                      "Wait for the result and print its table or answer, with the exit codes of run or recommend. A "
                      "server that does not answer is tried "

@@ -5,22 +5,24 @@
 #include <iostream>
 #include <ostream>
 #include <thread>
-
-#include <sys/stat.h>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/read_text.h"
 #include "base/write_files.h"
 #include "results/write_result.h"
 #include "service/api/helper_side.h"
 #include "service/api/service.h"
+#include "service/cli/notify.h"
 #include "service/cli/scenario_files.h"
 #include "service/cli/server_commands.h"
 #include "service/cli/this_program.h"
+#include "service/cli/token_file.h"
 #include "service/http/server.h"
+#include "service/jobs/backup.h"
 #include "service/jobs/jobs.h"
+#include "service/log/log.h"
 
 namespace shadowbench::service {
 namespace {
@@ -67,7 +69,7 @@ private:
     sigset_t set_{}, before_{};
 };
 
-JobLimits job_limits(const ServeArguments& arguments) {
+JobLimits job_limits(const ServeArguments& arguments, const std::vector<NamedToken>& tokens) {
     JobLimits limits;
     limits.queue = arguments.queue;
     limits.seconds = arguments.job_seconds;
@@ -75,10 +77,14 @@ JobLimits job_limits(const ServeArguments& arguments) {
     limits.parallel = arguments.parallel;
     limits.grace = arguments.grace;
     limits.min_free = static_cast<std::uint64_t>(arguments.min_free * mib);
+    for (const NamedToken& token : tokens) limits.owners[token.name] = token.limits;
+    limits.retention.days = arguments.keep_days;
+    limits.retention.jobs = arguments.keep_jobs;
+    if (arguments.keep_gib) limits.retention.bytes = static_cast<std::uint64_t>(*arguments.keep_gib * gib);
     return limits;
 }
 
-ServiceOptions service_options(const ServeArguments& arguments, const std::string& program) {
+ServiceOptions service_options(const ServeArguments& arguments, const std::string& program, const Log& log) {
     ServiceOptions options;
     options.data = folders_of(arguments.data);
     options.scenarios = scenario_folders();
@@ -89,52 +95,59 @@ ServiceOptions service_options(const ServeArguments& arguments, const std::strin
     options.limits.seconds = arguments.estimate_seconds;
     options.waiting = std::max<std::size_t>(1, arguments.workers / 4);
     options.event_streams = arguments.event_clients;
+    options.log = log;
     options.start_helper = [program](const std::vector<std::string>& words) {
         return start_process(program, words, static_cast<std::size_t>(helper_memory * gib));
     };
     return options;
 }
 
-HttpOptions http_options(const ServeArguments& arguments) {
+HttpOptions http_options(const ServeArguments& arguments, const std::vector<NamedToken>& tokens, const Log& log) {
     HttpOptions options;
     options.host = arguments.host;
     options.port = arguments.port;
     options.workers = arguments.workers;
-    if (!arguments.token_file.empty()) options.token = read_token(arguments.token_file);
+    options.log = log;
+    options.base_path = arguments.base_path;
+    for (const NamedToken& token : tokens) options.tokens.push_back({token.name, token.token});
     return options;
 }
 
-}  // namespace
-
-std::string read_token(const std::string& file) {
-    const std::string text = base::read_text(file);
-    struct stat status {};
-    if (::stat(file.c_str(), &status) == 0 && (status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-        throw Error(ErrorCode::bad_input, file, "others can read the token; run chmod 600 on the file");
-    std::string token = text.substr(0, text.find_first_of("\r\n"));
-    if (token.size() < 16 || token.find_first_of(" \t") != std::string::npos)
-        throw Error(ErrorCode::bad_input, file, "a token must be one word of at least 16 characters");
-    return token;
+Log log_to(std::ostream& err, const ServeArguments& arguments) {
+    const std::string& level = arguments.log_level;
+    return make_log(err, arguments.log_format == "json" ? LogFormat::json : LogFormat::text,
+                    level == "debug"     ? LogLevel::debug
+                    : level == "info"    ? LogLevel::info
+                    : level == "warning" ? LogLevel::warning
+                                         : LogLevel::error);
 }
+
+}  // namespace
 
 void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostream& err) {
     const StopSignals signals;
     std::signal(SIGPIPE, SIG_IGN);  // writing to a closed connection is an error, not a signal
     const HeldProgram held;
     const std::string program = held.path();
-    const HttpOptions http = http_options(arguments);
-    const ServiceOptions options = service_options(arguments, program);
+    const Log log = log_to(err, arguments);
+    const std::vector<NamedToken> tokens =
+        arguments.token_file.empty() ? std::vector<NamedToken>() : read_tokens(arguments.token_file);
+    const HttpOptions http = http_options(arguments, tokens, log);
+    const ServiceOptions options = service_options(arguments, program, log);
     std::vector<std::string> data;
     for (const fs::path& folder : options.data) data.push_back(folder.string());
-    Jobs jobs(arguments.state, program, data, job_limits(arguments),
-              [&](const std::string& line) { err << fmt::format("shadowbench: {}\n", line) << std::flush; });
+    Jobs jobs(arguments.state, program, data, job_limits(arguments, tokens), log);
     Service service(jobs, options);
     HttpServer server(service, options.event_streams, http);
     if (!arguments.port_file.empty()) base::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});
     out << fmt::format("shadowbench serves {} (state: {})\n", server.url(), arguments.state) << std::flush;
+    say(log, {LogLevel::info, "server", "started", {{"url", server.url()}, {"state", arguments.state}}});
+    notify_manager("READY=1");
     std::atomic<bool> done = false;
     std::thread stopper([&] {
         if (!signals.wait(done)) return;
+        notify_manager("STOPPING=1");
+        say(log, {LogLevel::info, "server", "stopping"});
         jobs.stop();  // the server answers clients meanwhile
         server.stop();
     });
@@ -143,6 +156,20 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     stopper.join();
     jobs.stop();
     out << "stopped\n";
+}
+
+void backup_command(const StateArguments& arguments, std::ostream& out) {
+    const std::size_t jobs = back_up(arguments.state, arguments.backup);
+    out << fmt::format("{}: {} jobs\n", arguments.backup, jobs);
+}
+
+void fsck_command(const StateArguments& arguments, std::ostream& out) {
+    const std::vector<std::string> faults = check_state(arguments.state);
+    for (const std::string& fault : faults) out << fault << '\n';
+    if (!faults.empty())
+        throw Error(ErrorCode::bad_input, arguments.state,
+                    fmt::format("{} {} found", faults.size(), faults.size() == 1 ? "fault" : "faults"));
+    out << fmt::format("{}: no faults\n", arguments.state);
 }
 
 void examine_command(const HelperArguments& arguments, std::ostream& out) {

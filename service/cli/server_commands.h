@@ -25,6 +25,15 @@ struct ServeArguments {
     double body = 4.0;        // MiB
     double min_free = 512.0;  // MiB
     std::size_t workers = 32, event_clients = 64;
+    std::string base_path;  // where the server appears below its host
+    std::string log_format = "text", log_level = "info";
+    std::optional<double> keep_days, keep_gib;
+    std::optional<std::size_t> keep_jobs;
+};
+
+struct StateArguments {
+    std::string state = "results/service";
+    std::string backup;  // the folder to copy to
 };
 
 struct SubmitArguments {
@@ -32,6 +41,9 @@ struct SubmitArguments {
     std::vector<std::string> set;  // path=value
     std::string server = "http://127.0.0.1:8080";
     std::string token_file;
+    std::string cacert;  // a file of certificates; empty: those of the system
+    std::vector<std::string> labels;
+    int priority = 0;
     bool wait = false, fresh = false, no_pictures = false;
     std::optional<double> recommend;  // the error to ask a recommendation for
 };
@@ -42,16 +54,15 @@ struct HelperArguments {
     std::size_t variant = 0;
 };
 
-// Runs until SIGTERM or SIGINT. Messages for the operator go to `err`, a line each: see Jobs.
+// Runs until SIGTERM or SIGINT. The log goes to `err`.
 void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostream& err);
 // Returns whether every technique kept its promises; true without --wait.
 bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::ostream& err);
+void backup_command(const StateArguments& arguments, std::ostream& out);
+// Throws Error{bad_input} where it finds faults, which it prints.
+void fsck_command(const StateArguments& arguments, std::ostream& out);
 // The helpers of the server: see service/api/helper_side.h.
 void examine_command(const HelperArguments& arguments, std::ostream& out);
 void curves_command(const HelperArguments& arguments, std::ostream& out);
-
-// The token in the first line of a file. Throws Error: no_such_file; io; bad_input when others can read the file, or
-// the token has spaces or less than 16 characters.
-std::string read_token(const std::string& file);
 
 }  // namespace shadowbench::service

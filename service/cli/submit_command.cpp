@@ -14,6 +14,7 @@
 #include "service/cli/progress_bar.h"
 #include "service/cli/scenario_files.h"
 #include "service/cli/server_commands.h"
+#include "service/cli/token_file.h"
 #include "service/http/client.h"
 
 namespace shadowbench::service {
@@ -69,6 +70,8 @@ std::string request_body(const SubmitArguments& arguments) {
     for (const std::string& assignment : arguments.set) document::set_value(document, assignment);
     nlohmann::json body = {{"scenario", std::move(document)},
                            {"options", {{"cache", arguments.fresh ? "fresh" : "reuse"}}}};
+    if (!arguments.labels.empty()) body["options"]["labels"] = arguments.labels;
+    if (arguments.priority != 0) body["options"]["priority"] = arguments.priority;
     if (arguments.recommend)
         body["recommend"] = {{"error", *arguments.recommend}};
     else
@@ -93,7 +96,8 @@ Reply patiently(const std::function<Reply()>& ask, const std::string& server, st
             const bool later = reply.status == 503 || reply.status == 429;
             if (!later || std::chrono::steady_clock::now() > end) return reply;
         } catch (const Error& error) {
-            if (std::chrono::steady_clock::now() > end) throw;
+            // Another try would not mend a wrong URL or certificate.
+            if (error.code() != ErrorCode::io || std::chrono::steady_clock::now() > end) throw;
             why = error.message();
         }
         if (!reported)
@@ -137,15 +141,15 @@ void refuse_failed(const json& job) {
 
 bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::ostream& err) {
     const std::string body = request_body(arguments), server = without_slash(arguments.server);
-    Client client(server, arguments.token_file.empty() ? "" : read_token(arguments.token_file));
+    Client client(server, arguments.token_file.empty() ? "" : read_token(arguments.token_file), arguments.cacert);
     const std::string key = new_key();
     const char* const path = arguments.recommend ? "/v1/recommendations" : "/v1/jobs";
     const auto post = [&] { return client.post_json(path, body, {{"Idempotency-Key", key}}); };
     json job = take(arguments.wait ? patiently(post, server, err) : post(), 202, server);
     const std::string self = job.at("links").at("self");
     if (!arguments.wait) {
-        out << fmt::format("{} {}: {}{}\n", job.at("id").get<std::string>(), job.at("state").get<std::string>(), server,
-                           self);
+        out << fmt::format("{} {}: {}\n", job.at("id").get<std::string>(), job.at("state").get<std::string>(),
+                           client.url_of(self));
         return true;
     }
     job = wait_for(client, std::move(job), server, err);
@@ -153,7 +157,7 @@ bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::os
     // The table that run prints, or the answer. Jobs of earlier versions have none.
     const Reply table = patiently([&] { return client.get(self + "/artifacts/table.txt"); }, server, err);
     if (table.status == 200) out << table.body;
-    out << fmt::format("result: {}{}/result\n", server, self);
+    out << fmt::format("result: {}/result\n", client.url_of(self));
     return job.at(arguments.recommend ? "reached" : "promises_kept").get<bool>();
 }
 

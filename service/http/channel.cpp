@@ -5,6 +5,7 @@
 #include <cstring>
 #include <utility>
 
+#include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -20,11 +21,20 @@ std::chrono::steady_clock::duration duration(double seconds) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
 }
 
+std::string peer_of(int socket) {
+    sockaddr_storage address{};
+    socklen_t size = sizeof address;
+    char text[NI_MAXHOST];
+    auto* const any = reinterpret_cast<sockaddr*>(&address);
+    if (::getpeername(socket, any, &size) != 0) return "";
+    return ::getnameinfo(any, size, text, sizeof text, nullptr, 0, NI_NUMERICHOST) == 0 ? text : "";
+}
+
 }  // namespace
 
 Channel::Channel(int socket, const ChannelLimits& limits, const std::atomic<bool>& stopping,
                  std::function<bool()> hurry)
-    : socket_(socket), limits_(limits), stopping_(stopping), hurry_(std::move(hurry)) {}
+    : socket_(socket), limits_(limits), stopping_(stopping), hurry_(std::move(hurry)), peer_(peer_of(socket)) {}
 
 Channel::~Channel() {
     ::shutdown(socket_, SHUT_RDWR);

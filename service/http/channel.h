@@ -41,6 +41,9 @@ public:
 
     bool write(const char* bytes, std::size_t size);
 
+    // The address of the client; empty where it is unknown.
+    const std::string& peer() const { return peer_; }
+
     // Whether the client has closed the connection and nothing is left to read.
     bool gone() const;
 
@@ -59,6 +62,7 @@ private:
     const ChannelLimits limits_;
     const std::atomic<bool>& stopping_;
     const std::function<bool()> hurry_;
+    const std::string peer_;
     std::string buffer_;                         // received, but not yet read by a caller
     std::size_t body_most_ = 0, body_left_ = 0;  // bytes that read() may give, in all and from now on
     Clock::time_point body_begin_{};

@@ -3,6 +3,7 @@
 // bodies.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <mutex>
@@ -19,9 +20,12 @@
 #include "service/api/problem.h"
 #include "service/http/chunks.h"
 #include "service/http/client.h"
+#include "service/http/exchange.h"
 #include "service/http/guard.h"
 #include "service/http/head.h"
 #include "service/http/lobby.h"
+#include "service/http/prefix.h"
+#include "service/http/reception.h"
 #include "service/http/server.h"
 
 namespace shadowbench::service {
@@ -30,35 +34,12 @@ namespace {
 using base::Error;
 using base::ErrorCode;
 
-constexpr std::size_t framing = 64 * 1024;  // bytes that the framing of chunks may add to a body
 constexpr std::size_t piece_size = 64 * 1024;
 constexpr int monitor_answer = 256 * 1024;  // bytes that a socket takes without waiting
 constexpr double monitor_seconds = 1.0;     // as ChannelLimits::write_seconds
 
-// One request on its way through httplib.
-struct Exchange {
-    explicit Exchange(Channel& of) : channel(of) {}
-    Channel& channel;
-    Head head;
-    std::optional<ApiResponse> refusal;  // the answer, if the service is not asked
-    bool keep = false;                   // the connection stays open afterwards
-    bool at_once = false;                // nothing may wait for the client
-};
 // The request that httplib works on in this thread. Its handlers take no further argument.
 thread_local Exchange* current = nullptr;
-
-// The head that httplib gets. httplib decodes header values, reads a POST without a length to the end of the
-// connection, matches paths with recursive regular expressions, and mistakes a REMOTE_ADDR from the client for its own.
-// This head gives it no occasion.
-std::string canonical_head(const Exchange& exchange) {
-    const Head& head = exchange.head;
-    if (exchange.refusal) return head.request.method == "HEAD" ? "HEAD / HTTP/1.1\r\n\r\n" : "GET / HTTP/1.1\r\n\r\n";
-    std::string text = fmt::format("{} / HTTP/1.1\r\n", head.request.method);
-    // Of a chunked body it does not know: see read_body().
-    if (head.request.method == "POST") text += fmt::format("Content-Length: {}\r\n", head.content_length.value_or(0));
-    if (head.request.has_body && head.expects_continue) text += "Expect: 100-continue\r\n";
-    return text + "\r\n";
-}
 
 // Gives httplib the canonical head, then the body from the channel.
 class Wire final : public httplib::Stream {
@@ -133,15 +114,10 @@ void put_events(const EventSource& events, const std::string& type, Exchange& ex
         to.set_chunked_content_provider(type, provider);
 }
 
-void put(const ApiResponse& from, Exchange& exchange, httplib::Response& to) {
+void put(ApiResponse from, Exchange& exchange, httplib::Response& to) {
+    dress(from, exchange);
     to.status = from.status;
     for (const Field& field : from.headers) to.set_header(field.name, field.value);
-    to.set_header("X-Content-Type-Options", "nosniff");
-    to.set_header("Referrer-Policy", "no-referrer");
-    to.set_header("Cross-Origin-Resource-Policy", "same-origin");
-    to.set_header("X-Frame-Options", "SAMEORIGIN");
-    if (!from.header("Content-Security-Policy"))
-        to.set_header("Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'; sandbox");
     if (from.events)
         put_events(from.events, from.type, exchange, to);
     else if (from.file)
@@ -159,7 +135,7 @@ void tidy(httplib::Response& response) {
 class Front final : public httplib::Server {
 public:
     Front(Service& service, std::size_t streams, const HttpOptions& options)
-        : service_(service), options_(options), guard_{is_loopback(options.host), options.token} {
+        : service_(service), options_(options), reception_(service_, options_, waiting_) {
         new_task_queue = [this, threads = options.workers + streams, most = options.waiting] {
             return door_ = new Door(
                        threads, most, waiting_, [this](int socket) { serve(socket); },
@@ -234,60 +210,27 @@ private:
     bool converse(Channel& channel, bool at_once) {
         Exchange exchange(channel);
         exchange.at_once = at_once;
-        std::string text;
-        switch (channel.read_head(text)) {
-            case Channel::Outcome::closed:
-                return false;
-            case Channel::Outcome::too_slow:
-                exchange.refusal = problem(408, "The request took too long to arrive.");
-                break;
-            case Channel::Outcome::too_large:
-                exchange.refusal = problem(431, "The head of the request is too long.");
-                break;
-            case Channel::Outcome::complete:
-                check_head(text, exchange);
-                break;
-        }
-        const bool refused = exchange.refusal.has_value();
-        if (refused) service_.count_refusal(exchange.head.request, exchange.refusal->status);
+        if (!reception_.receive(exchange)) return false;
         pass_on(exchange);
         if (!exchange.keep && !at_once) channel.linger();
         return exchange.keep;
     }
 
-    // Checks what can be checked before the body is read.
-    void check_head(const std::string& text, Exchange& exchange) {
-        Head& head = exchange.head;
-        if (const auto fault = parse_head(text, head)) {
-            exchange.refusal = problem(fault->status, fault->detail);
-            return;
-        }
-        exchange.refusal = guard(head.request, guard_);
-        if (!exchange.refusal) exchange.refusal = service_.refuse(head.request);
-        if (!exchange.refusal && head.content_length.value_or(0) > service_.limits().body)
-            exchange.refusal = too_large();
-        // A body that was not read must not be taken for the next request.
-        exchange.keep =
-            head.keep_alive && waiting_ == 0 && !exchange.at_once && !(exchange.refusal && head.request.has_body);
-        exchange.channel.begin_body(service_.limits().body + framing);
-    }
-
-    ApiResponse too_large() const {
-        return problem(413, fmt::format("The body is larger than {} bytes.", service_.limits().body));
-    }
-
     void pass_on(Exchange& exchange) {
+        exchange.head.request.id = request_id(exchange.head.request);
         Wire wire(exchange.channel, canonical_head(exchange));
         current = &exchange;
         bool closed = false;
         const bool processed = process_request(wire, !exchange.keep, closed, nullptr);
         current = nullptr;
         exchange.keep = exchange.keep && processed && !closed;
+        say(options_.log, access_event(exchange));
     }
 
     void respond(httplib::Response& response) {
         Exchange& exchange = *current;
-        put(exchange.refusal ? *exchange.refusal : service_.handle(exchange.head.request), exchange, response);
+        put(exchange.refusal ? std::move(*exchange.refusal) : service_.handle(exchange.head.request), exchange,
+            response);
         if (!exchange.keep) response.set_header("Connection", "close");
     }
 
@@ -311,7 +254,7 @@ private:
         if (!complete) {
             exchange.keep = false;
             exchange.refusal =
-                too_long ? too_large() : problem(400, "The body is malformed, or took too long to arrive.");
+                too_long ? reception_.too_large() : problem(400, "The body is malformed, or took too long to arrive.");
             service_.count_refusal(exchange.head.request, exchange.refusal->status);
         }
         respond(response);
@@ -319,9 +262,9 @@ private:
 
     Service& service_;
     const HttpOptions options_;
-    const GuardOptions guard_;
     std::atomic<bool> stopping_ = false;
     std::atomic<std::size_t> waiting_ = 0;
+    const Reception reception_;
     Door* door_ = nullptr;  // httplib owns it, as long as it listens
 };
 
@@ -336,7 +279,7 @@ struct HttpServer::State {
 };
 
 HttpServer::HttpServer(Service& service, std::size_t streams, HttpOptions options) {
-    if (options.token.empty() && !is_loopback(options.host))
+    if (options.tokens.empty() && !is_loopback(options.host))
         throw Error(
             ErrorCode::usage, "--host " + options.host,
             "other machines can reach this address; give --token-file FILE, so that not everybody can use the server");
@@ -372,6 +315,8 @@ void HttpServer::stop() {
 namespace {
 
 Reply reply_of(const httplib::Result& result, const std::string& url) {
+    if (result.error() == httplib::Error::SSLServerVerification || result.error() == httplib::Error::SSLLoadingCerts)
+        throw Error(ErrorCode::usage, url, "its certificate is not trusted; give --cacert the file of its authority");
     if (!result) throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
     return {result->status, result->get_header_value("Content-Type"), result->body,
             result->get_header_value("Location")};
@@ -383,12 +328,16 @@ struct Client::State {
     httplib::Client client;
 };
 
-Client::Client(const std::string& url, const std::string& token) : url_(url) {
-    if (!url.starts_with("http://") && !url.starts_with("https://"))
-        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port");
-    state_.reset(new State{httplib::Client(url)});
-    if (!state_->client.is_valid())
-        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port");
+Client::Client(const std::string& url, const std::string& token, const std::string& certificates) : url_(url) {
+    const std::size_t scheme = url.find("://");
+    const std::size_t path = scheme == std::string::npos ? url.size() : std::min(url.find('/', scheme + 3), url.size());
+    const bool https = url.starts_with("https://");
+    base_ = url.substr(path);
+    if (url.starts_with("http://") || https) state_.reset(new State{httplib::Client(url.substr(0, path))});
+    if (!state_ || !state_->client.is_valid() || (!base_.empty() && !is_prefix(base_)))
+        throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port/path");
+    if (!certificates.empty()) state_->client.set_ca_cert_path(certificates.c_str());
+    state_->client.enable_server_certificate_verification(true);
     state_->client.set_connection_timeout(10);
     state_->client.set_read_timeout(120);
     state_->client.set_tcp_nodelay(true);
@@ -397,14 +346,23 @@ Client::Client(const std::string& url, const std::string& token) : url_(url) {
 
 Client::~Client() = default;
 
+// Links of the server's answers have the path of its URL already, where a proxy says what that is.
+std::string Client::place_of(const std::string& path) const {
+    return path.starts_with(base_ + "/v1/") ? path : base_ + path;
+}
+
+std::string Client::url_of(const std::string& path) const {
+    return url_.substr(0, url_.size() - base_.size()) + place_of(path);
+}
+
 Reply Client::get(const std::string& path) {
-    return reply_of(state_->client.Get(path), url_);
+    return reply_of(state_->client.Get(place_of(path)), url_);
 }
 
 Reply Client::post_json(const std::string& path, const std::string& body, const std::vector<Field>& headers) {
     httplib::Headers fields;
     for (const Field& field : headers) fields.emplace(field.name, field.value);
-    return reply_of(state_->client.Post(path, fields, body, "application/json"), url_);
+    return reply_of(state_->client.Post(place_of(path), fields, body, "application/json"), url_);
 }
 
 }  // namespace shadowbench::service

@@ -4,19 +4,24 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "service/api/service.h"
 #include "service/http/channel.h"
+#include "service/http/guard.h"
+#include "service/log/log.h"
 
 namespace shadowbench::service {
 
 struct HttpOptions {
     std::string host = "127.0.0.1";
-    int port = 0;               // 0: any free port
-    std::string token;          // empty: none; allowed only on loopback
+    int port = 0;                          // 0: any free port
+    std::vector<AccessToken> tokens = {};  // empty: none; allowed only on loopback
+    std::string base_path = {};            // see take_prefix()
     std::size_t workers = 32;   // threads, besides one for each client that may follow events and one for monitors
     std::size_t waiting = 512;  // connections that may wait for a thread; more get 503
     ChannelLimits channel;
+    Log log = {};  // gets a line for each request
 };
 
 class HttpServer {

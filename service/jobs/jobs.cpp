@@ -1,10 +1,11 @@
-#include "service/jobs/jobs.h"
+#include "service/jobs/jobs_state.h"
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <random>
 #include <system_error>
 #include <thread>
@@ -19,6 +20,7 @@
 #include "service/jobs/folders.h"
 #include "service/jobs/record.h"
 #include "service/jobs/recover.h"
+#include "service/jobs/retention.h"
 #include "service/jobs/room.h"
 #include "service/jobs/state_folder.h"
 #include "service/jobs/utc.h"
@@ -34,22 +36,11 @@ using base::Error;
 using base::ErrorCode;
 
 constexpr std::size_t longest_page = 1000;
-constexpr std::chrono::seconds longest_end{5};  // that a request waits for the process of a cancelled job
-
 constexpr std::pair<JobState, const char*> state_names[] = {{JobState::queued, job_states::queued},
                                                             {JobState::running, job_states::running},
                                                             {JobState::succeeded, job_states::succeeded},
                                                             {JobState::failed, job_states::failed},
                                                             {JobState::cancelled, job_states::cancelled}};
-
-// Serialises the calls of `say`. Without `say`, lines are dropped.
-Say one_at_a_time(Say say) {
-    if (!say) return [](const std::string&) {};
-    return [say = std::move(say), mutex = std::make_shared<std::mutex>()](const std::string& line) {
-        const std::scoped_lock lock(*mutex);
-        say(line);
-    };
-}
 
 std::string check_program(const std::string& program) {
     if (::access(program.c_str(), X_OK) != 0)
@@ -60,11 +51,6 @@ std::string check_program(const std::string& program) {
 std::string new_id() {
     std::random_device random;
     return fmt::format("j-{:08x}{:08x}", random(), random());
-}
-
-std::string program_version() {
-    const results::Program build = results::this_program();
-    return fmt::format("{} {}", build.version, build.commit);
 }
 
 // Requests with the same idempotency key must have the same hash.
@@ -100,6 +86,11 @@ JobInfo info_of(const StoredJob& job, JobBoard::Shown shown) {
     if (info.state == JobState::succeeded) info.promises_kept = job.kept;
     if (job.fault) info.fault = {job.fault->code, job.fault->where, job.fault->message};
     info.position = job.ahead;
+    info.owner = job.owner;
+    info.labels = job.labels;
+    info.priority = job.priority;
+    info.pinned = job.pinned;
+    info.bytes = job.bytes;
     info.revision = job.revision;
     if (info.state == JobState::queued) {
         info.revision = std::max(info.revision, shown.queue_revision);
@@ -113,13 +104,29 @@ JobInfo info_of(const StoredJob& job, JobBoard::Shown shown) {
 Submitted::Outcome outcome_of(JobStore::Added::Outcome outcome) {
     using From = JobStore::Added::Outcome;
     using To = Submitted::Outcome;
-    return outcome == From::added      ? To::created
-           : outcome == From::existing ? To::existing
-           : outcome == From::conflict ? To::conflict
-                                       : To::queue_full;
+    switch (outcome) {
+        case From::added:
+            return To::created;
+        case From::existing:
+            return To::existing;
+        case From::conflict:
+            return To::conflict;
+        case From::owner_full:
+            return To::owner_queue_full;
+        case From::owner_bytes:
+            return To::owner_bytes;
+        case From::full:
+            break;
+    }
+    return To::queue_full;
 }
 
 }  // namespace
+
+std::string program_version() {
+    const results::Program build = results::this_program();
+    return fmt::format("{} {}", build.version, build.commit);
+}
 
 const char* to_string(JobState state) {
     for (const auto& [known, name] : state_names)
@@ -133,40 +140,27 @@ std::optional<JobState> parse_job_state(const std::string& text) {
     return std::nullopt;
 }
 
-struct Jobs::State {
-    State(const fs::path& path, const std::string& program, const std::vector<std::string>& data, JobLimits limits,
-          const Say& say)
-        : checked_program(check_program(program)),
-          folder(path, say),
-          folders(make_job_folders(path)),
-          opened(open_store(folder, folders, say)),
-          store(*opened),
-          presence({path, folder.database()}),
-          board(store.next_revision()),
-          place{store, board, presence, folders, checked_program, data, limits, hidden_folders(path.string(), data),
-                say} {
-        recover(folder, store, folders, say);
-    }
+Jobs::State::State(const fs::path& path, const std::string& program, const std::vector<std::string>& data,
+                   JobLimits limits, Log log)
+    : checked_program(check_program(program)),
+      news(std::move(log)),
+      folder(path, [this](const std::string& line) { news.recovered(line); }),
+      folders(make_job_folders(path)),
+      opened(open_store(folder, folders, [this](const std::string& line) { news.recovered(line); })),
+      store(*opened),
+      presence({path, folder.database()}),
+      board(store.next_revision()),
+      place{store, board, presence, folders, checked_program, data, limits, hidden_folders(path.string(), data), news} {
+    const std::vector<StoredJob> cut_off = store.list({job_states::running}, INT32_MAX, 0);
+    recover(folder, store, folders, [this](const std::string& line) { news.recovered(line); });
+    for (const StoredJob& job : cut_off)
+        if (const auto now = store.find(job.id); now && now->state == job_states::queued)
+            news.requeued(job, "killed", "");
+}
 
-    // Gives a new job the results of an earlier one with the same key. Returns whether its promises were kept; nothing
-    // without such a job.
-    std::optional<bool> reuse_result(const NewJob& job);
-
-    std::string checked_program;
-    StateFolder folder;  // first member: locked before the others exist, and until they are gone
-    JobFolders folders;
-    std::unique_ptr<JobStore> opened;
-    JobStore& store;
-    Presence presence;
-    JobBoard board;
-    Workplace place;
-    std::vector<std::thread> workers;
-    std::mutex joining;
-};
-
-std::optional<bool> Jobs::State::reuse_result(const NewJob& job) {
+void Jobs::State::reuse_result(NewJob& job) {
     const std::optional<StoredJob> earlier = store.find_result(job.key);
-    if (!earlier) return std::nullopt;
+    if (!earlier) return;
     const fs::path work = copy_folder(folders, job.id);
     try {
         make_work_folder(work);
@@ -180,26 +174,36 @@ std::optional<bool> Jobs::State::reuse_result(const NewJob& job) {
         kept.job.cached = true;
         kept.job.created = kept.job.started = kept.job.ended = job.created;
         kept.job.kept = earlier->kept;
-        write_record(work, kept);
+        kept.job.owner = job.owner;
+        kept.job.labels = job.labels;
+        kept.job.priority = job.priority;
+        write_record(work, kept);  // so that a start knows whose folder it is
         link_files(folders.jobs / earlier->id, work);
+        write_record(work, kept);  // with the checksums of the files
         // A removal takes all files away before the row. The row still exists, so all files were linked.
         if (find_file_in(work, "result.json") && store.find(earlier->id)) {
+            const std::uint64_t bytes = bytes_in(work);
             publish(folders, work, job.id);
-            return earlier->kept;
+            job.kept = earlier->kept;
+            job.bytes = bytes;
+            return;
         }
     } catch (const Error&) {
         // The job is run instead.
     }
     remove_folder(work);
-    return std::nullopt;
 }
 
-Jobs::Jobs(fs::path state, std::string program, std::vector<std::string> data, JobLimits limits,
-           std::function<void(const std::string& line)> say)
-    : state_(std::make_unique<State>(state, program, data, limits, one_at_a_time(std::move(say)))) {
+Jobs::Jobs(fs::path state, std::string program, std::vector<std::string> data, JobLimits limits, Log log)
+    : state_(std::make_unique<State>(state, program, data, limits, std::move(log))) {
     State& all = *state_;
     for (int i = 0; i < std::max(limits.parallel, 1); ++i)
         all.workers.emplace_back([&place = std::as_const(all.place)] { run_jobs(place); });
+    const Retention& keep = limits.retention;
+    if (keep.days || keep.jobs || keep.bytes)
+        all.sweeper = std::thread([&all] {
+            sweep(all.place, [&](const std::string& id, const char* reason) { all.remove_unpinned(id, reason); });
+        });
 }
 
 Jobs::~Jobs() {
@@ -220,22 +224,30 @@ Submitted Jobs::submit(const JobRequest& request) {
     job.scenario = request.scenario;
     job.created = now_utc();
     job.idempotency_key = request.idempotency_key;
-    if (request.reuse) job.kept = all.reuse_result(job);
+    job.owner = request.owner;
+    job.labels = request.labels;
+    job.priority = request.priority;
+    if (request.reuse) all.reuse_result(job);
 
     JobStore::Added added{};
     const auto forget_files = [&] {
         if (job.kept) discard_results(all.folders, job.id);
     };
     try {
-        added = all.store.add(job, all.place.limits.queue);
+        added = all.store.add(job, all.place.limits.queue, limits_of(all.place.limits.owners, job.owner));
     } catch (...) {
         forget_files();
         throw;
     }
-    if (added.outcome != JobStore::Added::Outcome::added) forget_files();
-    if (added.outcome == JobStore::Added::Outcome::added && !job.kept) all.board.add_work();
-    if (added.outcome == JobStore::Added::Outcome::full) return {Submitted::Outcome::queue_full, {}};
-    return {outcome_of(added.outcome), info_of(added.job, all.board.shown(added.job.id))};
+    const Submitted::Outcome outcome = outcome_of(added.outcome);
+    if (outcome == Submitted::Outcome::created) {
+        all.news.queued(added.job);
+        if (!job.kept) all.board.add_work();
+    } else {
+        forget_files();
+    }
+    if (added.job.id.empty()) return {outcome, {}};
+    return {outcome, info_of(added.job, all.board.shown(added.job.id))};
 }
 
 std::optional<JobInfo> Jobs::find(const std::string& id) const {
@@ -245,11 +257,12 @@ std::optional<JobInfo> Jobs::find(const std::string& id) const {
     return job ? std::optional(info_of(*job, std::move(shown))) : std::nullopt;
 }
 
-JobPage Jobs::list(std::optional<JobState> state, std::size_t limit, const std::string& cursor) const {
+JobPage Jobs::list(const JobFilter& filter, std::size_t limit, const std::string& cursor) const {
     const std::int64_t before = read_cursor(cursor);
     limit = std::clamp<std::size_t>(limit, 1, longest_page);
     // One more job than the page has shows whether there is a next page.
-    std::vector<StoredJob> jobs = state_->store.list(state ? to_string(*state) : "", limit + 1, before);
+    const StoreFilter wanted{filter.state ? to_string(*filter.state) : "", filter.owner, filter.label, filter.text};
+    std::vector<StoredJob> jobs = state_->store.list(wanted, limit + 1, before);
     JobPage page;
     if (jobs.size() > limit) {
         jobs.resize(limit);
@@ -263,62 +276,12 @@ std::size_t Jobs::count(JobState state) const {
     return state_->store.count(to_string(state));
 }
 
-Jobs::Change Jobs::cancel(const std::string& id) {
-    State& all = *state_;
-    const auto revision = all.store.end_waiting(id, {job_states::cancelled, now_utc(), {}, {}});
-    if (!revision) return all.store.find(id) ? Change::refused : Change::not_found;
-    all.board.cancel(id);
-    all.board.announce(*revision, true);
-    return Change::done;
+std::uint64_t Jobs::bytes() const {
+    return state_->store.bytes();
 }
 
-// Removes the files before the row, so that it works on a full disk, and leaves no results without a job, which the
-// next start would adopt. If the server dies in between, the next start completes the removal.
-Jobs::Change Jobs::remove(const std::string& id) {
-    State& all = *state_;
-    const std::optional<StoredJob> job = all.store.find(id);
-    if (!job) return Change::not_found;
-    if (job->state == job_states::running) return Change::refused;
-    const bool had_results = job->state == job_states::succeeded && unpublish(all.folders, job->id);
-    const fs::path removed = removed_folder(all.folders, job->id);
-    if (had_results) empty_folder(removed);
-    if (!all.store.remove(id)) return all.store.find(id) ? Change::refused : Change::not_found;
-    if (had_results) remove_folder(removed);
-    all.board.announce(all.store.next_revision(), true);
-    return Change::done;
-}
-
-// A job ends a moment before its run, which uses the folder that the next run gets.
-Jobs::Retry Jobs::retry(const std::string& id) {
-    State& all = *state_;
-    all.presence.check();
-    const auto end = JobBoard::Clock::now() + longest_end;
-    const auto try_once = [&]() -> std::optional<JobStore::Retried> {
-        const std::scoped_lock lock(all.board.starting);
-        const std::optional<StoredJob> job = all.store.find(id);
-        const bool ended = job && (job->state == job_states::failed || job->state == job_states::cancelled);
-        if (job && all.board.has_run(id))
-            return ended ? std::nullopt : std::optional(JobStore::Retried{JobStore::Retry::refused, 0});
-        return all.store.retry(id, program_version(), all.place.limits.queue);
-    };
-    std::optional<JobStore::Retried> retried = try_once();
-    for (; !retried; retried = try_once()) {
-        if (all.board.stopping() || JobBoard::Clock::now() > end) return Retry::busy;
-        all.board.pause(std::chrono::milliseconds(10));
-    }
-    switch (retried->outcome) {
-        case JobStore::Retry::not_found:
-            return Retry::not_found;
-        case JobStore::Retry::refused:
-            return Retry::refused;
-        case JobStore::Retry::full:
-            return Retry::full;
-        case JobStore::Retry::queued:
-            break;
-    }
-    all.board.announce(retried->revision, true);
-    all.board.add_work();
-    return Retry::queued;
+JobTally Jobs::tally() const {
+    return state_->news.tally();
 }
 
 std::optional<std::string> Jobs::scenario(const std::string& id) const {
@@ -363,6 +326,7 @@ void Jobs::stop() {
     const std::scoped_lock lock(all.joining);
     for (std::thread& worker : all.workers)
         if (worker.joinable()) worker.join();
+    if (all.sweeper.joinable()) all.sweeper.join();
 }
 
 bool Jobs::stopping() const {

@@ -5,11 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "service/jobs/tally.h"
+#include "service/log/log.h"
+#include "service/store/owner_limits.h"
 
 namespace shadowbench::service {
 
@@ -43,6 +46,11 @@ struct JobInfo {
     std::optional<JobProgress> progress;    // while it runs
     std::optional<JobFault> fault;          // of a failed job
     std::uint64_t revision = 0;             // grows with every change of the job; the id of its events
+    std::string owner = {};                 // the name of the token that it came with; empty: none
+    std::vector<std::string> labels = {};
+    int priority = 0;         // among the jobs of its owner
+    bool pinned = false;      // retention does not remove it
+    std::uint64_t bytes = 0;  // of its results
 };
 
 struct JobRequest {
@@ -53,16 +61,24 @@ struct JobRequest {
     std::string recommend = {};   // JSON text of a recommend::Request: find its answer; empty: run the scenario
     bool reuse = true;            // an earlier result of the same request and program version may be the answer
     std::string idempotency_key;  // empty: none
+    std::string owner = {};
+    std::vector<std::string> labels = {};  // without control characters
+    int priority = 0;
 };
 
 struct Submitted {
-    enum class Outcome {
-        created,
-        existing,
-        conflict,
-        queue_full
-    } outcome;  // existing: same key and request; conflict: same key, another request
+    // existing: same key and request; conflict: same key, another request; owner_queue_full, owner_bytes: the owner has
+    // reached a limit of JobLimits::owners.
+    enum class Outcome { created, existing, conflict, queue_full, owner_queue_full, owner_bytes } outcome;
     JobInfo job;
+};
+
+// Which jobs have ended long enough ago, or are too many or too large, to be removed with their results. Pinned jobs
+// never are, and count for none of these. Nothing: no limit.
+struct Retention {
+    std::optional<double> days = {};          // since they ended
+    std::optional<std::size_t> jobs = {};     // that have ended; the latest stay
+    std::optional<std::uint64_t> bytes = {};  // of results; the latest stay
 };
 
 struct JobLimits {
@@ -73,6 +89,8 @@ struct JobLimits {
     int parallel = 1;                            // jobs that run at a time
     double grace = 10.0;                         // seconds that stop() waits for running jobs before it requeues them
     std::uint64_t min_free = 0;                  // bytes of the disk that must be free for a job to start
+    LimitsByOwner owners = {};
+    Retention retention = {};
 };
 
 // The disk of the state folder.
@@ -84,6 +102,13 @@ struct JobStorage {
     bool is_low() const { return free && *free < min_free; }  // jobs wait for space
 };
 
+// Which jobs a list has; nothing, or an empty text: all.
+struct JobFilter {
+    std::optional<JobState> state = {};
+    std::string owner = {}, label = {};
+    std::string text = {};  // in its id, name, owner, labels or fault
+};
+
 struct JobPage {
     std::vector<JobInfo> jobs;  // newest first
     std::string next;           // cursor of the next page; empty: this is the last
@@ -93,11 +118,11 @@ class Jobs {
 public:
     // Opens or makes the folder `state` (see state_folder.h), requeues the jobs that ran when the last server died,
     // adopts results that the database does not know, and starts the workers. They run `program job FOLDER --data
-    // DIR...`. `say` gets messages for the operator, a line each, one at a time: files that were moved aside, adopted
-    // results, storage that fails and works again. These lines name folders of the machine. Throws base::Error{usage}
-    // for a folder of another program, {io} where it is not writable or another server holds it.
+    // DIR...`. `log` gets what happens to jobs, files that were moved aside, adopted results, and storage that fails
+    // and works again. Its lines name folders of the machine. Throws base::Error{usage} for a folder of another
+    // program, {io} where it is not writable or another server holds it.
     Jobs(std::filesystem::path state, std::string program, std::vector<std::string> data, JobLimits limits,
-         std::function<void(const std::string& line)> say = {});
+         Log log = {});
     ~Jobs();
     Jobs(const Jobs&) = delete;
     Jobs& operator=(const Jobs&) = delete;
@@ -106,12 +131,16 @@ public:
     Submitted submit(const JobRequest& request);
     std::optional<JobInfo> find(const std::string& id) const;
     // `cursor` is a JobPage::next; empty: from the newest. Throws base::Error{usage} for any other text.
-    JobPage list(std::optional<JobState> state, std::size_t limit, const std::string& cursor) const;
+    JobPage list(const JobFilter& filter, std::size_t limit, const std::string& cursor) const;
     std::size_t count(JobState state) const;
+    std::uint64_t bytes() const;  // of all results
+    JobTally tally() const;
 
     enum class Change { done, not_found, refused };
     Change cancel(const std::string& id);  // refused: the job has ended
     Change remove(const std::string& id);  // refused: the job is running
+    // Whether retention passes the job over. Also noted in its results, which outlive the database.
+    Change pin(const std::string& id, bool pinned);
 
     // Queues a job that failed or was cancelled once more, at its old place and with all its attempts. refused: it is
     // in another state; busy: its last run is still ending; full: too many jobs wait. Throws as submit() does.

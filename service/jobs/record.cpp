@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/hash_text.h"
 #include "base/read_text.h"
 #include "base/write_files.h"
 #include "results/fields.h"
@@ -54,6 +56,30 @@ auto read_unless_damaged(const Read& read, const Damaged& damaged) {
     }
 }
 
+std::vector<std::string> labels_of(const Field& field) {
+    std::vector<std::string> labels;
+    for (std::size_t i = 0; i < field.array().size(); ++i) {
+        const Field label = field.item(i);
+        if (label.text().find('\n') != std::string::npos) results::refuse(label.where, "must be one line");
+        labels.push_back(label.text());
+    }
+    return labels;
+}
+
+// The size and the hash of each file of a folder of results, but the record itself.
+json sums_of(const fs::path& folder) {
+    json sums = json::object();
+    for (const std::string& name : list_files(folder)) {
+        const std::string bytes = base::read_bytes(folder / name);
+        sums[name] = {{"bytes", bytes.size()}, {"hash", base::hash_text(bytes)}};
+    }
+    return sums;
+}
+
+std::string text_of(const json& record) {
+    return record.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
 KeptJob from_record(const Field& record, const std::string& id) {
     KeptJob kept;
     kept.job.id = id;
@@ -72,6 +98,12 @@ KeptJob from_record(const Field& record, const std::string& id) {
     kept.job.attempts = static_cast<int>(attempts.count());
     kept.job.kept = record.at("promises_kept").truth();
     kept.scenario = record.at("scenario").text();
+    if (record.has("owner")) {  // as records of earlier versions do not
+        kept.job.owner = record.at("owner").text();
+        kept.job.labels = labels_of(record.at("labels"));
+        kept.job.priority = static_cast<int>(std::clamp(record.at("priority").number(), -1000.0, 1000.0));
+        kept.job.pinned = record.at("pinned").truth();
+    }
     if (record.at("id").text() == id) {
         kept.idempotency_key = record.at("idempotency_key").text();
         kept.request = record.at("request").text();
@@ -132,25 +164,54 @@ bool is_job_id(const std::string& text) {
 
 void write_record(const fs::path& folder, const KeptJob& kept) {
     const StoredJob& job = kept.job;
-    const nlohmann::ordered_json record = {{"record_version", record_version},
-                                           {"id", job.id},
-                                           {"name", job.name},
-                                           {"scenario_hash", job.key.hash},
-                                           {"seed", job.key.seed},
-                                           {"program", job.key.program},
-                                           {"pictures", job.key.pictures},
-                                           {"recommend", job.key.recommend},
-                                           {"cached", job.cached},
-                                           {"created", job.created},
-                                           {"started", job.started},
-                                           {"ended", job.ended},
-                                           {"attempts", job.attempts},
-                                           {"promises_kept", job.kept.value_or(true)},
-                                           {"idempotency_key", kept.idempotency_key},
-                                           {"request", kept.request},
-                                           {"scenario", kept.scenario}};
-    base::write_files(
-        {{folder / record_name, record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"}});
+    const json record = {{"record_version", record_version},
+                         {"id", job.id},
+                         {"name", job.name},
+                         {"scenario_hash", job.key.hash},
+                         {"seed", job.key.seed},
+                         {"program", job.key.program},
+                         {"pictures", job.key.pictures},
+                         {"recommend", job.key.recommend},
+                         {"cached", job.cached},
+                         {"created", job.created},
+                         {"started", job.started},
+                         {"ended", job.ended},
+                         {"attempts", job.attempts},
+                         {"promises_kept", job.kept.value_or(true)},
+                         {"idempotency_key", kept.idempotency_key},
+                         {"request", kept.request},
+                         {"owner", job.owner},
+                         {"labels", job.labels},
+                         {"priority", job.priority},
+                         {"pinned", job.pinned},
+                         {"files", sums_of(folder)},
+                         {"scenario", kept.scenario}};
+    base::write_files({{folder / record_name, text_of(record)}});
+}
+
+void pin_in_record(const fs::path& folder, bool pinned) {
+    const std::optional<std::string> text = read_file(folder / record_name);
+    std::optional<json> record = text ? parse(*text) : std::nullopt;
+    if (!record || !record->is_object()) return;
+    (*record)["pinned"] = pinned;
+    base::write_files({{folder / record_name, text_of(*record)}});
+}
+
+std::vector<std::string> check_files(const fs::path& folder) {
+    const std::optional<std::string> text = read_file(folder / record_name);
+    if (!text) return {};
+    const std::optional<json> record = parse(*text);
+    if (!record || !record->is_object()) return {(folder / record_name).string() + ": the record is damaged"};
+    const json kept = record->value("files", json::object()), found = sums_of(folder);
+    std::vector<std::string> faults;
+    for (const auto& [name, sum] : kept.items()) {
+        const std::string file = (folder / name).string();
+        if (!found.contains(name))
+            faults.push_back(file + ": is missing");
+        else if (found[name] != sum)
+            faults.push_back(file + ": is damaged: its checksum differs");
+    }
+    return faults;
 }
 
 FoundResults read_results(const fs::path& folder, const std::string& id) {

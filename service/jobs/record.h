@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "service/store/job_store.h"
 
@@ -12,8 +13,16 @@ namespace shadowbench::service {
 // "j-" and 16 hexadecimal digits.
 bool is_job_id(const std::string& text);
 
-// Writes the job to the hidden file ".job.json" of the folder. Throws Error{io}.
+// Writes the job to the hidden file ".job.json" of the folder, with the checksums of the other files there. Throws
+// Error{io}.
 void write_record(const std::filesystem::path& folder, const KeptJob& job);
+
+// Notes in the record of a folder whether its job is pinned. No effect without a record. Throws Error{io}.
+void pin_in_record(const std::filesystem::path& folder, bool pinned);
+
+// Compares the files of a folder with the checksums in its record: a line for each that is missing or differs. Nothing
+// where the record has none, as in results of earlier versions. Throws Error{io} where a file cannot be read.
+std::vector<std::string> check_files(const std::filesystem::path& folder);
 
 // The job of a folder of results, or why the folder has none.
 struct FoundResults {

@@ -83,6 +83,7 @@ void adopt_results(StateFolder& state, JobStore& store, const JobFolders& folder
         const std::string& id = unclaimed[i].id;
         const std::optional<StoredJob> job = store.find(id);
         if (auto found = read_or_say(say, [&] { return read_unclaimed(folders, id, job); }); found && found->job) {
+            found->job->job.bytes = bytes_in(folders.jobs / id);
             batch.push_back(std::move(*found->job));
             // Not reported for a run that ended just before the server died.
             if (!job || job->state == job_states::queued)
@@ -165,13 +166,25 @@ void sweep_work(StateFolder& state, JobStore& store, const JobFolders& folders, 
     }
 }
 
-void report_missing(const JobStore& store, const JobFolders& folders, const Say& say) {
+void note_bytes(JobStore& store, const JobFolders& folders, const std::string& id) {
+    try {
+        store.set_bytes(id, bytes_in(folders.jobs / id));
+    } catch (const base::Error&) {
+        // As on a full disk: the next start notes it.
+    }
+}
+
+// Reports jobs whose results are missing, and measures results of earlier versions, which did not note their size.
+void check_succeeded(JobStore& store, const JobFolders& folders, const Say& say) {
     std::int64_t before = 0;
     for (;;) {
-        const std::vector<StoredJob> page = store.list(job_states::succeeded, 1000, before);
-        for (const StoredJob& job : page)
-            if (read_or_say(say, [&] { return is_published(folders, job.id); }) == false)
+        const std::vector<StoredJob> page = store.list({job_states::succeeded}, 1000, before);
+        for (const StoredJob& job : page) {
+            const auto there = read_or_say(say, [&] { return is_published(folders, job.id); });
+            if (there == false)
                 say(fmt::format("{}: the results of this job are missing", (folders.jobs / job.id).string()));
+            if (there == true && job.bytes == 0) note_bytes(store, folders, job.id);
+        }
         if (page.size() < 1000) return;
         before = page.back().sequence;
     }
@@ -204,8 +217,8 @@ std::unique_ptr<JobStore> open_store(StateFolder& state, const JobFolders& folde
 void recover(StateFolder& state, JobStore& store, const JobFolders& folders, const Say& say) {
     adopt_results(state, store, folders, say);
     sweep_work(state, store, folders, say);  // before the numbers of runs are taken back
-    for (const StoredJob& job : store.list(job_states::running, INT32_MAX, 0)) store.requeue_running(job.id, true);
-    report_missing(store, folders, say);
+    for (const StoredJob& job : store.list({job_states::running}, INT32_MAX, 0)) store.requeue_running(job.id, true);
+    check_succeeded(store, folders, say);
 }
 
 }  // namespace shadowbench::service

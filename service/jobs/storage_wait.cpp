@@ -15,12 +15,12 @@ using base::ErrorCode;
 
 StorageAlarm::~StorageAlarm() {
     if (begun_ && place_.board.end_storage_fault() && !place_.board.stopping())
-        place_.say("the state folder can be written again; jobs go on");
+        place_.news.storage("the state folder can be written again; jobs go on");
 }
 
 void StorageAlarm::begin(const std::string& why) {
     if (!begun_ && place_.board.begin_storage_fault())
-        place_.say("the state folder cannot be written; jobs wait until it can: " + why);
+        place_.news.storage("the state folder cannot be written; jobs wait until it can: " + why);
     begun_ = true;
 }
 

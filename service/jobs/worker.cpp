@@ -35,9 +35,11 @@ constexpr int promise_broken = 2;  // exit code: the result is complete
 // How a run ended.
 struct Success {
     bool kept;
+    std::uint64_t bytes = 0;  // of its results
 };
 struct Requeue {
     bool uncounted;
+    std::string why = {};  // how its process died
 };
 struct Cancelled {};
 using Verdict = std::variant<Success, Requeue, Waits, Cancelled, JobFault>;
@@ -122,7 +124,9 @@ Verdict judge(const Workplace& place, const StoredJob& job, const JobBoard::Run&
         // outlived it for a moment.
         place.board.pause(last_moment);
         if (place.board.stopping()) return Requeue{true};
-        if (job.attempts < place.limits.attempts) return Requeue{false};  // another run may not be killed
+        // Another run may not be killed.
+        if (job.attempts < place.limits.attempts)
+            return Requeue{false, fault_of_end(report, place.limits, place.hidden).message};
     }
     return fault_of_end(report, place.limits, place.hidden);
 }
@@ -177,13 +181,14 @@ Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run
     if (const auto* success = std::get_if<Success>(&verdict)) {
         for (const char* name : {scenario_name, recommend_name}) remove_folder(work / name);  // the record has them
         // Waits for the storage rather than repeat hours of work.
-        const auto state = persist(place, [&] {
-            keep_record(place, job, success->kept, *scenario, work);
-            const std::optional<StoredJob> now = place.store.find(job.id);
-            return now ? now->state : std::string();
+        const auto now = persist(place, [&] {
+            const std::optional<StoredJob> row = place.store.find(job.id);
+            if (row && row->state == job_states::running) keep_record(place, *row, success->kept, *scenario, work);
+            return row;
         });
-        if (!state) return Requeue{true};
-        if (*state != job_states::running) return Cancelled{};
+        if (!now) return Requeue{true};
+        if (!*now || (*now)->state != job_states::running) return Cancelled{};
+        verdict = Success{success->kept, bytes_in(work)};
         // From here on the published folder says everything about the job.
         publish(place.folders, work, job.id);
     }
@@ -192,13 +197,13 @@ Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run
 
 std::optional<std::uint64_t> settle(const Workplace& place, const StoredJob& job, const Verdict& verdict) {
     if (const auto* success = std::get_if<Success>(&verdict))
-        return place.store.end_running(job.id, {job_states::succeeded, now_utc(), success->kept, {}});
+        return place.store.end_running(job.id, {job_states::succeeded, now_utc(), success->kept, {}, success->bytes});
     if (const auto* requeue = std::get_if<Requeue>(&verdict))
         return place.store.requeue_running(job.id, requeue->uncounted);
     if (std::holds_alternative<Waits>(verdict)) return place.store.requeue_running(job.id, true);
     if (const auto* fault = std::get_if<JobFault>(&verdict))
         return place.store.end_running(
-            job.id, {job_states::failed, now_utc(), {}, StoredFault{fault->code, fault->where, fault->message}});
+            job.id, {job_states::failed, now_utc(), {}, StoredFault{fault->code, fault->where, fault->message}, 0});
     return std::nullopt;
 }
 
@@ -206,7 +211,8 @@ std::optional<std::uint64_t> settle(const Workplace& place, const StoredJob& job
 std::optional<Verdict> finished_before(const Workplace& place, const StoredJob& job) {
     if (!is_published(place.folders, job.id)) return std::nullopt;
     const auto found = read_results(place.folders.jobs / job.id, job.id).job;
-    return found ? std::optional<Verdict>(Success{found->job.kept.value_or(true)}) : std::nullopt;
+    if (!found) return std::nullopt;
+    return Success{found->job.kept.value_or(true), bytes_in(place.folders.jobs / job.id)};
 }
 
 Verdict attempt(const Workplace& place, const StoredJob& job, JobBoard::Run& run, const fs::path& work) {
@@ -225,9 +231,24 @@ Verdict attempt(const Workplace& place, const StoredJob& job, JobBoard::Run& run
     }
 }
 
+// Reports how a run ended, once the store has it.
+void tell_end(const Workplace& place, const StoredJob& job, const Verdict& verdict, double seconds) {
+    if (std::holds_alternative<Success>(verdict))
+        place.news.ended(job, job_states::succeeded, "", seconds);
+    else if (const auto* fault = std::get_if<JobFault>(&verdict))
+        place.news.ended(job, job_states::failed,
+                         fault->where.empty() ? fault->message : fault->where + ": " + fault->message, seconds);
+    else if (const auto* requeue = std::get_if<Requeue>(&verdict))
+        place.news.requeued(job, requeue->uncounted ? "stopped" : "died", requeue->why);
+    else if (const auto* waits = std::get_if<Waits>(&verdict))
+        place.news.requeued(job, "storage", waits->why);
+}
+
 // Runs a job. Returns what it waits for, if it does.
 std::optional<Waits> run_one(const Workplace& place, const StoredJob& job, const std::shared_ptr<JobBoard::Run>& run) {
     place.board.announce(job.revision, true);
+    place.news.started(job);
+    const auto begun = Clock::now();
     const fs::path work = attempt_folder(place.folders, job.id, job.attempts);
     const Verdict verdict = attempt(place, job, *run, work);
     remove_folder(work);  // first, since it may have filled the disk
@@ -236,6 +257,8 @@ std::optional<Waits> run_one(const Workplace& place, const StoredJob& job, const
     // The job was cancelled at the last moment.
     if (revision && !*revision) discard_results(place.folders, job.id);
     place.board.end(run);
+    if (revision && *revision)
+        tell_end(place, job, verdict, std::chrono::duration<double>(Clock::now() - begun).count());
     if (revision && *revision) place.board.announce(**revision, true);
     return waits && revision && *revision ? std::optional(*waits) : std::nullopt;
 }
@@ -250,7 +273,7 @@ void run_jobs(const Workplace& place) {
         const auto job = persist(place, [&] {
             check_storage(place);
             const std::scoped_lock lock(place.board.starting);
-            auto claimed = place.store.claim(now_utc());
+            auto claimed = place.store.claim(now_utc(), place.limits.owners);
             if (claimed) run = place.board.begin(claimed->id);
             return claimed;
         });

@@ -8,7 +8,7 @@
 #include "service/jobs/fault.h"
 #include "service/jobs/folders.h"
 #include "service/jobs/jobs.h"
-#include "service/jobs/state_folder.h"
+#include "service/jobs/news.h"
 #include "service/privacy/hidden_folders.h"
 #include "service/store/job_store.h"
 #include "service/store/presence.h"
@@ -25,7 +25,7 @@ struct Workplace {
     std::vector<std::string> data;
     JobLimits limits;
     std::vector<HiddenFolder> hidden;
-    Say say;
+    JobNews& news;
 };
 
 // Takes jobs from the queue, one after the other, and runs each to its end. Returns once the board stops. Throws

@@ -1,6 +1,10 @@
 #include <atomic>
 #include <chrono>
+#include <memory>
+#include <string>
 #include <thread>
+#include <variant>
+#include <vector>
 
 #include "api/fixture.h"
 #include "base/error.h"
@@ -202,6 +206,56 @@ TEST_F(CurvesApi, OutlivesAHelperThatDies) {
                   }),
                   ErrorCode::bad_input);
     EXPECT_EQ(started, 3);
+}
+
+// Answers with its number, until it is told to die, to complain, or was killed while it waited.
+struct Numbered : Helper {
+    Numbered(int the_number, const bool& is_killed) : number(the_number), killed(is_killed) {}
+    std::string ask(const std::string& line, double) override {
+        if (line == "die" || (killed && number == 1)) throw Error(ErrorCode::bad_input, "", "it ended");
+        if (line == "complain") return R"({"error": {"code": 65, "where": "/x", "message": "no"}})";
+        return nlohmann::json{{"number", number}}.dump();
+    }
+    int number;
+    const bool& killed;
+};
+
+struct Examinations : testing::Test {
+    int number_of(const std::string& scenario) {
+        return std::get<nlohmann::json>(examiner.examine(scenario)).at("number").get<int>();
+    }
+    int started = 0;
+    bool killed = false;
+    Examiner examiner{[this](const std::vector<std::string>&) { return std::make_unique<Numbered>(++started, killed); },
+                      {"examine"},
+                      1.0,
+                      8};
+};
+
+// Without this each new scenario would wait for the start of a process.
+TEST_F(Examinations, KeepTheirProcess) {
+    EXPECT_EQ(started, 1) << "it gets ready before the first question";
+    for (const char* scenario : {"a", "b", "c"}) EXPECT_EQ(number_of(scenario), 1);
+    EXPECT_EQ(started, 1);
+}
+
+TEST_F(Examinations, StartAProcessAfterAFault) {
+    for (const char* fault : {"die", "complain"})
+        EXPECT_EQ(code_of([&] { number_of(fault); }), ErrorCode::bad_input) << "a new process says so too";
+    EXPECT_EQ(started, 3) << "the second fault finds none that waits";
+    EXPECT_EQ(number_of("a"), 4);
+}
+
+TEST_F(Examinations, DoNotBlameAScenarioForAProcessThatDiedBefore) {
+    EXPECT_EQ(number_of("a"), 1);
+    killed = true;
+    EXPECT_EQ(number_of("b"), 2);
+}
+
+TEST_F(Examinations, RenewTheirProcessAfterManyAnswers) {
+    for (int i = 0; i < 199; ++i) EXPECT_EQ(number_of(std::to_string(i)), 1);
+    EXPECT_EQ(number_of("199"), 1);
+    EXPECT_EQ(number_of("200"), 2);
 }
 
 }  // namespace

@@ -333,5 +333,52 @@ TEST_F(JobsApi, ValidatesWithoutQueueing) {
     refused(post("/v1/validate", "{}"), 422, "");
 }
 
+TEST_F(JobsApi, TakeLabelsAndAPriorityAndGiveThemBack) {
+    const auto with = [](const nlohmann::json& options) {
+        return post("/v1/jobs", nlohmann::json{{"scenario", tiny_scenario()}, {"options", options}}.dump());
+    };
+    ApiRequest request_of_ann = with({{"labels", {"night", "b"}}, {"priority", -3}});
+    request_of_ann.client = "ann";
+    const nlohmann::json job = json(request_of_ann, 202);
+    EXPECT_EQ(job["labels"], (nlohmann::json{"night", "b"}));
+    EXPECT_EQ(job["priority"], -3);
+    EXPECT_EQ(job["owner"], "ann");
+    EXPECT_EQ(job["pinned"], false);
+    submit();
+    for (const char* query : {"label=night", "owner=ann", "label=b&owner=ann&text=tiny"})
+        EXPECT_EQ(json(request("GET", std::string("/v1/jobs?") + query), 200)["jobs"].size(), 1u) << query;
+    EXPECT_EQ(json(request("GET", "/v1/jobs?text=none"), 200)["jobs"].size(), 0u);
+    for (const nlohmann::json& labels :
+         {nlohmann::json("a"), nlohmann::json{1}, nlohmann::json{""}, nlohmann::json{"a\nb"},
+          nlohmann::json{std::string(65, 'x')}, nlohmann::json(std::vector<std::string>(17, "a"))})
+        EXPECT_EQ(refused(with({{"labels", labels}}), 422, "texts")["errors"][0]["pointer"], "/options/labels");
+    for (const nlohmann::json& priority : {nlohmann::json(101), nlohmann::json(1.5), nlohmann::json("1")})
+        EXPECT_EQ(refused(with({{"priority", priority}}), 422, "whole number")["errors"][0]["pointer"],
+                  "/options/priority");
+}
+
+TEST_F(JobsApi, ArePinnedAndLetGo) {
+    const std::string path = "/v1/jobs/" + submit();
+    EXPECT_EQ(json(request("POST", path + "/pin"), 200)["pinned"], true);
+    EXPECT_EQ(json(request("GET", path), 200)["pinned"], true);
+    EXPECT_EQ(json(request("POST", path + "/unpin"), 200)["pinned"], false);
+    EXPECT_EQ(answer(request("POST", "/v1/jobs/none/pin")).status, 404);
+}
+
+TEST_F(JobsApi, OfATokenAtItsLimitsAreRefusedUntilLater) {
+    JobLimits limits;
+    limits.owners["ann"].queued = 0;
+    limits.owners["bo"].bytes = 0;
+    start(standard_options(), limits);
+    for (const char* owner : {"ann", "bo"}) {
+        ApiRequest mine = post("/v1/jobs", tiny_scenario().dump());
+        mine.client = owner;
+        const ApiResponse refusal = answer(mine);
+        EXPECT_EQ(refusal.status, 429) << owner;
+        EXPECT_TRUE(refusal.header("Retry-After"));
+    }
+    submit();
+}
+
 }  // namespace
 }  // namespace shadowbench::service

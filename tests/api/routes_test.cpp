@@ -220,9 +220,35 @@ TEST_F(RoutesApi, CountWhatTheyAnswered) {
     has("shadowbench_http_requests_total{method=\"GET\",route=\"/v1/jobs/{id}\",code=\"404\"} 2");
     has("shadowbench_http_requests_total{method=\"POST\",route=\"/v1/jobs\",code=\"202\"} 1");
     has("shadowbench_http_requests_total{method=\"other\",route=\"none\",code=\"404\"} 1");
-    has("shadowbench_http_request_seconds_bucket{route=\"/v1/jobs/{id}\",le=\"+Inf\"} 2");
-    has("shadowbench_http_request_seconds_count{route=\"/v1/jobs/{id}\"} 2");
+    has("shadowbench_http_request_seconds_bucket{method=\"GET\",route=\"/v1/jobs/{id}\",le=\"+Inf\"} 2");
+    has("shadowbench_http_request_seconds_count{method=\"GET\",route=\"/v1/jobs/{id}\"} 2");
     has("# TYPE shadowbench_http_request_seconds histogram");
+    has("shadowbench_jobs_ended_total{state=\"failed\"} 0");
+    for (const char* name :
+         {"process_cpu_seconds_total ", "process_resident_memory_bytes ", "process_open_fds ",
+          "process_start_time_seconds ", "shadowbench_build_info{version=\"", "shadowbench_results_bytes "})
+        EXPECT_NE(response.body.find("\n" + std::string(name)), std::string::npos) << name;
+}
+
+TEST_F(RoutesApi, CountWhatBecameOfJobs) {
+    JobTally tally;
+    tally.submitted = 5;
+    tally.runs = 7;
+    tally.ended["failed"] = 2;
+    tally.requeued["died"] = 3;
+    tally.seconds.add(0.05);
+    tally.seconds.add(50.0);
+    tally.waits.add(1e6);
+    fake::set_tally(*jobs_, tally);
+    const std::string text = answer(request("GET", "/metrics")).body;
+    for (const char* line :
+         {"shadowbench_jobs_submitted_total 5", "shadowbench_job_runs_total 7",
+          "shadowbench_jobs_ended_total{state=\"failed\"} 2", "shadowbench_jobs_ended_total{state=\"succeeded\"} 0",
+          "shadowbench_jobs_requeued_total{reason=\"died\"} 3", "shadowbench_job_seconds_bucket{le=\"0.1\"} 1",
+          "shadowbench_job_seconds_bucket{le=\"30\"} 1", "shadowbench_job_seconds_bucket{le=\"60\"} 2",
+          "shadowbench_job_seconds_sum 50.05", "shadowbench_job_wait_seconds_bucket{le=\"86400\"} 0",
+          "shadowbench_job_wait_seconds_bucket{le=\"+Inf\"} 1"})
+        EXPECT_NE(text.find(std::string(line) + "\n"), std::string::npos) << line << " is missing in\n" << text;
 }
 
 // What a fault on this side says of itself stays here.

@@ -50,6 +50,7 @@ struct Shared {
     JobLimits limits;
     bool stopping = false;
     JobStorage storage;
+    JobTally tally;
     std::uint64_t next = 1;
 
     Kept* find(const std::string& id) {
@@ -84,8 +85,7 @@ Shared& shared(const Jobs& jobs) {
 
 struct Jobs::State : fake::Shared {};
 
-Jobs::Jobs(fs::path state, std::string, std::vector<std::string>, JobLimits limits,
-           std::function<void(const std::string&)>)
+Jobs::Jobs(fs::path state, std::string, std::vector<std::string>, JobLimits limits, Log)
     : state_(std::make_unique<State>()) {
     state_->folder = std::move(state);
     state_->limits = limits;
@@ -110,6 +110,8 @@ Submitted Jobs::submit(const JobRequest& request) {
                         : Submitted::Outcome::conflict,
                     kept.info};
     if (state_->count(JobState::queued) >= state_->limits.queue) return {Submitted::Outcome::queue_full, {}};
+    if (limits_of(state_->limits.owners, request.owner).queued) return {Submitted::Outcome::owner_queue_full, {}};
+    if (limits_of(state_->limits.owners, request.owner).bytes) return {Submitted::Outcome::owner_bytes, {}};
     fake::Shared::Kept kept;
     kept.request = request;
     char id[32];
@@ -121,6 +123,9 @@ Submitted Jobs::submit(const JobRequest& request) {
     kept.info.pictures = request.pictures;
     kept.info.recommend = request.recommend;
     kept.info.created = "2026-11-25T02:03:04.123Z";
+    kept.info.owner = request.owner;
+    kept.info.labels = request.labels;
+    kept.info.priority = request.priority;
     kept.info.revision = 1;
     state_->jobs.push_back(kept);
     state_->place_all();
@@ -133,7 +138,7 @@ std::optional<JobInfo> Jobs::find(const std::string& id) const {
     return kept ? std::optional(kept->info) : std::nullopt;
 }
 
-JobPage Jobs::list(std::optional<JobState> state, std::size_t limit, const std::string& cursor) const {
+JobPage Jobs::list(const JobFilter& filter, std::size_t limit, const std::string& cursor) const {
     const std::scoped_lock lock(state_->mutex);
     std::size_t from = 0;
     if (!cursor.empty()) {
@@ -144,7 +149,12 @@ JobPage Jobs::list(std::optional<JobState> state, std::size_t limit, const std::
     JobPage page;
     std::size_t at = 0;
     for (auto kept = state_->jobs.rbegin(); kept != state_->jobs.rend(); ++kept, ++at) {
-        if (at < from || (state && kept->info.state != *state)) continue;
+        const JobInfo& job = kept->info;
+        const bool has_label =
+            filter.label.empty() || std::find(job.labels.begin(), job.labels.end(), filter.label) != job.labels.end();
+        if (at < from || (filter.state && job.state != *filter.state) || !has_label ||
+            (!filter.owner.empty() && job.owner != filter.owner) || job.name.find(filter.text) == std::string::npos)
+            continue;
         if (page.jobs.size() == limit) {
             page.next = std::to_string(at);
             break;
@@ -179,6 +189,23 @@ Jobs::Change Jobs::remove(const std::string& id) {
     state_->jobs.erase(state_->jobs.begin() + (kept - state_->jobs.data()));
     state_->changed.notify_all();
     return Change::done;
+}
+
+Jobs::Change Jobs::pin(const std::string& id, bool pinned) {
+    const std::scoped_lock lock(state_->mutex);
+    fake::Shared::Kept* kept = state_->find(id);
+    if (!kept) return Change::not_found;
+    kept->info.pinned = pinned;
+    return Change::done;
+}
+
+std::uint64_t Jobs::bytes() const {
+    return 0;
+}
+
+JobTally Jobs::tally() const {
+    const std::scoped_lock lock(state_->mutex);
+    return state_->tally;
 }
 
 Jobs::Retry Jobs::retry(const std::string& id) {
@@ -268,6 +295,12 @@ void set_storage(Jobs& jobs, const JobStorage& storage) {
     Shared& state = shared(jobs);
     const std::scoped_lock lock(state.mutex);
     state.storage = storage;
+}
+
+void set_tally(Jobs& jobs, const JobTally& tally) {
+    Shared& state = shared(jobs);
+    const std::scoped_lock lock(state.mutex);
+    state.tally = tally;
 }
 
 void update(Jobs& jobs, const std::string& id, const std::function<void(JobInfo&)>& change) {

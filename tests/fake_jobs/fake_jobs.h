@@ -21,6 +21,7 @@ void succeed(Jobs& jobs, const std::string& id, const std::map<std::string, std:
 
 void fail_storage(Jobs& jobs, bool fails);
 void set_storage(Jobs& jobs, const JobStorage& storage);
+void set_tally(Jobs& jobs, const JobTally& tally);
 
 // The folder of its files.
 std::filesystem::path folder(Jobs& jobs, const std::string& id);

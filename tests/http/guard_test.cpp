@@ -16,7 +16,7 @@ int status_of(const std::vector<Field>& headers, const GuardOptions& options, co
 }
 
 TEST(Guard, AsksForTheTokenOfTheServer) {
-    const GuardOptions options{false, "0123456789abcdef"};
+    const GuardOptions options{false, {{"", "0123456789abcdef"}}};
     EXPECT_EQ(status_of({}, options), 401);
     for (const char* wrong :
          {"", "Bearer", "Bearer ", "Bearer 0123456789abcde", "Bearer 0123456789abcdef0", "Bearer 0123456789abcdeF",
@@ -47,7 +47,7 @@ TEST(Guard, OnThisMachineAnswersToItsNamesAlone) {
           "[::1].evil.example", "[::1].evil.example:80", "[::1]evil", "[::1", "[::1]:80.evil.example",
           "localhost:80.evil.example", "localhost:x", "127.0.0.1:80:80", "::1"})
         EXPECT_EQ(status_of({{"host", host}}, {}), 421) << host;
-    EXPECT_EQ(status_of({{"host", "bench.example"}}, {false, ""}), 0);
+    EXPECT_EQ(status_of({{"host", "bench.example"}}, {false, {}}), 0);
 }
 
 TEST(Guard, RefusesPagesOfOtherOrigins) {

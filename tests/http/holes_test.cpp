@@ -134,7 +134,7 @@ TEST_F(Holes, FaultsKeepTheirCauseToThemselves) {
 }
 
 TEST_F(Holes, AddressesThatClientsTellAreNobodysBusiness) {
-    http_options_.token = "0123456789abcdef";
+    http_options_.tokens = {{"", "0123456789abcdef"}};
     restart();
     const std::string lies =
         "REMOTE_ADDR: 127.0.0.1\r\nREMOTE_PORT: 1\r\nLOCAL_ADDR: 127.0.0.1\r\nX-Forwarded-For: ::1\r\n";

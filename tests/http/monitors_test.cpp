@@ -70,7 +70,7 @@ TEST_F(Monitors, AreAnsweredWhereTooManyIdleConnectionsWait) {
 }
 
 TEST_F(Monitors, NeedTheTokenAsOnAnyThread) {
-    http_options_.token = "0123456789abcdef";
+    http_options_.tokens = {{"", "0123456789abcdef"}};
     restart();
     occupy(30, slow_body("Authorization: Bearer 0123456789abcdef\r\n"));
     EXPECT_EQ(ask(get("/healthz")).status, 200);

@@ -155,7 +155,7 @@ TEST_F(Server, GuardsItsPages) {
 }
 
 TEST_F(Server, AsksForItsToken) {
-    http_options_.token = "0123456789abcdef";
+    http_options_.tokens = {{"", "0123456789abcdef"}};
     restart();
     const RawAnswer answer = ask(get("/v1/jobs"));
     EXPECT_EQ(answer.status, 401);
@@ -164,7 +164,7 @@ TEST_F(Server, AsksForItsToken) {
     EXPECT_EQ(ask(post("/v1/jobs", scenario, "Authorization: Bearer wrong\r\n")).status, 401);
     EXPECT_EQ(ask(get("/healthz")).status, 200);
     EXPECT_EQ(ask(get("/")).status, 200) << "the page asks for the token";
-    Client client(server_->url(), http_options_.token);
+    Client client(server_->url(), "0123456789abcdef");
     EXPECT_EQ(client.get("/v1/jobs").status, 200);
     EXPECT_EQ(Client(server_->url(), "").get("/v1/jobs").status, 401);
 }
@@ -173,7 +173,7 @@ TEST_F(Server, ListensBeyondThisMachineOnlyWithAToken) {
     HttpOptions options;
     options.host = "0.0.0.0";
     EXPECT_THROW(HttpServer(*service_, 1, options), base::Error);
-    options.token = "0123456789abcdef";
+    options.tokens = {{"", "0123456789abcdef"}};
     EXPECT_GT(HttpServer(*service_, 1, options).port(), 0);
 }
 

@@ -63,13 +63,13 @@ protected:
     Jobs& start() { return start(program.string()); }
     Jobs& start(const std::string& own_program) {
         jobs.reset();
-        jobs = std::make_unique<Jobs>(state(), own_program, data, limits, [this](const std::string& line) {
+        jobs = std::make_unique<Jobs>(state(), own_program, data, limits, [this](const LogEvent& event) {
             const std::scoped_lock lock(said_mutex);
-            said_lines += line + "\n";
+            if (event.kind != "job") said_lines += event.message + "\n";
         });
         return *jobs;
     }
-    // All that servers of this test have said.
+    // All that servers of this test have said, but for what became of jobs.
     std::string said() const {
         const std::scoped_lock lock(said_mutex);
         return said_lines;

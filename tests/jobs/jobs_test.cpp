@@ -256,11 +256,11 @@ TEST_F(JobQueue, ListsByPages) {
         cursor = page.next;
     } while (!cursor.empty());
     EXPECT_EQ(seen, (std::vector<std::string>(ids.rbegin(), ids.rend())));
-    const JobPage queued = jobs->list(JobState::queued, 10, "");
+    const JobPage queued = jobs->list({JobState::queued}, 10, "");
     ASSERT_EQ(queued.jobs.size(), 4u);
     EXPECT_EQ(queued.jobs[0].position, 3u);
     EXPECT_EQ(queued.next, "");
-    EXPECT_TRUE(jobs->list(JobState::running, 10, "").jobs[0].progress);
+    EXPECT_TRUE(jobs->list({JobState::running}, 10, "").jobs[0].progress);
     for (const char* wrong : {"x", "-1", "0", "1 ", "99999999999999999999"}) {
         try {
             jobs->list({}, 2, wrong);

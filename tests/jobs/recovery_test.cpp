@@ -137,7 +137,7 @@ TEST_F(Recovery, KeepsResultsThatAreNewerThanTheDatabase) {
         EXPECT_THAT(said(), HasSubstr(id));
         EXPECT_EQ(text_of(id, "images/p.png"), "p\n");
     }
-    EXPECT_EQ(jobs->list(JobState::succeeded, 9, "").jobs.size(), 3u);
+    EXPECT_EQ(jobs->list({JobState::succeeded}, 9, "").jobs.size(), 3u);
     EXPECT_EQ(jobs->list({}, 1, "").jobs[0].id, fresh.id) << "in the order they came";
     const JobState state = jobs->find(blocker)->state;
     EXPECT_TRUE(state == JobState::queued || state == JobState::running) << "not cancelled, as that database has it";

@@ -219,17 +219,17 @@ TEST_F(JobStores, FindTheNewestResultOfEqualValues) {
 TEST_F(JobStores, ListByPagesNewestFirst) {
     for (int i = 1; i <= 5; ++i) add("j-" + std::to_string(i));
     store->claim("now");
-    const auto page = store->list("", 3, 0);
+    const auto page = store->list({}, 3, 0);
     ASSERT_EQ(page.size(), 3u);
     EXPECT_EQ(page[0].id, "j-5");
     EXPECT_EQ(page[0].ahead, 3u);
     EXPECT_EQ(page[2].ahead, 1u);
-    const auto rest = store->list("", 3, page[2].sequence);
+    const auto rest = store->list({}, 3, page[2].sequence);
     ASSERT_EQ(rest.size(), 2u);
     EXPECT_EQ(rest[0].ahead, 0u);
     EXPECT_FALSE(rest[1].ahead);
-    EXPECT_EQ(store->list(job_states::running, 9, 0).size(), 1u);
-    EXPECT_EQ(store->list(job_states::queued, 9, 0).size(), 4u);
+    EXPECT_EQ(store->list({job_states::running}, 9, 0).size(), 1u);
+    EXPECT_EQ(store->list({job_states::queued}, 9, 0).size(), 4u);
     EXPECT_EQ(store->count(job_states::queued), 4u);
 }
 
@@ -256,7 +256,7 @@ TEST_F(JobStores, ServeManyThreads) {
                 const std::string id = "j-" + std::to_string(t) + "-" + std::to_string(i);
                 store->add(job_named(id), many);
                 EXPECT_TRUE(store->find(id));
-                store->list("", 10, 0);
+                store->list({}, 10, 0);
             }
         });
     std::size_t claimed = 0;
@@ -359,7 +359,7 @@ TEST_F(JobStores, TakeInJobsThatHaveResults) {
     ASSERT_TRUE(store->key_of("j-new"));
     EXPECT_EQ(store->key_of("j-new")->request, "request");
     EXPECT_FALSE(store->key_of("j-newer"));
-    EXPECT_EQ(store->list("", 1, 0).at(0).id, "j-newer") << "as if it had come last";
+    EXPECT_EQ(store->list({}, 1, 0).at(0).id, "j-newer") << "as if it had come last";
 }
 
 TEST_F(JobStores, AreKnownByTheirFirstBytes) {

@@ -1,0 +1,49 @@
+// What the parts of Jobs share.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "service/jobs/board.h"
+#include "service/jobs/folders.h"
+#include "service/jobs/jobs.h"
+#include "service/jobs/news.h"
+#include "service/jobs/state_folder.h"
+#include "service/jobs/worker.h"
+#include "service/store/job_store.h"
+#include "service/store/presence.h"
+
+namespace shadowbench::service {
+
+std::string program_version();
+
+struct Jobs::State {
+    State(const std::filesystem::path& path, const std::string& program, const std::vector<std::string>& data,
+          JobLimits limits, Log log);
+
+    // Gives a new job the results of an earlier one with the same key, if there is one: sets `kept` and `bytes`.
+    void reuse_result(NewJob& job);
+    // See Jobs::remove().
+    Change remove(const StoredJob& job, const char* reason);
+    void remove_unpinned(const std::string& id, const char* reason);
+
+    std::string checked_program;
+    JobNews news;
+    StateFolder folder;  // locked before the members below exist, and until they are gone
+    JobFolders folders;
+    std::unique_ptr<JobStore> opened;
+    JobStore& store;
+    Presence presence;
+    JobBoard board;
+    Workplace place;
+    std::vector<std::thread> workers;
+    std::thread sweeper;
+    std::mutex joining;
+    std::mutex pinning;  // held while a job is pinned, or removed unless it is pinned
+};
+
+}  // namespace shadowbench::service

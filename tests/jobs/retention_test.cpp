@@ -1,0 +1,132 @@
+#include "service/jobs/retention.h"
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "jobs/job_host.h"
+
+namespace shadowbench::service {
+namespace {
+
+constexpr const char* noon = "2026-11-30T12:00:00.000Z";
+
+std::string chosen(const Retention& keep) {
+    const std::vector<JobStore::Ended> jobs{{"a", "2026-11-20T12:00:00.000Z", 500},
+                                            {"b", "2026-11-29T11:59:59.000Z", 300},
+                                            {"c", "2026-11-29T12:00:01.000Z", 0},
+                                            {"d", "2026-11-30T11:00:00.000Z", 200}};
+    std::string text;
+    for (const Removable& job : choose_removable(jobs, keep, noon)) text += job.id + ":" + job.reason + " ";
+    return text;
+}
+
+TEST(Retentions, RemoveWhatIsTooOldTooManyOrTooLarge) {
+    EXPECT_EQ(chosen({}), "");
+    EXPECT_EQ(chosen({1.0, {}, {}}), "a:age b:age ");
+    EXPECT_EQ(chosen({{}, 3, {}}), "a:number ");
+    EXPECT_EQ(chosen({{}, 0, {}}), "a:number b:number c:number d:number ");
+    EXPECT_EQ(chosen({{}, {}, 1000}), "");
+    EXPECT_EQ(chosen({{}, {}, 500}), "a:space ") << "500 bytes are left";
+    EXPECT_EQ(chosen({{}, {}, 499}), "a:space b:space ");
+    EXPECT_EQ(chosen({5.0, 3, 250}), "a:age b:space ") << "a is gone, so three are left";
+}
+
+class RetentionHost : public JobHost {
+protected:
+    std::string ended() const {
+        const JobInfo job = run(success);
+        EXPECT_EQ(job.state, JobState::succeeded);
+        return job.id;
+    }
+    bool goes(const std::string& id) const {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (jobs->find(id) && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        return !jobs->find(id);
+    }
+};
+
+TEST_F(RetentionHost, RemovesJobsWithTheirFilesButNoPinnedOne) {
+    start();
+    const std::string pinned = ended(), first = ended(), last = ended();
+    EXPECT_EQ(jobs->pin(pinned, true), Jobs::Change::done);
+    EXPECT_EQ(jobs->pin("j-0000000000000000", true), Jobs::Change::not_found);
+    EXPECT_GT(jobs->find(first)->bytes, 0u);
+    EXPECT_GE(jobs->bytes(), 3 * jobs->find(first)->bytes);
+    limits.retention.jobs = 1;
+    start();
+    EXPECT_TRUE(goes(first));
+    EXPECT_FALSE(std::filesystem::exists(state() / "jobs" / first));
+    EXPECT_TRUE(jobs->find(pinned)) << "pinned";
+    EXPECT_TRUE(jobs->find(last)) << "the latest";
+    EXPECT_EQ(jobs->tally().removed["number"], 1u);
+}
+
+// Else the next start would forget who wanted to keep a result, and remove it.
+TEST_F(RetentionHost, PinsOwnersAndLabelsOutliveTheDatabase) {
+    start();
+    JobRequest request = request_of(success);
+    request.owner = "ann";
+    request.labels = {"night", "b"};
+    request.priority = -3;
+    const std::string id = jobs->submit(request).job.id;
+    wait_for_end(id);
+    jobs->pin(id, true);
+    jobs.reset();
+    for (const char* name : {"jobs.db", "jobs.db-wal", "jobs.db-shm"}) std::filesystem::remove(state() / name);
+    const auto job = start().find(id);
+    ASSERT_TRUE(job);
+    EXPECT_TRUE(job->pinned);
+    EXPECT_EQ(job->owner, "ann");
+    EXPECT_EQ(job->labels, request.labels);
+    EXPECT_EQ(job->priority, -3);
+    EXPECT_GT(job->bytes, 0u);
+}
+
+TEST_F(RetentionHost, CountsWhatBecomesOfJobs) {
+    limits.attempts = 2;
+    std::string log;
+    start();
+    jobs.reset();
+    jobs = std::make_unique<Jobs>(state(), program.string(), data, limits, [&](const LogEvent& event) {
+        const std::scoped_lock lock(said_mutex);
+        log += event.message + " ";
+    });
+    ended();
+    EXPECT_EQ(run("exit 65\n").state, JobState::failed);
+    EXPECT_EQ(run("kill -9 $$\n").state, JobState::failed);
+    const std::string waits = submit(endless);
+    wait_for_run(waits);
+    jobs->cancel(waits);
+    jobs->stop();
+    const JobTally tally = jobs->tally();
+    EXPECT_EQ(tally.submitted, 4u);
+    EXPECT_EQ(tally.runs, 5u);
+    EXPECT_EQ(tally.ended, (std::map<std::string, std::uint64_t>{{"cancelled", 1}, {"failed", 2}, {"succeeded", 1}}));
+    EXPECT_EQ(tally.requeued.at("died"), 1u);
+    const std::scoped_lock lock(said_mutex);
+    EXPECT_THAT(log, ::testing::HasSubstr("queued started succeeded queued started failed queued started requeued "
+                                          "started failed queued started cancelled "));
+}
+
+TEST_F(RetentionHost, ReportsJobsThatAKilledServerRan) {
+    start();
+    const std::string id = submit(endless);
+    wait_for_run(id);
+    jobs.reset();
+    {
+        JobStore store(state() / "jobs.db");
+        EXPECT_TRUE(store.claim("now"));  // as if the server had been killed
+    }
+    EXPECT_EQ(start().tally().requeued.at("killed"), 1u);
+}
+
+}  // namespace
+}  // namespace shadowbench::service
