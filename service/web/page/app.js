@@ -1,4 +1,5 @@
 // Shows the page that the address names: #/ to submit, #/jobs, #/jobs/<id>, #/compare/<id>/<id>.
+import {pathOf} from './address.js';
 import {onTokenNeeded} from './api.js';
 import {comparisonView} from './comparison.js';
 import {h} from './dom.js';
@@ -8,10 +9,10 @@ import {jobsView} from './jobs.js';
 import {submitView} from './submit.js';
 
 const main = document.getElementById('main');
-let shown = null, draft = null;
+let shown = null, draft = null, path = null;
 
 function go(address) {
-  if (location.hash === address) route();
+  if (location.hash === address) show();
   else location.hash = address;
 }
 
@@ -29,11 +30,17 @@ function decoded(part) {
   }
 }
 
+// A page follows changes of its own state itself.
 function route(event) {
+  if (pathOf(location.hash) !== path) show(event);
+}
+
+function show(event) {
+  path = pathOf(location.hash);
   shown?.abort();
   shown = new AbortController();
   const {signal} = shown;
-  const [, page = '', ...ids] = location.hash.split('/').map(decoded);
+  const [, page = '', ...ids] = path.split('/').map(decoded);
   document.title = 'shadowbench';
   const view = page === 'jobs' && ids[0] ? jobView({id: ids[0], signal, edit})
     : page === 'jobs' ? jobsView({signal}) : page === 'compare' ? comparisonView({ids, signal}) : submitView({draft, signal, go});
@@ -63,5 +70,9 @@ onTokenNeeded((refused) => new Promise((resolve) => {
   dialog.showModal();
 }));
 
+document.getElementById('skip').addEventListener('click', (event) => {
+  event.preventDefault();  // the address names a page
+  main.focus();
+});
 addEventListener('hashchange', route);
 route();

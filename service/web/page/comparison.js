@@ -51,7 +51,7 @@ function answerView(answer) {
     h('p', {}, `${counts.map(([verdict, n]) => `${n} ${words(verdict)}`).join(', ')}.`),
     h('p', {class: 'note'}, [answer.method, answer.sensitivity].filter(Boolean).join('; ')),
     answer.notes.map((note) => h('p', {class: 'note'}, note)),
-    answer.fronts.length > 0 && [h('h4', {}, 'Fronts'), h('ul', {class: 'fronts'}, answer.fronts.map((front) => h('li', {}, front.text)))],
+    answer.fronts.length > 0 && [h('h3', {class: 'part'}, 'Fronts'), h('ul', {class: 'fronts'}, answer.fronts.map((front) => h('li', {}, front.text)))],
     place);
 }
 

@@ -47,11 +47,13 @@ function progressPanel(stop) {
   };
 }
 
-function faultPanel(job) {
+// retry(): queues the job once more.
+function faultPanel(job, retry) {
   const {where, message} = job.error ?? {};
   return h('section', {class: 'panel fault', role: 'alert'}, h('h2', {}, job.state === 'failed' ? 'The job failed' : 'The job was cancelled'),
     job.error && h('p', {}, where && h('code', {}, where), ` ${message}`),
-    job.attempts > 1 && h('p', {class: 'note'}, `After ${job.attempts} attempts.`));
+    job.attempts > 1 && h('p', {class: 'note'}, `After ${job.attempts} attempts.`),
+    h('p', {class: 'fault-actions'}, h('button', {type: 'button', onclick: retry}, 'Retry')));
 }
 
 export function jobView({id, signal, edit}) {
@@ -63,6 +65,15 @@ export function jobView({id, signal, edit}) {
   const progress = progressPanel(() => post(`${path}/cancel`, null).catch(failed));
   let shown = '';
 
+  const retry = async () => {
+    try {
+      await post(`${path}/retry`, null, {}, signal);
+      setText(problem, '');
+      follow();
+    } catch (error) {
+      failed(error);
+    }
+  };
   const again = h('button', {type: 'button', class: 'link', onclick: () => get(`${path}/scenario`, signal).then(edit, failed)}, 'Edit and run again');
 
   async function showResult(job) {
@@ -88,11 +99,12 @@ export function jobView({id, signal, edit}) {
       state.replaceChildren(stateMark(job));
       if (!ended(job)) { if (!progress.element.isConnected) place.replaceChildren(progress.element); links.replaceChildren(again); }
       else if (job.state === 'succeeded') showResult(job).catch(failed);
-      else { place.replaceChildren(faultPanel(job)); links.replaceChildren(again); }
+      else { place.replaceChildren(faultPanel(job, retry)); links.replaceChildren(again); }
       shown = job.state;
     }
     if (!ended(job)) progress.update(job);
   }
-  watchJob(id, update, signal).catch(failed);
+  const follow = () => watchJob(id, update, signal).catch(failed);
+  follow();
   return element;
 }

@@ -9,7 +9,7 @@ import {makeFixture} from './server.mjs';
 
 async function each(browser, file, look) {
   for (const scheme of ['light', 'dark'])
-    for (const width of [1280, 400]) {
+    for (const width of [1440, 390]) {
       const address = pathToFileURL(file).href;
       const {page, close} = await openPage(browser, {scheme, width, allowed: address});
       await page.goto(address);

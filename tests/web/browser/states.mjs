@@ -3,10 +3,12 @@ import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {assertAccessible, assertContrast, openPage, picture} from './harness.mjs';
+import {firstPage} from './first.mjs';
+import {looking} from './looking.mjs';
 import {makeFixture, startMock} from './server.mjs';
 
 const text = (page, selector) => page.locator(selector).innerText();
-const states = {};
+const states = {...firstPage, ...looking};
 
 states['no jobs'] = async ({page, url}) => {
   await page.goto(`${url}#/jobs`);
@@ -53,9 +55,15 @@ states['a recommendation'] = async ({page, url, mock}) => {
   await assertAccessible(page);
 };
 
-states['cancel and delete'] = async ({page, url, mock}) => {
+states['cancel, retry and delete'] = async ({page, url, mock}) => {
   mock.job('running');
   await page.goto(`${url}#/jobs`);
+  await page.waitForSelector('.jobs .state-running');
+  assert.equal(await page.locator('.jobs button:has-text("Retry")').isVisible(), false);
+  await page.click('.jobs button:has-text("Cancel")');
+  await page.waitForSelector('.jobs .state-cancelled');
+  await page.click('.jobs button:has-text("Retry")');
+  await page.waitForSelector('.jobs .state-queued');
   await page.click('.jobs button:has-text("Cancel")');
   await page.waitForSelector('.jobs .state-cancelled');
   await page.click('.jobs button:has-text("Delete")');
@@ -79,6 +87,15 @@ states['a job that failed'] = async ({page, url, mock}) => {
   await page.waitForSelector('.fault');
   assert.match(await text(page, '.fault'), /\/lights\/0 <i>sees<\/i> nothing/);
   assert.match(await text(page, '.fault'), /3 attempts/);
+  // It can be queued once more, and is followed.
+  await page.click('.fault button:has-text("Retry")');
+  await page.waitForSelector('.progress');
+  mock.step(job);
+  await page.waitForFunction(() => document.querySelector('.stage-text').textContent.includes('capture'));
+  Object.assign(job, {state: 'failed', error: {code: 65, where: '/lights/0', message: 'again'}});
+  for (const wake of mock.waiting) wake();
+  await page.waitForSelector('.fault');
+  assert.match(await text(page, '.fault'), /again/);
   await page.click('button:has-text("Edit and run again")');
   await page.waitForSelector('.verdict-box .good');
   assert.match(await page.locator('#scenario').inputValue(), /"quickstart"/);
@@ -158,7 +175,7 @@ states['text that is not JSON'] = async ({page, url}) => {
   await page.waitForSelector('.faults');
   assert.equal(await text(page, '.numbers .bad'), '3');
   assert.match(await text(page, '.faults'), /line 3\s*Expected a value instead of ","/);
-  await page.click('button.primary');  // says it again, and sends nothing
+  await page.click('#run');  // says it again, and sends nothing
   assert.ok(await page.evaluate(() => document.activeElement.id === 'scenario'));
 };
 
@@ -174,18 +191,18 @@ states['a full queue'] = async ({page, url, mock}) => {
   mock.refuse = {status: 429, detail: 'The queue is full.', headers: {'Retry-After': '90'}};
   await page.goto(url);
   await page.waitForSelector('.verdict-box .good');
-  await page.click('button.primary');
+  await page.click('#run');
   await page.waitForFunction(() => document.querySelector('.problem').textContent ===
     'Not accepted: The queue is full. Try again in 1 min 30 s.');
   // The same again is the same request; another text is another.
   mock.refuse = null;
-  await page.click('button.primary');
+  await page.click('#run');
   await page.waitForURL(/#\/jobs\/j-/);
   assert.equal(mock.keys.length, 2);
   assert.equal(mock.keys[0], mock.keys[1]);
   await page.click('nav a[href="#/"]');
   await page.waitForSelector('.verdict-box .good');
-  await page.click('button.primary');
+  await page.click('#run');
   await page.waitForURL(/#\/jobs\/j-/);
   assert.notEqual(mock.keys[2], mock.keys[1]);
 };
@@ -198,7 +215,7 @@ states['options reach the server'] = async ({page, url, mock}) => {
   await page.waitForSelector('.verdict-box .good');
   await page.uncheck('#pictures');
   await page.selectOption('.actions select', 'fresh');
-  await page.click('button.primary');
+  await page.click('#run');
   await page.waitForURL(/#\/jobs\/j-/);
   assert.deepEqual(mock.jobs[0].options, {cache: 'fresh', pictures: false});
   assert.match(mock.bodies[0], /"seed": 12345678901234567891,/, 'with all digits');
@@ -232,12 +249,12 @@ states['a server that is gone'] = async ({page, url, mock}) => {
 export default async function run(options) {
   const fixture = makeFixture(options);
   const expected = [/Failed to load resource/];  // the answers that are no success
-  for (const [name, state] of Object.entries(states)) {
+  for (const [name, state] of Object.entries(states).filter(([name]) => name.includes(options.only ?? ''))) {
     const {mock, url, stop} = await startMock({...options, fixture});
     const {page, close} = await openPage(options.browser, {allowed: url, expected});
     try {
       await state({page, url, mock});
-      for (const [colorScheme, width] of [['light', 1280], ['dark', 400]]) {
+      for (const [colorScheme, width] of [['light', 1440], ['dark', 1024], ['dark', 390]]) {
         await page.emulateMedia({colorScheme});
         await page.setViewportSize({width, height: 900});
         await assertAccessible(page);
