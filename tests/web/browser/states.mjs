@@ -254,7 +254,7 @@ export default async function run(options) {
     const {page, close} = await openPage(options.browser, {allowed: url, expected});
     try {
       await state({page, url, mock});
-      for (const [colorScheme, width] of [['light', 1440], ['dark', 1024], ['dark', 390]]) {
+      for (const [colorScheme, width] of [['light', 1440], ['dark', 390]]) {
         await page.emulateMedia({colorScheme});
         await page.setViewportSize({width, height: 900});
         await assertAccessible(page);
