@@ -1,8 +1,9 @@
-// Shows the page that the address names: #/ to submit, #/jobs, #/jobs/<id>, #/compare/<id>/<id>.
+// Shows the page that the address names: #/ to submit, #/jobs, #/jobs/<id>, #/compare/<id>/<id>, #/explore.
 import {pathOf} from './address.js';
 import {onTokenNeeded} from './api.js';
 import {comparisonView} from './comparison.js';
 import {h} from './dom.js';
+import {exploreView} from './explore.js';
 import {written} from './format.js';
 import {jobView} from './job.js';
 import {jobsView} from './jobs.js';
@@ -43,11 +44,11 @@ function show(event) {
   const [, page = '', ...ids] = path.split('/').map(decoded);
   document.title = 'shadowbench';
   const view = page === 'jobs' && ids[0] ? jobView({id: ids[0], signal, edit})
-    : page === 'jobs' ? jobsView({signal}) : page === 'compare' ? comparisonView({ids, signal}) : submitView({draft, signal, go});
+    : page === 'jobs' ? jobsView({signal}) : page === 'compare' ? comparisonView({ids, signal}) : page === 'explore' ? exploreView({signal}) : submitView({draft, signal, go});
   draft = null;
   main.replaceChildren(view);
   for (const link of document.querySelectorAll('nav a'))
-    link.toggleAttribute('aria-current', link.getAttribute('href') === (page === 'jobs' || page === 'compare' ? `#/${page}` : '#/'));
+    link.toggleAttribute('aria-current', link.getAttribute('href') === (['jobs', 'compare', 'explore'].includes(page) ? `#/${page}` : '#/'));
   if (event) {  // not for the first page
     scrollTo(0, 0);
     view.querySelector('h1')?.focus();

@@ -3,6 +3,7 @@ import {get, getText, hasToken, objectUrl, post} from './api.js';
 import {announce, h, setText} from './dom.js';
 import {moment} from './format.js';
 import {progressBar, progressText, stateMark} from './jobs.js';
+import {exploredView} from './result/explored.js';
 import {resultView, summaryOf} from './result/view.js';
 import {ended, watchJob} from './watch.js';
 
@@ -88,6 +89,7 @@ export function jobView({id, signal, edit}) {
       h('a', {href: `#/compare/${encodeURIComponent(id)}`}, 'Compare with another'), again);
     place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
       ...(text ? [h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer', tabindex: '0'}, text))] : []),
+      ...(result.recommendation ? [exploredView({recommendation: result.recommendation, name: job.name, signal})] : []),
       h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)), resultView({source, result, images, imagesFault: fault?.error, signal}));
     announce(`${job.name}: the result is shown`);
   }

@@ -8,6 +8,8 @@ import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/poi
 import {answersAt, firstBudget} from '../../../service/web/page/result/answers.js';
 import {around, differenceOf} from '../../../service/web/page/result/functions.js';
 import {named} from '../../../service/web/page/result/names.js';
+import {ownFronts, pointsAt, settingsOf} from '../../../service/web/page/result/settings.js';
+import {overTime, pointsOfAll} from '../../../service/web/page/result/several.js';
 import {undecided} from '../../../service/web/page/result/points.js';
 import {errors, frontOf, fronts, lightMapOf, marked, originOf, quoted, rerunOf, rmsInterval, speeds, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
 import {linearAxis, logAxis, logPlace} from '../../../service/web/page/plots/axes.js';
@@ -190,6 +192,28 @@ test('a form changes what it shows, and nothing else', () => {
   assert.deepEqual(withTypes({techniques: [{type: '*'}]}, new Set(['deep', 'pcf']), all).techniques, [{type: 'deep'}, {type: 'pcf'}]);
   assert.ok(keepsDigits('{"a": 1234567890, "b": "12345678901234567890"}'));
   assert.ok(!keepsDigits('{"a": 12345678901234567890}'));
+});
+
+test('a recommendation draws what worked, and no bytes of what has no map', () => {
+  const axes = [{name: 'resolution', values: ['16', '32']}, {name: 'samples', values: ['4']}];
+  const at = (family, step, error, failed = '') => ({family, step: [step, 0], failed, error, lookup_ns: 10 + step, bytes: 100 * family, build_ms: 1});
+  const sure = {median: 5, interval95: [4, 6]};
+  const settings = settingsOf({families: [{technique: 'traced', name: 'traced', axes, mapless: true}, {technique: 'deep', name: 'deep kernel=box', axes, mapless: false}],
+    measured: [at(0, 0, 0.1), at(1, 0, 0.2), at(1, 1, 0.1), at(1, 1, null), at(0, 1, 0.1, 'rises')],
+    confirmed: [{family: 1, step: [0, 0], failed: '', error: {mean: 0.21, interval95: [0.2, 0.22]}, lookup_ns: sure, bytes: sure, build_ms: sure}]});
+  assert.deepEqual(settings.map((s) => [s.name, s.error, s.confirmed]), [['traced, resolution=16', 0.1, false], ['deep kernel=box, resolution=16', 0.21, true], ['deep kernel=box, resolution=32', 0.1, false]]);
+  assert.deepEqual(pointsAt(settings, {id: 'lookup_ns'}).map((p) => [p.x, p.xLow, p.low]), [[10, 10, 0.1], [5, 4, 0.2], [11, 11, 0.1]]);
+  assert.deepEqual(pointsAt(settings, {id: 'bytes'}).map((p) => p.technique), ['deep', 'deep']);
+  assert.deepEqual(ownFronts(pointsAt(settings, {id: 'lookup_ns'})), [{technique: 'deep', x: 5, y: 0.21, order: 0}, {technique: 'deep', x: 11, y: 0.1, order: 1}]);
+});
+
+test('results side by side join the cells that both have', () => {
+  const result = (cells) => ({variants: [{lights: [{light: 'key', cells}]}]});
+  const results = [result([measured('deep', 0.1, null, 10, 100), measured('old', 0.1, null, 10, 100)]), result([measured('deep', 0.2, null, 20, 100), {technique: 'avsm', status: 'failed'}])];
+  const {points, lines} = pointsOfAll(results, errors[0], speeds[0]);
+  assert.deepEqual(points.map((p) => [p.of, p.title, p.x, p.y]), [[0, 'deep', 10, 0.1], [0, 'old', 10, 0.1], [1, 'deep', 20, 0.2]]);
+  assert.deepEqual(lines.map((l) => [l.technique, l.x, l.y, l.order]), [['deep', 10, 0.1, 0], ['deep', 20, 0.2, 1]]);
+  assert.deepEqual(overTime(results, speeds[0]), [{title: 'deep', points: [{i: 0, value: 10, low: 9, high: 11}, {i: 1, value: 20, low: 18, high: 22}]}]);
 });
 
 test('CSV quotes what would break it', () => {

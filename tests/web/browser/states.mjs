@@ -45,12 +45,27 @@ states['a recommendation'] = async ({page, url, mock}) => {
   Object.assign(job, {kind: 'recommendation', recommend: {error: 0.02}, promises_kept: null, reached: false,
     artifacts: ['result.json', 'result.csv', 'table.txt']});
   mock.files['table.txt'] = 'rms error at most 0.02 with 95 % confidence';
+  const result = JSON.parse(readFileSync(join(mock.fixture, 'result.json'), 'utf8'));
+  const axes = [{name: 'resolution', values: ['32', '64'], stride: 1}, {name: 'samples_per_pixel', values: ['4'], stride: 1}];
+  const at = (family, step, error, ns, size) => ({family, step: [step, 0], failed: '', error, lookup_ns: ns, bytes: size, build_ms: 2});
+  const sample = (v) => ({median: v, interval95: [0.9 * v, 1.1 * v]});
+  result.recommendation = {light: 'key', measure: 'rms', goal: {error: 0.02, cheapest: ['bytes'], at_most: {}, budget_seconds: 9}, end: 'complete', steal: null, scout: null,
+    families: [{technique: 'deep', name: 'deep', axes, mapless: false}, {technique: 'ray_traced', name: 'ray_traced', axes, mapless: true}],
+    measured: [at(0, 0, 0.05, 10, 1000), at(0, 1, 0.019, 20, 4000), at(1, 0, 0.01, 900, 0)],
+    confirmed: [{family: 0, step: [1, 0], failed: '', cut: false, error: {mean: 0.019, interval95: [0.018, 0.02]}, lookup_ns: sample(20), bytes: sample(4000), build_ms: sample(2)}]};
+  mock.results = result;
   await page.goto(`${url}#/jobs`);
   await page.waitForSelector('.jobs tbody tr');
   for (const words of ['recommendation', 'error not reached']) assert.ok((await text(page, '.jobs')).includes(words), words);
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForSelector('.cells tbody tr');
   assert.match(await text(page, 'pre.answer'), /at most 0\.02/);
+  const marks = page.locator('#explored .mark-symbol path');
+  await marks.first().waitFor();
+  assert.equal(await marks.count(), 3);
+  assert.match(await marks.nth(1).getAttribute('aria-label'), /deep, resolution=64\s+one lookup: 20 ns\s+error: 0\.019, 95 %: 0\.018 to 0\.02/);
+  await page.selectOption('#explored select', 'bytes');
+  await page.waitForFunction(() => document.querySelectorAll('#explored .mark-symbol path').length === 2, null);
   assert.equal(await page.locator('#curves').count(), 0, 'its points are not those of the scenario');
   await assertAccessible(page);
 };
@@ -147,6 +162,25 @@ states['two results that differ'] = async ({page, url, mock}) => {
   for (const words of ['✕ less accurate', '✕ larger', '+8400 (+21 %)', '<b>not</b> in the current side', '× 1.22, 95 %: 1.17 to 1.29', '✓ smaller', '△ not comparable']) assert.ok(table.includes(words), words);
   assert.doesNotMatch(table, /inconclusive/);
   assert.match(await text(page, '.fronts'), /avsm nodes=4 left the front/);
+};
+
+states['several results in one plot, and over time'] = async ({page, url, mock}) => {
+  const jobs = [mock.job('succeeded'), mock.job('succeeded'), mock.job('succeeded', {kind: 'recommendation'})];
+  await page.goto(`${url}#/explore`);
+  await page.waitForSelector('.boxes input');
+  assert.equal(await page.locator('.boxes input').count(), 2, 'a recommendation has points of its own');
+  assert.match(await text(page, '.empty'), /Choose results/);
+  for (const box of [0, 1]) await page.locator('.boxes input').nth(box).check();
+  await page.waitForSelector('.trend .mark-symbol path');
+  assert.match(decodeURIComponent(page.url()), new RegExp(`jobs=${jobs[1].id},${jobs[0].id}$`));
+  assert.deepEqual(await page.locator('.results li a').allInnerTexts(), ['#1 small', '#2 small']);
+  const cells = 2 * 2 * 6, drawn = await page.locator('.panel:has(#overlay-title) .mark-symbol path').count();
+  assert.equal(drawn, 2 * cells, 'the cells of both');
+  assert.equal(await page.locator('.trend').count(), cells, 'each over time');
+  await page.selectOption('.panel:has(#time-title) select', 'bytes');
+  await page.waitForFunction(() => document.querySelector('.trend .plot').getAttribute('aria-label').includes('bytes of the map'));
+  await page.reload();
+  await page.waitForFunction(() => document.querySelector('.trend .plot')?.getAttribute('aria-label').includes('bytes of the map'));
 };
 
 states['a file that is not a result'] = async ({page, url, mock}) => {

@@ -36,7 +36,7 @@ const trade = {
     },
     {
       data: {name: 'levels'},
-      mark: {type: 'rule', color: muted},
+      mark: {type: 'rule', color: muted, aria: false},
       encoding: {y: {field: 'y', ...axis('y', 'log')}, strokeDash: asIs('dash')},
     },
     {
@@ -120,7 +120,7 @@ const trend = {
   layer: [
     {
       data: {name: 'since'},
-      mark: {type: 'rule', strokeDash: [3, 3], strokeWidth: 1.5, color: {expr: 'alarm'}},
+      mark: {type: 'rule', strokeDash: [3, 3], strokeWidth: 1.5, color: {expr: 'alarm'}, aria: false},
     },
     {
       data: {name: 'points'},
