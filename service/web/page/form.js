@@ -23,8 +23,9 @@ function listField(name, values, change) {
   };
 }
 
-// text() and write(text): of the editor. show() is to be called after each change of the text.
-export function choicesForm({text, write, signal}) {
+// text() and write(text): of the editor. `error`: the field of the error that is asked for. show() is to be called after each change
+// of the text.
+export function choicesForm({text, write, error, signal}) {
   const parsed = () => {
     try { return JSON.parse(text()); } catch { return null; }
   };
@@ -41,7 +42,8 @@ export function choicesForm({text, write, signal}) {
   const boxes = h('div', {class: 'boxes'}), said = h('p', {class: 'note'});
   const fields = h('fieldset', {class: 'common'}, h('legend', {}, 'Common choices'),
     h('div', {class: 'choices'}, around.element, height.element), h('div', {class: 'choices'}, resolution.element, rays.element),
-    h('div', {role: 'group', 'aria-label': 'Techniques'}, h('p', {class: 'axis-title'}, 'techniques'), boxes), said);
+    h('div', {role: 'group', 'aria-label': 'Techniques'}, h('p', {class: 'axis-title'}, 'techniques'), boxes),
+    h('label', {class: 'choice'}, h('span', {}, 'error asked for'), error), said);
 
   function show() {
     const scenario = parsed(), rays_ = scenario?.rays ?? {}, can = scenario !== null && keepsDigits(text());

@@ -5,10 +5,10 @@ function card(title, text, ...actions) {
   return h('section', {class: 'card'}, h('h2', {}, title), h('p', {}, text), h('div', {class: 'card-actions'}, actions));
 }
 
-// compare(): shows an example. `files`: an element that takes a file. recommend(error): sends what the editor holds.
-export function startHead({compare, files, recommend}) {
-  const error = h('input', {type: 'number', min: '0.0001', max: '1', step: 'any', value: '0.05', required: true, 'aria-label': 'Error that is allowed'});
-  const ask = h('form', {class: 'card-actions', onsubmit: (event) => { event.preventDefault(); recommend(Number(error.value)); }},
+// compare(): shows an example. `files`: an element that takes a file. recommend(): sends what the editor holds. `error`: the field
+// of the error that is allowed.
+export function startHead({compare, files, recommend, error}) {
+  const ask = h('form', {class: 'card-actions', onsubmit: (event) => { event.preventDefault(); recommend(); }},
     h('label', {class: 'choice'}, h('span', {}, 'RMS error at most'), error), h('button', {type: 'submit'}, 'Recommend'));
   return h('div', {class: 'start'},
     h('div', {class: 'hero'},

@@ -115,7 +115,11 @@ export function submitView({draft, signal, go}) {
     const select = examples.querySelector('select');
     if (select) select.value = '';
   }
-  const form = choicesForm({text: edit.text, write(text) { own(); edit.set(text); }, signal});
+  // The error that is allowed stands in the card of the recommendation and in the form.
+  const fields = [0, 1].map(() => h('input', {type: 'number', min: '0.0001', max: '1', step: 'any', value: '0.05', required: true, 'aria-label': 'Error that is allowed',
+    oninput: (event) => { for (const field of fields) field.value = event.target.value; asked = true; }}));
+  let asked = false;
+  const form = choicesForm({text: edit.text, write(text) { own(); edit.set(text); }, error: fields[1], signal});
   signal.addEventListener('abort', () => clearTimeout(timer), {once: true});
 
   // Sends the scenario, with `more` members of the request, to the path. Goes to its job.
@@ -126,7 +130,7 @@ export function submitView({draft, signal, go}) {
     try {
       const job = await post(path, `{"scenario": ${text}, ${more}}`, {'Idempotency-Key': key}, signal);
       sessionStorage.removeItem(draftKey);
-      go(`#/jobs/${job.id}`);
+      go(`#/jobs/${job.id}${asked && path === '/v1/jobs' ? `?budget=${Number(fields[0].value)}` : ''}`);
     } catch (error) {
       if (signal.aborted) return;
       if (error.status === 422 || error.status === 400) showFaults(faultsOf(error, text));
@@ -139,9 +143,9 @@ export function submitView({draft, signal, go}) {
   }
   const buttons = () => element.querySelectorAll('button[type="submit"]');
   const run = () => send('/v1/jobs', `"options": ${JSON.stringify({cache, pictures: pictures.checked})}`);
-  function recommend(error) {
+  function recommend() {
     key = newKey();  // another question about the same text
-    return send('/v1/recommendations', `"recommend": ${JSON.stringify({error})}, "options": ${JSON.stringify({cache})}`);
+    return send('/v1/recommendations', `"recommend": ${JSON.stringify({error: Number(fields[0].value)})}, "options": ${JSON.stringify({cache})}`);
   }
   const pictures = h('input', {type: 'checkbox', checked: true, id: 'pictures', onchange: () => { key = newKey(); }});
   const button = h('button', {type: 'submit', class: 'primary', id: 'run'}, 'Run it');
@@ -171,7 +175,7 @@ export function submitView({draft, signal, go}) {
   const bring = (text) => { own(); edit.set(text); title.scrollIntoView(); button.focus({preventScroll: true}); };
   const head = draft ? null : startHead({
     compare() { pick('quickstart'); title.scrollIntoView(); button.focus({preventScroll: true}); },
-    files: filePicker({taken: bring, signal}), recommend,
+    files: filePicker({taken: bring, signal}), recommend, error: fields[0],
   });
   const element = h('div', {class: 'stack'}, head,
     h('form', {class: 'submit', onsubmit: (event) => { event.preventDefault(); run(); }},

@@ -48,6 +48,13 @@ firstPage['a recommendation is asked for'] = async ({page, url, mock}) => {
   await page.click('.card button:has-text("Recommend")');
   await page.waitForURL(/#\/jobs\/j-/);
   assert.deepEqual(mock.jobs[0].recommend, {error: 0.015});
+  // In a run, it is the error that is allowed at first.
+  await page.goto(url);
+  await ready(page);
+  await page.fill('.common input[aria-label="Error that is allowed"]', '0.3');
+  assert.equal(await page.locator('.card input[aria-label="Error that is allowed"]').inputValue(), '0.3');
+  await page.click('#run');
+  await page.waitForURL(/#\/jobs\/j-[^?]*\?budget=0\.3$/);
   await page.waitForSelector('.progress');
 };
 
@@ -68,4 +75,39 @@ firstPage['a file of the data folders'] = async ({page, url, mock}) => {
   // A scenario of one's own.
   await card.locator('input[type="file"]').setInputFiles({name: 'mine.json', mimeType: 'application/json', buffer: Buffer.from('{"name": "mine"}')});
   await page.waitForFunction(() => document.querySelector('#scenario').value === '{"name": "mine"}');
+};
+
+firstPage['the keyboard alone, from the first page to an answer'] = async ({page, url, mock}) => {
+  await page.goto(url);
+  await ready(page);
+  // Goes on to the next element that the words name.
+  const next = async (words) => {
+    for (let i = 0; i < 60; ++i) {
+      await page.keyboard.press('Tab');
+      if (await page.evaluate((w) => (document.activeElement.getAttribute('aria-label') ?? document.activeElement.textContent).includes(w), words)) return;
+    }
+    assert.fail(`no Tab leads to ${words}`);
+  };
+  await next('Skip to the content');
+  await page.keyboard.press('Enter');
+  assert.ok(await page.evaluate(() => document.activeElement.id === 'main'), 'the address stays that of the page');
+  assert.equal(await page.locator('#scenario').count(), 1);
+  await next('Show the example');
+  await page.keyboard.press('Enter');
+  await ready(page);
+  await page.keyboard.press('Enter');  // the button that runs it has the focus
+  await page.waitForURL(/#\/jobs\/j-/);
+  for (const [job] = mock.jobs; job.state !== 'succeeded';) mock.step(job);
+  await page.waitForSelector('.answers button');
+  await next('Error that is allowed');
+  const before = await page.locator('.answers').innerText();
+  await page.keyboard.press('Home');
+  await page.waitForFunction((was) => document.querySelector('.answers').innerText !== was, before);
+  await next('fourier');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => document.querySelector('#cell-title').textContent.includes('fourier'));
+  await next('Map of light');
+  const was = await page.locator('.curve-title').innerText();
+  await page.keyboard.press('ArrowLeft');
+  await page.waitForFunction((text) => document.querySelector('.curve-title').innerText !== text, was);
 };
