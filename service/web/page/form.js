@@ -48,7 +48,7 @@ export function choicesForm({text, write, error, signal}) {
   function show() {
     const scenario = parsed(), rays_ = scenario?.rays ?? {}, can = scenario !== null && keepsDigits(text());
     fields.disabled = !can;
-    setText(said, can || !text() ? '' : scenario ? 'This text has numbers with more digits than a form keeps. Change it as text.' : 'The text is no JSON yet.');
+    setText(said, can || !text() ? '' : scenario ? 'This text has numbers with more digits than a form keeps. Change it as text.' : 'The text is not JSON yet.');
     const place = lightPlace(scenario);
     for (const [field, part] of [[around, 'around'], [height, 'height']]) {
       field.input.disabled = !place;

@@ -34,7 +34,7 @@ firstPage['a form that writes the text'] = async ({page, url}) => {
   const [{position, target}] = after.lights, above = position.map((v, i) => v - target[i]);
   assert.ok(Math.abs(above[0]) < 1e-3 && Math.abs(above[2]) < 1e-3, 'the light stands above');
   assert.ok(Math.abs(above[1] - Math.hypot(...before.lights[0].position.map((v, i) => v - before.lights[0].target[i]))) < 1e-3, 'as far away as before');
-  assert.equal(await page.locator('#example select, .page-head select').inputValue(), '', 'it is no example any more');
+  assert.equal(await page.locator('#example select, .page-head select').inputValue(), '', 'the text is not the example any more');
   // Text that a form would change in other places as well stays with its author.
   await page.locator('#scenario').fill('{"name": "x", "rays": {"seed": 12345678901234567891, "resolution": 64}}');
   await page.waitForSelector('.common:disabled');
