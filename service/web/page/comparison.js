@@ -49,9 +49,10 @@ function answerView(answer) {
     place.replaceChildren(lines.length ? lineTable(lines) : h('p', {class: 'empty'}, 'No measure differs beyond its tolerance.'));
   };
   show('differ');
+  const csv = () => download('verdicts.csv', 'text/csv', csvOf(rowsOf(answer.lines)));
   return h('section', {class: 'panel', 'aria-labelledby': 'verdicts-title'},
     h('div', {class: 'panel-head'}, h('h2', {id: 'verdicts-title'}, 'Verdicts'),
-      h('div', {class: 'choices'}, h('button', {type: 'button', class: 'quiet small', 'aria-label': 'Save the verdicts as CSV', onclick: () => download('verdicts.csv', 'text/csv', csvOf(rowsOf(answer.lines)))}, 'CSV'), choice('Show', [{value: 'differ', text: `what differs (${differ.length})`}, {value: 'all', text: `all (${answer.lines.length})`},
+      h('div', {class: 'choices'}, h('button', {type: 'button', class: 'quiet small', 'aria-label': 'Save the verdicts as CSV', onclick: csv}, 'CSV'), choice('Show', [{value: 'differ', text: `what differs (${differ.length})`}, {value: 'all', text: `all (${answer.lines.length})`},
         ...counts.map(([verdict, n]) => ({value: verdict, text: `${words(verdict)} (${n})`}))], 'differ', show))),
     h('p', {class: `outcome ${answer.exit_code ? 'bad-title' : 'good'}`}, `${outcome[0].toUpperCase()}${outcome.slice(1)}.`),
     h('p', {}, `${counts.map(([verdict, n]) => `${n} ${words(verdict)}`).join(', ')}.`),

@@ -13,6 +13,7 @@ import {overTime, pointsOfAll} from './result/several.js';
 
 const most = 12;  // results at a time
 const measures = [...speeds, size];
+const commitOf = (result) => String(result.program?.commit ?? '?').slice(0, 9);
 
 function trendOf({title, points}, measure, results, signal) {
   const values = points.flatMap((p) => [p.low, p.high]), low = Math.min(...values), high = Math.max(...values), room = Math.max((high - low) * 0.12, Math.abs(high) * 0.02);
@@ -22,7 +23,7 @@ function trendOf({title, points}, measure, results, signal) {
   x.x_ticks = results.map((_, i) => i);
   x.x_labels = results.map((_, i) => `#${i + 1}`);
   drawing.update({signals: {...x, ...linearAxis('y', low - room, high + room, 4, (v) => write(measure.kind, v))}, data: {since: [], points: points.map((p) => ({...p,
-    tip: `${write(measure.kind, p.value)}\n${moment(results[p.i].result.times?.started)}\n${String(results[p.i].result.program?.commit ?? '').slice(0, 9)}`}))}});
+    tip: `${write(measure.kind, p.value)}\n${moment(results[p.i].result.times?.started)}\n${commitOf(results[p.i].result)}`}))}});
   return h('figure', {class: 'trend'}, h('figcaption', {}, h('strong', {}, title)), drawing.element);
 }
 
@@ -80,7 +81,8 @@ export function exploreView({signal}) {
       const pick = (name, label, all, now) => choice(label, all.map((m) => ({value: m.id, text: m.text})), now.id, (id) => { address.go({[name]: id}); draw(); });
       const trends = results.length > 1 ? overTime(results.map((r) => r.result), over) : [];
       place.replaceChildren(...[
-        h('ol', {class: 'results'}, results.map((r, i) => h('li', {}, h('a', {href: `#/jobs/${r.id}`}, `#${i + 1} ${r.result.name}`), ` ${moment(r.result.times?.started)}, ${r.result.program?.version ?? '?'} (${String(r.result.program?.commit ?? '?').slice(0, 9)})`))),
+        h('ol', {class: 'results'}, results.map((r, i) => h('li', {}, h('a', {href: `#/jobs/${r.id}`}, `#${i + 1} ${r.result.name}`),
+          ` ${moment(r.result.times?.started)}, ${r.result.program?.version ?? '?'} (${commitOf(r.result)})`))),
         h('div', {class: 'choices'}, pick('error', 'Error', errors, error), pick('cost', 'Cost', measures, cost)), overlay(results, error, cost),
         results.length > 1 && h('section', {class: 'panel', 'aria-labelledby': 'time-title'}, h('div', {class: 'panel-head'}, h('h2', {id: 'time-title'}, 'Over time'), pick('over', 'Measure', which, over)),
           trends.length ? h('div', {class: 'trends'}, trends.map((t) => trendOf(t, over, results, shown.signal))) : h('p', {class: 'note'}, 'No cell of one has this measure in another.')),

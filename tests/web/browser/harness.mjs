@@ -52,7 +52,7 @@ export async function picture(page, name) {
 }
 
 // No violation of axe-core's rules. Contrast is left to assertContrast, which sees the texts of plots as well.
-export async function assertAxe(page) {
+async function assertAxe(page) {
   await page.evaluate(`if (!window.axe) { ${axe} }`);
   const found = await page.evaluate(async () => (await window.axe.run(document, {rules: {'color-contrast': {enabled: false}}, resultTypes: ['violations']})).violations
     .map(({id, help, nodes}) => `${id}: ${help}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 120)).join(' | ')}`));

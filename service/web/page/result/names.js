@@ -5,7 +5,7 @@ const keyOf = (word) => word.split('=', 1)[0];
 const writtenAs = (value) => (typeof value === 'string' ? value : JSON.stringify(value));
 
 // The names of the parameters that are not the same in all these cells.
-export function differing(cells) {
+function differing(cells) {
   const names = new Set(cells.flatMap((cell) => Object.keys(cell.parameters ?? {})));
   return [...names].filter((name) => new Set(cells.map((cell) => JSON.stringify(cell.parameters?.[name]))).size > 1);
 }
