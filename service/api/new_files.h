@@ -31,8 +31,8 @@ struct DataFiles {
 // the folders, to which a link leads, are left out.
 DataFiles data_files(const std::vector<std::filesystem::path>& folders, std::size_t most);
 
-// `request`: {"files": [NAME, ...], "up": "y" or "z"}, of which only files are required. The scenario around these files
-// of the folders, as JSON on one line. Throws Error: bad_input, with the place in the request or the file; and as
+// `request`: {"files": [NAME, ...], "up": "y" or "z"}, of which only files are required. The scenario around these
+// files of the folders, as JSON on one line. Throws Error: bad_input, with the place in the request or the file; and as
 // read_data_file() and new_scenario() do.
 std::string scenario_around(const std::string& request, const std::vector<std::filesystem::path>& folders);
 

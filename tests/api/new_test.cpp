@@ -67,8 +67,9 @@ TEST_F(NewApi, SaysWhatIsWrongWithARequestOrAFile) {
     EXPECT_EQ(refused(post("/v1/new", asking("")), 422, "1 to 16 names")["errors"][0]["pointer"], "/files");
     EXPECT_EQ(refused(post("/v1/new", asking("1")), 422, "must be a name")["errors"][0]["pointer"], "/files/0");
     EXPECT_EQ(refused(post("/v1/new", asking("\"a.obj\"", "x")), 422, "\"y\" or \"z\"")["errors"][0]["pointer"], "/up");
-    EXPECT_EQ(refused(post("/v1/new", R"({"files": ["a.obj"], "out": "x"})"), 422, "unknown key")["errors"][0]["pointer"],
-              "/out");
+    EXPECT_EQ(
+        refused(post("/v1/new", R"({"files": ["a.obj"], "out": "x"})"), 422, "unknown key")["errors"][0]["pointer"],
+        "/out");
     for (const char* name : {"\"../secret.obj\"", "\"/etc/passwd\"", "\"none.obj\""})
         EXPECT_EQ(refused(post("/v1/new", asking(name)), 422, "")["errors"][0]["pointer"], "/files/0") << name;
     const nlohmann::json torn = refused(post("/v1/new", asking("\"torn.vdb\"")), 422, "torn.vdb");

@@ -127,6 +127,7 @@ looking['the address holds what is shown'] = async (given) => {
 looking['an address that names nothing there'] = async (given) => {
   await open(given, '?technique=99&pixel=999,-4&variant=7&light=x&error=none&zoom=a,b,c&depth=9,1&budget=-3&split=&map=no');
   assert.equal(await given.page.locator('.problem:not(:empty)').count(), 0);
+  assert.ok(Number(await given.page.locator('#budget').inputValue()) > 0);
   await given.page.waitForFunction(() => document.querySelector('.curve-title').textContent.includes('31, 0'));
 };
 

@@ -65,7 +65,8 @@ function groupView({source, result, images, imagesFault, group, series, signal})
   const drawn = theseImages && group.cells.findIndex((cell) => picturesOf(theseImages, cell));
   const {cells} = group;
   let error = errors.find((m) => m.id === address.get('error')) ?? errors[0], speed = speeds.find((m) => m.id === address.get('speed')) ?? speeds[0];
-  let budget = Number(address.get('budget')) || firstBudget(cells, error);
+  const allowed = address.numbers('budget', 1)?.[0];
+  let budget = allowed > 0 ? allowed : firstBudget(cells, error);
   const first = () => {
     const {fastest, closest} = answersAt(cells, {error, speed, budget});
     return Math.max(0, cells.indexOf(fastest ?? closest));
@@ -83,7 +84,7 @@ function groupView({source, result, images, imagesFault, group, series, signal})
     if (last) address.keep({budget: value});
   }
   function choose(measures) {
-    address.go({...measures, budget: null});
+    address.go({...measures, ...(measures.error && {budget: null})});
     error = errors.find((m) => m.id === measures.error) ?? error;
     speed = speeds.find((m) => m.id === measures.speed) ?? speed;
     if (measures.error) budget = firstBudget(cells, error);
