@@ -10,7 +10,7 @@ import {jobsView} from './jobs.js';
 import {submitView} from './submit.js';
 
 const main = document.getElementById('main');
-let shown = null, draft = null, path = null;
+let shown = null, draft = null;
 
 function go(address) {
   if (location.hash === address) show();
@@ -33,11 +33,11 @@ function decoded(part) {
 
 // A page follows changes of its own state itself.
 function route(event) {
-  if (pathOf(location.hash) !== path) show(event);
+  if (pathOf(location.hash) !== pathOf(new URL(event.oldURL).hash)) show(event);
 }
 
 function show(event) {
-  path = pathOf(location.hash);
+  const path = pathOf(location.hash);
   shown?.abort();
   shown = new AbortController();
   const {signal} = shown;
@@ -76,4 +76,4 @@ document.getElementById('skip').addEventListener('click', (event) => {
   main.focus();
 });
 addEventListener('hashchange', route);
-route();
+show();

@@ -161,6 +161,10 @@ states['two results that differ'] = async ({page, url, mock}) => {
   const table = await text(page, '.lines');
   for (const words of ['✕ less accurate', '✕ larger', '+8400 (+21 %)', '<b>not</b> in the current side', '× 1.22, 95 %: 1.17 to 1.29', '✓ smaller', '△ not comparable']) assert.ok(table.includes(words), words);
   assert.doesNotMatch(table, /inconclusive/);
+  await page.click('nav a[href="#/compare"]');
+  await page.waitForFunction(() => document.querySelector('main').textContent.includes('Choose two results'));
+  await page.goBack();
+  await page.waitForSelector('.outcome.bad-title');
   assert.match(await text(page, '.fronts'), /avsm nodes=4 left the front/);
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('button[aria-label="Save the verdicts as CSV"]')]);
   const rows = readFileSync(await download.path(), 'utf8').split('\r\n');
