@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "service/api/helper_side.h"
 
 namespace shadowbench::service {
 namespace {
@@ -98,6 +99,13 @@ std::variant<nlohmann::json, std::vector<base::Error>> Examiner::examine(const s
     const std::scoped_lock lock(mutex_);
     answers_.put(question, line);
     return answer;
+}
+
+std::string Examiner::arrange(const std::string& request) {
+    const Slots::Slot slot = slots_.take(seconds_);
+    std::string line = start_(arguments_)->ask(std::string(files_mark) + request, seconds_);
+    take_answer(line);  // throws the fault that it may be
+    return line;
 }
 
 }  // namespace shadowbench::service

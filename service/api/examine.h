@@ -34,6 +34,10 @@ public:
     std::variant<nlohmann::json, std::vector<base::Error>> examine(const std::string& scenario,
                                                                    const std::string& recommend = "");
 
+    // The scenario around data files, as JSON; `request` is that of scenario_around() in new_files.h, on one line.
+    // Throws as that does, and Busy.
+    std::string arrange(const std::string& request);
+
 private:
     struct Idle {
         std::unique_ptr<Helper> helper;

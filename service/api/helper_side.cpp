@@ -17,6 +17,7 @@
 #include "document/document.h"
 #include "recommend/check.h"
 #include "scene/scenario.h"
+#include "service/api/new_files.h"
 #include "service/privacy/hidden_folders.h"
 
 namespace shadowbench::service {
@@ -117,7 +118,10 @@ std::string examine(const std::string& line, const std::vector<fs::path>& data, 
 void examine_lines(const std::vector<fs::path>& data, std::istream& in, std::ostream& out) {
     const Hidden hidden = hidden_of(data);
     for (std::string line; std::getline(in, line);)
-        out << answer_line(hidden, [&] { return examine(line, data, hidden); }) << std::endl;
+        out << answer_line(hidden, [&] {
+            return line.starts_with(files_mark) ? scenario_around(line.substr(files_mark.size()), data)
+                                                : examine(line, data, hidden);
+        }) << std::endl;
 }
 
 void curve_lines(const std::vector<fs::path>& data, const std::string& light, std::size_t variant, std::istream& in,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shadowbench::service {
@@ -13,6 +14,8 @@ namespace shadowbench::service {
 // one line has no tabs. The answer is {"name", "seed", "hash", "variants", "lights", "techniques", "notes",
 // "estimate"}, or {"faults": [{"code", "where", "message"}, ...]} for a wrong scenario.
 // Faults of a request have places in "/recommend".
+// A line of files_mark and a request is answered with the scenario_around() these data files (new_files.h).
+inline constexpr std::string_view files_mark = "files\t";
 void examine_lines(const std::vector<std::filesystem::path>& data, std::istream& in, std::ostream& out);
 
 // The first line is a scenario and gets no answer. Each further line is "X Y"; its answer is the bench::PixelCurves of

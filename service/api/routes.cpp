@@ -30,6 +30,8 @@ constexpr Route table[] = {
     {"POST", "/v1/recommendations", json_type, true, post_recommendation},
     {"POST", "/v1/compare", json_type, true, compare},
     {"POST", "/v1/validate", json_type, true, validate_scenario},
+    {"GET", "/v1/files", json_type, false, list_files},
+    {"POST", "/v1/new", json_type, true, new_scenario},
     {"GET", "/v1/techniques", json_type, false, list_techniques},
     {"GET", "/v1/scenarios", json_type, false, list_scenarios},
     {"GET", "/v1/schema", json_type, false, get_schema},

@@ -54,6 +54,8 @@ ApiResponse job_scenario(Context& context, const Call& call);
 ApiResponse job_curves(Context& context, const Call& call);
 ApiResponse compare(Context& context, const Call& call);
 ApiResponse validate_scenario(Context& context, const Call& call);
+ApiResponse list_files(Context& context, const Call& call);
+ApiResponse new_scenario(Context& context, const Call& call);
 ApiResponse list_techniques(Context& context, const Call& call);
 ApiResponse list_scenarios(Context& context, const Call& call);
 ApiResponse get_schema(Context& context, const Call& call);

@@ -1,9 +1,7 @@
 #include <charconv>
 #include <filesystem>
 #include <ostream>
-#include <span>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <variant>
 #include <vector>
@@ -16,8 +14,8 @@
 #include "document/document.h"
 #include "scene/json_text.h"
 #include "scene/new_scenario.h"
+#include "service/api/new_files.h"
 #include "service/cli/file_commands.h"
-#include "techniques/technique.h"
 
 namespace shadowbench::service {
 namespace {
@@ -46,19 +44,6 @@ void check_out(const std::string& out, const std::string& file) {
     std::error_code ignored;
     if (!out.empty() && std::filesystem::equivalent(out, file, ignored))
         throw base::Error(base::ErrorCode::usage, "--out " + out, "this is one of the data files; choose another name");
-}
-
-// For opaque surfaces, those that count a single surface at its own depth. For others, those whose promises are not for
-// opaque scenes only and that do not approximate.
-std::vector<std::string_view> fitting_techniques(std::span<const scene::DataFile> files) {
-    const bool opaque = scene::is_opaque(files), traceable = !files[0].scene.deep_image;
-    std::vector<std::string_view> types;
-    for (const techniques::Technique& row : techniques::all()) {
-        const techniques::Promises& promises = row.promises;
-        const bool fits = opaque ? promises.localised : !promises.opaque_only && !promises.approximate;
-        if (fits && (traceable || !row.traits.traces)) types.push_back(row.id);
-    }
-    return types;
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ const {metafile} = await esbuild.build({...common, format: 'esm', entryPoints: [
 // These two are put into documents that are files of their own.
 await esbuild.build({...common, format: 'iife', entryPoints: [page('report.js'), page('history.js')]});
 await esbuild.build({...common, entryPoints: [page('style.css')]});
-for (const file of ['index.html', 'icon.svg']) cpSync(page(file), join(out, file));
+for (const file of ['index.html', 'icon.svg', 'first.webp']) cpSync(page(file), join(out, file));
 writeFileSync(join(out, 'licences.txt'), licences(Object.keys(metafile.inputs)));
 
 const files = [
@@ -72,6 +72,7 @@ const files = [
   ['/assets/app.js', 'app.js', 'text/javascript; charset=utf-8'],
   ['/assets/style.css', 'style.css', 'text/css; charset=utf-8'],
   ['/assets/icon.svg', 'icon.svg', 'image/svg+xml'],
+  ['/assets/first.webp', 'first.webp', 'image/webp'],
   ['/assets/licences.txt', 'licences.txt', 'text/plain; charset=utf-8'],
   ['/assets/report.js', 'report.js', 'text/javascript; charset=utf-8'],
   ['/assets/history.js', 'history.js', 'text/javascript; charset=utf-8'],
@@ -81,7 +82,7 @@ const data = ['    .section .rodata', '    .balign 8'];
 const table = ['    .section .data.rel.ro, "aw"', '    .balign 8', '    .globl shadowbench_web_assets', 'shadowbench_web_assets:'];
 files.forEach(([path, name, type], i) => {
   const plain = readFileSync(join(out, name));
-  const gzip = plain.length > largestPlain;
+  const gzip = plain.length > largestPlain && !type.startsWith('image/');
   const content = gzip ? gzipSync(plain, {level: 9}) : plain;
   if (gzip) writeFileSync(join(out, `${name}.gz`), content);
   const etag = createHash('sha256').update(content).digest('hex').slice(0, 24);

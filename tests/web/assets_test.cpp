@@ -56,6 +56,7 @@ TEST(Assets, TypesFollowTheNames) {
                                                       {"js", "text/javascript; charset=utf-8"},
                                                       {"css", "text/css; charset=utf-8"},
                                                       {"svg", "image/svg+xml"},
+                                                      {"webp", "image/webp"},
                                                       {"txt", "text/plain; charset=utf-8"}};
     for (const Asset& asset : assets()) {
         const std::string name = name_of(asset);

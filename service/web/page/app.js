@@ -1,7 +1,9 @@
-// Shows the page that the address names: #/ to submit, #/jobs, #/jobs/<id>, #/compare/<id>/<id>.
+// Shows the page that the address names: #/ to submit, #/jobs, #/jobs/<id>, #/compare/<id>/<id>, #/explore.
+import {pathOf} from './address.js';
 import {onTokenNeeded} from './api.js';
 import {comparisonView} from './comparison.js';
 import {h} from './dom.js';
+import {exploreView} from './explore.js';
 import {written} from './format.js';
 import {jobView} from './job.js';
 import {jobsView} from './jobs.js';
@@ -11,7 +13,7 @@ const main = document.getElementById('main');
 let shown = null, draft = null;
 
 function go(address) {
-  if (location.hash === address) route();
+  if (location.hash === address) show();
   else location.hash = address;
 }
 
@@ -29,18 +31,24 @@ function decoded(part) {
   }
 }
 
+// A page follows changes of its own state itself.
 function route(event) {
+  if (pathOf(location.hash) !== pathOf(new URL(event.oldURL).hash)) show(event);
+}
+
+function show(event) {
+  const path = pathOf(location.hash);
   shown?.abort();
   shown = new AbortController();
   const {signal} = shown;
-  const [, page = '', ...ids] = location.hash.split('/').map(decoded);
+  const [, page = '', ...ids] = path.split('/').map(decoded);
   document.title = 'shadowbench';
   const view = page === 'jobs' && ids[0] ? jobView({id: ids[0], signal, edit})
-    : page === 'jobs' ? jobsView({signal}) : page === 'compare' ? comparisonView({ids, signal}) : submitView({draft, signal, go});
+    : page === 'jobs' ? jobsView({signal}) : page === 'compare' ? comparisonView({ids, signal}) : page === 'explore' ? exploreView({signal}) : submitView({draft, signal, go});
   draft = null;
   main.replaceChildren(view);
   for (const link of document.querySelectorAll('nav a'))
-    link.toggleAttribute('aria-current', link.getAttribute('href') === (page === 'jobs' || page === 'compare' ? `#/${page}` : '#/'));
+    link.toggleAttribute('aria-current', link.getAttribute('href') === (['jobs', 'compare', 'explore'].includes(page) ? `#/${page}` : '#/'));
   if (event) {  // not for the first page
     scrollTo(0, 0);
     view.querySelector('h1')?.focus();
@@ -63,5 +71,9 @@ onTokenNeeded((refused) => new Promise((resolve) => {
   dialog.showModal();
 }));
 
+document.getElementById('skip').addEventListener('click', (event) => {
+  event.preventDefault();  // the address names a page
+  main.focus();
+});
 addEventListener('hashchange', route);
-route();
+show();

@@ -1,7 +1,7 @@
 // Compares two results, each of a job or a file: every measure gets a verdict.
 import {get, post} from './api.js';
-import {announce, choice, h, setText} from './dom.js';
-import {moment, significant} from './format.js';
+import {announce, choice, download, h, setText} from './dom.js';
+import {csvOf, moment, significant} from './format.js';
 import {verdictMark} from './result/table.js';
 
 const sides = [['baseline', 'Baseline'], ['current', 'Current']];
@@ -30,6 +30,12 @@ function lineTable(lines) {
         number(line.baseline, line.unit), number(line.current, line.unit), h('td', {class: 'change'}, changeOf(line)))))));
 }
 
+// All verdicts, with all digits.
+function rowsOf(lines) {
+  return [['cell', 'measure', 'verdict', 'baseline', 'current', 'unit', 'change'],
+    ...lines.map((line) => [line.title, line.measure || 'all', line.verdict, line.baseline, line.current, line.unit, changeOf(line)])];
+}
+
 // The outcome without the exit code of the command line.
 function outcomeOf(answer) {
   return answer.outcome.replace(/^exit code \d+: /, '');
@@ -43,15 +49,16 @@ function answerView(answer) {
     place.replaceChildren(lines.length ? lineTable(lines) : h('p', {class: 'empty'}, 'No measure differs beyond its tolerance.'));
   };
   show('differ');
+  const csv = () => download('verdicts.csv', 'text/csv', csvOf(rowsOf(answer.lines)));
   return h('section', {class: 'panel', 'aria-labelledby': 'verdicts-title'},
     h('div', {class: 'panel-head'}, h('h2', {id: 'verdicts-title'}, 'Verdicts'),
-      choice('Show', [{value: 'differ', text: `what differs (${differ.length})`}, {value: 'all', text: `all (${answer.lines.length})`},
-        ...counts.map(([verdict, n]) => ({value: verdict, text: `${words(verdict)} (${n})`}))], 'differ', show)),
+      h('div', {class: 'choices'}, h('button', {type: 'button', class: 'quiet small', 'aria-label': 'Save the verdicts as CSV', onclick: csv}, 'CSV'), choice('Show', [{value: 'differ', text: `what differs (${differ.length})`}, {value: 'all', text: `all (${answer.lines.length})`},
+        ...counts.map(([verdict, n]) => ({value: verdict, text: `${words(verdict)} (${n})`}))], 'differ', show))),
     h('p', {class: `outcome ${answer.exit_code ? 'bad-title' : 'good'}`}, `${outcome[0].toUpperCase()}${outcome.slice(1)}.`),
     h('p', {}, `${counts.map(([verdict, n]) => `${n} ${words(verdict)}`).join(', ')}.`),
     h('p', {class: 'note'}, [answer.method, answer.sensitivity].filter(Boolean).join('; ')),
     answer.notes.map((note) => h('p', {class: 'note'}, note)),
-    answer.fronts.length > 0 && [h('h4', {}, 'Fronts'), h('ul', {class: 'fronts'}, answer.fronts.map((front) => h('li', {}, front.text)))],
+    answer.fronts.length > 0 && [h('h3', {class: 'part'}, 'Fronts'), h('ul', {class: 'fronts'}, answer.fronts.map((front) => h('li', {}, front.text)))],
     place);
 }
 

@@ -2,14 +2,25 @@
 
 const none = '–';
 
+// value.toPrecision(digits), except that a value in the middle goes to the even digit, as in the texts of the program:
+// 0.125 is 0.12.
+function precise(value, digits) {
+  const rounded = value.toPrecision(digits), exact = value.toPrecision(60);
+  const places = (text) => text.replace(/e.*$/, '').replace(/[-.]/g, '').replace(/^0+/, '');
+  const kept = places(exact).slice(0, digits);
+  if (!/^50*$/.test(places(exact).slice(digits)) || Number(kept.at(-1)) % 2) return Number(rounded);
+  const exponent = Math.floor(Math.log10(Math.abs(value))) - digits + 1;
+  return Number(`${value < 0 ? '-' : ''}${kept}e${exponent}`);
+}
+
 // A number with significant digits and thin separators; without an exponent where it is readable.
 export function significant(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return none;
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size < 1e-4 || size >= 1e7) return Number(value.toPrecision(digits)).toExponential().replace('e+', 'e');
+  if (size < 1e-4 || size >= 1e7) return precise(value, digits).toExponential().replace('e+', 'e');
   if (size >= 10 ** digits) return Math.round(value).toLocaleString('en-GB');
-  return String(Number(value.toPrecision(digits)));
+  return String(precise(value, digits));
 }
 
 export function count(value) {
@@ -69,6 +80,15 @@ function lines(value, indent) {
     if (line.length + indent.length <= lineLength && !line.includes('\n')) return line;
   }
   return `${open}\n${parts((v) => lines(v, inner)).map((part) => inner + part).join(',\n')}\n${indent}${close}`;
+}
+
+// Rows of cells as CSV (RFC 4180). Nothing becomes an empty field.
+export function csvOf(rows) {
+  const field = (value) => {
+    const text = value === null || value === undefined ? '' : String(value);
+    return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  };
+  return rows.map((row) => `${row.map(field).join(',')}\r\n`).join('');
 }
 
 export function plural(n, one, many = `${one}s`) {

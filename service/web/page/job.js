@@ -3,6 +3,7 @@ import {get, getText, hasToken, objectUrl, post} from './api.js';
 import {announce, h, setText} from './dom.js';
 import {moment} from './format.js';
 import {progressBar, progressText, stateMark} from './jobs.js';
+import {exploredView} from './result/explored.js';
 import {resultView, summaryOf} from './result/view.js';
 import {ended, watchJob} from './watch.js';
 
@@ -47,11 +48,13 @@ function progressPanel(stop) {
   };
 }
 
-function faultPanel(job) {
+// retry(): queues the job once more.
+function faultPanel(job, retry) {
   const {where, message} = job.error ?? {};
   return h('section', {class: 'panel fault', role: 'alert'}, h('h2', {}, job.state === 'failed' ? 'The job failed' : 'The job was cancelled'),
     job.error && h('p', {}, where && h('code', {}, where), ` ${message}`),
-    job.attempts > 1 && h('p', {class: 'note'}, `After ${job.attempts} attempts.`));
+    job.attempts > 1 && h('p', {class: 'note'}, `After ${job.attempts} attempts.`),
+    h('p', {class: 'fault-actions'}, h('button', {type: 'button', onclick: retry}, 'Retry')));
 }
 
 export function jobView({id, signal, edit}) {
@@ -63,6 +66,15 @@ export function jobView({id, signal, edit}) {
   const progress = progressPanel(() => post(`${path}/cancel`, null).catch(failed));
   let shown = '';
 
+  const retry = async () => {
+    try {
+      await post(`${path}/retry`, null, {}, signal);
+      setText(problem, '');
+      follow();
+    } catch (error) {
+      failed(error);
+    }
+  };
   const again = h('button', {type: 'button', class: 'link', onclick: () => get(`${path}/scenario`, signal).then(edit, failed)}, 'Edit and run again');
 
   async function showResult(job) {
@@ -77,6 +89,7 @@ export function jobView({id, signal, edit}) {
       h('a', {href: `#/compare/${encodeURIComponent(id)}`}, 'Compare with another'), again);
     place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
       ...(text ? [h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer', tabindex: '0'}, text))] : []),
+      ...(result.recommendation ? [exploredView({recommendation: result.recommendation, name: job.name, signal})] : []),
       h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)), resultView({source, result, images, imagesFault: fault?.error, signal}));
     announce(`${job.name}: the result is shown`);
   }
@@ -88,11 +101,12 @@ export function jobView({id, signal, edit}) {
       state.replaceChildren(stateMark(job));
       if (!ended(job)) { if (!progress.element.isConnected) place.replaceChildren(progress.element); links.replaceChildren(again); }
       else if (job.state === 'succeeded') showResult(job).catch(failed);
-      else { place.replaceChildren(faultPanel(job)); links.replaceChildren(again); }
+      else { place.replaceChildren(faultPanel(job, retry)); links.replaceChildren(again); }
       shown = job.state;
     }
     if (!ended(job)) progress.update(job);
   }
-  watchJob(id, update, signal).catch(failed);
+  const follow = () => watchJob(id, update, signal).catch(failed);
+  follow();
   return element;
 }

@@ -29,10 +29,12 @@ export function progressBar(job) {
   return h('progress', {max: '1', value: String(job.progress?.fraction ?? 0), 'aria-label': `Progress of ${job.name}`});
 }
 
+// act(job, what): 'delete', 'cancel' or 'retry'.
 function row(act) {
   const name = h('a', {}), state = h('td'), what = h('span'), bar = h('span', {class: 'bar'}), when = h('td', {class: 'when'});
-  const button = h('button', {type: 'button', class: 'quiet', onclick: () => act(current)});
-  const element = h('tr', {}, h('th', {scope: 'row'}, name, h('small', {class: 'id'})), state, h('td', {class: 'what'}, bar, what), when, h('td', {class: 'act'}, button));
+  const button = h('button', {type: 'button', class: 'quiet', onclick: () => act(current, ended(current) ? 'delete' : 'cancel')});
+  const again = h('button', {type: 'button', class: 'quiet', hidden: true, onclick: () => act(current, 'retry')}, 'Retry');
+  const element = h('tr', {}, h('th', {scope: 'row'}, name, h('small', {class: 'id'})), state, h('td', {class: 'what'}, bar, what), when, h('td', {class: 'act'}, again, ' ', button));
   let current = null;
   return {
     element,
@@ -52,7 +54,8 @@ function row(act) {
       else bar.firstChild.value = job.progress?.fraction ?? 0;
       setText(what, progressText(job));
       setText(when, moment(job.created));
-      button.hidden = false;
+      again.hidden = !(job.state === 'failed' || job.state === 'cancelled');
+      again.setAttribute('aria-label', `Retry ${job.name}, ${job.id}`);
       setText(button, ended(job) ? 'Delete' : 'Cancel');
       button.setAttribute('aria-label', `${ended(job) ? 'Delete' : 'Cancel'} ${job.name}, ${job.id}`);
     },
@@ -64,10 +67,11 @@ export function jobsView({signal}) {
   const rows = new Map(), watched = new Set();
   let state = '', cursors = [''], next = null, turn = 0;
 
-  const act = async (job) => {
+  const act = async (job, what) => {
+    const path = `/v1/jobs/${encodeURIComponent(job.id)}`;
     try {
-      if (ended(job)) await remove(`/v1/jobs/${job.id}`);
-      else await post(`/v1/jobs/${job.id}/cancel`, null);
+      if (what === 'delete') await remove(path);
+      else await post(`${path}/${what}`, null);
       setText(problem, '');
     } catch (error) {
       setText(problem, error.message);

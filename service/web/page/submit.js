@@ -1,8 +1,11 @@
 // The page on which the user edits and submits a scenario.
 import {get, post} from './api.js';
 import {choice, h, setText} from './dom.js';
+import {filePicker} from './files.js';
+import {choicesForm} from './form.js';
 import {bytes, plural, seconds, written} from './format.js';
 import {JsonFault, lineOf, offsetOf, places} from './pointer.js';
+import {startHead} from './start.js';
 
 const checkPause = 400;  // milliseconds after the last key
 const draftKey = 'shadowbench-draft';
@@ -102,62 +105,87 @@ export function submitView({draft, signal, go}) {
   const edit = editor(() => {
     setText(problem, '');
     key = newKey();  // a new text is a new request
+    form.show();
     clearTimeout(timer);
     timer = setTimeout(check, checkPause);
-  }, () => {  // the text is no longer an example
+  }, own);
+  // The text is no longer an example.
+  function own() {
     setText(purpose, '');
     const select = examples.querySelector('select');
     if (select) select.value = '';
-  });
+  }
+  // The error that is allowed stands in the card of the recommendation and in the form.
+  const fields = [0, 1].map(() => h('input', {type: 'number', min: '0.0001', max: '1', step: 'any', value: '0.05', required: true, 'aria-label': 'Error that is allowed',
+    oninput: (event) => { for (const field of fields) field.value = event.target.value; asked = true; }}));
+  let asked = false;
+  const form = choicesForm({text: edit.text, write(text) { own(); edit.set(text); }, error: fields[1], signal});
   signal.addEventListener('abort', () => clearTimeout(timer), {once: true});
 
-  async function submit(event) {
-    event.preventDefault();
+  // Sends the scenario, with `more` members of the request, to the path. Goes to its job.
+  async function send(path, more) {
     const text = edit.text(), fault = syntaxFault(text);
     if (fault) { showFaults([fault]); edit.go(fault.offset); return; }
-    button.disabled = true;
-    const options = JSON.stringify({cache, pictures: pictures.checked});
+    for (const b of buttons()) b.disabled = true;
     try {
-      const job = await post('/v1/jobs', `{"scenario": ${text}, "options": ${options}}`, {'Idempotency-Key': key}, signal);
+      const job = await post(path, `{"scenario": ${text}, ${more}}`, {'Idempotency-Key': key}, signal);
       sessionStorage.removeItem(draftKey);
-      go(`#/jobs/${job.id}`);
+      go(`#/jobs/${job.id}${asked && path === '/v1/jobs' ? `?budget=${Number(fields[0].value)}` : ''}`);
     } catch (error) {
       if (signal.aborted) return;
       if (error.status === 422 || error.status === 400) showFaults(faultsOf(error, text));
       const wait = error.retryAfter ? ` Try again in ${seconds(error.retryAfter)}.` : '';
       setText(problem, `Not accepted: ${error.message}${wait}`);
+      problem.scrollIntoView({block: 'nearest'});
     } finally {
-      button.disabled = false;
+      for (const b of buttons()) b.disabled = false;
     }
   }
+  const buttons = () => element.querySelectorAll('button[type="submit"]');
+  const run = () => send('/v1/jobs', `"options": ${JSON.stringify({cache, pictures: pictures.checked})}`);
+  function recommend() {
+    key = newKey();  // another question about the same text
+    return send('/v1/recommendations', `"recommend": ${JSON.stringify({error: Number(fields[0].value)})}, "options": ${JSON.stringify({cache})}`);
+  }
   const pictures = h('input', {type: 'checkbox', checked: true, id: 'pictures', onchange: () => { key = newKey(); }});
-  const button = h('button', {type: 'submit', class: 'primary'}, 'Run it');
+  const button = h('button', {type: 'submit', class: 'primary', id: 'run'}, 'Run it');
   const examples = h('span', {class: 'choices'});
   const purpose = h('p', {class: 'note', id: 'purpose'});
+  let pick = () => {};
 
   async function load() {
     if (draft) edit.set(draft);
     const {scenarios} = await get('/v1/scenarios', signal);
-    const pick = (name) => {
+    pick = (name) => {
       const example = scenarios.find((s) => s.name === name);
       if (!example) return;
+      examples.querySelector('select').value = name;
       setText(purpose, example.purpose ?? '');
       edit.set(written(example.document));
     };
     const first = scenarios.find((s) => s.name === 'quickstart') ?? scenarios[0];
     const kept = draft ?? sessionStorage.getItem(draftKey);
     examples.replaceChildren(choice('Example', [{value: '', text: 'your own'}, ...scenarios.map((s) => ({value: s.name, text: s.name}))],
-      kept ? '' : first?.name, pick));
+      kept ? '' : first?.name, (name) => pick(name)));
     if (kept) { if (!draft) edit.set(kept); } else if (first) pick(first.name);
   }
   load().catch((error) => { if (!signal.aborted) setText(problem, error.message); });
 
-  return h('form', {class: 'submit', onsubmit: submit},
-    h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Run a scenario'), examples),
-    purpose,
-    h('label', {class: 'hidden', for: 'scenario'}, 'Scenario, as JSON'), edit.element, verdict,
-    h('div', {class: 'actions'}, button,
-      h('label', {class: 'check'}, pictures, ' with pictures'),
-      choice('Known results', [{value: 'reuse', text: 'reuse them'}, {value: 'fresh', text: 'measure again'}], cache, (v) => { cache = v; key = newKey(); })),
-    problem);
+  const title = draft ? h('h1', {tabindex: '-1'}, 'Run a scenario') : h('h2', {tabindex: '-1'}, 'Run a scenario');
+  const bring = (text) => { own(); edit.set(text); title.scrollIntoView(); button.focus({preventScroll: true}); };
+  const head = draft ? null : startHead({
+    compare() { pick('quickstart'); title.scrollIntoView(); button.focus({preventScroll: true}); },
+    files: filePicker({taken: bring, signal}), recommend, error: fields[0],
+  });
+  const element = h('div', {class: 'stack'}, head,
+    h('form', {class: 'submit', onsubmit: (event) => { event.preventDefault(); run(); }},
+      h('div', {class: 'page-head'}, title, examples),
+      purpose,
+      h('div', {class: 'workbench'}, form.element,
+        h('div', {class: 'text-side'}, h('label', {class: 'hidden', for: 'scenario'}, 'Scenario, as JSON'), edit.element, verdict)),
+      h('div', {class: 'actions'}, button,
+        h('label', {class: 'check'}, pictures, ' with pictures'),
+        choice('Known results', [{value: 'reuse', text: 'reuse them'}, {value: 'fresh', text: 'measure again'}], cache, (v) => { cache = v; key = newKey(); })),
+      problem));
+  return element;
 }

@@ -1,6 +1,6 @@
 // A browser, a page in it that may not complain, and small helpers. No test framework: a failed assertion ends the run.
 import assert from 'node:assert/strict';
-import {mkdtempSync, rmSync} from 'node:fs';
+import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
@@ -19,8 +19,11 @@ export function temporaryFolder(name) {
   return folder;
 }
 
+let axe = '';  // the script of axe-core
+
 export async function startBrowser(modules, chromium) {
   const require = createRequire(join(modules, 'package.json'));
+  axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
   const {chromium: driver} = require('playwright-core');
   return driver.launch({executablePath: chromium, headless: true, args: flags});
 }
@@ -48,9 +51,18 @@ export async function picture(page, name) {
   await page.screenshot({path: join(process.env.SHADOWBENCH_SCREENSHOTS, `${name}.png`), fullPage: true});
 }
 
+// No violation of axe-core's rules. Contrast is left to assertContrast, which sees the texts of plots as well.
+async function assertAxe(page) {
+  await page.evaluate(`if (!window.axe) { ${axe} }`);
+  const found = await page.evaluate(async () => (await window.axe.run(document, {rules: {'color-contrast': {enabled: false}}, resultTypes: ['violations']})).violations
+    .map(({id, help, nodes}) => `${id}: ${help}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 120)).join(' | ')}`));
+  assert.deepEqual(found, []);
+}
+
 // Every control has a name and shows when it has the focus, every picture and plot a text, ids are there once, plots stand
 // where they belong, their labels cover neither marks nor each other, and the page does not scroll sideways.
-export async function assertAccessible(page) {
+// `axe`: with axe-core's rules, which take the longest; they need it once a state, as they do not look at colours.
+export async function assertAccessible(page, {axe: rules = true} = {}) {
   const faults = await page.evaluate(() => {
     const found = [];
     const seen = new Set();
@@ -59,7 +71,7 @@ export async function assertAccessible(page) {
     for (const e of document.querySelectorAll('button, a[href], input, select, textarea, progress, [role="slider"], [role="img"], [tabindex="0"]'))
       if (e.checkVisibility() && !named(e)) found.push(`no name: ${e.outerHTML.slice(0, 90)}`);
     const before = document.activeElement;
-    for (const e of document.querySelectorAll('button:enabled, a[href], input, select, [tabindex="0"]')) {
+    for (const e of document.querySelectorAll('button:enabled, a[href], input:enabled, select:enabled, [tabindex="0"]')) {
       if (!e.checkVisibility()) continue;
       e.focus({focusVisible: true, preventScroll: true});
       if (document.activeElement !== e || getComputedStyle(e).outlineStyle === 'none') found.push(`no focus to see: ${e.outerHTML.slice(0, 90)}`);
@@ -86,6 +98,7 @@ export async function assertAccessible(page) {
     return found;
   });
   assert.deepEqual(faults, []);
+  if (rules) await assertAxe(page);
 }
 
 // Contrast of every visible text with what it stands on, as WCAG 2.2 counts it: at least 4.5 to 1 (3 to 1 when large).

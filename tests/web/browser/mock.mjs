@@ -6,7 +6,7 @@ import {join, normalize} from 'node:path';
 
 const policy = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; " +
   "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-const types = {html: 'text/html; charset=utf-8', js: 'text/javascript', css: 'text/css', svg: 'image/svg+xml', png: 'image/png', json: 'application/json'};
+const types = {html: 'text/html; charset=utf-8', js: 'text/javascript', css: 'text/css', svg: 'image/svg+xml', webp: 'image/webp', png: 'image/png', json: 'application/json'};
 const stages = ['capture', 'build', 'lookup', 'reference', 'pictures'];
 
 function stepCurve(at, value) {
@@ -57,7 +57,8 @@ function comparison() {
 
 export class Mock {
   constructor(pages, fixture, scenarios) {
-    Object.assign(this, {pages, fixture, scenarios, jobs: [], token: null, refuse: null, keys: [], bodies: [], files: {}});
+    Object.assign(this, {pages, fixture, scenarios, jobs: [], token: null, refuse: null, keys: [], bodies: [], files: {}, asked: null, results: null,
+      dataFiles: [{name: 'hair/ponytail.hair', bytes: 123456}, {name: 'smoke.vdb', bytes: 9 << 20}]});
     this.waiting = new Set();
     this.server = createServer((request, response) => this.answer(request, response).catch((error) => {
       response.writeHead(500).end(String(error));
@@ -127,12 +128,32 @@ export class Mock {
     if (this.token && request.headers.authorization !== `Bearer ${this.token}`) return this.problem(response, 401, 'A token is needed.');
     let text = '';
     for await (const part of request) text += part;
-    const handler = {scenarios: this.getScenarios, validate: this.validate, jobs: path[2] ? this.oneJob : this.allJobs, compare: this.compare}[path[1]];
+    const handler = {scenarios: this.getScenarios, techniques: this.getTechniques, files: this.getFiles, new: this.newScenario, recommendations: this.recommend, validate: this.validate, jobs: path[2] ? this.oneJob : this.allJobs, compare: this.compare}[path[1]];
     if (!handler) return this.problem(response, 404, 'There is no such file.');
     return handler.call(this, {request, response, url, path, text, body: text ? JSON.parse(text) : null});
   }
 
   getScenarios({response}) { this.json(response, 200, {scenarios: this.scenarios}); }
+
+  getTechniques({response}) {
+    const ids = ['shadow_map', 'pcf', 'deep', 'avsm', 'fourier', 'uncompressed', 'ray_traced'];
+    this.json(response, 200, {techniques: ids.map((id) => ({id, title: `the technique ${id}`, parameters: []}))});
+  }
+
+  getFiles({response}) { this.json(response, 200, {files: this.dataFiles}); }
+
+  // A scenario around a file; one that ends with .bad cannot be read.
+  newScenario({response, body}) {
+    this.asked = body;
+    if (body.files[0].endsWith('.bad')) return this.problem(response, 422, `${body.files[0]}: not a grid`, {errors: [{pointer: '/files/0', detail: 'not a grid'}]});
+    return this.json(response, 200, {...this.scenarios[0].document, name: body.files[0].split('/').pop()});
+  }
+
+  recommend({request, response, body}) {
+    this.keys.push(request.headers['idempotency-key']);
+    const job = this.job('queued', {name: body.scenario.name, kind: 'recommendation', recommend: body.recommend, options: body.options});
+    return this.json(response, 202, job, {Location: `/v1/jobs/${job.id}`});
+  }
 
   faults(scenario) {
     const errors = [];
@@ -185,8 +206,14 @@ export class Mock {
       for (const wake of this.waiting) wake();
       return this.json(response, 202, job);
     }
+    if (part === 'retry') {
+      if (!['failed', 'cancelled'].includes(job.state)) return this.problem(response, 409, 'It has not failed.');
+      Object.assign(job, {state: 'queued', position: 0, error: null, ended: null});
+      return this.json(response, 202, job);
+    }
     if (part === 'events') return this.events(request, response, job);
     if (part === 'scenario') return this.json(response, 200, job.scenario ?? this.scenarios[0].document);
+    if (part === 'result' && this.results) return this.json(response, 200, this.results);
     if (part === 'result') return this.file(response, join(this.fixture, 'result.json'));
     if (part === 'curves') return this.json(response, 200, curvesOf(url.searchParams.get('light'), Number(url.searchParams.get('x')), Number(url.searchParams.get('y'))));
     const name = path.slice(4).join('/');

@@ -9,12 +9,12 @@ import {makeFixture} from './server.mjs';
 
 async function each(browser, file, look) {
   for (const scheme of ['light', 'dark'])
-    for (const width of [1280, 400]) {
+    for (const width of [1440, 390]) {
       const address = pathToFileURL(file).href;
       const {page, close} = await openPage(browser, {scheme, width, allowed: address});
       await page.goto(address);
       await look(page, `${scheme}-${width}`);
-      await assertAccessible(page);
+      await assertAccessible(page, {axe: scheme === 'light'});
       await assertContrast(page);
       await close();
     }
@@ -67,7 +67,7 @@ function historyOf() {
 function historyPage(pages) {
   const read = (name) => readFileSync(join(pages, name), 'utf8');
   return '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="color-scheme" content="light dark">' +
-    `<meta name="viewport" content="width=device-width"><style>${read('style.css')}</style></head><body><main id="main"></main>` +
+    `<meta name="viewport" content="width=device-width"><title>History</title><style>${read('style.css')}</style></head><body><main id="main"></main>` +
     `<script type="application/json" id="data">${JSON.stringify(historyOf())}</script><script>${read('history.js')}</script></body></html>`;
 }
 
@@ -87,7 +87,42 @@ async function history(options, folder) {
   });
 }
 
+// As C writes them, as the terminal does.
+function written(values, digits) {
+  return execFileSync('printf', [`%.${digits}g\\n`, ...values.map(String)], {encoding: 'utf8'}).trim().split('\n').map(Number);
+}
+
+// What the terminal says, the report says.
+async function numbers(options, folder) {
+  execFileSync(options.program, ['report', folder], {stdio: 'ignore'});
+  const address = pathToFileURL(join(folder, 'report.html')).href;
+  const {page, close} = await openPage(options.browser, {allowed: address});
+  const noises = [...readFileSync(join(folder, 'table.txt'), 'utf8').matchAll(/0\.5\/sqrt\(N\) ([\d.]+)/g)].map(([, noise]) => noise);
+  assert.deepEqual(noises, ['0.25', '0.25', '0.12', '0.12'], '0.125 lies in the middle');
+  const {variants} = JSON.parse(readFileSync(join(folder, 'result.json'), 'utf8'));
+  for (const [i, noise] of noises.entries()) {
+    await page.goto(`${address}#?variant=${i >> 1}&light=${i & 1}`);
+    await page.reload();
+    await page.waitForSelector('.cells tbody tr');
+    assert.match(await page.locator('section[aria-label="Capture"]').innerText(), new RegExp(`0\\.5/√N ${noise.replace('.', '\\.')},`));
+    const shown = await page.locator('.cells tbody tr').evaluateAll((all) => all.map((tr) => [...tr.querySelectorAll('td')].map((td) => Number(td.innerText.replace(/[~,]/g, '')))));
+    const {cells} = variants[i >> 1].lights[i & 1];
+    const errors = (cell) => [cell.curve_error.max, cell.lookup_error.rms, cell.lookup_error.p99, cell.lookup_error.max], times = (cell) => ['image', 'random'].map((order) => cell.times[`lookup_${order}_order`].ns.median);
+    assert.deepEqual(shown.map((row) => row.slice(8, 12)).flat(), written(cells.flatMap(errors), 2));
+    assert.deepEqual(shown.map((row) => [row[1], row[3]]).flat(), written(cells.flatMap(times), 3));
+  }
+  // Its address holds what it shows, as a file has no server to ask.
+  await page.locator('.cell-name', {hasText: 'fourier'}).click();
+  await page.reload();
+  await page.waitForFunction(() => document.querySelector('#cell-title')?.textContent.includes('fourier'));
+  await page.goBack();
+  await page.waitForFunction(() => !document.querySelector('#cell-title').textContent.includes('fourier'));
+  await close();
+}
+
 export default async function run(options) {
   await report(options);
-  await history(options, makeFixture(options));
+  const folder = makeFixture(options);
+  await numbers(options, folder);
+  await history(options, folder);
 }

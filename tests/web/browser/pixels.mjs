@@ -33,11 +33,11 @@ export async function curves(page, mock) {
   await choosePixel(page, 7, 9);
   const rows = await page.locator('#curves .curve-legend tbody tr').count();
   assert.ok(rows >= 4, `${rows} functions`);
-  const lines = page.locator('#curves .mark-line path');
+  const plot = '#curves [aria-label^="Visibility against"] .mark-line path', lines = page.locator(plot);
   const drawn = await lines.count();
   assert.ok(drawn >= 3, `${drawn} lines`);
   await page.locator('#curves .curve-legend input').first().uncheck();
-  await page.waitForFunction((n) => document.querySelectorAll('#curves .mark-line path').length === n, drawn - 1);
+  await page.waitForFunction(([all, n]) => document.querySelectorAll(all).length === n, [plot, drawn - 1]);
 
   // Pixels are chosen over a picture of the map, with the pointer and from the keyboard, and are spoken.
   const grid = page.locator('#curves .grid');

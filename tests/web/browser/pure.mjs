@@ -1,9 +1,17 @@
 // What the page reckons without a browser: places in JSON, fronts, axes, numbers, commands.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {bytes, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
+import {changed, numbersOf, pathOf} from '../../../service/web/page/address.js';
+import {keepsDigits, lightPlace, typesOf, withLight, withRays, withTypes} from '../../../service/web/page/choices.js';
+import {bytes, csvOf, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
 import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
-import {frontOf, fronts, lightMapOf, marked, originOf, quoted, rerunOf, rmsInterval, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
+import {answersAt, firstBudget} from '../../../service/web/page/result/answers.js';
+import {around, differenceOf} from '../../../service/web/page/result/functions.js';
+import {named} from '../../../service/web/page/result/names.js';
+import {ownFronts, pointsAt, settingsOf} from '../../../service/web/page/result/settings.js';
+import {overTime, pointsOfAll} from '../../../service/web/page/result/several.js';
+import {undecided} from '../../../service/web/page/result/points.js';
+import {errors, frontOf, fronts, lightMapOf, marked, originOf, quoted, rerunOf, rmsInterval, speeds, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
 import {linearAxis, logAxis, logPlace} from '../../../service/web/page/plots/axes.js';
 import {placeLabels} from '../../../service/web/page/plots/labels.js';
 
@@ -95,13 +103,121 @@ test('the interval of the RMS says what it covers', () => {
 
 test('labels of close points cover neither points nor each other', () => {
   const [width, height, radius] = [300, 200, 8];
-  const points = [[150, 100], [158, 104], [150, 112], [2, 2], [299, 199], [298, 100]].map(([x, y], i) => ({x, y, radius, text: String(i + 1)}));
-  const boxes = placeLabels({points, lines: [[0, 100, 300, 100]], width, height}).map(({dx, dy}, i) => [points[i].x + dx, points[i].y + dy]);
+  const points = [[150, 100], [158, 104], [150, 112], [2, 2], [299, 199], [298, 100]].map(([x, y], i) => ({x, y, radius, texts: ['a name that is far too long for this small plot', String(i + 1)]}));
+  const placed = placeLabels({points, lines: [[0, 100, 300, 100]], width, height});
+  assert.deepEqual(placed.map((p) => p.text), ['1', '2', '3', '4', '5', '6'], 'numbers, where names have no room');
+  const boxes = placed.map(({dx, dy}, i) => [points[i].x + dx, points[i].y + dy]);
   boxes.forEach(([x, y], i) => {
     assert.ok(x > 3 && x < width - 3 && y > 6 && y < height - 6, `${i} is inside`);
     for (const p of points) assert.ok(Math.abs(p.x - x) >= radius + 3 || Math.abs(p.y - y) >= radius + 6, `${i} covers a point`);
     boxes.slice(0, i).forEach(([u, v]) => assert.ok(Math.abs(u - x) >= 7 || Math.abs(v - y) >= 13, `${i} covers a label`));
   });
+});
+
+test('what is first gets the name, where there is room for one', () => {
+  const point = (y, first) => ({x: 50, y, radius: 8, texts: ['twelve chars', 'n'], first});
+  const texts = (points) => placeLabels({points, lines: [], width: 165, height: 34}).map((p) => p.text);
+  assert.deepEqual(texts([point(10, false), point(24, true)]), ['n', 'twelve chars']);
+  assert.deepEqual(texts([point(17, false)]), ['twelve chars']);
+});
+
+test('cells are named by what differs among those of a technique, defaults too', () => {
+  const cell = (technique, label, parameters) => ({technique, label, parameters});
+  const cells = named([cell('deep', '', {tolerance: 'noise', kernel: 'box', slots: 64}), cell('deep', 'tolerance=0.02 slots=8', {tolerance: 0.02, kernel: 'box', slots: 8}),
+    cell('avsm', 'nodes=4', {nodes: 4}), cell('ray_traced', undefined, undefined)]);
+  assert.deepEqual(cells.map((c) => c.title), ['deep tolerance=noise slots=64', 'deep tolerance=0.02 slots=8', 'avsm nodes=4', 'ray_traced']);
+  const [first, second] = named([cell('deep', 'kernel=tent', {kernel: 'tent', nodes: 8}), cell('deep', 'kernel=tent nodes=4', {kernel: 'tent', nodes: 4})]);
+  assert.deepEqual([first.title, first.short, second.short], ['deep kernel=tent nodes=8', 'deep nodes=8', 'deep nodes=4']);
+});
+
+const measured = (technique, rms, interval, ns, bytes, more) => ({technique, status: 'ok', verdict: 'kept', bytes, nodes: {cells: bytes}, lookup_error: {rms, rms_interval95: interval},
+  times: {lookup_random_order: {ns: {median: ns, interval95: [0.9 * ns, 1.1 * ns]}}}, ...more});
+
+test('the answer at an error counts intervals, and no technique without a map', () => {
+  const cells = [measured('fast', 0.03, [0.028, 0.033], 10, 4000), measured('small', 0.02, [0.018, 0.022], 30, 1000), measured('near', 0.025, [0.024, 0.026], 10.5, 9000),
+    measured('edge', 0.039, [0.037, 0.045], 1, 10), measured('broken', 0.001, [0.001, 0.001], 1, 1, {verdict: 'failed'}), measured('traced', 0.01, [0.01, 0.01], 5, 0, {nodes: {cells: 0}}),
+    {technique: 'none', status: 'failed'}];
+  const ask = (budget) => {
+    const a = answersAt(cells, {error: errors[0], speed: speeds[0], budget});
+    return {...Object.fromEntries(['fastest', 'smallest', 'traced', 'closest'].map((k) => [k, a[k]?.technique ?? null])), rivals: a.rivals.map((c) => c.technique), certain: a.certain};
+  };
+  assert.deepEqual(ask(0.04), {fastest: 'fast', smallest: 'small', traced: 'traced', closest: null, rivals: ['near'], certain: true}, 'the interval of "edge" reaches beyond it');
+  assert.deepEqual(ask(0.022), {fastest: 'small', smallest: 'small', traced: 'traced', closest: null, rivals: [], certain: true});
+  assert.deepEqual(ask(0.021), {fastest: 'small', smallest: 'small', traced: 'traced', closest: null, rivals: [], certain: false}, 'its value, not its interval');
+  assert.deepEqual(ask(0.005), {fastest: null, smallest: null, traced: null, closest: 'small', rivals: [], certain: false});
+  assert.equal(firstBudget(cells, errors[0]), 0.03, '1.1 times 0.022, rounded up');
+  assert.equal(firstBudget([], errors[0]), 0.05);
+});
+
+test('the band of the front lies between the good and the bad ends of the intervals', () => {
+  const p = (low, high, yLow, yHigh) => ({low, high, yLow, yHigh});
+  assert.deepEqual(undecided([p(1, 2, 5, 6), p(4, 4, 1, 2)], 10, 9), [{x: 1, y: 5, y2: 9}, {x: 2, y: 5, y2: 6}, {x: 4, y: 1, y2: 2}, {x: 10, y: 1, y2: 2}]);
+  assert.deepEqual(undecided([p(1, 1, 5, 5)], 10, 9), [], 'nothing is undecided');
+});
+
+test('an address keeps what is shown, and is read with care', () => {
+  assert.equal(changed('#/jobs/j-1', {technique: 3, pixel: '4,5'}), '#/jobs/j-1?technique=3&pixel=4,5');
+  assert.equal(changed('#/jobs/j-1?technique=3&pixel=4,5', {technique: null, zoom: '2,-0.5,0'}), '#/jobs/j-1?pixel=4,5&zoom=2,-0.5,0');
+  assert.equal(changed('#/jobs/j-1?a=1', {a: null}), '#/jobs/j-1');
+  assert.equal(changed('', {a: 1}), '#?a=1', 'a report has no path');
+  assert.equal(pathOf('#/jobs/j-1?a=1'), '#/jobs/j-1');
+  assert.deepEqual(numbersOf('4,-0.5', 2), [4, -0.5]);
+  for (const bad of ['4', '4,', 'a,b', '1,2,3', '', null, undefined, '1,Infinity']) assert.equal(numbersOf(bad, 2), null, String(bad));
+});
+
+test('the difference of functions has the steps of both', () => {
+  const a = {z: [1, 2, 2, 3], v: [1, 1, 0.5, 0.5]}, b = {z: [1, 3], v: [1, 0]};
+  assert.deepEqual(differenceOf(a, b, 0, 4), [[0, 0], [1, 0], [2, 0.5], [2, 0], [3, 0.5], [4, 0.5]]);
+  assert.deepEqual(differenceOf({z: [], v: []}, {z: [2, 2], v: [1, 0.25]}, 0, 4), [[0, 0], [2, 0], [2, 0.75], [4, 0.75]], 'an empty function lets all through');
+  assert.deepEqual(around({z: [2, 2, 2], v: [1, 0.5, 0.25]}, 2), [1, 0.25]);
+});
+
+test('a form changes what it shows, and nothing else', () => {
+  const scenario = {lights: [{type: 'spot', position: [3, 4, 0], target: [0, 0, 0], angle: 40}, {type: 'directional', direction: [0, -1, 0]}], rays: {resolution: 64, seed: 3},
+    techniques: [{type: 'deep', tolerance: 0.1}, {type: 'avsm'}, {type: 'deep', tolerance: 0.2}], sweeps: {'/techniques/1/nodes': [4, 8], '/techniques/2/tolerance': [0.3], '/rays/resolution': [32, 64]}};
+  assert.deepEqual(lightPlace(scenario), {around: 0, height: 53});
+  const moved = withLight(scenario, {around: 90, height: 0});
+  assert.deepEqual(moved.lights, [{...scenario.lights[0], position: [moved.lights[0].position[0], 0, 5]}, scenario.lights[1]]);
+  assert.ok(Math.abs(moved.lights[0].position[0]) < 1e-12);
+  assert.equal(lightPlace({lights: [{type: 'point', position: [1, 2, 3]}]}), null);
+  assert.equal(lightPlace({}), null);
+  const sun = withLight({lights: [{type: 'directional', direction: [0, -2, 0]}]}, {around: 0, height: 30}).lights[0].direction;
+  assert.deepEqual(sun.map((v) => Number(v.toFixed(3))), [-1.732, -1, 0]);
+  assert.deepEqual(withRays(scenario, 'resolution', 128), {...scenario, rays: {resolution: 128, seed: 3}, sweeps: {'/techniques/1/nodes': [4, 8], '/techniques/2/tolerance': [0.3]}});
+  const all = ['deep', 'avsm', 'pcf'];
+  const fewer = withTypes(scenario, new Set(['avsm', 'pcf']), all);
+  assert.deepEqual(fewer.techniques, [{type: 'avsm'}, {type: 'pcf'}]);
+  assert.deepEqual(fewer.sweeps, {'/techniques/0/nodes': [4, 8], '/rays/resolution': [32, 64]}, 'a sweep follows its technique, or goes with it');
+  assert.deepEqual([...typesOf({techniques: [{type: '*'}]}, all)], all);
+  assert.deepEqual(withTypes({techniques: [{type: '*'}]}, new Set(['deep', 'pcf']), all).techniques, [{type: 'deep'}, {type: 'pcf'}]);
+  assert.ok(keepsDigits('{"a": 1234567890, "b": "12345678901234567890"}'));
+  assert.ok(!keepsDigits('{"a": 12345678901234567890}'));
+});
+
+test('a recommendation draws what worked, and no bytes of what has no map', () => {
+  const axes = [{name: 'resolution', values: ['16', '32']}, {name: 'samples', values: ['4']}];
+  const at = (family, step, error, failed = '') => ({family, step: [step, 0], failed, error, lookup_ns: 10 + step, bytes: 100 * family, build_ms: 1});
+  const sure = {median: 5, interval95: [4, 6]};
+  const settings = settingsOf({families: [{technique: 'traced', name: 'traced', axes, mapless: true}, {technique: 'deep', name: 'deep kernel=box', axes, mapless: false}],
+    measured: [at(0, 0, 0.1), at(1, 0, 0.2), at(1, 1, 0.1), at(1, 1, null), at(0, 1, 0.1, 'rises')],
+    confirmed: [{family: 1, step: [0, 0], failed: '', error: {mean: 0.21, interval95: [0.2, 0.22]}, lookup_ns: sure, bytes: sure, build_ms: sure}]});
+  assert.deepEqual(settings.map((s) => [s.name, s.error, s.confirmed]), [['traced, resolution=16', 0.1, false], ['deep kernel=box, resolution=16', 0.21, true], ['deep kernel=box, resolution=32', 0.1, false]]);
+  assert.deepEqual(pointsAt(settings, {id: 'lookup_ns'}).map((p) => [p.x, p.xLow, p.low]), [[10, 10, 0.1], [5, 4, 0.2], [11, 11, 0.1]]);
+  assert.deepEqual(pointsAt(settings, {id: 'bytes'}).map((p) => p.technique), ['deep', 'deep']);
+  assert.deepEqual(ownFronts(pointsAt(settings, {id: 'lookup_ns'})), [{technique: 'deep', x: 5, y: 0.21, order: 0}, {technique: 'deep', x: 11, y: 0.1, order: 1}]);
+});
+
+test('results side by side join the cells that both have', () => {
+  const result = (cells) => ({variants: [{lights: [{light: 'key', cells}]}]});
+  const results = [result([measured('deep', 0.1, null, 10, 100), measured('old', 0.1, null, 10, 100)]), result([measured('deep', 0.2, null, 20, 100), {technique: 'avsm', status: 'failed'}])];
+  const {points, lines} = pointsOfAll(results, errors[0], speeds[0]);
+  assert.deepEqual(points.map((p) => [p.of, p.title, p.x, p.y]), [[0, 'deep', 10, 0.1], [0, 'old', 10, 0.1], [1, 'deep', 20, 0.2]]);
+  assert.deepEqual(lines.map((l) => [l.technique, l.x, l.y, l.order]), [['deep', 10, 0.1, 0], ['deep', 20, 0.2, 1]]);
+  assert.deepEqual(overTime(results, speeds[0]), [{title: 'deep', points: [{i: 0, value: 10, low: 9, high: 11}, {i: 1, value: 20, low: 18, high: 22}]}]);
+});
+
+test('CSV quotes what would break it', () => {
+  assert.equal(csvOf([['a', 'b,c', 'say "x"'], [1.5, null, undefined]]), 'a,"b,c","say ""x"""\r\n1.5,,\r\n');
 });
 
 test('the worst cell of a function a sample lies in a pixel', () => {
@@ -152,6 +268,9 @@ test('numbers read as people write them', () => {
   assert.equal(significant(999.9), '1000');
   assert.equal(significant(1.5e-7), '1.5e-7');
   assert.equal(significant(null), '–');
+  // As C writes %.2g, for the middle of two: the table of run says 0.12 of 0.5/sqrt(16).
+  assert.deepEqual([0.125, 0.375, -0.125, 0.0625, 1.125, 11.5, 0.25, 0.12500001].map((v) => significant(v, 2)), ['0.12', '0.38', '-0.12', '0.062', '1.1', '12', '0.25', '0.13']);
+  assert.equal(significant(0.5 / 3, 2), '0.17');
   assert.equal(bytes(0), '0 B');
   assert.equal(bytes(609852), '596 KiB');
   assert.equal(nanoseconds(32385), '32.4 µs');

@@ -1,5 +1,6 @@
-// node run.mjs TEST --modules DIR --pages DIR --program FILE --scenarios DIR [--server mock|real|URL]
+// node run.mjs TEST --modules DIR --pages DIR --program FILE --scenarios DIR [--server mock|real|URL] [--only WORDS]
 // Runs one of the tests beside it in Debian's Chromium (or $CHROMIUM). Exit code 77: skipped, there is no Chromium.
+// --only: of the states, those whose names contain the words.
 // $SHADOWBENCH_SCREENSHOTS: a folder for pictures of what the test sees.
 import {existsSync} from 'node:fs';
 import {dirname, join} from 'node:path';
@@ -9,7 +10,7 @@ import {startBrowser} from './harness.mjs';
 
 const {values, positionals: [test]} = parseArgs({
   allowPositionals: true,
-  options: Object.fromEntries(['modules', 'pages', 'program', 'scenarios', 'server'].map((name) => [name, {type: 'string'}])),
+  options: Object.fromEntries(['modules', 'pages', 'program', 'scenarios', 'server', 'only'].map((name) => [name, {type: 'string'}])),
 });
 const chromium = process.env.CHROMIUM ?? '/usr/bin/chromium';
 if (!existsSync(chromium)) {

@@ -1,17 +1,17 @@
 // Something to open the page from: the mock, the program's own server, or one that runs already.
 import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
-import {existsSync, mkdirSync, readFileSync} from 'node:fs';
+import {existsSync, mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {setTimeout as pause} from 'node:timers/promises';
 import {deadline, temporaryFolder} from './harness.mjs';
 import {Mock, scenarioFrom} from './mock.mjs';
 
-// A finished run of small.json with its pictures, as a folder of a job has them.
+// A finished run of small.json with its pictures, as a folder of a job has them, and the table that run printed.
 export function makeFixture({program, here}) {
   const folder = temporaryFolder('fixture');
   const scenario = join(here, 'small.json');
-  execFileSync(program, ['run', scenario, '--out', folder], {stdio: 'ignore'});
+  writeFileSync(join(folder, 'table.txt'), execFileSync(program, ['run', scenario, '--out', folder], {stdio: ['ignore', 'pipe', 'ignore']}));
   execFileSync(program, ['render', scenario, '--out', join(folder, 'images')], {stdio: 'ignore'});
   return folder;
 }

@@ -3,10 +3,12 @@ import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {assertAccessible, assertContrast, openPage, picture} from './harness.mjs';
+import {firstPage} from './first.mjs';
+import {looking} from './looking.mjs';
 import {makeFixture, startMock} from './server.mjs';
 
 const text = (page, selector) => page.locator(selector).innerText();
-const states = {};
+const states = {...firstPage, ...looking};
 
 states['no jobs'] = async ({page, url}) => {
   await page.goto(`${url}#/jobs`);
@@ -43,19 +45,40 @@ states['a recommendation'] = async ({page, url, mock}) => {
   Object.assign(job, {kind: 'recommendation', recommend: {error: 0.02}, promises_kept: null, reached: false,
     artifacts: ['result.json', 'result.csv', 'table.txt']});
   mock.files['table.txt'] = 'rms error at most 0.02 with 95 % confidence';
+  const result = JSON.parse(readFileSync(join(mock.fixture, 'result.json'), 'utf8'));
+  const axes = [{name: 'resolution', values: ['32', '64'], stride: 1}, {name: 'samples_per_pixel', values: ['4'], stride: 1}];
+  const at = (family, step, error, ns, size) => ({family, step: [step, 0], failed: '', error, lookup_ns: ns, bytes: size, build_ms: 2});
+  const sample = (v) => ({median: v, interval95: [0.9 * v, 1.1 * v]});
+  result.recommendation = {light: 'key', measure: 'rms', goal: {error: 0.02, cheapest: ['bytes'], at_most: {}, budget_seconds: 9}, end: 'complete', steal: null, scout: null,
+    families: [{technique: 'deep', name: 'deep', axes, mapless: false}, {technique: 'ray_traced', name: 'ray_traced', axes, mapless: true}],
+    measured: [at(0, 0, 0.05, 10, 1000), at(0, 1, 0.019, 20, 4000), at(1, 0, 0.01, 900, 0)],
+    confirmed: [{family: 0, step: [1, 0], failed: '', cut: false, error: {mean: 0.019, interval95: [0.018, 0.02]}, lookup_ns: sample(20), bytes: sample(4000), build_ms: sample(2)}]};
+  mock.results = result;
   await page.goto(`${url}#/jobs`);
   await page.waitForSelector('.jobs tbody tr');
   for (const words of ['recommendation', 'error not reached']) assert.ok((await text(page, '.jobs')).includes(words), words);
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForSelector('.cells tbody tr');
   assert.match(await text(page, 'pre.answer'), /at most 0\.02/);
+  const marks = page.locator('#explored .mark-symbol path');
+  await marks.first().waitFor();
+  assert.equal(await marks.count(), 3);
+  assert.match(await marks.nth(1).getAttribute('aria-label'), /deep, resolution=64\s+one lookup: 20 ns\s+error: 0\.019, 95 %: 0\.018 to 0\.02/);
+  await page.selectOption('#explored select', 'bytes');
+  await page.waitForFunction(() => document.querySelectorAll('#explored .mark-symbol path').length === 2, null);
   assert.equal(await page.locator('#curves').count(), 0, 'its points are not those of the scenario');
   await assertAccessible(page);
 };
 
-states['cancel and delete'] = async ({page, url, mock}) => {
+states['cancel, retry and delete'] = async ({page, url, mock}) => {
   mock.job('running');
   await page.goto(`${url}#/jobs`);
+  await page.waitForSelector('.jobs .state-running');
+  assert.equal(await page.locator('.jobs button:has-text("Retry")').isVisible(), false);
+  await page.click('.jobs button:has-text("Cancel")');
+  await page.waitForSelector('.jobs .state-cancelled');
+  await page.click('.jobs button:has-text("Retry")');
+  await page.waitForSelector('.jobs .state-queued');
   await page.click('.jobs button:has-text("Cancel")');
   await page.waitForSelector('.jobs .state-cancelled');
   await page.click('.jobs button:has-text("Delete")');
@@ -79,6 +102,15 @@ states['a job that failed'] = async ({page, url, mock}) => {
   await page.waitForSelector('.fault');
   assert.match(await text(page, '.fault'), /\/lights\/0 <i>sees<\/i> nothing/);
   assert.match(await text(page, '.fault'), /3 attempts/);
+  // It can be queued once more, and is followed.
+  await page.click('.fault button:has-text("Retry")');
+  await page.waitForSelector('.progress');
+  mock.step(job);
+  await page.waitForFunction(() => document.querySelector('.stage-text').textContent.includes('capture'));
+  Object.assign(job, {state: 'failed', error: {code: 65, where: '/lights/0', message: 'again'}});
+  for (const wake of mock.waiting) wake();
+  await page.waitForSelector('.fault');
+  assert.match(await text(page, '.fault'), /again/);
   await page.click('button:has-text("Edit and run again")');
   await page.waitForSelector('.verdict-box .good');
   assert.match(await page.locator('#scenario').inputValue(), /"quickstart"/);
@@ -129,7 +161,33 @@ states['two results that differ'] = async ({page, url, mock}) => {
   const table = await text(page, '.lines');
   for (const words of ['✕ less accurate', '✕ larger', '+8400 (+21 %)', '<b>not</b> in the current side', '× 1.22, 95 %: 1.17 to 1.29', '✓ smaller', '△ not comparable']) assert.ok(table.includes(words), words);
   assert.doesNotMatch(table, /inconclusive/);
+  await page.click('nav a[href="#/compare"]');
+  await page.waitForFunction(() => document.querySelector('main').textContent.includes('Choose two results'));
+  await page.goBack();
+  await page.waitForSelector('.outcome.bad-title');
   assert.match(await text(page, '.fronts'), /avsm nodes=4 left the front/);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('button[aria-label="Save the verdicts as CSV"]')]);
+  const rows = readFileSync(await download.path(), 'utf8').split('\r\n');
+  assert.equal(rows[1], 'small / key / avsm nodes=4,lookup_error.rms,less_accurate,0.0721,0.0854,,+0.0133 (+18.4 %)');
+};
+
+states['several results in one plot, and over time'] = async ({page, url, mock}) => {
+  const jobs = [mock.job('succeeded'), mock.job('succeeded'), mock.job('succeeded', {kind: 'recommendation'})];
+  await page.goto(`${url}#/explore`);
+  await page.waitForSelector('.boxes input');
+  assert.equal(await page.locator('.boxes input').count(), 2, 'a recommendation has points of its own');
+  assert.match(await text(page, '.empty'), /Choose results/);
+  for (const box of [0, 1]) await page.locator('.boxes input').nth(box).check();
+  await page.waitForSelector('.trend .mark-symbol path');
+  assert.match(decodeURIComponent(page.url()), new RegExp(`jobs=${jobs[1].id},${jobs[0].id}$`));
+  assert.deepEqual(await page.locator('.results li a').allInnerTexts(), ['#1 small', '#2 small']);
+  const cells = 2 * 2 * 6, drawn = await page.locator('.panel:has(#overlay-title) .mark-symbol path').count();
+  assert.equal(drawn, 2 * cells, 'the cells of both');
+  assert.equal(await page.locator('.trend').count(), cells, 'each over time');
+  await page.selectOption('.panel:has(#time-title) select', 'bytes');
+  await page.waitForFunction(() => document.querySelector('.trend .plot').getAttribute('aria-label').includes('bytes of the map'));
+  await page.reload();
+  await page.waitForFunction(() => document.querySelector('.trend .plot')?.getAttribute('aria-label').includes('bytes of the map'));
 };
 
 states['a file that is not a result'] = async ({page, url, mock}) => {
@@ -158,7 +216,7 @@ states['text that is not JSON'] = async ({page, url}) => {
   await page.waitForSelector('.faults');
   assert.equal(await text(page, '.numbers .bad'), '3');
   assert.match(await text(page, '.faults'), /line 3\s*Expected a value instead of ","/);
-  await page.click('button.primary');  // says it again, and sends nothing
+  await page.click('#run');  // says it again, and sends nothing
   assert.ok(await page.evaluate(() => document.activeElement.id === 'scenario'));
 };
 
@@ -174,18 +232,18 @@ states['a full queue'] = async ({page, url, mock}) => {
   mock.refuse = {status: 429, detail: 'The queue is full.', headers: {'Retry-After': '90'}};
   await page.goto(url);
   await page.waitForSelector('.verdict-box .good');
-  await page.click('button.primary');
+  await page.click('#run');
   await page.waitForFunction(() => document.querySelector('.problem').textContent ===
     'Not accepted: The queue is full. Try again in 1 min 30 s.');
   // The same again is the same request; another text is another.
   mock.refuse = null;
-  await page.click('button.primary');
+  await page.click('#run');
   await page.waitForURL(/#\/jobs\/j-/);
   assert.equal(mock.keys.length, 2);
   assert.equal(mock.keys[0], mock.keys[1]);
   await page.click('nav a[href="#/"]');
   await page.waitForSelector('.verdict-box .good');
-  await page.click('button.primary');
+  await page.click('#run');
   await page.waitForURL(/#\/jobs\/j-/);
   assert.notEqual(mock.keys[2], mock.keys[1]);
 };
@@ -198,7 +256,7 @@ states['options reach the server'] = async ({page, url, mock}) => {
   await page.waitForSelector('.verdict-box .good');
   await page.uncheck('#pictures');
   await page.selectOption('.actions select', 'fresh');
-  await page.click('button.primary');
+  await page.click('#run');
   await page.waitForURL(/#\/jobs\/j-/);
   assert.deepEqual(mock.jobs[0].options, {cache: 'fresh', pictures: false});
   assert.match(mock.bodies[0], /"seed": 12345678901234567891,/, 'with all digits');
@@ -232,15 +290,15 @@ states['a server that is gone'] = async ({page, url, mock}) => {
 export default async function run(options) {
   const fixture = makeFixture(options);
   const expected = [/Failed to load resource/];  // the answers that are no success
-  for (const [name, state] of Object.entries(states)) {
+  for (const [name, state] of Object.entries(states).filter(([name]) => name.includes(options.only ?? ''))) {
     const {mock, url, stop} = await startMock({...options, fixture});
     const {page, close} = await openPage(options.browser, {allowed: url, expected});
     try {
       await state({page, url, mock});
-      for (const [colorScheme, width] of [['light', 1280], ['dark', 400]]) {
+      for (const [colorScheme, width] of [['light', 1440], ['dark', 390]]) {
         await page.emulateMedia({colorScheme});
         await page.setViewportSize({width, height: 900});
-        await assertAccessible(page);
+        await assertAccessible(page, {axe: colorScheme === 'light'});
         await assertContrast(page);
         await picture(page, `state-${name.replaceAll(' ', '-')}-${colorScheme}-${width}`);
       }

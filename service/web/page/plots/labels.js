@@ -1,7 +1,9 @@
 // Places the labels of points so that they cover neither marks nor each other, as far as there is room.
 
-const letter = 7, line = 13;  // pixels of a label's text
-const reaches = [0, 6, 13, 22];
+const line = 14;  // pixels of a label's text
+const guess = (text) => 8 * text.length;
+const touch = 0.5;  // square pixels that are no overlap
+const reaches = [0, 6, 13, 22, 34, 48];
 const directions = [[1, -1], [1, 0], [1, 1], [0, -1], [-1, -1], [-1, 0], [-1, 1], [0, 1]];
 
 const boxOf = (x, y, halfWidth, halfHeight) => ({left: x - halfWidth, right: x + halfWidth, top: y - halfHeight, bottom: y + halfHeight});
@@ -11,14 +13,16 @@ function overlap(a, b) {
   return across > 0 && down > 0 ? across * down : 0;
 }
 
-// points: {x, y, text, radius}, in pixels; lines: [x0, y0, x1, y1], horizontal or vertical. Returns for each point {dx, dy},
-// the offset of the middle of its text. Avoiding marks and other labels comes before avoiding lines.
-export function placeLabels({points, lines, width, height}) {
+// points: {x, y, texts, radius, first}, in pixels; lines: [x0, y0, x1, y1], horizontal or vertical. Each point gets the
+// first of its texts that has a free place, or the last one; those that are `first` choose before the others. Returns for
+// each point {text, dx, dy}, with the offset of the middle of the text. Avoiding marks and labels comes before lines.
+// widthOf(text): in pixels.
+export function placeLabels({points, lines, width, height, widthOf = guess}) {
   const marks = points.map((p) => boxOf(p.x, p.y, p.radius, p.radius));
   const strokes = lines.map(([x0, y0, x1, y1]) => ({left: Math.min(x0, x1) - 1, right: Math.max(x0, x1) + 1, top: Math.min(y0, y1) - 1, bottom: Math.max(y0, y1) + 1}));
-  const taken = [];
-  return points.map((p) => {
-    const halfWidth = letter * p.text.length / 2, halfHeight = line / 2;
+  const taken = [], placed = [];
+  const place = (p, text) => {
+    const halfWidth = widthOf(text) / 2 + 2, halfHeight = line / 2;
     let best = null;
     for (const reach of reaches)
       for (const [right, down] of directions) {
@@ -28,9 +32,19 @@ export function placeLabels({points, lines, width, height}) {
         const hidden = [...marks, ...taken].reduce((sum, other) => sum + overlap(box, other), 0);
         const crossed = strokes.reduce((sum, other) => sum + overlap(box, other), 0);
         const cost = 1000 * outside + 50 * hidden + crossed + reach;
-        if (!best || cost < best.cost) best = {cost, dx, dy, box};
+        if (!best || cost < best.cost) best = {cost, text, dx, dy, box, free: !outside && hidden < touch};
       }
+    return best;
+  };
+  const order = points.map((_, i) => i).sort((a, b) => Boolean(points[b].first) - Boolean(points[a].first) || a - b);
+  for (const i of order) {
+    let best = null;
+    for (const text of points[i].texts) {
+      best = place(points[i], text);
+      if (best.free) break;
+    }
     taken.push(best.box);
-    return {dx: best.dx, dy: best.dy};
-  });
+    placed[i] = {text: best.text, dx: best.dx, dy: best.dy};
+  }
+  return placed;
 }

@@ -29,6 +29,15 @@ function config() {
   };
 }
 
+let pen = null;
+
+// The width of a label in pixels: bold, of 11 pixels, as specs.js has it.
+export function labelWidth(text) {
+  pen ??= document.createElement('canvas').getContext('2d');
+  pen.font = `600 11px ${getComputedStyle(document.body).fontFamily}`;
+  return pen.measureText(text).width;
+}
+
 function tooltipOver(box) {
   return (_, event, item, value) => {
     const text = value === null || value === undefined ? '' : String(value);
@@ -44,7 +53,8 @@ function tooltipOver(box) {
 
 // name: a key of specs.js. update({signals, data, description}) draws it again; data may be a function of the width and
 // height in pixels. theme() gives the signals that are colours; it is called whenever the theme changes. onPick(datum) is called for clicks on marks named "points".
-export function plot(name, {onPick, theme = () => ({}), label, signal}) {
+// onFrame({left, top, width, height}) is called with the place of the data in the element, whenever it may have changed.
+export function plot(name, {onPick, onFrame, theme = () => ({}), label, signal}) {
   const canvas = h('div', {class: 'plot-canvas'});
   const box = h('div', {class: 'tooltip', hidden: true});
   const element = h('div', {class: 'plot', role: 'img', 'aria-label': label}, canvas, box);
@@ -56,7 +66,14 @@ export function plot(name, {onPick, theme = () => ({}), label, signal}) {
     for (const [key, rows] of Object.entries(data))
       view.change(key, changeset().remove(() => true).insert(rows.map((row) => ({...row}))));
     if (state.description) element.setAttribute('aria-label', state.description);
-    view.runAsync();
+    view.runAsync().then(placed);
+  }
+
+  function placed() {
+    const frame = element.querySelector('.role-frame.root path.background');
+    if (!onFrame || !frame || signal?.aborted) return;
+    const inner = frame.getBoundingClientRect(), outer = element.getBoundingClientRect();
+    onFrame({left: inner.left - outer.left, top: inner.top - outer.top, width: inner.width, height: inner.height});
   }
 
   function build() {

@@ -9,10 +9,11 @@ const ticks = (axis) => ({
 const params = (values) => Object.entries(values).map(([name, value]) => ({name, value}));
 const asIs = (field) => ({field, type: 'nominal', scale: null, legend: null});
 
-function axis(name, type, extra = {}) {
+// clamp: what lies outside is drawn at the edge; otherwise where it is, for marks that are clipped.
+function axis(name, type, extra = {}, clamp = true) {
   return {
     type: 'quantitative',
-    scale: {type, domain: [{expr: `${name}_low`}, {expr: `${name}_high`}], nice: false, clamp: true, ...(type !== 'log' && {zero: false})},
+    scale: {type, domain: [{expr: `${name}_low`}, {expr: `${name}_high`}], nice: false, clamp, ...(type !== 'log' && {zero: false})},
     axis: {...ticks(name), title: null, ...extra},
   };
 }
@@ -20,29 +21,45 @@ function axis(name, type, extra = {}) {
 const range = (name, low, high) => ({[`${name}_low`]: low, [`${name}_high`]: high, [`${name}_ticks`]: [low, high], [`${name}_labels`]: ['', '']});
 const ink = {expr: 'ink'}, muted = {expr: 'muted'}, paper = {expr: 'paper'};
 
-// Cost against error. points: {n, key, x, low, high, y, colour, shape, chosen, tip}, and dx and dy of the number's middle;
-// front: {x, y}, from left to right; levels: {y, dash}, explained in the text below the plot.
+// Cost against error. points: {key, x, low, high, y, yLow, yHigh, colour, fill, shape, size, chosen, tip, label}, and dx and
+// dy of the label's middle; lines: {technique, x, y, order, colour}; front: {x, y, order, dash}, from left to right;
+// band: {x, y, y2}, where the front may be; levels: {y, dash}, explained in the text below the plot.
+const xy = {x: {field: 'x', ...axis('x', 'log')}, y: {field: 'y', ...axis('y', 'log')}};
 const trade = {
-  width: 520, height: 320,
-  params: params({...range('x', 1, 10), ...range('y', 0.01, 1), ink: '#000', muted: '#666', paper: '#fff'}),
+  width: 520, height: 340,
+  params: params({...range('x', 1, 10), ...range('y', 0.01, 1), ink: '#000', muted: '#666', paper: '#fff', shade: '#ddd'}),
   layer: [
     {
+      data: {name: 'band'},
+      mark: {type: 'area', interpolate: 'step-after', fill: {expr: 'shade'}, opacity: 1, clip: true, aria: false},
+      encoding: {...xy, y2: {field: 'y2'}, order: {field: 'x'}},
+    },
+    {
       data: {name: 'levels'},
-      mark: {type: 'rule', color: muted},
+      mark: {type: 'rule', color: muted, aria: false},
       encoding: {y: {field: 'y', ...axis('y', 'log')}, strokeDash: asIs('dash')},
     },
     {
+      data: {name: 'lines'},
+      mark: {type: 'line', strokeWidth: 1.2, opacity: 0.75, clip: true, aria: false},
+      encoding: {...xy, detail: {field: 'technique'}, order: {field: 'order'}, color: asIs('colour')},
+    },
+    {
       data: {name: 'front'},
-      mark: {type: 'line', interpolate: 'step-after', color: muted, strokeWidth: 1.4, strokeJoin: 'round'},
-      encoding: {x: {field: 'x', ...axis('x', 'log')}, y: {field: 'y', ...axis('y', 'log')}, order: {field: 'order'}},
+      mark: {type: 'line', interpolate: 'step-after', color: muted, strokeWidth: 1.6, strokeJoin: 'round'},
+      encoding: {...xy, order: {field: 'order'}, detail: {field: 'part'}, strokeDash: asIs('dash')},
     },
     {
       data: {name: 'points'},
-      encoding: {x: {field: 'x', ...axis('x', 'log')}, y: {field: 'y', ...axis('y', 'log')}},
+      encoding: xy,
       layer: [
         {
-          mark: {type: 'rule', strokeWidth: 1.6, aria: false},
+          mark: {type: 'rule', strokeWidth: 1.6, clip: true, aria: false},
           encoding: {x: {field: 'low', type: 'quantitative'}, x2: {field: 'high'}, color: asIs('colour')},
+        },
+        {
+          mark: {type: 'rule', strokeWidth: 1.6, clip: true, aria: false},
+          encoding: {y: {field: 'yLow', type: 'quantitative'}, y2: {field: 'yHigh'}, color: asIs('colour')},
         },
         {
           transform: [{filter: 'datum.chosen'}],
@@ -50,12 +67,15 @@ const trade = {
         },
         {
           name: 'points',
-          mark: {type: 'point', filled: true, size: 120, opacity: 1, strokeWidth: 1.2, stroke: paper, cursor: 'pointer'},
-          encoding: {fill: asIs('colour'), shape: asIs('shape'), tooltip: {field: 'tip'}, description: {field: 'tip'}},
+          mark: {type: 'point', opacity: 1, strokeWidth: 1.6, cursor: 'pointer'},
+          encoding: {
+            fill: asIs('fill'), stroke: asIs('colour'), shape: asIs('shape'), size: {field: 'size', type: 'quantitative', scale: null, legend: null},
+            tooltip: {field: 'tip'}, description: {field: 'tip'},
+          },
         },
         {
           mark: {type: 'text', dx: {expr: 'datum.dx'}, dy: {expr: 'datum.dy'}, fontSize: 11, fontWeight: 600, fill: ink, aria: false},
-          encoding: {text: {field: 'n'}},
+          encoding: {text: {field: 'label'}},
         },
       ],
     },
@@ -83,11 +103,14 @@ const curves = {
   data: {name: 'vertices'},
   mark: {type: 'line', interpolate: 'linear', clip: true, strokeJoin: 'round', strokeCap: 'butt'},
   encoding: {
-    x: {field: 'z', ...axis('x', 'linear')}, y: {field: 'v', ...axis('y', 'linear')},
+    x: {field: 'z', ...axis('x', 'linear', {}, false)}, y: {field: 'v', ...axis('y', 'linear', {minExtent: 34})},
     order: {field: 'order', type: 'quantitative'}, detail: {field: 'curve'},
     color: asIs('colour'), strokeDash: asIs('dash'), strokeWidth: {field: 'width', type: 'quantitative', scale: null, legend: null},
   },
 };
+
+// The same for their errors, in a strip below with the same depths.
+const strip = {...curves, height: 110};
 
 // A measure over runs. points: {i, value, low, high, tip}; since: {i, text}, where a drift begins.
 const trend = {
@@ -97,7 +120,7 @@ const trend = {
   layer: [
     {
       data: {name: 'since'},
-      mark: {type: 'rule', strokeDash: [3, 3], strokeWidth: 1.5, color: {expr: 'alarm'}},
+      mark: {type: 'rule', strokeDash: [3, 3], strokeWidth: 1.5, color: {expr: 'alarm'}, aria: false},
     },
     {
       data: {name: 'points'},
@@ -117,4 +140,4 @@ const trend = {
   ],
 };
 
-export const specs = {trade, histogram, curves, trend};
+export const specs = {trade, histogram, curves, strip, trend};

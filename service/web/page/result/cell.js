@@ -63,23 +63,25 @@ function histogramOf(cell, series, signal) {
     h('p', {class: 'note'}, `${count(nodes.total)} nodes in ${plural(nodes.cells, 'cell')}: mean ${significant(nodes.mean)}, at most ${count(nodes.max)}.`));
 }
 
-function facts(cell, map) {
+// worst(cell): shows the function of the pixel with the largest error; nothing where nobody can be asked for it.
+function facts(cell, map, worst) {
   const rows = Object.entries(cell.parameters ?? {});
   const more = [
     ['bytes', `${bytes(cell.bytes)} (${count(cell.bytes)})`], ['peak of the build', bytes(cell.working_bytes)],
     ['version', String(cell.version)],
-    cell.curve_error?.worst_cell && ['largest curve error', `${significant(cell.curve_error.max)} at pixel ${worstPixelOf(cell, map).join(', ')}`],
+    cell.curve_error?.worst_cell && ['largest curve error', [`${significant(cell.curve_error.max)} at pixel `, worst && cell.curve_error.max > 0
+      ? h('button', {type: 'button', class: 'link', onclick: () => worst(cell)}, worstPixelOf(cell, map).join(', ')) : worstPixelOf(cell, map).join(', ')]],
     cell.lookup_error && ['mean signed error', significant(cell.lookup_error.signed_mean, 2)],
   ].filter(Boolean);
   const list = (entries) => h('dl', {class: 'facts'}, entries.map(([k, v]) => h('div', {}, h('dt', {}, k), h('dd', {}, v))));
   return [
-    h('h4', {}, 'Parameters'), rows.length ? list(rows.map(([k, v]) => [k, typeof v === 'string' ? v : JSON.stringify(v)])) : h('p', {class: 'note'}, 'It has none.'),
-    h('h4', {}, 'Measured'), list(more),
+    h('h3', {class: 'part'}, 'Parameters'), rows.length ? list(rows.map(([k, v]) => [k, typeof v === 'string' ? v : JSON.stringify(v)])) : h('p', {class: 'note'}, 'It has none.'),
+    h('h3', {class: 'part'}, 'Measured'), list(more),
   ];
 }
 
 // source: see view.js. The signal aborts when another cell is shown.
-export function cellView({source, result, images, group, cell, index, series, signal}) {
+export function cellView({source, result, images, group, cell, index, series, worst, signal}) {
   const scenario = () => download(`${result.name}.json`, 'application/json', `${JSON.stringify(result.scenario, null, 2)}\n`);
   return h('section', {class: 'panel', id: 'cell', 'aria-labelledby': 'cell-title', tabindex: '-1'},
     h('div', {class: 'panel-head'},
@@ -88,9 +90,9 @@ export function cellView({source, result, images, group, cell, index, series, si
     h('p', {class: 'why'}, cell.status === 'ok' ? cell.verdict_why ?? '' : cell.reason),
     pictureStrip(source, images, cell, signal),
     h('div', {class: 'pair'},
-      h('div', {}, h('h4', {}, 'Nodes'), histogramOf(cell, series, signal)),
-      h('div', {}, facts(cell, group.light.map))),
-    h('h4', {}, 'Run only this cell again'),
+      h('div', {}, h('h3', {class: 'part'}, 'Nodes'), histogramOf(cell, series, signal)),
+      h('div', {}, facts(cell, group.light.map, worst))),
+    h('h3', {class: 'part'}, 'Run only this cell again'),
     command(rerunOf(result, group, cell)),
     h('p', {class: 'note'}, 'with the scenario as ', h('button', {type: 'button', class: 'link', onclick: scenario}, `${result.name}.json`), '.'));
 }

@@ -2,9 +2,15 @@
 // cell.
 
 import {significant} from '../format.js';
+import {named} from './names.js';
 
 export function titleOf(cell) {
-  return cell.label ? `${cell.technique} ${cell.label}` : cell.technique;
+  return cell.title ?? (cell.label ? `${cell.technique} ${cell.label}` : cell.technique);
+}
+
+// Whether it traces rays: it stores nothing, so it has no place among maps.
+export function withoutMap(cell) {
+  return cell.bytes === 0 && !cell.nodes?.cells;
 }
 
 const sample = (s) => s && {value: s.median, low: s.interval95?.[0], high: s.interval95?.[1]};
@@ -21,13 +27,19 @@ export const speeds = [
   {id: 'build', text: 'build', kind: 'ms', of: (c) => sample(c.times?.build_ms)},
 ];
 
-export const size = {id: 'bytes', text: 'bytes of the map', kind: 'bytes', of: (c) => plain(c.bytes)};
+export const size = {id: 'bytes', text: 'bytes of the map', kind: 'bytes', of: (c) => (withoutMap(c) ? null : plain(c.bytes))};
 
 const norms = [['rms', 'RMS'], ['max', 'largest'], ['p99', '99th percentile'], ['mean', 'mean']];
 export const errors = [['lookup', 'lookup error'], ['curve', 'curve error']].flatMap(([kind, name]) =>
   norms.map(([id, text]) => ({
-    id: `${kind}.${id}`, text: `${name}, ${text}`, kind: 'error', of: (c) => plain(c[`${kind}_error`]?.[id]),
+    id: `${kind}.${id}`, text: `${name}, ${text}`, kind: 'error', of: (c) => errorOf(c[`${kind}_error`], id),
   })));
+
+// Lookup errors have an interval of their RMS.
+function errorOf(error, id) {
+  const value = plain(error?.[id]), interval = id === 'rms' && error?.rms_interval95;
+  return value && interval ? {...value, low: interval[0], high: interval[1]} : value;
+}
 
 // The 95 % interval of the RMS that is expected over seeds of the rays, as text. Older results have none.
 export function rmsInterval(cell) {
@@ -53,7 +65,7 @@ export function groupsOf(result) {
       variant: v, lightIndex: l, settings, light,
       variantTitle: settings.map(([pointer, value]) => `${pointer.slice(1).replaceAll('/', '.')} = ${JSON.stringify(value)}`)
         .join(', ') || 'as written',
-      cells: light.cells ?? [],
+      cells: named(light.cells ?? []),
     };
   }));
 }

@@ -16,8 +16,9 @@ function moveOf(event, up) {
   return {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -down], ArrowDown: [0, down]}[event.key];
 }
 
-// up: y grows upwards, as the light sees it. ask(x, y) is called for the pixel under the pointer, choose(x, y) for the chosen pixel.
-export function pixelGrid({name, width, height, up, ask, choose}) {
+// up: y grows upwards, as the light sees it. ask(x, y) is called for the pixel under the pointer, leave() when it leaves, choose(x, y) for the chosen
+// pixel.
+export function pixelGrid({name, width, height, up, ask, leave, choose}) {
   const scale = Math.min(1, largestCanvas / Math.max(width, height));
   const canvas = h('canvas', {width: Math.ceil(scale * width), height: Math.ceil(scale * height), 'aria-hidden': 'true'});
   const picture = h('img', {alt: '', draggable: 'false', hidden: true});
@@ -35,6 +36,7 @@ export function pixelGrid({name, width, height, up, ask, choose}) {
     return [clamp((event.clientX - box.left) / box.width, width), rowOf(clamp((event.clientY - box.top) / box.height, height))];
   };
   element.addEventListener('pointermove', (event) => ask(...pixel(event)));
+  element.addEventListener('pointerleave', leave);
   element.addEventListener('click', (event) => choose(...pixel(event)));
   element.addEventListener('keydown', (event) => {
     const move = moveOf(event, up);

@@ -6,20 +6,36 @@ import {fronts, marked, rmsInterval, titleOf} from './model.js';
 
 const mark = '; ~: its 95 % interval is wider than the goal';
 
+const order = (c, name) => c.times?.[`lookup_${name}_order`];
+
+// `text`, `unit`, and value(c): the number, for CSV. show(c): as it is written, significant with `digits` if left out.
 const columns = [
-  {text: 'build', unit: 'ms', of: (c) => marked(c, 'build', significant(c.times?.build_ms?.median)), title: `One thread, median${mark}`},
-  {text: 'image', unit: 'ns', of: (c) => marked(c, 'lookup_image_order', significant(c.times?.lookup_image_order?.ns?.median)), title: `One lookup, in image order${mark}`},
-  {text: '× floor', of: (c) => significant(c.times?.lookup_image_order?.ratio_to_floor?.median), title: 'Relative to reading the same cache lines'},
-  {text: 'random', unit: 'ns', of: (c) => marked(c, 'lookup_random_order', significant(c.times?.lookup_random_order?.ns?.median)), title: `One lookup, in random order${mark}`},
-  {text: '× floor', of: (c) => significant(c.times?.lookup_random_order?.ratio_to_floor?.median), title: 'Relative to reading the same cache lines'},
-  {text: 'bytes', of: (c) => bytes(c.bytes)},
-  {text: 'nodes', unit: 'mean', of: (c) => significant(c.nodes?.mean), title: 'Nodes a cell'},
-  {text: 'nodes', unit: 'max', of: (c) => significant(c.nodes?.max)},
-  {text: 'curve error', unit: 'max', of: (c) => significant(c.curve_error?.max, 2), title: 'Largest |stored − uncompressed|'},
-  {text: 'lookup error', unit: 'RMS', of: (c) => significant(c.lookup_error?.rms, 2), title: 'Relative to the reference', tip: rmsInterval},
-  {text: 'lookup', unit: '99 %', of: (c) => significant(c.lookup_error?.p99, 2)},
-  {text: 'lookup', unit: 'max', of: (c) => significant(c.lookup_error?.max, 2)},
+  {text: 'build', unit: 'ms', value: (c) => c.times?.build_ms?.median, settled: 'build', title: `One thread, median${mark}`},
+  {text: 'image', unit: 'ns', value: (c) => order(c, 'image')?.ns?.median, settled: 'lookup_image_order', title: `One lookup, in image order${mark}`},
+  {text: '× floor', of: 'image', value: (c) => order(c, 'image')?.ratio_to_floor?.median, title: 'Relative to reading the same cache lines'},
+  {text: 'random', unit: 'ns', value: (c) => order(c, 'random')?.ns?.median, settled: 'lookup_random_order', title: `One lookup, in random order${mark}`},
+  {text: '× floor', of: 'random', value: (c) => order(c, 'random')?.ratio_to_floor?.median, title: 'Relative to reading the same cache lines'},
+  {text: 'bytes', value: (c) => c.bytes, show: (c) => bytes(c.bytes)},
+  {text: 'nodes', unit: 'mean', value: (c) => c.nodes?.mean, title: 'Nodes a cell'},
+  {text: 'nodes', unit: 'max', value: (c) => c.nodes?.max},
+  {text: 'curve error', unit: 'max', value: (c) => c.curve_error?.max, digits: 2, title: 'Largest |stored − uncompressed|'},
+  {text: 'lookup error', unit: 'RMS', value: (c) => c.lookup_error?.rms, digits: 2, title: 'Relative to the reference', tip: rmsInterval},
+  {text: 'lookup', unit: '99 %', value: (c) => c.lookup_error?.p99, digits: 2},
+  {text: 'lookup', unit: 'max', value: (c) => c.lookup_error?.max, digits: 2},
 ];
+
+function shownIn(column, cell) {
+  if (column.show) return column.show(cell);
+  const text = significant(column.value(cell), column.digits);
+  return column.settled ? marked(cell, column.settled, text) : text;
+}
+
+// The table as rows, the first with names, with all digits.
+export function figures(cells) {
+  const name = ({of, text, unit}) => [of, text, unit].filter(Boolean).join(' ').replace('×', 'x');
+  return [['technique', ...columns.map(name), 'lookup error RMS, low', 'lookup error RMS, high', ...fronts.map((f) => `front of ${f.text}`), 'verdict'],
+    ...cells.map((cell) => [titleOf(cell), ...columns.map((c) => c.value(cell)), ...(cell.lookup_error?.rms_interval95 ?? [null, null]), ...fronts.map((f) => f.of(cell)), cell.verdict ?? cell.status])];
+}
 
 const verdicts = {
   kept: '✓', degraded: '△', failed: '✕',
@@ -48,7 +64,7 @@ export function cellTable({cells, series, chosen, pick}) {
     h('th', {scope: 'row'}, h('button', {
       type: 'button', class: 'cell-name', 'data-cell': index, 'aria-pressed': String(index === chosen), onclick: () => pick(index),
     }, h('span', {class: 'index'}, String(index + 1)), glyph(series.get(cell.technique)), h('span', {}, titleOf(cell)))),
-    columns.map((c) => h('td', {class: 'number', title: c.tip?.(cell)}, c.of(cell))),
+    columns.map((c) => h('td', {class: 'number', title: c.tip?.(cell)}, shownIn(c, cell))),
     h('td', {}, frontMarks(cell)), h('td', {}, verdictMark(cell))));
   return h('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Table of techniques'},
     h('table', {class: 'cells'}, h('caption', {class: 'hidden'}, 'Every technique with its times, size, errors and verdict'),

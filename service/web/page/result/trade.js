@@ -1,37 +1,14 @@
-// The two plots of a group: speed against error and bytes against error.
+// The two plots of a group: speed against error and bytes against error, with the error that is allowed as a line.
 import {choice, h, setText} from '../dom.js';
 import {significant} from '../format.js';
-import {plot} from '../plots/plot.js';
-import {logAxis, logPlace, write} from '../plots/axes.js';
+import {budgetLine} from '../plots/budget.js';
+import {labelWidth, plot} from '../plots/plot.js';
+import {logAxis, logPlace} from '../plots/axes.js';
 import {placeLabels} from '../plots/labels.js';
 import {levelSample, lookOf} from '../plots/palette.js';
-import {errors, frontOf, fronts, rmsInterval, size, speeds, titleOf} from './model.js';
-
-function interval(measure, m) {
-  return m.low !== undefined && m.low !== null && m.high !== m.low
-    ? ` (95 %: ${write(measure.kind, m.low)} to ${write(measure.kind, m.high)})` : '';
-}
-
-// The cells that can be drawn, and why the others cannot.
-function pointsOf(cells, series, cost, error, chosen) {
-  const points = [], missing = [];
-  cells.forEach((cell, index) => {
-    const x = cost.of(cell), y = error.of(cell);
-    if (cell.status !== 'ok') missing.push(`${index + 1} failed`);
-    else if (!y) missing.push(`${index + 1} has no ${error.text.split(',')[0]}`);
-    else if (!x) missing.push(`${index + 1} has no such time`);
-    else {
-      const look = lookOf(series.get(cell.technique));
-      points.push({
-        n: String(index + 1), key: index, x: x.value, low: x.low ?? x.value, high: x.high ?? x.value, y: y.value,
-        colour: look.colour, shape: look.shape, chosen: index === chosen,
-        tip: `${index + 1}  ${titleOf(cell)}\n${cost.text}: ${write(cost.kind, x.value)}${interval(cost, x)}\n` +
-          `${error.text}: ${significant(y.value)}${error.id === 'lookup.rms' && rmsInterval(cell) ? `\n${rmsInterval(cell)}` : ''}`,
-      });
-    }
-  });
-  return {points, missing};
-}
+import {saveButtons} from '../plots/save.js';
+import {frontOf, errors, size, speeds, titleOf} from './model.js';
+import {linesOf, markedFront, pointsOf, undecided} from './points.js';
 
 // Lines mark the errors below which differences mean little, if they apply to the measure.
 function levelsOf(light, error, low, high) {
@@ -43,19 +20,28 @@ function levelsOf(light, error, low, high) {
 }
 
 // What is on the front: by the marks of the result if it marks this one, otherwise by the values as they were measured.
-function frontText(points, cells, cost, error) {
-  const names = (some) => some.map((p) => `${p.n} ${titleOf(cells[p.key])}`).join(', ');
-  const marked = error.id === 'lookup.rms' && fronts.find((front) => front.cost === cost.id);
+function frontText(points, cells, marked) {
+  const names = (some) => some.map((p) => titleOf(cells[p.key])).join(', ');
   if (!marked) return `On the line: ${names(frontOf(points))}. Their intervals are not compared.`;
   return [['certainly', 'Certainly'], ['perhaps', 'Perhaps']].map(([mark, text]) => {
-    const some = points.filter((p) => marked.of(cells[p.key]) === mark).sort((a, b) => a.x - b.x);
+    const some = points.filter((p) => p.front === mark).sort((a, b) => a.x - b.x);
     return some.length ? `${text} on the front: ${names(some)}.` : '';
   }).filter(Boolean).join(' ');
 }
 
 const radius = {chosen: 13, other: 8};  // pixels
+const sizes = {certainly: 150, perhaps: 130, no: 70, '': 120};  // square pixels
+const solid = [1, 0], dashed = [5, 4];
 
-// The points with the positions of their numbers, for a plot of this size.
+// Steps of the front, each with its own dash: solid where it is certain.
+function frontParts(front, right, marked) {
+  return front.flatMap((p, part) => {
+    const next = front[part + 1] ?? {x: right, y: p.y}, dash = !marked || p.front === 'certainly' ? solid : dashed;
+    return [{part, order: 0, x: p.x, y: p.y, dash}, {part, order: 1, x: next.x, y: next.y, dash}];
+  });
+}
+
+// The points with their labels, for a plot of this size.
 function withLabels({points, front, levels}, x, y, width, height) {
   const across = (v) => width * logPlace('x', x.signals, v), down = (v) => height * (1 - logPlace('y', y.signals, v));
   const lines = [
@@ -63,64 +49,81 @@ function withLabels({points, front, levels}, x, y, width, height) {
     ...levels.map((l) => [0, down(l.y), width, down(l.y)]),
     ...front.slice(1).flatMap((p, i) => [[across(front[i].x), down(front[i].y), across(p.x), down(front[i].y)], [across(p.x), down(front[i].y), across(p.x), down(p.y)]]),
   ];
-  const placed = placeLabels({lines, width, height,
-    points: points.map((p) => ({x: across(p.x), y: down(p.y), text: p.n, radius: p.chosen ? radius.chosen : radius.other}))});
-  return points.map((p, i) => ({...p, ...placed[i]}));
+  const placed = placeLabels({lines, width, height, widthOf: labelWidth, points: points.map((p) => ({
+    x: across(p.x), y: down(p.y), texts: p.texts, radius: p.chosen ? radius.chosen : radius.other, first: p.chosen || p.front !== 'no'}))});
+  return points.map((p, i) => ({...p, label: placed[i].text, dx: placed[i].dx, dy: placed[i].dy}));
 }
 
-function tradePlot(title, pick, signal) {
+function tradePlot({title, name, pick, moved, series, signal}) {
+  const line = budgetLine({label: 'Error that is allowed', moved, signal});
   const drawing = plot('trade', {
-    onPick: pick, label: title, signal,
-    theme: () => ({ink: drawing.colour('ink'), muted: drawing.colour('muted'), paper: drawing.colour('panel')}),
+    onPick: pick, onFrame: line.frame, label: title, signal,
+    theme: () => ({ink: drawing.colour('ink'), muted: drawing.colour('muted'), paper: drawing.colour('panel'), shade: drawing.colour('grid')}),
   });
   const caption = h('p', {class: 'axis-title'}), note = h('p', {class: 'note'}), levelKey = h('ul', {class: 'levels'});
-  const yTitle = h('p', {class: 'axis-title'});
+  const yTitle = h('p', {class: 'axis-title'}), place = h('div', {class: 'plot-place'}, drawing.element, line.element);
+  let budget = 0.1;
+  const save = saveButtons(place, () => `${name()}.${title.split(' ')[0].toLowerCase()}`,
+    () => ({title: `${name()}: ${title}`, up: yTitle.textContent, across: caption.textContent, level: `allowed: ${significant(budget)}`}));
   const element = h('figure', {class: 'trade'},
-    h('figcaption', {}, h('h3', {}, title), yTitle), drawing.element, caption, levelKey, note);
+    h('figcaption', {}, h('div', {class: 'figure-head'}, h('h3', {}, title), save), yTitle), place, caption, levelKey, note);
+  let axis = null;
 
-  function update({cells, light, series, cost, error, chosen}) {
-    const {points, missing} = pointsOf(cells, series, cost, error, chosen);
+  function update({cells, light, cost, error, chosen, budget: allowed}) {
+    budget = allowed;
+    const {points, missing} = pointsOf(cells, cost, error, chosen), marked = markedFront(cost, error);
     const x = logAxis('x', points.flatMap((p) => [p.x, p.low, p.high]), cost.kind);
-    const y = logAxis('y', points.map((p) => p.y), 'error');
-    const front = frontOf(points).map((p, order) => ({order, x: p.x || x.zero, y: p.y || y.zero}));
-    if (front.length) front.push({order: front.length, x: x.signals.x_high, y: front.at(-1).y});
-    const placed = points.map((p) => ({
-      ...p, x: p.x || x.zero, low: p.low || x.zero || p.low, high: p.high || x.zero, y: p.y || y.zero,
-    }));
+    const y = logAxis('y', [...points.flatMap((p) => [p.y, p.yLow, p.yHigh]), ...(points.length ? [] : [budget])], 'error');
+    axis = y.signals;
+    const inX = (v) => v || x.zero || v, inY = (v) => v || y.zero || v;
+    const placed = points.map((p) => {
+      const {colour, shape} = lookOf(series().get(p.technique));
+      return {...p, colour, shape, fill: p.front === 'perhaps' ? drawing.colour('panel') : colour, size: sizes[p.front],
+        x: inX(p.x), low: inX(p.low), high: inX(p.high), y: inY(p.y), yLow: inY(p.yLow), yHigh: inY(p.yHigh)};
+    });
+    const front = frontOf(placed), right = x.signals.x_high;
+    const parts = frontParts(front, right, marked);
+    const band = marked ? undecided(placed, right, y.signals.y_high) : [];
+    const lines = linesOf(placed).map((p) => ({...p, colour: lookOf(series().get(p.technique)).colour}));
     setText(yTitle, `↑ ${error.text}`);
     setText(caption, `${cost.text} →`);
     setText(note, [
-      points.length ? frontText(points, cells, cost, error) : 'Nothing can be drawn for these measures.',
+      points.length ? frontText(points, cells, marked) : 'Nothing can be drawn for these measures.',
       x.zero || y.zero ? 'Zeros are drawn at the edge marked 0.' : '', missing.length ? `Not drawn: ${missing.join(', ')}.` : '',
     ].filter(Boolean).join(' '));
     const levels = levelsOf(light, error, y.signals.y_low, y.signals.y_high);
     levelKey.replaceChildren(...levels.map((l) => h('li', {}, levelSample(l.dash), ` ${l.text}`)));
     drawing.update({
       signals: {...x.signals, ...y.signals},
-      data: (width, height) => ({points: withLabels({points: placed, front, levels}, x, y, width, height), front, levels}),
+      data: (width, height) => ({points: withLabels({points: placed, front, levels}, x, y, width, height), front: parts, levels, lines, band}),
       description: `${title}: ${cost.text} against ${error.text}, log axes, ${points.length} points. The table below has the numbers.`,
     });
+    line.update(budget, axis);
   }
-  return {element, update};
+  return {element, update, allow(value) { budget = value; if (axis) line.update(value, axis); }};
 }
 
-// context: {series, pick(index), signal}. update({cells, light, chosen}).
-export function tradeView(context) {
-  let cost = speeds[0], error = errors[0], last = null;
-  const speed = tradePlot('Speed against error', context.pick, context.signal);
-  const bytes = tradePlot('Bytes against error', context.pick, context.signal);
-  const draw = () => {
-    speed.update({...last, series: context.series(), cost, error});
-    bytes.update({...last, series: context.series(), cost: size, error});
-  };
-  const find = (list, id) => list.find((m) => m.id === id);
+// context: {series(), name(), pick(index), allow(value, last), choose({error, speed}), signal}. update({cells, light, chosen,
+// error, speed, budget}); allow(value) moves the line only.
+export function tradeView({series, name, pick, allow, choose, signal}) {
+  const common = {series, name, pick, moved: allow, signal};
+  const speed = tradePlot({...common, title: 'Speed against error'}), bytes = tradePlot({...common, title: 'Bytes against error'});
+  const both = [speed, bytes], choices = h('div', {class: 'choices'});
+  const list = (measures) => measures.map((m) => ({value: m.id, text: m.text}));
   const element = h('section', {class: 'panel', 'aria-labelledby': 'trade-title'},
-    h('div', {class: 'panel-head'}, h('h2', {id: 'trade-title'}, 'The cost of accuracy'),
-      h('div', {class: 'choices'},
-        choice('Error', errors.map((m) => ({value: m.id, text: m.text})), error.id, (id) => { error = find(errors, id); draw(); }),
-        choice('Speed', speeds.map((m) => ({value: m.id, text: m.text})), cost.id, (id) => { cost = find(speeds, id); draw(); }))),
+    h('div', {class: 'panel-head'}, h('h2', {id: 'trade-title'}, 'The cost of accuracy'), choices),
     h('div', {class: 'pair'}, speed.element, bytes.element),
-    h('p', {class: 'note'}, 'Down and left is better. Bars: 95 % intervals of the median. The line joins the points that no other beats in both values as measured; where their intervals are known, the text below says which are certain. ' +
-      'Click a point, or its name in the table, to see its pictures.'));
-  return {element, update(next) { last = next; draw(); }};
+    h('p', {class: 'note'}, 'Down and left is better. Drag the line of the error that is allowed, or move it with the arrow keys. ' +
+      'Bars are 95 % intervals; thin lines join the settings of a technique. The stepped line joins the points that no other beats in both values as measured. ' +
+      'Full marks are certainly on the front, open ones perhaps, small ones not; the front may lie anywhere in the grey band. Click a point, or its name in the table, to see its pictures.'));
+  return {
+    element,
+    update(next) {
+      if (!choices.firstChild)
+        choices.append(choice('Error', list(errors), next.error.id, (id) => choose({error: id})), choice('Speed', list(speeds), next.speed.id, (id) => choose({speed: id})));
+      speed.update({...next, cost: next.speed});
+      bytes.update({...next, cost: size});
+    },
+    allow(value) { for (const one of both) one.allow(value); },
+  };
 }

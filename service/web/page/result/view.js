@@ -1,14 +1,17 @@
 // A whole result: summary, plots, table, one technique, pictures, visibility functions. A source gives access to its data:
 //   picture(file, signal)            a promise of the URL of a picture named in images.json
 //   curves(group, x, y, signal)      a promise of the functions of a pixel; absent without a server
-import {choice, h} from '../dom.js';
-import {bytes, count, moment, plural, seconds, significant} from '../format.js';
+import {address, pathOf} from '../address.js';
+import {choice, download, h} from '../dom.js';
+import {bytes, count, csvOf, moment, plural, seconds, significant} from '../format.js';
 import {onThemeChange} from '../plots/palette.js';
+import {answersAt, firstBudget} from './answers.js';
+import {answerView} from './answer.js';
 import {cellView} from './cell.js';
 import {compareView} from './compare.js';
 import {curvesView} from './curves.js';
-import {fronts, groupsOf, imagesAreOf, originOf, picturesOf, seriesOf, unsettledOf} from './model.js';
-import {cellTable} from './table.js';
+import {errors, groupsOf, imagesAreOf, originOf, picturesOf, seriesOf, speeds, unsettledOf} from './model.js';
+import {cellTable, figures} from './table.js';
 import {tradeView} from './trade.js';
 
 function facts(entries) {
@@ -56,90 +59,127 @@ function captureOf(light, origin) {
   ]);
 }
 
-// The cell that is shown first: it kept its promises, and few others beat it.
-function bestOf(cells) {
-  const places = ['no', 'perhaps', 'certainly'];
-  const [time, bytes] = fronts.map((front) => (cell) => places.indexOf(front.of(cell)));
-  const score = (cell) => 9 * (cell.verdict === 'kept') + 3 * bytes(cell) + time(cell);
-  return cells.reduce((best, cell, i) => (score(cell) > score(cells[best]) ? i : best), 0);
-}
-
-// The part of a result for one variant and light; chosen() is called with the cell that is shown.
+// The part of a result for one variant and light. What is chosen stands in the address.
 function groupView({source, result, images, imagesFault, group, series, signal}) {
   const theseImages = imagesAreOf(images, group) ? images : null;
   const drawn = theseImages && group.cells.findIndex((cell) => picturesOf(theseImages, cell));
-  let chosen = bestOf(group.cells);
+  const {cells} = group;
+  let error = errors.find((m) => m.id === address.get('error')) ?? errors[0], speed = speeds.find((m) => m.id === address.get('speed')) ?? speeds[0];
+  const allowed = address.numbers('budget', 1)?.[0];
+  let budget = allowed > 0 ? allowed : firstBudget(cells, error);
+  const first = () => {
+    const {fastest, closest} = answersAt(cells, {error, speed, budget});
+    return Math.max(0, cells.indexOf(fastest ?? closest));
+  };
+  const asked = Number(address.get('technique')) - 1;
+  let chosen = Number.isInteger(asked) && asked >= 0 && asked < cells.length ? asked : first();
   let shown = new AbortController();
   signal.addEventListener('abort', () => shown.abort(), {once: true});
 
-  const trade = tradeView({series: () => series, pick: (index) => pick(index, true), signal});
+  // The error that is allowed; `last`: no further value follows at once.
+  function allow(value, last) {
+    budget = value;
+    trade.allow(value);
+    answer.update({cells, series, error, speed, budget});
+    if (last) address.keep({budget: value});
+  }
+  function choose(measures) {
+    address.go({...measures, ...(measures.error && {budget: null})});
+    error = errors.find((m) => m.id === measures.error) ?? error;
+    speed = speeds.find((m) => m.id === measures.speed) ?? speed;
+    if (measures.error) budget = firstBudget(cells, error);
+    draw();
+  }
+  const answer = answerView({pick: (index) => pick(index, true), allow});
+  const trade = tradeView({series: () => series, name: () => result.name ?? 'result', pick: (index) => pick(index, true), allow, choose, signal});
   const tablePlace = h('div'), cellPlace = h('div', {'aria-live': 'polite'});
-  const compare = theseImages && drawn >= 0 ? compareView({source, images: theseImages, cells: group.cells, signal}) : null;
+  const compare = theseImages && drawn >= 0 ? compareView({source, images: theseImages, cells, picked: (index) => pick(index, false), signal}) : null;
+  const curves = source.curves ? curvesView({source, result, images: theseImages, group, series, signal}) : null;
 
+  function draw() {
+    answer.update({cells, series, error, speed, budget});
+    trade.update({cells, light: group.light, chosen, error, speed, budget});
+  }
   function pick(index, focus) {
+    address.go({technique: index + 1});
+    show(index);
+    if (focus) cellPlace.scrollIntoView({block: 'nearest', behavior: 'smooth'});
+  }
+  function show(index) {
     chosen = index;
     shown.abort();
     shown = new AbortController();
-    const cell = group.cells[index];
-    trade.update({cells: group.cells, light: group.light, chosen});
+    const cell = cells[index];
+    draw();
     const focused = document.activeElement?.dataset?.cell;
-    tablePlace.replaceChildren(cellTable({cells: group.cells, series, chosen, pick: (i) => pick(i, true)}));
+    tablePlace.replaceChildren(cellTable({cells, series, chosen, pick: (i) => pick(i, true)}));
     cellPlace.replaceChildren(cellView({
-      source, result, images: theseImages, group, cell, index, series: series.get(cell.technique), signal: shown.signal,
+      source, result, images: theseImages, group, cell, index, series: series.get(cell.technique), worst: curves?.worst, signal: shown.signal,
     }));
     if (focused !== undefined) tablePlace.querySelector(`[data-cell="${focused}"]`)?.focus();
     compare?.update(index);
-    if (focus) cellPlace.scrollIntoView({block: 'nearest', behavior: 'smooth'});
   }
-  if (group.cells.length) pick(chosen, false);
-  onThemeChange(() => { if (group.cells.length) pick(chosen, false); }, signal);
+  if (cells.length) show(chosen);
+  onThemeChange(() => { if (cells.length) show(chosen); }, signal);
 
   const unsettled = unsettledOf(result, group);
+  const csv = () => download(`${result.name ?? 'result'}.csv`, 'text/csv', csvOf(figures(cells)));
   return h('div', {class: 'stack'},
+    answer.element,
     unsettled && h('p', {class: 'unsettled', role: 'note'}, h('strong', {}, 'Unsettled. '),
       `${unsettled}. Times may be off by as much, and the front of time and error and rankings by time with them. ` +
       'Run it again on a quiet machine.'),
-    h('section', {class: 'panel quiet-panel', 'aria-label': 'Capture'}, captureOf(group.light, originOf(result, group)),
-      group.light.sees_nothing && h('p', {class: 'note'}, 'This light sees nothing that casts a shadow.')),
     trade.element,
-    h('section', {class: 'panel', 'aria-labelledby': 'table-title'}, h('h2', {id: 'table-title'}, 'All figures'), tablePlace),
+    h('section', {class: 'panel', 'aria-labelledby': 'table-title'},
+      h('div', {class: 'panel-head'}, h('h2', {id: 'table-title'}, 'All figures'), h('button', {type: 'button', class: 'quiet small', onclick: csv, 'aria-label': 'Save the table as CSV'}, 'CSV')), tablePlace),
     cellPlace,
-    compare?.element ?? h('section', {class: 'panel quiet-panel'}, h('p', {class: 'note'},
+    compare?.element ?? h('section', {class: 'panel quiet-panel', 'aria-label': 'Pictures'}, h('p', {class: 'note'},
       images ? 'The pictures show another variant.'
         : imagesFault ? ['Pictures could not be made: ', imagesFault.where && h('code', {}, imagesFault.where), ` ${imagesFault.message}.`] : 'There are no pictures of this result.')),
-    source.curves ? curvesView({source, result, images: theseImages, group, series, signal}) : null);
+    curves?.element,
+    h('section', {class: 'panel quiet-panel', 'aria-label': 'Capture'}, captureOf(group.light, originOf(result, group)),
+      group.light.sees_nothing && h('p', {class: 'note'}, 'This light sees nothing that casts a shadow.')));
 }
 
 // imagesFault: why there are no pictures, as {where, message}, if it is known.
 export function resultView({source, result, images, imagesFault, signal}) {
   const groups = groupsOf(result), series = seriesOf(result);
-  const place = h('div');
-  let shown = null, current = groups[0];
-
-  function show(group) {
-    shown?.abort();
-    shown = new AbortController();
-    current = group;
-    place.replaceChildren(groupView({source, result, images, imagesFault, group, series, signal: shown.signal}));
-  }
-  signal.addEventListener('abort', () => shown?.abort(), {once: true});
   if (!groups.length) return h('p', {class: 'note'}, 'This result has no lights.');
+  const place = h('div'), switches = h('div', {class: 'choices switch', hidden: groups.length === 1});
+  let shown = null, current = null;
+  signal.addEventListener('abort', () => shown?.abort(), {once: true});
 
   const variants = [...new Map(groups.map((g) => [g.variant, g])).values()];
   const lightsOf = (variant) => groups.filter((g) => g.variant === variant);
-  const lightPlace = h('span');
-  const lightChoice = () => {
-    const lights = lightsOf(current.variant);
-    lightPlace.replaceChildren(...(lights.length > 1 ? [choice('Light', lights.map((g) => ({value: g.lightIndex, text: g.light.light})), current.lightIndex,
-      (l) => show(groups.find((g) => g.variant === current.variant && g.lightIndex === Number(l))))] : []));
-  };
-  const variantChoice = variants.length > 1 && choice('Variant', variants.map((g) => ({value: g.variant, text: g.variantTitle})), current.variant, (v) => {
-    const lights = lightsOf(Number(v));
-    show(lights.find((g) => g.lightIndex === current.lightIndex) ?? lights[0]);
-    lightChoice();
-  });
-  lightChoice();
-  show(current);
-  const several = groups.length > 1;
-  return h('div', {class: 'stack'}, several && h('div', {class: 'choices switch'}, variantChoice, lightPlace), place);
+  // What the address names, or the first.
+  function named() {
+    const lights = lightsOf(Number(address.get('variant') ?? groups[0].variant));
+    return lights.find((g) => g.lightIndex === Number(address.get('light') ?? -1)) ?? lights[0] ?? groups[0];
+  }
+  function go(group) {
+    address.go({variant: group.variant, light: group.lightIndex, technique: null, pixel: null, budget: null, depth: null});
+    show();
+  }
+  function show() {
+    current = named();
+    shown?.abort();
+    shown = new AbortController();
+    const lights = lightsOf(current.variant), focused = document.activeElement?.closest('.switch .choice')?.dataset.part;
+    const part = (name, element) => { element.dataset.part = name; return element; };
+    switches.replaceChildren(...[
+      variants.length > 1 && part('variant', choice('Variant', variants.map((g) => ({value: g.variant, text: g.variantTitle})), current.variant, (v) => {
+        const there = lightsOf(Number(v));
+        go(there.find((g) => g.lightIndex === current.lightIndex) ?? there[0]);
+      })),
+      lights.length > 1 && part('light', choice('Light', lights.map((g) => ({value: g.lightIndex, text: g.light.light})), current.lightIndex,
+        (l) => go(groups.find((g) => g.variant === current.variant && g.lightIndex === Number(l))))),
+    ].filter(Boolean));
+    if (focused) switches.querySelector(`[data-part="${focused}"] select`)?.focus();
+    place.replaceChildren(groupView({source, result, images, imagesFault, group: current, series, signal: shown.signal}));
+  }
+  show();
+  // Back and forward within this result, and an address that is typed.
+  const path = pathOf(location.hash);
+  addEventListener('hashchange', () => { if (pathOf(location.hash) === path) show(); }, {signal});
+  return h('div', {class: 'stack'}, switches, place);
 }

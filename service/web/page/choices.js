@@ -1,0 +1,68 @@
+// What a form can show of a scenario, and the scenario with one of these choices changed. The scenario stays as it is
+// where it holds what no form shows.
+
+const radians = Math.PI / 180;
+const round = (value) => Number(value.toPrecision(5));
+const isPoint = (value) => Array.isArray(value) && value.length === 3 && value.every(Number.isFinite);
+
+// From what the first light shines on to the light; nothing for lights without a direction of their own.
+function towards(light) {
+  if (isPoint(light?.direction)) return light.direction.map((v) => -v);
+  return isPoint(light?.position) && isPoint(light.target) ? light.position.map((v, i) => v - light.target[i]) : null;
+}
+
+// Where the first light stands as seen from what it shines on, in degrees: {around, height}. y is up.
+export function lightPlace(scenario) {
+  const arrow = towards(scenario?.lights?.[0]);
+  const length = arrow && Math.hypot(...arrow);
+  if (!length) return null;
+  const [x, y, z] = arrow;
+  return {around: Math.round((Math.atan2(z, x) / radians + 360) % 360), height: Math.round(Math.asin(y / length) / radians)};
+}
+
+// The light keeps its distance.
+export function withLight(scenario, {around, height}) {
+  const [light, ...others] = scenario.lights, length = Math.hypot(...towards(light));
+  const flat = length * Math.cos(height * radians);
+  const arrow = [flat * Math.cos(around * radians), length * Math.sin(height * radians), flat * Math.sin(around * radians)];
+  const moved = isPoint(light.direction) ? {...light, direction: arrow.map((v) => round(-v))}
+    : {...light, position: arrow.map((v, i) => round(light.target[i] + v))};
+  return {...scenario, lights: [moved, ...others]};
+}
+
+export function withRays(scenario, name, value) {
+  const sweeps = {...scenario.sweeps};
+  delete sweeps[`/rays/${name}`];  // a sweep would set it again
+  return {...scenario, rays: {...scenario.rays, [name]: value}, ...(scenario.sweeps && {sweeps})};
+}
+
+// The types of techniques; `all`: what "*" stands for.
+export function typesOf(scenario, all) {
+  const types = new Set((Array.isArray(scenario?.techniques) ? scenario.techniques : []).map((t) => t?.type));
+  return types.delete('*') ? new Set([...types, ...all]) : types;
+}
+
+// The scenario with these types: settings of those that stay are kept, new ones have their defaults. Sweeps follow their
+// techniques, or go with them.
+export function withTypes(scenario, types, all) {
+  const had = typesOf(scenario, all), kept = [], numbers = new Map();
+  scenario.techniques.forEach((technique, i) => {
+    if (!types.has(technique.type)) return;
+    numbers.set(String(i), kept.length);
+    kept.push(technique);
+  });
+  const stars = scenario.techniques.some((t) => t.type === '*') ? had : new Set();
+  const present = new Set(kept.map((t) => t.type));
+  const added = [...types].filter((type) => !present.has(type) && (!had.has(type) || stars.has(type)));
+  const sweeps = Object.entries(scenario.sweeps ?? {}).flatMap(([pointer, values]) => {
+    const [, index, rest] = /^\/techniques\/(\d+)(\/.*)$/.exec(pointer) ?? [];
+    if (index === undefined) return [[pointer, values]];
+    return numbers.has(index) ? [[`/techniques/${numbers.get(index)}${rest}`, values]] : [];
+  });
+  return {...scenario, techniques: [...kept, ...added.map((type) => ({type}))], ...(scenario.sweeps && {sweeps: Object.fromEntries(sweeps)})};
+}
+
+// Whether a form may write the text again: numbers of more digits than JavaScript keeps would change.
+export function keepsDigits(text) {
+  return !/\d{16,}/.test(text.replace(/"(?:[^"\\]|\\.)*"/g, ''));
+}

@@ -1,0 +1,105 @@
+// Several results in one plot, and each technique over time.
+import {address} from './address.js';
+import {get} from './api.js';
+import {choice, h, setText} from './dom.js';
+import {moment, plural} from './format.js';
+import {linearAxis, logAxis, logPlace, write} from './plots/axes.js';
+import {placeLabels} from './plots/labels.js';
+import {lookOf} from './plots/palette.js';
+import {labelWidth, plot} from './plots/plot.js';
+import {saveButtons} from './plots/save.js';
+import {errors, size, speeds} from './result/model.js';
+import {overTime, pointsOfAll} from './result/several.js';
+
+const most = 12;  // results at a time
+const measures = [...speeds, size];
+const commitOf = (result) => String(result.program?.commit ?? '?').slice(0, 9);
+
+function trendOf({title, points}, measure, results, signal) {
+  const values = points.flatMap((p) => [p.low, p.high]), low = Math.min(...values), high = Math.max(...values), room = Math.max((high - low) * 0.12, Math.abs(high) * 0.02);
+  const drawing = plot('trend', {signal, label: `${title}, ${measure.text}: ${points.map((p) => write(measure.kind, p.value)).join(', ')}`,
+    theme: () => ({line: drawing.colour('series-0'), muted: drawing.colour('muted'), alarm: drawing.colour('bad')})});
+  const x = linearAxis('x', -0.4, results.length - 0.6, Math.min(6, results.length - 1));
+  x.x_ticks = results.map((_, i) => i);
+  x.x_labels = results.map((_, i) => `#${i + 1}`);
+  drawing.update({signals: {...x, ...linearAxis('y', low - room, high + room, 4, (v) => write(measure.kind, v))}, data: {since: [], points: points.map((p) => ({...p,
+    tip: `${write(measure.kind, p.value)}\n${moment(results[p.i].result.times?.started)}\n${commitOf(results[p.i].result)}`}))}});
+  return h('figure', {class: 'trend'}, h('figcaption', {}, h('strong', {}, title)), drawing.element);
+}
+
+export function exploreView({signal}) {
+  const problem = h('p', {class: 'problem', role: 'alert'}), list = h('div', {class: 'boxes wide'}), place = h('div', {class: 'stack'});
+  let shown = new AbortController(), turn = 0;
+  signal.addEventListener('abort', () => shown.abort(), {once: true});
+  const asked = () => (address.get('jobs') ?? '').split(',').filter(Boolean).slice(0, most);
+  const known = new Map();
+  const fetchOne = async (id) => {
+    if (!known.has(id)) known.set(id, await get(`/v1/jobs/${encodeURIComponent(id)}/result`, signal));
+    return known.get(id);
+  };
+  const word = (name, all) => all.find((m) => m.id === address.get(name)) ?? all[0];
+
+  function overlay(results, error, cost) {
+    const drawing = plot('trade', {label: 'Several results', signal: shown.signal,
+      theme: () => ({ink: drawing.colour('ink'), muted: drawing.colour('muted'), paper: drawing.colour('panel'), shade: drawing.colour('grid')})});
+    const {points, lines} = pointsOfAll(results.map((r) => r.result), error, cost);
+    const box = h('div', {class: 'plot-place'}, drawing.element), titles = [...new Set(points.map((p) => p.technique))];
+    const x = logAxis('x', points.flatMap((p) => [p.x, p.low, p.high]), cost.kind), y = logAxis('y', points.map((p) => p.y), 'error');
+    const look = (p) => lookOf(titles.indexOf(p.technique)), zero = (v, axis) => v || axis.zero || v;
+    const drawn = points.map((p, key) => ({...p, key, ...look(p), fill: p.of === results.length - 1 ? look(p).colour : drawing.colour('panel'), size: 90, chosen: false,
+      x: zero(p.x, x), low: zero(p.low, x), high: zero(p.high, x), y: zero(p.y, y), yLow: zero(p.y, y), yHigh: zero(p.y, y)}));
+    drawing.update({
+      signals: {...x.signals, ...y.signals}, description: `${points.length} points of ${plural(results.length, 'result')}: ${cost.text} against ${error.text}, log axes.`,
+      data(width, height) {
+        const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, points: drawn.map((p) => ({x: width * logPlace('x', x.signals, p.x), y: height * (1 - logPlace('y', y.signals, p.y)), radius: 7,
+          texts: p.of === results.length - 1 ? [p.short, `#${p.of + 1}`, ''] : [`#${p.of + 1}`, '']}))});
+        return {points: drawn.map((p, i) => ({...p, label: placed[i].text, dx: placed[i].dx, dy: placed[i].dy})), front: [], levels: [], band: [],
+          lines: lines.map((l) => ({...l, x: zero(l.x, x), y: zero(l.y, y), colour: lookOf(titles.indexOf(l.of)).colour}))};
+      },
+    });
+    return h('section', {class: 'panel', 'aria-labelledby': 'overlay-title'},
+      h('div', {class: 'panel-head'}, h('h2', {id: 'overlay-title'}, 'In one plot'), saveButtons(box, () => 'results', () => ({title: 'Several results', up: `↑ ${error.text}`, across: `${cost.text} →`}))),
+      h('p', {class: 'axis-title'}, `↑ ${error.text}`), box, h('p', {class: 'axis-title across'}, `${cost.text} →`),
+      h('p', {class: 'note'}, 'Full marks are of the last result, open ones of those before. A line joins a cell over the results.'));
+  }
+
+  async function draw() {
+    const mine = ++turn, ids = asked();
+    for (const box of list.querySelectorAll('input')) {
+      box.checked = ids.includes(box.value);
+      box.disabled = !box.checked && ids.length >= most;
+    }
+    shown.abort();
+    shown = new AbortController();
+    if (!ids.length) return place.replaceChildren(h('p', {class: 'empty'}, 'Choose results of the same scenario, from several versions of the program or with other settings.'));
+    try {
+      const results = (await Promise.all(ids.map(async (id) => ({id, result: await fetchOne(id)}))))
+        .sort((a, b) => new Date(a.result.times?.started) - new Date(b.result.times?.started));
+      if (mine !== turn) return;
+      setText(problem, '');
+      const error = word('error', errors), cost = word('cost', measures), which = [...measures, ...errors], over = word('over', which);
+      const pick = (name, label, all, now) => choice(label, all.map((m) => ({value: m.id, text: m.text})), now.id, (id) => { address.go({[name]: id}); draw(); });
+      const trends = results.length > 1 ? overTime(results.map((r) => r.result), over) : [];
+      place.replaceChildren(...[
+        h('ol', {class: 'results'}, results.map((r, i) => h('li', {}, h('a', {href: `#/jobs/${r.id}`}, `#${i + 1} ${r.result.name}`),
+          ` ${moment(r.result.times?.started)}, ${r.result.program?.version ?? '?'} (${commitOf(r.result)})`))),
+        h('div', {class: 'choices'}, pick('error', 'Error', errors, error), pick('cost', 'Cost', measures, cost)), overlay(results, error, cost),
+        results.length > 1 && h('section', {class: 'panel', 'aria-labelledby': 'time-title'}, h('div', {class: 'panel-head'}, h('h2', {id: 'time-title'}, 'Over time'), pick('over', 'Measure', which, over)),
+          trends.length ? h('div', {class: 'trends'}, trends.map((t) => trendOf(t, over, results, shown.signal))) : h('p', {class: 'note'}, 'No cell of one has this measure in another.')),
+      ].filter(Boolean));
+    } catch (error) {
+      if (!signal.aborted && mine === turn) setText(problem, error.message);
+    }
+  }
+  get('/v1/jobs?state=succeeded&limit=100', signal).then(({jobs}) => {
+    list.replaceChildren(...jobs.filter((job) => job.kind !== 'recommendation').map((job) => h('label', {class: 'check'}, h('input', {type: 'checkbox', value: job.id, onchange: (event) => {
+      const ids = asked().filter((id) => id !== job.id);
+      address.go({jobs: (event.target.checked ? [...ids, job.id] : ids).join(',') || null});
+      draw();
+    }}), `${job.name}, ${moment(job.created)}`)));
+    draw();
+  }, (error) => { if (!signal.aborted) setText(problem, error.message); });
+  addEventListener('hashchange', () => draw(), {signal});
+  return h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Explore results')),
+    h('section', {class: 'panel', 'aria-label': 'Results'}, list), problem, place);
+}

@@ -1,0 +1,42 @@
+// The answer of a group in words: what to take at an error that is allowed.
+import {h} from '../dom.js';
+import {significant} from '../format.js';
+import {write} from '../plots/axes.js';
+import {glyph} from '../plots/palette.js';
+import {answersAt} from './answers.js';
+import {size, titleOf} from './model.js';
+
+const joined = (parts) => parts.filter(Boolean).join(', ');
+
+// pick(index), allow(value, last): as for the plots. update({cells, series, error, speed, budget}).
+export function answerView({pick, allow}) {
+  const list = h('dl', {class: 'answers', 'aria-live': 'polite'}), measure = h('span');
+  const field = h('input', {type: 'number', min: '0', step: 'any', id: 'budget', onchange: () => { if (field.value !== '' && Number(field.value) > 0) allow(Number(field.value), true); }});
+  const element = h('section', {class: 'panel answer', 'aria-labelledby': 'answer-title'},
+    h('h2', {id: 'answer-title'}, h('label', {for: 'budget'}, 'With an error of at most '), field, measure), list);
+
+  function update({cells, series, error, speed, budget}) {
+    const found = answersAt(cells, {error, speed, budget});
+    const name = (cell) => h('button', {type: 'button', class: 'link', onclick: () => pick(cells.indexOf(cell))}, titleOf(cell));
+    const costs = (cell, more = '') => h('span', {}, ' ', joined([speed.of(cell) && write(speed.kind, speed.of(cell).value), size.of(cell) && write('bytes', size.of(cell).value), `error ${significant(error.of(cell).value, 2)}`]), more);
+    const row = (term, cell, more, rest) => h('div', {}, h('dt', {}, term), h('dd', {}, glyph(series.get(cell.technique)), ' ', name(cell), costs(cell, more), rest));
+    const {fastest, smallest, rivals, traced, closest} = found, rows = [];
+    if (fastest) {
+      const same = fastest === smallest;
+      const tie = rivals.length > 0 && h('small', {class: 'tie'}, ' Perhaps as fast: ', rivals.map((cell, i) => [i > 0 && ', ', name(cell)]), '.');
+      rows.push(row(same ? 'Fastest and smallest' : 'Fastest', fastest, '', tie));
+      if (!same && smallest) {
+        const share = size.of(smallest).value / size.of(fastest).value, slower = speed.of(smallest) && speed.of(fastest) && speed.of(smallest).value / speed.of(fastest).value;
+        rows.push(row('Smallest', smallest, `; ${significant(share, 2)} × the bytes${slower ? `, ${significant(slower, 2)} × the time` : ''}`));
+      }
+      if (!found.certain) rows.push(h('div', {}, h('dt', {}, 'Perhaps'), h('dd', {}, 'The intervals of these errors reach beyond it.')));
+    } else if (closest) rows.push(row('No map reaches it. The closest', closest, ''));
+    else rows.push(h('div', {}, h('dt', {}, 'Nothing'), h('dd', {}, 'No map has this error.')));
+    if (traced) rows.push(row('Without a map', traced, ''));
+    list.replaceChildren(...rows);
+    measure.textContent = ` (${error.text})`;
+    const text = String(Number(budget.toPrecision(3)));
+    if (document.activeElement !== field || Number(field.value) !== Number(text)) field.value = text;
+  }
+  return {element, update};
+}

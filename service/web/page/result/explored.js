@@ -1,0 +1,53 @@
+// A plot of what a recommendation measured.
+import {choice, h, setText} from '../dom.js';
+import {significant} from '../format.js';
+import {logAxis, logPlace, write} from '../plots/axes.js';
+import {placeLabels} from '../plots/labels.js';
+import {levelSample, lookOf} from '../plots/palette.js';
+import {labelWidth, plot} from '../plots/plot.js';
+import {saveButtons} from '../plots/save.js';
+import {frontOf} from './model.js';
+import {costs, ownFronts, pointsAt, settingsOf} from './settings.js';
+
+export function exploredView({recommendation, name, signal}) {
+  const settings = settingsOf(recommendation), techniques = [...new Set(recommendation.families.map((f) => f.technique))];
+  const series = new Map(techniques.map((technique, i) => [technique, i])), goal = recommendation.goal.error;
+  const drawing = plot('trade', {label: 'Settings that were measured', signal,
+    theme: () => ({ink: drawing.colour('ink'), muted: drawing.colour('muted'), paper: drawing.colour('panel'), shade: drawing.colour('grid')})});
+  const place = h('div', {class: 'plot-place'}, drawing.element), up = h('p', {class: 'axis-title'}), across = h('p', {class: 'axis-title across'});
+  let cost = costs[0];
+  function draw() {
+    const points = pointsAt(settings, cost);
+    const x = logAxis('x', points.flatMap((p) => [p.x, p.xLow, p.xHigh]), cost.kind).signals, y = logAxis('y', [...points.flatMap((p) => [p.y, p.low, p.high]), goal].filter((v) => v > 0), 'error').signals;
+    const firsts = new Set(techniques.map((t) => frontOf(points.filter((p) => p.technique === t)).at(-1)));
+    const drawn = points.map((p, key) => {
+      const {colour, shape} = lookOf(series.get(p.technique));
+      return {key, technique: p.technique, x: p.x, low: p.xLow, high: p.xHigh, y: p.y, yLow: p.low || p.y, yHigh: p.high || p.y, colour, shape, chosen: false,
+        fill: p.confirmed ? colour : drawing.colour('panel'), size: p.confirmed ? 150 : 45, labelled: firsts.has(p) || p.confirmed,
+        tip: `${p.name}\n${cost.text}: ${write(cost.kind, p.x)}\nerror: ${significant(p.y)}${p.confirmed ? `, 95 %: ${significant(p.low)} to ${significant(p.high)}` : ', measured once'}`};
+    });
+    const labelled = (width, height) => {
+      const at = (p) => ({x: width * logPlace('x', x, p.x), y: height * (1 - logPlace('y', y, p.y))});
+      const named = drawn.filter((p) => p.labelled);
+      const marks = drawn.filter((p) => !p.labelled).map((p) => ({...at(p), radius: 5, texts: ['']}));
+      const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, points: [...named.map((p) => ({...at(p), radius: 8, texts: [p.technique, ''], first: true})), ...marks]});
+      const labels = new Map(named.map((p, i) => [p.key, placed[i]]));
+      return drawn.map((p) => ({...p, label: labels.get(p.key)?.text ?? '', dx: labels.get(p.key)?.dx ?? 0, dy: labels.get(p.key)?.dy ?? 0}));
+    };
+    setText(up, `↑ error, ${recommendation.measure}`);
+    setText(across, `${cost.text} →`);
+    const lines = ownFronts(points).map((p) => ({...p, colour: lookOf(series.get(p.technique)).colour}));
+    drawing.update({
+      signals: {...x, ...y}, data: (width, height) => ({points: labelled(width, height), front: [], band: [], lines, levels: [{y: goal, dash: [6, 3]}]}),
+      description: `${points.length} settings of ${techniques.length} techniques: ${cost.text} against error, log axes; the error asked for is ${significant(goal)}.`,
+    });
+  }
+  draw();
+  return h('section', {class: 'panel', id: 'explored', 'aria-labelledby': 'explored-title'},
+    h('div', {class: 'panel-head'}, h('h2', {id: 'explored-title'}, 'What was measured'),
+      h('div', {class: 'choices'}, choice('Cost', costs.map((c) => ({value: c.id, text: c.text})), cost.id, (id) => { cost = costs.find((c) => c.id === id); draw(); }),
+        saveButtons(place, () => `${name}.explored`, () => ({title: `${name}: settings measured`, up: up.textContent, across: across.textContent})))),
+    up, place, across,
+    h('p', {class: 'levels'}, levelSample([6, 3]), ` the error asked for: ${significant(goal)}`),
+    h('p', {class: 'note'}, 'Full marks are confirmed, with 95 % intervals; open ones were measured once. Lines join the settings of a technique that no other of its own beats.'));
+}

@@ -1,0 +1,36 @@
+// What a recommendation measured: every setting, and which are confirmed.
+import {frontOf} from './model.js';
+
+export const costs = [{id: 'lookup_ns', text: 'one lookup', kind: 'ns'}, {id: 'bytes', text: 'bytes of the map', kind: 'bytes'}, {id: 'build_ms', text: 'build', kind: 'ms'}];
+
+function nameOf(family, step) {
+  const settings = family.axes.map((axis, i) => [axis, axis.values[step[i]]]).filter(([axis]) => axis.values.length > 1).map(([axis, value]) => `${axis.name}=${value}`);
+  return `${family.name}${settings.length ? `, ${settings.join(' ')}` : ''}`;
+}
+
+// The settings that work: {technique, name, error, low, high, confirmed, mapless, costs: {id: {value, low, high}}}.
+export function settingsOf({families, measured, confirmed}) {
+  const key = (point) => `${point.family}:${point.step}`;
+  const surely = new Map(confirmed.map((one) => [key(one), one]));
+  return measured.flatMap((one) => {
+    const family = families[one.family], found = surely.get(key(one));
+    if (one.failed || found?.failed || !Number.isFinite(one.error)) return [];
+    const [low, high] = found ? found.error.interval95 : [one.error, one.error];
+    const sample = (id) => (found ? {value: found[id].median, low: found[id].interval95[0], high: found[id].interval95[1]} : {value: one[id], low: one[id], high: one[id]});
+    return [{technique: family.technique, name: nameOf(family, one.step), confirmed: Boolean(found), mapless: family.mapless,
+      error: found ? found.error.mean : one.error, low, high, costs: Object.fromEntries(costs.map(({id}) => [id, sample(id)]))}];
+  });
+}
+
+// What can be drawn for a cost: techniques without a map have no bytes and no build.
+export function pointsAt(settings, cost) {
+  return settings.filter((s) => s.costs[cost.id].value > 0 && s.error > 0 && !(s.mapless && cost.id !== 'lookup_ns'))
+    .map((s) => ({...s, x: s.costs[cost.id].value, xLow: s.costs[cost.id].low, xHigh: s.costs[cost.id].high, y: s.error}));
+}
+
+// The settings of each technique that no other of its own beats.
+export function ownFronts(points) {
+  const own = new Map();
+  for (const p of points) own.set(p.technique, [...own.get(p.technique) ?? [], p]);
+  return [...own].flatMap(([technique, some]) => (some.length > 1 ? frontOf(some).map((p, order) => ({technique, x: p.x, y: p.y, order})) : []));
+}
