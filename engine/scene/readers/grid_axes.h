@@ -25,11 +25,6 @@ std::string text_of(const GridAxes& axes);
 // of short values of pi.
 std::optional<GridAxes> find_axes(const std::array<Vec3d, 3>& steps, const Vec3i& size);
 
-// What is wrong with such a grid.
-inline constexpr const char* skewed_grid =
-    "the grid's transform shears it or turns it by other than right angles, where only axes that are swapped or "
-    "mirrored are read: resample it to the world's axes in the program that wrote it";
-
 // The size along the world's axes.
 Vec3i turned(const Vec3i& size, const GridAxes& axes);
 
