@@ -71,6 +71,11 @@ using GridChoice = std::variant<std::monostate, std::string, int>;
 GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, Negative negative = Negative::clamp,
                     std::uint64_t most_voxels = max_voxels);
 
+// The same of a NanoVDB file (.nvdb): grids of float, double, Fp4, Fp8, Fp16 or FpN, packed by ZIP, BLOSC or not at
+// all.
+GridVolume read_nanovdb(const std::filesystem::path& file, const GridChoice& grid, Negative negative = Negative::clamp,
+                        std::uint64_t most_voxels = max_voxels);
+
 // Chooses the samples of a deep EXR.
 struct DeepChoice {
     // The channels "<layer>.A", "<layer>.Z", ...; "": those without a layer. Absent: those without a layer or, if there

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -82,14 +83,7 @@ void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& bo
         return;
     }
     const openvdb::Coord size = box.dim();
-    const std::array<std::ptrdiff_t, 3> strides{1, volume.size.x, std::ptrdiff_t{volume.size.x} * volume.size.y};
-    std::array<std::ptrdiff_t, 3> step{};
-    std::ptrdiff_t first = 0;  // where the voxel at the box's lower corner goes
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::ptrdiff_t stride = strides[static_cast<std::size_t>(axes.to[i])];
-        step[i] = axes.mirrored[i] ? -stride : stride;
-        if (axes.mirrored[i]) first += stride * (size[static_cast<int>(i)] - 1);
-    }
+    const auto [first, step] = turned_steps(Vec3i(size.x(), size.y(), size.z()), axes);
     constexpr int thick = 8;  // voxels, the thickness of a leaf
     std::vector<float> slab;
     for (int z = 0; z < size.z(); z += thick) {
@@ -107,51 +101,25 @@ void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& bo
     }
 }
 
-void check_values(GridVolume& volume, Negative negative, const std::filesystem::path& file) {
-    for (const float density : volume.density) {
-        if (!(std::abs(density) <= static_cast<float>(max_coordinate)))
-            fail(file, fmt::format("the grid has the density {}, which is not a finite number of at most {}", density,
-                                   max_coordinate));
-        if (density < 0.0f && negative == Negative::refuse) fail(file, negative_refused(density));
-    }
-    clamp_negatives(volume.density, volume.notes);
-}
-
-void convert(const openvdb::FloatGrid& grid, Negative negative, std::uint64_t most_voxels,
+void convert(openvdb::FloatGrid::Ptr grid, Negative negative, std::uint64_t most_voxels,
              const std::filesystem::path& file, GridVolume& volume, VdbFacts& facts) {
-    const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+    const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
     if (box.empty()) fail(file, "the grid has no active voxels");
     const double voxels = check_box(box, most_voxels, file);
     const openvdb::Coord size = box.dim();
-    const GridPlace place = place_of(grid.transform(), box.min(), file);
+    const GridPlace place = place_of(grid->transform(), box.min(), file);
     const std::optional<GridAxes> found = find_axes(place.steps, Vec3i(size.x(), size.y(), size.z()));
     const GridAxes axes = found.value_or(GridAxes());
-    facts.active = grid.activeVoxelCount();
+    facts.active = grid->activeVoxelCount();
     if (!axes.as_they_are()) facts.axes = text_of(axes);
 
     for (std::size_t i = 0; i < 3; ++i) volume.size[axes.to[i]] = size[static_cast<int>(i)];
     volume.density.resize(static_cast<std::size_t>(voxels));
-    copy_densities(grid, box, axes, volume);
-    check_values(volume, negative, file);
+    copy_densities(*grid, box, axes, volume);
+    grid.reset();  // its memory may be needed for what follows
+    check_densities(volume, negative, file);
     if (const std::optional<std::string> fault = place_grid(volume, found, place, most_voxels))
         fail(file, *fault + ": mend its transform");
-}
-
-void note_choice(const VdbGrid& grid, const openvdb::FloatGrid& source, GridVolume& volume) {
-    constexpr std::size_t most_names = 8;
-    const std::size_t others = grid.passed_over.size(), named = std::min(others, most_names);
-    if (others > 0)
-        volume.notes.lines.push_back(fmt::format(
-            "the grid \"{}\" is read and {} passed over: {}{}", shown(grid), others,
-            fmt::join(grid.passed_over.begin(), grid.passed_over.begin() + static_cast<std::ptrdiff_t>(named), ", "),
-            named < others ? ", ..." : ""));
-    else if (grid.name != usual_grid)
-        volume.notes.lines.push_back(fmt::format("the grid \"{}\" is read, the only one", shown(grid)));
-    if (source.background() > 0.0f)
-        volume.notes.lines.push_back(
-            fmt::format("the grid's background is {}, but outside the box of its active voxels "
-                        "there is no density",
-                        source.background()));
 }
 
 }  // namespace
@@ -173,10 +141,10 @@ GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, N
         fail(file, "the file is empty");
     try {
         const VdbGrid chosen = check_vdb(file, grid);
-        const openvdb::FloatGrid::Ptr source = read_grid(file, chosen);
+        openvdb::FloatGrid::Ptr source = read_grid(file, chosen);
         GridVolume volume;
-        note_choice(chosen, *source, volume);
-        convert(*source, negative, most_voxels, file, volume, facts);
+        note_grid(chosen, chosen.passed_over, source->background(), volume.notes);
+        convert(std::move(source), negative, most_voxels, file, volume, facts);
         facts.grid = shown(chosen);
         return volume;
     } catch (const Error&) {
