@@ -37,8 +37,8 @@ void add_inspect(CLI::App& app, Commands& commands) {
                          "checked and described.\n") +
                  data_formats);
     add_data_options(*inspect, *arguments, "Data files, or .dsm files");
-    commands.push_back({inspect, [arguments](std::ostream& out, std::ostream&) {
-                            inspect_command(*arguments, out);
+    commands.push_back({inspect, [arguments](std::ostream& out, std::ostream& err) {
+                            inspect_command(*arguments, out, err);
                             return 0;
                         }});
 }
@@ -61,8 +61,8 @@ void add_new(CLI::App& app, Commands& commands) {
     made->add_option("--up", arguments->up, "The axis that points up: y or z")
         ->check(CLI::IsMember({"y", "z"}))
         ->capture_default_str();
-    commands.push_back({made, [arguments](std::ostream& out, std::ostream&) {
-                            new_command(*arguments, out);
+    commands.push_back({made, [arguments](std::ostream& out, std::ostream& err) {
+                            new_command(*arguments, out, err);
                             return 0;
                         }});
 }
