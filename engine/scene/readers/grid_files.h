@@ -49,8 +49,8 @@ GridFile read_metaimage(const std::filesystem::path& file, Negative negative = N
 GridFile read_mitsuba_volume(const std::filesystem::path& file, Negative negative = Negative::clamp,
                              std::uint64_t most_voxels = max_voxels);
 
-// The slices of VolVis (.slc): voxels of 8 bits, packed in runs or not. The box begins at the origin, and a voxel's edges
-// are the spacing of the file.
+// The slices of VolVis (.slc): voxels of 8 bits, packed in runs or not. The box begins at the origin, and a voxel's
+// edges are the spacing of the file.
 GridFile read_slc(const std::filesystem::path& file, std::uint64_t most_voxels = max_voxels);
 
 }  // namespace shadowbench::scene
