@@ -29,10 +29,11 @@ results::SweepCell CellRunner::measure(const results::CellPlace& place, const Pr
     results::SweepCell cell{place, results::this_node(), runs_.describe()};
     if (loaded_ != place.variant) {
         loaded_.reset();
-        scenario_ = &runs_.load(place.variant);
+        scenario_ = &runs_.load(place.variant, progress);
         loaded_ = place.variant;
     }
     add_notes(*scenario_, cell.result.notes);
+    add_files(runs_.variants()[place.variant], scenario_->scene, cell.result.files);
     results::VariantResult& variant = cell.result.variants.emplace_back();
     variant.settings = runs_.variants()[place.variant].settings;
     variant.lights.push_back(runs_.measure(place.light, progress));

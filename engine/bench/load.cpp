@@ -24,7 +24,7 @@ json without_scene(json document) {
 
 ScenarioLoader::ScenarioLoader(scene::SearchPath data) : data_(std::move(data)) {}
 
-const scene::Scenario& ScenarioLoader::load(const document::Variant& variant) {
+const scene::Scenario& ScenarioLoader::load(const document::Variant& variant, const scene::LoadWatch& watch) {
     const json& document = *variant.document;
     // A deep image also sets the size of the map, so it is read again; it is small.
     const bool same_scene = loaded_ && !scenario_.scene.deep_image && same_part(*loaded_, document, "scene") &&
@@ -39,7 +39,7 @@ const scene::Scenario& ScenarioLoader::load(const document::Variant& variant) {
     } else {
         loaded_ = nullptr;
         scenario_ = {};  // frees the old scene before the new one is loaded
-        scenario_ = scene::load_scenario(document, data_);
+        scenario_ = scene::load_scenario(document, data_, watch);
     }
     loaded_ = variant.document;
     return scenario_;

@@ -16,8 +16,8 @@ class ScenarioLoader {
 public:
     explicit ScenarioLoader(scene::SearchPath data);
 
-    // The reference stays valid until the next call.
-    const scene::Scenario& load(const document::Variant& variant);
+    // The reference stays valid until the next call. A scene that is shared is not watched.
+    const scene::Scenario& load(const document::Variant& variant, const scene::LoadWatch& watch = {});
 
 private:
     scene::SearchPath data_;

@@ -34,8 +34,9 @@ results::Result run(const nlohmann::json& document, const RunOptions& options, c
     VariantRuns runs(document, options);
     results::Result result = runs.describe();
     for (std::size_t v = 0; v < runs.variants().size(); ++v) {
-        const scene::Scenario& scenario = runs.load(v);
+        const scene::Scenario& scenario = runs.load(v, progress);
         add_notes(scenario, result.notes);
+        add_files(runs.variants()[v], scenario.scene, result.files);
         results::VariantResult& out = result.variants.emplace_back();
         out.settings = runs.variants()[v].settings;
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) out.lights.push_back(runs.measure(l, progress));
@@ -44,14 +45,15 @@ results::Result run(const nlohmann::json& document, const RunOptions& options, c
     return result;
 }
 
-Validated validate(const nlohmann::json& document, const RunOptions& options) {
+Validated validate(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress) {
     const base::ThreadLimit threads(options.threads);
     Validated validated;
     ScenarioLoader loader(options.data);
     for (const document::Variant& variant : variants_of(document, options.only)) {
-        const scene::Scenario& scenario = loader.load(variant);
+        const scene::Scenario& scenario = loader.load(variant, load_watch("", progress));
         const std::vector<Contender> contenders = make_contenders(scenario, variant);
         add_notes(scenario, validated.notes);
+        add_files(variant, scenario.scene, validated.files);
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
             const PreparedLight light = prepare_light(scenario, l, contenders, options.limits);
             const std::string& name = scenario.lights[l].name;

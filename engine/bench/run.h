@@ -30,13 +30,14 @@ struct Validated {
     std::size_t variants = 0, lights = 0, techniques = 0;  // lights and techniques: of the first variant
     std::vector<std::string> blind;                        // lights that certainly see no caster
     std::vector<std::string> notes;                        // of the file readers: see scene::read_notes
+    std::vector<std::string> files;                        // see scene::file_lines
     int largest_side = 0, most_samples = 0;                // of the maps: pixels; rays a pixel, including the truth's
     double least_bytes = 0.0;                              // of the variant that needs the most
     double seconds = 0.0;                                  // estimate for the whole run: see estimate.h
 };
 
 // Makes all checks that run() makes before it works: the document, its files, what its lights see, the memory limit,
-// and whether the techniques can take a deep image.
-Validated validate(const nlohmann::json& document, const RunOptions& options);
+// and whether the techniques can take a deep image. The progress is that of loading.
+Validated validate(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress = {});
 
 }  // namespace shadowbench::bench

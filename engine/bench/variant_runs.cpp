@@ -13,6 +13,7 @@
 #include "bench/light_run.h"
 #include "results/machine.h"
 #include "results/program.h"
+#include "scene/file_lines.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -24,6 +25,11 @@ std::string place_of(std::size_t variant, std::size_t variants, const scene::Sce
     return place;
 }
 
+void add_missing(std::vector<std::string> lines, std::vector<std::string>& to) {
+    for (std::string& line : lines)
+        if (std::count(to.begin(), to.end(), line) == 0) to.push_back(std::move(line));
+}
+
 }  // namespace
 
 std::vector<document::Variant> variants_of(const nlohmann::json& document, const std::vector<std::string>& only) {
@@ -33,8 +39,16 @@ std::vector<document::Variant> variants_of(const nlohmann::json& document, const
 }
 
 void add_notes(const scene::Scenario& scenario, std::vector<std::string>& notes) {
-    for (std::string& note : scene::notes(scenario))
-        if (std::count(notes.begin(), notes.end(), note) == 0) notes.push_back(std::move(note));
+    add_missing(scene::notes(scenario), notes);
+}
+
+void add_files(const document::Variant& variant, const scene::Scene& scene, std::vector<std::string>& files) {
+    add_missing(scene::file_lines(*variant.document, scene), files);
+}
+
+scene::LoadWatch load_watch(const std::string& place, const ProgressCallback& progress) {
+    if (!progress) return {};
+    return [=](std::size_t done, std::size_t total) { progress({place, "load", done, total}); };
 }
 
 VariantRuns::VariantRuns(const nlohmann::json& document, const RunOptions& options)
@@ -57,13 +71,14 @@ results::Result VariantRuns::describe() const {
     return result;
 }
 
-const scene::Scenario& VariantRuns::load(std::size_t variant) {
+const scene::Scenario& VariantRuns::load(std::size_t variant, const ProgressCallback& progress) {
     // What belongs to the old scene goes first.
     contenders_.clear();
     casters_.reset();
     seen_.clear();
     loaded_ = variant;
-    scenario_ = &loader_.load(variants_.at(variant));
+    const std::string place = variants_.size() > 1 ? fmt::format("{}/{}", variant + 1, variants_.size()) : "";
+    scenario_ = &loader_.load(variants_.at(variant), load_watch(place, progress));
     contenders_ = make_contenders(*scenario_, variants_[variant]);
     if (scenario_->scene.objects.empty()) return *scenario_;
     casters_ = std::make_unique<rays::Tracer>(scenario_->scene, true);

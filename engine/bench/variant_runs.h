@@ -25,6 +25,12 @@ std::vector<document::Variant> variants_of(const nlohmann::json& document, const
 // Adds the notes of the file readers that are not there yet: variants may share a scene.
 void add_notes(const scene::Scenario& scenario, std::vector<std::string>& notes);
 
+// The same for the lines of its data files.
+void add_files(const document::Variant& variant, const scene::Scene& scene, std::vector<std::string>& files);
+
+// Tells a progress of the objects that are loaded.
+scene::LoadWatch load_watch(const std::string& place, const ProgressCallback& progress);
+
 class VariantRuns {
 public:
     // Throws what variants_of() throws.
@@ -36,7 +42,7 @@ public:
 
     // Loads a variant in place of the one before. The reference stays valid until the next call. Throws Error:
     // bad_input, no_such_file or io.
-    const scene::Scenario& load(std::size_t variant);
+    const scene::Scenario& load(std::size_t variant, const ProgressCallback& progress);
 
     // Captures, checks and times one light of the variant that was loaded last. Throws what run_light() throws.
     results::LightResult measure(std::size_t light, const ProgressCallback& progress) const;

@@ -2,9 +2,9 @@
 
 # Each as the arguments of find_package.
 set(shadowbench_engine_packages "TBB CONFIG" "Imath CONFIG" "fmt CONFIG" ZLIB "nlohmann_json CONFIG"
-    "tinyobjloader CONFIG" "OpenImageIO CONFIG" "embree 3 CONFIG" OpenVDB)
+    "tinyobjloader CONFIG" "OpenImageIO CONFIG" "embree 3 CONFIG" OpenVDB Blosc)
 
-# Debian keeps OpenVDB's find module out of CMake's way.
+# Debian keeps the find modules of OpenVDB and Blosc out of CMake's way.
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
 
 # Call it once they are found.

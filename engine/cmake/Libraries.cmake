@@ -6,6 +6,9 @@ foreach(package IN LISTS shadowbench_engine_packages)
 endforeach()
 shadowbench_mend_engine_libraries()
 
+find_path(nanovdb_include nanovdb/NanoVDB.h REQUIRED)  # header only, in a folder that compilers search
+mark_as_advanced(nanovdb_include)
+
 find_package(PkgConfig REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(CLI11 REQUIRED CONFIG)
@@ -22,7 +25,7 @@ pkg_check_modules(prometheus REQUIRED IMPORTED_TARGET prometheus-cpp-core)
 # Headers of other projects need not pass this project's warnings.
 foreach(target IN ITEMS TBB::tbb Imath::Imath fmt::fmt nlohmann_json::nlohmann_json CLI11::CLI11
                         tinyobjloader::tinyobjloader valijson OpenImageIO::OpenImageIO embree OpenVDB::openvdb
-                        SQLite::SQLite3 spdlog::spdlog PkgConfig::httplib PkgConfig::prometheus)
+                        Blosc::blosc SQLite::SQLite3 spdlog::spdlog PkgConfig::httplib PkgConfig::prometheus)
   get_target_property(includes ${target} INTERFACE_INCLUDE_DIRECTORIES)
   if(includes)
     set_property(TARGET ${target} APPEND PROPERTY INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${includes})

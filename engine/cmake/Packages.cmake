@@ -25,7 +25,8 @@ results and builds, and serve a web page.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libshadowbench-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libopenimageio-dev, openimageio-tools, libembree-dev, libopenvdb-dev, \
-libboost-iostreams-dev, libtbb-dev, libimath-dev, libtinyobjloader-dev, zlib1g-dev, libfmt-dev, nlohmann-json3-dev")
+libblosc-dev, libboost-iostreams-dev, libtbb-dev, libimath-dev, libtinyobjloader-dev, zlib1g-dev, libfmt-dev, \
+nlohmann-json3-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
 "The engine of shadowbench as static libraries with headers, a CMake package
 (shadowbench::engine) and a file for pkg-config.")

@@ -12,6 +12,7 @@
 #include "bench/load.h"
 #include "bench/one_light.h"
 #include "bench/prepared_light.h"
+#include "bench/variant_runs.h"
 #include "rays/light_view.h"
 #include "recommend/space.h"
 
@@ -75,6 +76,7 @@ bench::Validated check(const nlohmann::json& document, const bench::RunOptions& 
     checked.variants = checked.lights = 1;
     checked.techniques = techniques.size();
     checked.notes = scene::notes(scenario);
+    bench::add_files(variants.front(), scenario.scene, checked.files);
     checked.largest_side = std::max(light.layout.width, light.layout.height);
     checked.most_samples = std::max(light.layout.samples(), scenario.reference.samples_per_pixel);
     checked.least_bytes = light.least_bytes;

@@ -10,6 +10,7 @@
 #include "recommend/trials.h"
 #include "results/machine.h"
 #include "results/program.h"
+#include "scene/file_lines.h"
 #include "scene/scene.h"
 
 namespace shadowbench::recommend {
@@ -52,6 +53,7 @@ results::Result Trials::result() const {
     result.name = document.at("name").get<std::string>();
     result.purpose = document.value("purpose", "");
     result.notes = scene::notes(*scenario_);
+    result.files = scene::file_lines(document, scenario_->scene);
     result.document = document_;
     result.hash = base::hash_text(document_);
     result.only = options_.only;

@@ -86,6 +86,11 @@ nlohmann::ordered_json exact_part(const SweepCell& cell, bool portable) {
     return light;
 }
 
+void add_missing(const std::vector<std::string>& lines, std::vector<std::string>& to) {
+    for (const std::string& line : lines)
+        if (std::count(to.begin(), to.end(), line) == 0) to.push_back(line);
+}
+
 }  // namespace
 
 Merged merge_cells(std::span<const SweepCell> cells) {
@@ -94,14 +99,15 @@ Merged merge_cells(std::span<const SweepCell> cells) {
     Result& result = merged.result;
     result.variants.clear();
     result.notes.clear();
+    result.files.clear();
     result.times.seconds = 0.0;
     bool several = false;
     for (const SweepCell& cell : cells) {
         const VariantResult& variant = cell.result.variants.at(0);
         if (result.variants.size() <= cell.place.variant) result.variants.push_back({variant.settings, {}});
         result.variants.back().lights.push_back(variant.lights.at(0));
-        for (const std::string& note : cell.result.notes)
-            if (std::count(result.notes.begin(), result.notes.end(), note) == 0) result.notes.push_back(note);
+        add_missing(cell.result.notes, result.notes);
+        add_missing(cell.result.files, result.files);
         result.times.started = std::min(result.times.started, cell.result.times.started);
         result.times.seconds += cell.result.times.seconds;
         result.times.threads = std::max(result.times.threads, cell.result.times.threads);

@@ -262,9 +262,12 @@ Result from_json(const nlohmann::json& document, const std::string& origin) {
     Result result;
     result.name = whole.at("name").text();
     if (whole.has("purpose")) result.purpose = whole.at("purpose").text();
-    if (whole.has("notes"))
-        for (std::size_t i = 0; i < whole.at("notes").array().size(); ++i)
-            result.notes.push_back(whole.at("notes").item(i).text());
+    const auto read_lines = [&](const char* key, std::vector<std::string>& lines) {
+        if (!whole.has(key)) return;
+        for (std::size_t i = 0; i < whole.at(key).array().size(); ++i) lines.push_back(whole.at(key).item(i).text());
+    };
+    read_lines("notes", result.notes);
+    read_lines("files", result.files);
     result.hash = whole.at("scenario_hash").text();
     const nlohmann::json& scenario = whole.at("scenario").object();
     result.document = scenario.dump();

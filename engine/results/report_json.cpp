@@ -217,6 +217,7 @@ nlohmann::ordered_json to_json(const Result& result) {
     for (const VariantResult& variant : result.variants) variants.push_back(to_json(variant));
     json out = {{"schema_version", result_schema_version}, {"name", result.name}, {"purpose", result.purpose}};
     if (!result.notes.empty()) out["notes"] = result.notes;
+    if (!result.files.empty()) out["files"] = result.files;
     out["scenario_hash"] = result.hash;
     out["scenario"] = json::parse(result.document);
     out["only"] = result.only;

@@ -214,6 +214,7 @@ struct RunTimes {
 struct Result {
     std::string name, purpose;
     std::vector<std::string> notes;  // of the file readers, each once: what they left out or changed
+    std::vector<std::string> files;  // the scenario's data files, a line each: see scene::file_lines
     std::string document;            // JSON text of the scenario as run
     std::string hash;                // of that text
     std::vector<std::string> only;   // ids of the techniques that the run was limited to; empty: all

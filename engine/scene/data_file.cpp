@@ -72,6 +72,12 @@ void read_vdb_file(DataFile& data) {
     data.vdb = std::move(facts);
 }
 
+void read_nanovdb_file(DataFile& data) {
+    VdbFacts facts;
+    add_object(data, read_nanovdb(data.file, data.choice.grid, Negative::clamp, max_voxels, facts));
+    data.vdb = std::move(facts);
+}
+
 void read_pvm_file(DataFile& data) {
     add_object(data, read_pvm(data.file));
 }
@@ -91,6 +97,10 @@ void read_metaimage_file(DataFile& data) {
 
 void read_mitsuba_file(DataFile& data) {
     add_grid(data, read_mitsuba_volume(data.file));
+}
+
+void read_slc_file(DataFile& data) {
+    add_grid(data, read_slc(data.file));
 }
 
 void add_without_box(DataFile& data, GridVolume volume) {
@@ -138,6 +148,7 @@ constexpr std::array formats{
     FileFormat{".tfx", "TressFX hair", "hair", nullptr, read_tressfx_file},
     FileFormat{".hair", "hair in Cem Yuksel's format", "hair", nullptr, read_hair_file},
     FileFormat{".vdb", "OpenVDB grid", "volume", nullptr, read_vdb_file},
+    FileFormat{".nvdb", "NanoVDB grid", "volume", nullptr, read_nanovdb_file},
     FileFormat{".pvm", "volume of the V3 library", "volume", nullptr, read_pvm_file},
     FileFormat{".dds", "DDS volume texture", "volume", is_dds_volume, read_dds_file},
     FileFormat{".nrrd", "NRRD volume", "volume", nullptr, read_nrrd_file},
@@ -145,6 +156,7 @@ constexpr std::array formats{
     FileFormat{".mha", "MetaImage volume", "volume", nullptr, read_metaimage_file},
     FileFormat{".mhd", "header of a MetaImage volume", "volume", nullptr, read_metaimage_file},
     FileFormat{".vol", "volume of Mitsuba", "volume", nullptr, read_mitsuba_file},
+    FileFormat{".slc", "volume of VolVis", "volume", nullptr, read_slc_file},
     FileFormat{".raw", "volume of raw values", "volume", nullptr, read_raw_file},
     FileFormat{".gz", "volume of packed raw values", "volume", nullptr, read_raw_file},
     FileFormat{".exr", "deep OpenEXR image", "deep_image", is_deep_image, read_deep_file},

@@ -17,7 +17,7 @@ namespace shadowbench::scene {
 
 // What to read of a file that holds several things.
 struct FileChoice {
-    GridChoice grid;  // of .vdb
+    GridChoice grid;  // of .vdb and .nvdb
     DeepChoice deep;  // of deep .exr
 };
 

@@ -58,9 +58,10 @@ void check_marching(const Scene& scene, const char* where, Media media, double r
                               media == Media::cells ? "fewer voxels" : "a larger step"));
 }
 
-void load_objects(const json& objects, const SearchPath& path, Scene& scene) {
+void load_objects(const json& objects, const SearchPath& path, const LoadWatch& watch, Scene& scene) {
     double bytes = 0.0;
     for (std::size_t i = 0; i < objects.size(); ++i) {
+        if (watch) watch(i, objects.size());
         const std::string where = fmt::format("/scene/objects/{}", i);
         scene.objects.push_back(load_object(objects[i], i, path, where));
         bytes += std::visit([](const auto& shape) { return bytes_of(shape); }, scene.objects.back().shape);
@@ -108,12 +109,16 @@ DeepImage load_deep_image(const json& from, const SearchPath& path) {
     return image;
 }
 
-Scene load_scene(const json& from, const SearchPath& path) {
+Scene load_scene(const json& from, const SearchPath& path, const LoadWatch& watch) {
     Scene scene;
-    if (from.contains("objects"))
-        load_objects(from["objects"], path, scene);
-    else
-        scene.deep_image = load_deep_image(from["deep_image"], path);
+    if (from.contains("objects")) {
+        load_objects(from["objects"], path, watch, scene);
+        if (watch) watch(scene.objects.size(), scene.objects.size());
+        return scene;
+    }
+    if (watch) watch(0, 1);
+    scene.deep_image = load_deep_image(from["deep_image"], path);
+    if (watch) watch(1, 1);
     return scene;
 }
 
@@ -217,7 +222,7 @@ void check_marching(const Scenario& scenario) {
                    static_cast<double>(scenario.reference.queries) * scenario.reference.samples_per_pixel);
 }
 
-Scenario load_scenario(const json& document, const SearchPath& path) {
+Scenario load_scenario(const json& document, const SearchPath& path, const LoadWatch& watch) {
     check_schema(document, scenario_schema());
     Scenario scenario;
     read(document, "name", scenario.name);
@@ -235,7 +240,7 @@ Scenario load_scenario(const json& document, const SearchPath& path) {
     if (deep && !section(document, "lights").empty()) refuse("/lights", "a deep image is its own light; remove lights");
     if (!deep && section(document, "lights").empty()) refuse("/lights", "at least one light is needed");
 
-    scenario.scene = load_scene(document["scene"], path);
+    scenario.scene = load_scene(document["scene"], path, watch);
     if (deep) {
         const DeepImage& image = *scenario.scene.deep_image;
         scenario.lights = {deep_image_light()};

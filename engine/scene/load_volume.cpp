@@ -46,7 +46,7 @@ GridChoice grid_choice(const json& from) {
     return grid->get<int>();
 }
 
-enum class VolumeKind { raw, vdb, pvm, dds, nrrd, metaimage, mitsuba };
+enum class VolumeKind { raw, vdb, nanovdb, pvm, dds, nrrd, metaimage, mitsuba, slc };
 
 // The reader of a file, by its extension. Raw values may have any other extension too.
 struct VolumeFormat {
@@ -54,10 +54,11 @@ struct VolumeFormat {
     VolumeKind kind;
 };
 constexpr std::array volume_formats{
-    VolumeFormat{".vdb", VolumeKind::vdb},       VolumeFormat{".pvm", VolumeKind::pvm},
-    VolumeFormat{".dds", VolumeKind::dds},       VolumeFormat{".nrrd", VolumeKind::nrrd},
-    VolumeFormat{".nhdr", VolumeKind::nrrd},     VolumeFormat{".mhd", VolumeKind::metaimage},
-    VolumeFormat{".mha", VolumeKind::metaimage}, VolumeFormat{".vol", VolumeKind::mitsuba},
+    VolumeFormat{".vdb", VolumeKind::vdb},       VolumeFormat{".nvdb", VolumeKind::nanovdb},
+    VolumeFormat{".pvm", VolumeKind::pvm},       VolumeFormat{".dds", VolumeKind::dds},
+    VolumeFormat{".nrrd", VolumeKind::nrrd},     VolumeFormat{".nhdr", VolumeKind::nrrd},
+    VolumeFormat{".mhd", VolumeKind::metaimage}, VolumeFormat{".mha", VolumeKind::metaimage},
+    VolumeFormat{".vol", VolumeKind::mitsuba},   VolumeFormat{".slc", VolumeKind::slc},
     VolumeFormat{".raw", VolumeKind::raw},       VolumeFormat{".gz", VolumeKind::raw}};
 
 // Refuses an unknown extension, unless the scenario says how to read raw values.
@@ -123,8 +124,12 @@ GridVolume load_file(const json& from, const std::filesystem::path& file, Volume
     switch (kind) {
         case VolumeKind::vdb:
             return read_vdb(file, grid_choice(from), negative_of(from));
+        case VolumeKind::nanovdb:
+            return read_nanovdb(file, grid_choice(from), negative_of(from));
         case VolumeKind::pvm:
             return read_pvm(file);
+        case VolumeKind::slc:
+            return read_slc(file).volume;
         case VolumeKind::dds:
             return load_dds(from, file, where);
         case VolumeKind::nrrd:
@@ -164,17 +169,18 @@ void read_step(const json& from, const std::string& where, GridVolume& volume) {
 GridVolume load_volume(const json& from, const SearchPath& path, const std::string& where) {
     const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
     const VolumeKind kind = volume_kind(from, file, where);
-    if (kind != VolumeKind::vdb)
-        refuse_keys(from, where, {"grid"}, "only .vdb files have named grids; remove this key");
+    const bool vdb = kind == VolumeKind::vdb || kind == VolumeKind::nanovdb;
+    if (!vdb) refuse_keys(from, where, {"grid"}, "only .vdb and .nvdb files have named grids; remove this key");
     if (kind != VolumeKind::dds)
         refuse_keys(from, where, {"channel"}, "only .dds files have channels; remove this key");
     if (kind != VolumeKind::raw)
         refuse_keys(from, where, {"format", "size", "byte_order", "skip", "spacing"},
                     fmt::format("a {} file has its own; remove this key", file.extension().string()));
-    if (kind == VolumeKind::vdb)
-        refuse_keys(from, where, {"lower", "upper"}, "a .vdb file has its own; remove this key");
+    if (vdb)
+        refuse_keys(from, where, {"lower", "upper"},
+                    fmt::format("a {} file has its own; remove this key", file.extension().string()));
     GridVolume volume = load_file(from, file, kind, where);
-    if (kind != VolumeKind::vdb) read_box(from, where, volume.lower, volume.upper);
+    if (!vdb) read_box(from, where, volume.lower, volume.upper);
     return volume;
 }
 

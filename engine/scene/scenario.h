@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -41,9 +42,13 @@ std::vector<base::Error> schema_faults(const nlohmann::json& document, const nlo
 // Throws the first of these faults.
 void check_schema(const nlohmann::json& document, const nlohmann::json& schema);
 
+// Called before each object of a scene, or its deep image, is loaded, and after the last: how many are, and of how
+// many. An exception from it ends the loading.
+using LoadWatch = std::function<void(std::size_t done, std::size_t total)>;
+
 // Checks the document against the schema, reads its files, makes its procedural objects and returns the values. Throws
 // Error: bad_input (pointer), no_such_file, io. An empty scene, or one whose files hold nothing, is bad input.
-Scenario load_scenario(const nlohmann::json& document, const SearchPath& path);
+Scenario load_scenario(const nlohmann::json& document, const SearchPath& path, const LoadWatch& watch = {});
 
 // The names of the lights with maps that load_scenario makes from a valid document.
 std::vector<std::string> light_names(const nlohmann::json& document);

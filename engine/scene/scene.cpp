@@ -135,12 +135,17 @@ double voxel_width(const GridVolume& volume) {
     return least;
 }
 
+Box3d bounds(const Object& object) {
+    Box3d box;
+    std::visit([&](const auto& shape) { extend(box, shape); }, object.shape);
+    return box;
+}
+
 Box3d bounds(const Scene& scene, bool casters_only) {
     Box3d box;
     for (const Object& object : scene.objects) {
         if (casters_only && !object.casts_shadow) continue;
-        Box3d still;
-        std::visit([&](const auto& shape) { extend(still, shape); }, object.shape);
+        const Box3d still = bounds(object);
         if (still.isEmpty()) continue;
         box.extendBy(still);
         box.extendBy(Box3d(still.min + wide(object.motion), still.max + wide(object.motion)));

@@ -203,7 +203,7 @@ struct Timing {
     int most_repetitions = 31;  // equal: their number is fixed
     double goal = 0.05;         // half width of a 95 % interval over the median, at which it is narrow enough
     double seconds = 20.0;      // for all repetitions of a light beyond the least ones
-    int lookups = 65536;  // receivers looked up in one timed pass, at most
+    int lookups = 65536;        // receivers looked up in one timed pass, at most
 };
 
 // One technique with its parameters as written; the technique itself reads them.
@@ -226,6 +226,9 @@ struct Scenario {
 };
 
 constexpr double mid_shutter = 0.5;  // the time at which cameras see the scene
+
+// World bounds of an object without its motion.
+Box3d bounds(const Object& object);
 
 // World bounds of the objects that cast shadows (or of all objects) over their whole motion; empty if there are none.
 Box3d bounds(const Scene& scene, bool casters_only);

@@ -21,12 +21,13 @@ struct NewArguments : FileArguments {
     std::string up = "y";  // or z
 };
 
-scene::DataFile read_data(const FileArguments& arguments, const std::string& file);
+// Shows progress on `err`.
+scene::DataFile read_data(const FileArguments& arguments, const std::string& file, std::ostream& err);
 
 // Describes each file, also tiled deep shadow maps.
-void inspect_command(const FileArguments& arguments, std::ostream& out);
+void inspect_command(const FileArguments& arguments, std::ostream& out, std::ostream& err);
 
 // Writes a scenario around the files.
-void new_command(const NewArguments& arguments, std::ostream& out);
+void new_command(const NewArguments& arguments, std::ostream& out, std::ostream& err);
 
 }  // namespace shadowbench::service

@@ -88,9 +88,10 @@ std::string describe(const DeepFile& file, const std::string& name) {
     return text;
 }
 
-void inspect_command(const FileArguments& arguments, std::ostream& out) {
+void inspect_command(const FileArguments& arguments, std::ostream& out, std::ostream& err) {
     for (const std::string& file : arguments.files)
-        out << (is_deep_map(file) ? describe(DeepFile(file), file) : describe_data(read_data(arguments, file), file));
+        out << (is_deep_map(file) ? describe(DeepFile(file), file)
+                                  : describe_data(read_data(arguments, file, err), file));
 }
 
 }  // namespace shadowbench::service

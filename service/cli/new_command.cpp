@@ -16,6 +16,7 @@
 #include "scene/new_scenario.h"
 #include "service/api/new_files.h"
 #include "service/cli/file_commands.h"
+#include "service/cli/progress_bar.h"
 
 namespace shadowbench::service {
 namespace {
@@ -48,20 +49,22 @@ void check_out(const std::string& out, const std::string& file) {
 
 }  // namespace
 
-scene::DataFile read_data(const FileArguments& arguments, const std::string& file) {
+scene::DataFile read_data(const FileArguments& arguments, const std::string& file, std::ostream& err) {
     scene::FileChoice choice;
     choice.grid = name_or_number(arguments.grid);
     choice.deep.part = name_or_number(arguments.part);
     if (!arguments.layer.empty()) choice.deep.layer = arguments.layer;
+    ProgressBar bar(err);
+    bar.show({std::filesystem::path(file).filename().string(), "read", 0, 0});
     return scene::read_data_file(file, choice);
 }
 
-void new_command(const NewArguments& arguments, std::ostream& out) {
+void new_command(const NewArguments& arguments, std::ostream& out, std::ostream& err) {
     std::vector<scene::DataFile> files;
     std::vector<std::string> names;
     for (const std::string& file : arguments.files) {
         check_out(arguments.out, file);
-        files.push_back(read_data(arguments, file));
+        files.push_back(read_data(arguments, file, err));
         names.push_back(name_from(file, arguments.out));
     }
     const scene::UpAxis up = arguments.up == "z" ? scene::UpAxis::z : scene::UpAxis::y;

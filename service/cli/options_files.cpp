@@ -11,14 +11,16 @@ namespace shadowbench::service {
 namespace {
 
 constexpr const char* data_formats =
-    "Data files are meshes (.obj, .ply, .stl, .gltf, .glb), hair (.tfx, .hair), volumes (.vdb, .nrrd, .nhdr, .mhd, "
-    ".mha, .vol, .pvm, .dds, .raw, .gz), deep images (.exr), and images as alpha textures (.png, .jpg, .tif, .tga, "
-    ".dds, .exr). Raw values, which gzip may have packed (.gz), form a cube of uint8 or float32, or have their size "
+    "Data files are meshes (.obj, .ply, .stl, .gltf, .glb), hair (.tfx, .hair), volumes (.vdb, .nvdb, .nrrd, "
+    ".nhdr, .mhd, .mha, .vol, .slc, .pvm, .dds, .raw, .gz), deep images (.exr), and images as alpha textures (.png, "
+    ".jpg, .tif, .tga, .dds, .exr). Raw values, which gzip may have packed (.gz), form a cube of uint8 or float32, or "
+    "have their size "
     "and type in the name of the file, as in ball_32x32x24_int16.raw.";
 
 void add_data_options(CLI::App& command, FileArguments& arguments, const char* files) {
     command.add_option("FILE", arguments.files, files)->required();
-    command.add_option("--grid", arguments.grid, "The grid to read from .vdb files: its name, or its number, from 0");
+    command.add_option("--grid", arguments.grid,
+                       "The grid to read from .vdb and .nvdb files: its name or number, from 0");
     command.add_option("--part", arguments.part, "The part to read from deep images: its name, or its number, from 0");
     command.add_option("--layer", arguments.layer, "The layer to read from deep images");
 }
@@ -35,8 +37,8 @@ void add_inspect(CLI::App& app, Commands& commands) {
                          "checked and described.\n") +
                  data_formats);
     add_data_options(*inspect, *arguments, "Data files, or .dsm files");
-    commands.push_back({inspect, [arguments](std::ostream& out, std::ostream&) {
-                            inspect_command(*arguments, out);
+    commands.push_back({inspect, [arguments](std::ostream& out, std::ostream& err) {
+                            inspect_command(*arguments, out, err);
                             return 0;
                         }});
 }
@@ -59,8 +61,8 @@ void add_new(CLI::App& app, Commands& commands) {
     made->add_option("--up", arguments->up, "The axis that points up: y or z")
         ->check(CLI::IsMember({"y", "z"}))
         ->capture_default_str();
-    commands.push_back({made, [arguments](std::ostream& out, std::ostream&) {
-                            new_command(*arguments, out);
+    commands.push_back({made, [arguments](std::ostream& out, std::ostream& err) {
+                            new_command(*arguments, out, err);
                             return 0;
                         }});
 }

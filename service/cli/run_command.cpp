@@ -87,7 +87,9 @@ results::Result run_one(const Planned& planned, const std::string& place, std::o
 // Validates a document. Writes all its faults but the last to `err` and throws that one.
 bench::Validated check(const Job& job, std::ostream& err) {
     try {
-        return bench::validate(*job.document, job.options);
+        ProgressBar bar(err);
+        return bench::validate(*job.document, job.options,
+                               [&](const bench::Progress& progress) { bar.show(progress); });
     } catch (const base::Error& error) {
         if (error.code() != base::ErrorCode::bad_input) throw;
         const std::vector<base::Error> faults = document::all_faults(*job.document, error);
@@ -146,6 +148,7 @@ void validate_command(const ScenarioArguments& arguments, std::ostream& out, std
     out << fmt::format("OK {}: {} variant{} of {} light{} and {} technique{}\n", validated.name, validated.variants,
                        validated.variants == 1 ? "" : "s", validated.lights, validated.lights == 1 ? "" : "s",
                        validated.techniques, validated.techniques == 1 ? "" : "s");
+    for (const std::string& file : validated.files) out << "file: " << file << "\n";
     for (const std::string& note : validated.notes) out << "note: " << note << "\n";
     for (const std::string& light : validated.blind)
         out << fmt::format(

@@ -23,6 +23,8 @@ JobFraction::JobFraction(std::size_t lights, std::size_t pictured)
       measured_share_(pictured > 0 ? measured_of_both : 1.0) {}
 
 double JobFraction::Part::done(const bench::Progress& progress) {
+    const auto named = [&](const Stage& stage) { return std::string_view(stage.name) == progress.stage; };
+    if (std::none_of(stages.begin(), stages.end(), named)) return 0.0;  // such as loading, which is for no light
     // The place names the light; it is empty if there is only one.
     if (begun && progress.place != place) light = std::min(light + 1, lights - 1);
     begun = true;
@@ -31,11 +33,11 @@ double JobFraction::Part::done(const bench::Progress& progress) {
     for (const Stage& stage : stages) {
         const double within = static_cast<double>(progress.done) /
                               static_cast<double>(std::max<std::size_t>({progress.total, progress.done, 1}));
-        if (std::string_view(stage.name) == progress.stage)
+        if (named(stage))
             return (static_cast<double>(light) + before + stage.share * within) / static_cast<double>(lights);
         before += stage.share;
     }
-    return 0.0;  // an unknown stage
+    return 0.0;
 }
 
 double JobFraction::measuring(const bench::Progress& progress) {

@@ -280,6 +280,21 @@ TEST(Run, refuses_a_technique_that_a_deep_image_cannot_serve) {
     test::error_of([&] { run(document, options, {}); }, ErrorCode::bad_input, "/techniques/1");
 }
 
+TEST(Run, tells_which_objects_are_loaded) {
+    json document = two_layers();
+    document["sweeps"] = {{"/scene/objects/1/opacity", {0.5, 0.25}}};
+    std::vector<std::string> told;
+    const auto note = [&](const Progress& progress) {
+        if (std::string(progress.stage) == "load")
+            told.push_back(progress.place + " " + std::to_string(progress.done) + "/" + std::to_string(progress.total));
+    };
+    run(document, {}, note);
+    EXPECT_EQ(told, (std::vector<std::string>{"1/2 0/2", "1/2 1/2", "1/2 2/2", "2/2 0/2", "2/2 1/2", "2/2 2/2"}));
+    told.clear();
+    validate(document, {}, note);
+    EXPECT_EQ(told.size(), 6u);
+}
+
 TEST(ScenarioLoader, reads_files_once_for_variants_of_one_scene) {
     const TemporaryFolder folder;
     const std::string file = folder.path("loader.obj");
@@ -346,6 +361,9 @@ TEST(Run, says_what_the_readers_of_files_left_out) {
         result.notes[0],
         "/scene/objects/0: passed over: lines of the unknown keyword \"V\" (1), faces of fewer than 3 corners (1)");
     EXPECT_EQ(result.notes, validate(document, options).notes);
+    ASSERT_EQ(result.files.size(), 1u) << "both variants have the same";
+    EXPECT_EQ(result.files[0], "/scene/objects/0/file: a.obj: 4 vertices, 2 triangles; box [0, 1, -1] to [1, 1, 0]");
+    EXPECT_EQ(result.files, validate(document, options).files);
     EXPECT_NE(to_table(result).find("  note: " + result.notes[0] + "\n"), std::string::npos);
     EXPECT_EQ(results::from_json(json::parse(to_json(result).dump()), "").notes, result.notes);
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 namespace shadowbench::service {
@@ -38,6 +39,16 @@ TEST(JobFractions, NeverFall) {
     EXPECT_EQ(fraction.measuring({"", "capture", 1, 4}), checked);
     EXPECT_EQ(fraction.measuring({"", "a stage that is unknown", 1, 4}), checked);
     EXPECT_GT(fraction.measuring({"", "timing builds", 1, 4}), checked);
+}
+
+// Variants are loaded under places without a light. Each would count as a light that is done.
+TEST(JobFractions, DoNotTakeLoadingForALight) {
+    JobFraction with(4, 0), without(4, 0);
+    for (const char* place : {"1/2 key", "1/2 rim", "2/2 key", "2/2 rim"}) {
+        EXPECT_EQ(with.measuring({std::string(place).substr(0, 3), "load", 1, 1}),
+                  without.measuring({place, "a stage that is unknown", 1, 1}));
+        EXPECT_EQ(with.measuring({place, "timing lookups", 2, 4}), without.measuring({place, "timing lookups", 2, 4}));
+    }
 }
 
 TEST(JobFractions, StayInRangeWhateverIsCounted) {

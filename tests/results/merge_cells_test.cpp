@@ -109,6 +109,8 @@ TEST(MergeCells, JoinsThemInTheOrderOfARun) {
     std::vector<SweepCell> cells{made(0, 0), made(0, 1), made(1, 0), made(1, 1)};
     cells[0].result.notes = {"a"};
     cells[2].result.notes = {"a", "b"};
+    cells[1].result.files = {"f"};
+    cells[3].result.files = {"f", "g"};
     cells[3].result.times = {"2026-11-30T02:00:00Z", 5.0, 2};
     const Merged merged = merge_cells(cells);
     const Result& result = merged.result;
@@ -119,6 +121,7 @@ TEST(MergeCells, JoinsThemInTheOrderOfARun) {
         EXPECT_EQ(result.variants[v].lights[1].name, "fill");
     }
     EXPECT_EQ(result.notes, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(result.files, (std::vector<std::string>{"f", "g"}));
     EXPECT_EQ(result.times.started, "2026-11-30T02:00:00Z");
     EXPECT_EQ(result.times.seconds, 11.0);
     EXPECT_EQ(result.machine.cpu, "A");

@@ -146,14 +146,17 @@ TEST(ResultTable, shows_the_interval_of_the_rms_and_what_it_covers) {
     EXPECT_NE(to_csv(result).find(",0.24,0.26,truth,"), std::string::npos) << to_csv(result);
 }
 
-TEST(ResultJson, has_notes_of_the_file_readers_only_if_there_are_some) {
+TEST(ResultJson, has_notes_and_lines_of_files_only_if_there_are_some) {
     Result result = small_result();
     EXPECT_FALSE(to_json(result).contains("notes"));
+    EXPECT_FALSE(to_json(result).contains("files"));
+    result.files = {"/scene/objects/0/file: a.obj: 3 vertices, 1 triangles"};
     result.notes = {"/scene/objects/0: passed over: lines (2)", "/scene/objects/1: \"b\""};
     const nlohmann::ordered_json written = to_json(result);
     EXPECT_EQ(written["notes"], result.notes);
     const Result read = from_json(nlohmann::json::parse(written.dump()), "");
     EXPECT_EQ(read.notes, result.notes);
+    EXPECT_EQ(read.files, result.files);
     EXPECT_EQ(to_json(read), written);
 }
 
@@ -169,6 +172,7 @@ TEST(ResultJson, of_the_wrong_form_is_refused_at_its_place) {
     refused("/variants", "none", "/variants");
     refused("/schema_version", 2, "/schema_version");
     refused("/notes", {"one", 2}, "/notes/1");
+    refused("/files", {3}, "/files/0");
     refused("/variants/0/lights/0/cells/0/on_bytes_error_front", "maybe", light + "/cells/0/on_bytes_error_front");
     refused("/variants/0/lights/0/cells/0/lookup_error/rms_interval95", {1.0},
             light + "/cells/0/lookup_error/rms_interval95");

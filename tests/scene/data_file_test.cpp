@@ -58,11 +58,11 @@ TEST(DataFile, TheTableHasTheExtensionsThatLoadersName) {
 }
 
 TEST(DataFile, NamesWhatIsReadInsteadOfAnUnknownExtension) {
-    const auto file = test::write_file("a.slc", "11111\n");
+    const auto file = test::write_file("a.abc", "11111\n");
     const base::Error error = error_of([&] { read_data_file(file, {}); });
     EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
     EXPECT_EQ(error.where(), file.string());
-    for (const char* known : {".obj", ".vdb", ".exr", ".slc is not read"})
+    for (const char* known : {".obj", ".vdb", ".exr", ".slc", ".abc is not read"})
         EXPECT_THAT(error.message(), HasSubstr(known));
     EXPECT_EQ(error_of([&] { read_data_file(file.parent_path() / "gone.obj", {}); }).code(),
               base::ErrorCode::no_such_file);
@@ -194,6 +194,12 @@ TEST(DataFile, GridsAreDescribedWithTheirAxesAndActiveVoxels) {
                 AllOf(HasSubstr("16 x 16 x 16 voxels, 4096 in all, 4096 above 0; edges [1, 1, 1]\n"),
                       HasSubstr("density 0.5\n"), HasSubstr("grid \"(no name)\", 4096 active voxels\n"),
                       HasSubstr("note: the grid \"(no name)\" is read, the only one\n")));
+    EXPECT_THAT(described(case_file("ramp.nvdb")),
+                AllOf(HasSubstr("ramp.nvdb: NanoVDB grid, 964 B\n"), HasSubstr("edges [1, 2, 0.5]\n"),
+                      HasSubstr("grid \"density\", 64 active voxels\n")));
+    EXPECT_THAT(described(case_file("ramp.slc")),
+                AllOf(HasSubstr("ramp.slc: volume of VolVis, "), HasSubstr("edges [1, 2, 0.5]\n"),
+                      HasSubstr("  values of uint8, packed, divided by 255\n")));
     EXPECT_THAT(described(case_file("rot90.vdb")), HasSubstr("; its axes run along x, z, -y\n"));
     EXPECT_THAT(described(case_file("yzswap.vdb")), HasSubstr("; its axes run along x, z, y\n"));
     EXPECT_THAT(described(case_file("nonuniform.vdb")),

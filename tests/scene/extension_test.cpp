@@ -87,13 +87,13 @@ TEST(Extensions, OfVolumesAndTexturesMayHaveAnyCase) {
 
 // It used to be read as raw values whatever it was, so the message asked for their format.
 TEST(Extensions, OfVolumesThatAreUnknownAreNamed) {
-    const fs::path file = test::write_file("a.slc", "11111\n");
+    const fs::path file = test::write_file("a.abc", "11111\n");
     for (const char* keys : {"", R"(, "grid": 0)", R"(, "channel": "red")", R"(, "lower": [0, 0, 0])"}) {
         const base::Error error = error_of([&] { load("volume", file, keys); });
         EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
         EXPECT_EQ(error.where(), "/scene/objects/0/file");
-        EXPECT_THAT(error.message(), HasSubstr("must end in .vdb, .pvm, .dds, .nrrd, .nhdr, .mhd, .mha, .vol, .raw or "
-                                               ".gz; .slc is not read"));
+        EXPECT_THAT(error.message(), HasSubstr("must end in .vdb, .nvdb, .pvm, .dds, .nrrd, .nhdr, .mhd, .mha, .vol, "
+                                               ".slc, .raw or .gz; .abc is not read"));
         EXPECT_THAT(error.message(), HasSubstr(R"("format", "size", and "spacing" or "lower" and "upper")"));
     }
 }

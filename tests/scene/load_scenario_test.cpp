@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include <nlohmann/json.hpp>
 
+#include "scene/file_lines.h"
 #include "scene/scenario.h"
 #include "scene/support.h"
 
@@ -338,6 +341,26 @@ TEST(LoadScenario, ADeepImageBringsItsOwnLightAndRays) {
     EXPECT_EQ(scenario.rays.resolution, Vec2i(1024, 576));
     EXPECT_EQ(scenario.rays.samples_per_pixel, 1);
     EXPECT_EQ(scenario.rays.pattern, Pattern::regular);
+}
+
+TEST(FileLines, TellsTheCountsRangeAndBoxOfEachFile) {
+    const std::filesystem::path cases = std::filesystem::path(SHADOWBENCH_SOURCE_DIR) / "tests/cases";
+    json document = minimal();
+    json& objects = document["scene"]["objects"];
+    objects.push_back({{"type", "volume"}, {"file", "ramp.nvdb"}, {"motion", {9, 9, 9}}});
+    objects.push_back({{"type", "volume"}, {"file", "tinyneg.vdb"}, {"negative", "clamp"}});
+    objects.push_back({{"type", "mesh"}, {"file", "strips.ply"}});
+    const auto lines_of = [&] { return file_lines(document, load_scenario(document, {cases}).scene); };
+    EXPECT_THAT(lines_of(),
+                testing::ElementsAre("/scene/objects/1/file: ramp.nvdb: 4 x 4 x 4 voxels, density 0 to "
+                                     "0.984375; box [0, 0, 0] to [4, 8, 2]",
+                                     "/scene/objects/2/file: tinyneg.vdb: 16 x 16 x 16 voxels, density 0 to "
+                                     "0.5; box [-0.5, -0.5, -0.5] to [15.5, 15.5, 15.5]",
+                                     HasSubstr("/scene/objects/3/file: strips.ply: ")));
+    document["scene"] = {{"deep_image", {{"file", "zback0.exr"}}}};
+    document.erase("lights");
+    EXPECT_THAT(lines_of(), testing::ElementsAre("/scene/deep_image/file: zback0.exr: 8 x 8 pixels, 64 samples, Z 3"));
+    EXPECT_TRUE(file_lines(minimal(), load_scenario(minimal(), {}).scene).empty());
 }
 
 TEST(LoadScenario, ADeepImageHasNoOtherLightsAndNoCamera) {

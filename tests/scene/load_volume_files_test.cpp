@@ -71,12 +71,15 @@ const std::string nrrd = "NRRD0001\ntype: uchar\ndimension: 3\nsizes: 2 1 1\nenc
                       "ElementDataFile = LOCAL\nab",
                   vol = "VOL\x03" + bytes_of(3, 2, 1, 1, 1, 0.0f, 0.0f, 0.0f, 2.0f, 1.0f, 4.0f) + "ab";
 
+const std::string slc = "11111 2 1 1 8 1 1 4 0 0 0 0 0 0 Xab";
+
 TEST(LoadVolumeFiles, FilesWithABoxHaveItUnlessTheScenarioGivesOne) {
     for (const auto& [name, bytes] : {std::pair{"a.nrrd", nrrd},
                                       {"A.NHDR", nrrd},
                                       {"a.mha", mha},
                                       {"a.Mhd", mha},
                                       {"a.vol", vol},
+                                      {"a.slc", slc},
                                       {"A.VOL", vol}}) {
         SCOPED_TRACE(name);
         const GridVolume own = load(name, bytes, ""),

@@ -197,11 +197,15 @@ TEST_F(Cli, a_coloured_map_comes_back_in_colour) {
     EXPECT_EQ(cli({"run", path("again.json"), "--out", path("results")}).code, 0);
 }
 
-TEST_F(Cli, validate_reports_which_lines_of_a_file_are_skipped) {
+TEST_F(Cli, validate_describes_each_file_and_what_is_skipped_of_it) {
     write("edge.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\nf 1 2\nl 1 2\nl 3 4\n");
     const Outcome outcome = cli({"validate", path("tiny.json"), "--set",
                                  R"(scene.objects=[{"type": "mesh", "name": "edge", "file": "edge.obj"}])"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("file: /scene/objects/0/file: edge.obj: 4 vertices, 2 triangles; box [-1, -1, 0] to [1, "
+                               "1, 0]\n"),
+              std::string::npos)
+        << outcome.out;
     EXPECT_NE(outcome.out.find("note: /scene/objects/0: passed over: faces of fewer than 3 corners (1), lines (2)\n"),
               std::string::npos)
         << outcome.out;

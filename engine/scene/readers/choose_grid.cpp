@@ -81,6 +81,20 @@ std::size_t choose_grid(const std::filesystem::path& file, std::span<const VdbGr
     return chosen;
 }
 
+void note_grid(const VdbGridName& grid, std::span<const std::string> passed_over, float background, ReadNotes& notes) {
+    constexpr std::size_t most_names = 8;
+    const std::size_t others = passed_over.size();
+    const auto named = passed_over.first(std::min(others, most_names));
+    if (others > 0)
+        notes.lines.push_back(fmt::format("the grid \"{}\" is read and {} passed over: {}{}", shown(grid), others,
+                                          fmt::join(named, ", "), named.size() < others ? ", ..." : ""));
+    else if (grid.name != usual_grid)
+        notes.lines.push_back(fmt::format("the grid \"{}\" is read, the only one", shown(grid)));
+    if (background > 0.0f)
+        notes.lines.push_back(fmt::format(
+            "the grid's background is {}, but outside the box of its active voxels there is no density", background));
+}
+
 // File::findDescriptor takes the first grid with the given name or, if there is none, the first with that name up to
 // its suffix. Only "name[number]" makes it look at the number too, unless a grid has exactly that name.
 std::optional<std::string> library_name(std::span<const VdbGridName> grids, std::size_t grid) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "scene/read_notes.h"
 #include "scene/readers/files.h"
 
 namespace shadowbench::scene {
@@ -29,6 +30,10 @@ std::string shown(const VdbGridName& grid);
 // of all grids if the choice fits none or several.
 std::size_t choose_grid(const std::filesystem::path& file, std::span<const VdbGridName> grids,
                         const GridChoice& choice);
+
+// Notes which grid is read, if others are passed over (as shown to people) or it has not the usual name; and a
+// background that reaches beyond the box of the active voxels, where no density is taken.
+void note_grid(const VdbGridName& grid, std::span<const std::string> passed_over, float background, ReadNotes& notes);
 
 // The name with which File::readGrid (OpenVDB 10) finds this grid and no other; nothing if no name surely does.
 std::optional<std::string> library_name(std::span<const VdbGridName> grids, std::size_t grid);

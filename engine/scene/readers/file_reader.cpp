@@ -38,6 +38,13 @@ void FileReader::need(std::uint64_t count, std::uint64_t bytes, const char* what
                                     count, bytes, what, size_));
 }
 
+std::string FileReader::text(std::uint64_t bytes, const char* what) {
+    need(bytes, 1, what);
+    std::string result(static_cast<std::size_t>(bytes), '\0');
+    read(result.data(), result.size(), what);
+    return result;
+}
+
 void FileReader::fail(std::uint64_t offset, const std::string& message) const {
     throw Error(ErrorCode::bad_input, fmt::format("{}: byte {}", file_.string(), offset), message);
 }

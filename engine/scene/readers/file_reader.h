@@ -40,6 +40,9 @@ public:
         return result;
     }
 
+    // The next `bytes` bytes.
+    std::string text(std::uint64_t bytes, const char* what);
+
     // Throws unless at least `count` items of `bytes` bytes each are left to read.
     void need(std::uint64_t count, std::uint64_t bytes, const char* what) const;
 

@@ -51,22 +51,27 @@ Vec3i turned(const Vec3i& size, const GridAxes& axes) {
     return result;
 }
 
-TurnedPlaces::TurnedPlaces(const Vec3i& size, const GridAxes& axes) : size_(size) {
+TurnedSteps turned_steps(const Vec3i& size, const GridAxes& axes) {
     const Vec3i world = turned(size, axes);
     const std::array<std::ptrdiff_t, 3> strides{1, world.x, std::ptrdiff_t{world.x} * world.y};
+    TurnedSteps steps;
     for (int i = 0; i < 3; ++i) {
         const std::ptrdiff_t stride = strides[index(axes.to[index(i)])];
-        step_[index(i)] = axes.mirrored[index(i)] ? -stride : stride;
-        if (axes.mirrored[index(i)]) place_ += stride * (size[i] - 1);
+        steps.step[index(i)] = axes.mirrored[index(i)] ? -stride : stride;
+        if (axes.mirrored[index(i)]) steps.first += stride * (size[i] - 1);
     }
+    return steps;
 }
+
+TurnedPlaces::TurnedPlaces(const Vec3i& size, const GridAxes& axes)
+    : size_(size), steps_(turned_steps(size, axes)), place_(steps_.first) {}
 
 std::size_t TurnedPlaces::next() {
     const auto place = static_cast<std::size_t>(place_);
     for (int i = 0; i < 3; ++i) {
-        place_ += step_[index(i)];
+        place_ += steps_.step[index(i)];
         if (++at_[i] < size_[i]) break;
-        place_ -= step_[index(i)] * size_[i];
+        place_ -= steps_.step[index(i)] * size_[i];
         at_[i] = 0;
     }
     return place;

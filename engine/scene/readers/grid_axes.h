@@ -25,27 +25,28 @@ std::string text_of(const GridAxes& axes);
 // of short values of pi.
 std::optional<GridAxes> find_axes(const std::array<Vec3d, 3>& steps, const Vec3i& size);
 
-// What is wrong with such a grid.
-inline constexpr const char* skewed_grid =
-    "the grid's transform shears it or turns it by other than right angles, where only axes that are swapped or "
-    "mirrored are read: resample it to the world's axes in the program that wrote it";
-
 // The size along the world's axes.
 Vec3i turned(const Vec3i& size, const GridAxes& axes);
 
-// Where the voxels of a grid, x fastest, go in one whose axes are the world's.
+// Voxel (i, j, k) of a grid goes to first + i * step[0] + j * step[1] + k * step[2] in one whose axes are the world's.
+struct TurnedSteps {
+    std::ptrdiff_t first = 0;
+    std::array<std::ptrdiff_t, 3> step{};
+};
+TurnedSteps turned_steps(const Vec3i& size, const GridAxes& axes);
+
+// The same for all voxels of a grid, x fastest, in turn.
 class TurnedPlaces {
 public:
     TurnedPlaces(const Vec3i& size, const GridAxes& axes);
 
-    // The place of each voxel in turn.
     std::size_t next();
 
 private:
     Vec3i size_;
-    std::array<std::ptrdiff_t, 3> step_{};
+    TurnedSteps steps_;
     Vec3i at_{0, 0, 0};
-    std::ptrdiff_t place_ = 0;
+    std::ptrdiff_t place_;
 };
 
 // Sets the box of a volume from the steps of its file's grid. `first` is the centre of the file's first voxel; without

@@ -1,7 +1,8 @@
 // Readers of volumes that are read_voxels() behind a header; errors as in files.h. Densities are those of the file if
 // its values are floating-point numbers; integers are divided by the largest of their type. The box is that of the
 // file, or begins at the origin; the caller sets the step. Values may be packed by gzip or zlib. Axes may be swapped
-// and mirrored, which is exact. A volume of more than `most_voxels` is bad input.
+// and mirrored, which is exact; turned otherwise, or sheared, they are sampled (place_grid.h). A volume of more than
+// `most_voxels` is bad input.
 #pragma once
 
 #include <cstdint>
@@ -47,5 +48,9 @@ GridFile read_metaimage(const std::filesystem::path& file, Negative negative = N
 // faces of the box, as in Mitsuba 3. Without a box in the file, it is the unit cube.
 GridFile read_mitsuba_volume(const std::filesystem::path& file, Negative negative = Negative::clamp,
                              std::uint64_t most_voxels = max_voxels);
+
+// The slices of VolVis (.slc): voxels of 8 bits, packed in runs or not. The box begins at the origin, and a voxel's
+// edges are the spacing of the file.
+GridFile read_slc(const std::filesystem::path& file, std::uint64_t most_voxels = max_voxels);
 
 }  // namespace shadowbench::scene

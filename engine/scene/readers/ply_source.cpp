@@ -90,8 +90,7 @@ bool is_space(char c) {
 
 PlySource::PlySource(const std::filesystem::path& file) : file_(file.string()) {
     FileReader reader(file);
-    const std::vector<char> bytes = reader.array<char>(reader.size(), "file");
-    bytes_.assign(bytes.begin(), bytes.end());
+    bytes_ = reader.text(reader.size(), "file");
     read_header();
 }
 

@@ -12,6 +12,7 @@
 
 #include "scene/readers/grid_files.h"
 #include "scene/readers/header_fields.h"
+#include "scene/readers/place_grid.h"
 #include "scene/readers/text_lines.h"
 
 namespace shadowbench::scene {
@@ -145,11 +146,9 @@ GridFile read_metaimage(const std::filesystem::path& file, Negative negative, st
     layout.type = read_type(fields);
     layout.order = read_order(fields);
     layout.packing = is_true(fields, fields.find("compresseddata"), false) ? Packing::deflate : Packing::none;
-    const std::array<Vec3d, 3> steps = read_steps(fields);
-    const std::optional<GridAxes> axes = find_axes(steps, layout.size);
-    if (!axes) fields.fail(*find_first(fields, {"transformmatrix", "rotation", "orientation"}), skewed_grid);
-    layout.axes = *axes;
-    const Vec3d offset = read_offset(fields);
+    const GridPlace place{read_steps(fields), read_offset(fields)};
+    const std::optional<GridAxes> axes = find_axes(place.steps, layout.size);
+    layout.axes = axes.value_or(GridAxes());
 
     const HeaderField& data_file = fields.need("elementdatafile");
     if (data_file.value.starts_with("LIST") || data_file.value.find('%') != std::string::npos)
@@ -160,9 +159,9 @@ GridFile read_metaimage(const std::filesystem::path& file, Negative negative, st
     read_begin(data, fields, layout, voxels);
 
     GridFile result{read_voxels(data, layout, negative, Rest::noted), {text_of(layout)}};
-    if (!axes->as_they_are()) result.facts.push_back("its axes run along " + text_of(*axes));
-    set_box(result.volume, layout.axes, steps, offset);
-    if (const std::optional<std::string> fault = box_fault(result.volume)) fields.fail(size_field, *fault);
+    if (!layout.axes.as_they_are()) result.facts.push_back("its axes run along " + text_of(layout.axes));
+    if (const std::optional<std::string> fault = place_grid(result.volume, axes, place, most_voxels))
+        fields.fail(axes ? size_field : *find_first(fields, {"transformmatrix", "rotation", "orientation"}), *fault);
     return result;
 }
 

@@ -11,6 +11,7 @@
 #include "scene/limits.h"
 #include "scene/readers/grid_files.h"
 #include "scene/readers/header_fields.h"
+#include "scene/readers/place_grid.h"
 #include "scene/readers/text_lines.h"
 
 namespace shadowbench::scene {
@@ -271,11 +272,9 @@ GridFile read_nrrd(const std::filesystem::path& file, Negative negative, std::ui
     layout.type = read_type(fields);
     layout.packing = read_packing(fields);
     layout.order = read_order(fields, layout.type);
-    const std::array<Vec3d, 3> steps = read_steps(fields, directions, kept);
-    const std::optional<GridAxes> axes = find_axes(steps, layout.size);
-    if (!axes) fields.fail(fields.need("spacedirections"), skewed_grid);
-    layout.axes = *axes;
-    const std::optional<Vec3d> origin = read_origin(fields);
+    const GridPlace place{read_steps(fields, directions, kept), read_origin(fields)};
+    const std::optional<GridAxes> axes = find_axes(place.steps, layout.size);
+    layout.axes = axes.value_or(GridAxes());
 
     const HeaderField* other_file = fields.find("datafile");
     std::optional<FileReader> other;
@@ -283,11 +282,11 @@ GridFile read_nrrd(const std::filesystem::path& file, Negative negative, std::ui
     FileReader& data = other ? *other : reader;
     read_begin(data, fields, layout, voxels);
     GridFile result{read_voxels(data, layout, negative, Rest::noted), facts_of(fields, layout)};
-    set_box(result.volume, layout.axes, steps, origin);
     if (fields.find("axismins") || fields.find("axismaxs"))
         result.volume.notes.lines.push_back(
             "its axis mins and maxs are passed over: spacings or directions give the box");
-    if (const std::optional<std::string> fault = box_fault(result.volume)) fields.fail(sizes_field, *fault);
+    if (const std::optional<std::string> fault = place_grid(result.volume, axes, place, most_voxels))
+        fields.fail(axes ? sizes_field : fields.need("spacedirections"), *fault);
     return result;
 }
 

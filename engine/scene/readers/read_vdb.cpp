@@ -12,6 +12,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,6 +22,7 @@
 #include "scene/readers/densities.h"
 #include "scene/readers/files.h"
 #include "scene/readers/grid_axes.h"
+#include "scene/readers/place_grid.h"
 #include "scene/readers/vdb_check.h"
 #include "scene/readers/vdb_facts.h"
 
@@ -53,23 +55,21 @@ openvdb::FloatGrid::Ptr read_grid(const std::filesystem::path& file, const VdbGr
     return result;
 }
 
-GridAxes axes_of(const openvdb::math::Transform& transform, const openvdb::Coord& size,
-                 const std::filesystem::path& file) {
+GridPlace place_of(const openvdb::math::Transform& transform, const openvdb::Coord& lower,
+                   const std::filesystem::path& file) {
     if (!transform.isLinear()) fail(file, "the grid is not a box in the world: its transform is a frustum");
     const openvdb::math::Mat4d matrix = transform.baseMap()->getAffineMap()->getMat4();  // row i: a step along axis i
-    std::array<Vec3d, 3> steps;
-    steps.fill(Vec3d(0, 0, 0));
+    const openvdb::Vec3d first = transform.indexToWorld(lower);
+    GridPlace place{{}, Vec3d(first.x(), first.y(), first.z())};
     for (int i = 0; i < 3; ++i) {
-        Vec3d& step = steps[static_cast<std::size_t>(i)];
+        Vec3d& step = place.steps[static_cast<std::size_t>(i)];
         for (int world = 0; world < 3; ++world) {
             if (!std::isfinite(matrix[i][world])) fail(file, "the grid's transform is not finite");
             step[world] = matrix[i][world];
         }
         if (step == Vec3d(0, 0, 0)) fail(file, "the grid's transform flattens it");
     }
-    const std::optional<GridAxes> axes = find_axes(steps, Vec3i(size.x(), size.y(), size.z()));
-    if (!axes) fail(file, skewed_grid);
-    return *axes;
+    return place;
 }
 
 // Copies densities, x fastest along the world's axes, one slab of the grid at a time, so that turning it needs little
@@ -83,14 +83,7 @@ void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& bo
         return;
     }
     const openvdb::Coord size = box.dim();
-    const std::array<std::ptrdiff_t, 3> strides{1, volume.size.x, std::ptrdiff_t{volume.size.x} * volume.size.y};
-    std::array<std::ptrdiff_t, 3> step{};
-    std::ptrdiff_t first = 0;  // where the voxel at the box's lower corner goes
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::ptrdiff_t stride = strides[static_cast<std::size_t>(axes.to[i])];
-        step[i] = axes.mirrored[i] ? -stride : stride;
-        if (axes.mirrored[i]) first += stride * (size[static_cast<int>(i)] - 1);
-    }
+    const auto [first, step] = turned_steps(Vec3i(size.x(), size.y(), size.z()), axes);
     constexpr int thick = 8;  // voxels, the thickness of a leaf
     std::vector<float> slab;
     for (int z = 0; z < size.z(); z += thick) {
@@ -108,58 +101,25 @@ void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& bo
     }
 }
 
-GridVolume convert(const openvdb::FloatGrid& grid, std::uint64_t most_voxels, const std::filesystem::path& file,
-                   VdbFacts& facts) {
-    const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+void convert(openvdb::FloatGrid::Ptr grid, Negative negative, std::uint64_t most_voxels,
+             const std::filesystem::path& file, GridVolume& volume, VdbFacts& facts) {
+    const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
     if (box.empty()) fail(file, "the grid has no active voxels");
     const double voxels = check_box(box, most_voxels, file);
     const openvdb::Coord size = box.dim();
-    const GridAxes axes = axes_of(grid.transform(), size, file);
-    facts.active = grid.activeVoxelCount();
+    const GridPlace place = place_of(grid->transform(), box.min(), file);
+    const std::optional<GridAxes> found = find_axes(place.steps, Vec3i(size.x(), size.y(), size.z()));
+    const GridAxes axes = found.value_or(GridAxes());
+    facts.active = grid->activeVoxelCount();
     if (!axes.as_they_are()) facts.axes = text_of(axes);
 
-    GridVolume volume;
     for (std::size_t i = 0; i < 3; ++i) volume.size[axes.to[i]] = size[static_cast<int>(i)];
     volume.density.resize(static_cast<std::size_t>(voxels));
-    copy_densities(grid, box, axes, volume);
-
-    // Index coordinates refer to voxel centres.
-    const openvdb::Vec3d half(0.5);
-    const openvdb::Vec3d first = grid.transform().indexToWorld(box.min().asVec3d() - half);
-    const openvdb::Vec3d last = grid.transform().indexToWorld(box.max().asVec3d() + half);
-    for (int axis = 0; axis < 3; ++axis) {
-        volume.lower[axis] = std::min(first[axis], last[axis]);
-        volume.upper[axis] = std::max(first[axis], last[axis]);
-    }
-    return volume;
-}
-
-void check_values(GridVolume& volume, Negative negative, const std::filesystem::path& file) {
-    if (const std::optional<std::string> fault = box_fault(volume)) fail(file, *fault + ": mend its transform");
-    for (const float density : volume.density) {
-        if (!(std::abs(density) <= static_cast<float>(max_coordinate)))
-            fail(file, fmt::format("the grid has the density {}, which is not a finite number of at most {}", density,
-                                   max_coordinate));
-        if (density < 0.0f && negative == Negative::refuse) fail(file, negative_refused(density));
-    }
-    clamp_negatives(volume.density, volume.notes);
-}
-
-void note_choice(const VdbGrid& grid, const openvdb::FloatGrid& source, GridVolume& volume) {
-    constexpr std::size_t most_names = 8;
-    const std::size_t others = grid.passed_over.size(), named = std::min(others, most_names);
-    if (others > 0)
-        volume.notes.lines.push_back(fmt::format(
-            "the grid \"{}\" is read and {} passed over: {}{}", shown(grid), others,
-            fmt::join(grid.passed_over.begin(), grid.passed_over.begin() + static_cast<std::ptrdiff_t>(named), ", "),
-            named < others ? ", ..." : ""));
-    else if (grid.name != usual_grid)
-        volume.notes.lines.push_back(fmt::format("the grid \"{}\" is read, the only one", shown(grid)));
-    if (source.background() > 0.0f)
-        volume.notes.lines.push_back(
-            fmt::format("the grid's background is {}, but outside the box of its active voxels "
-                        "there is no density",
-                        source.background()));
+    copy_densities(*grid, box, axes, volume);
+    grid.reset();  // its memory may be needed for what follows
+    check_densities(volume, negative, file);
+    if (const std::optional<std::string> fault = place_grid(volume, found, place, most_voxels))
+        fail(file, *fault + ": mend its transform");
 }
 
 }  // namespace
@@ -181,11 +141,11 @@ GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, N
         fail(file, "the file is empty");
     try {
         const VdbGrid chosen = check_vdb(file, grid);
-        const openvdb::FloatGrid::Ptr source = read_grid(file, chosen);
-        GridVolume volume = convert(*source, most_voxels, file, facts);
+        openvdb::FloatGrid::Ptr source = read_grid(file, chosen);
+        GridVolume volume;
+        note_grid(chosen, chosen.passed_over, source->background(), volume.notes);
+        convert(std::move(source), negative, most_voxels, file, volume, facts);
         facts.grid = shown(chosen);
-        note_choice(chosen, *source, volume);
-        check_values(volume, negative, file);
         return volume;
     } catch (const Error&) {
         throw;

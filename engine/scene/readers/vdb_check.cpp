@@ -112,8 +112,7 @@ private:
     std::string string(const char* what) {
         const auto size = reader_.value<std::uint32_t>(what);
         if (size > max_name) damaged(fmt::format("a {} of {} bytes", what, size));
-        const std::vector<char> text = reader_.array<char>(size, what);
-        return {text.begin(), text.end()};
+        return reader_.text(size, what);
     }
 
     // Reads the name, type, size and value of each entry. Returns the position of the value called `key` if it has

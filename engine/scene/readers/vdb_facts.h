@@ -1,4 +1,4 @@
-// Reads a grid of a .vdb file together with what its densities do not show.
+// Reads a grid of a .vdb or .nvdb file together with what its densities do not show.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,10 @@ struct VdbFacts {
     std::string axes;  // the world axes along which the grid's x, y and z run, as in "x, -z, y"; empty: the same ones
 };
 
-// As read_vdb() of files.h; sets `facts`.
+// As the functions of files.h; they set `facts`.
 GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, Negative negative,
                     std::uint64_t most_voxels, VdbFacts& facts);
+GridVolume read_nanovdb(const std::filesystem::path& file, const GridChoice& grid, Negative negative,
+                        std::uint64_t most_voxels, VdbFacts& facts);
 
 }  // namespace shadowbench::scene

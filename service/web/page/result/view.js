@@ -40,6 +40,7 @@ export function summaryOf(result) {
     ['Program', `${result.program?.version ?? '?'} (${result.program?.commit ?? '?'})`],
     ['Scenario', result.scenario_hash ?? '?'],
     result.only?.length && ['Only', result.only.join(', ')],
+    result.files?.length && ['Data files', result.files.join('; ')],
     result.notes?.length && ['Notes on data files', result.notes.join('; ')],
   ]);
 }
