@@ -65,7 +65,7 @@ void refuse_too_large(std::span<Contender> contenders, std::size_t memory_limit)
             fail(contender, "the map grew beyond the memory limit");
 }
 
-void finish_all(std::span<Contender> contenders) {
+void finish_all(std::span<Contender> contenders, std::size_t memory_limit) {
     for (Contender& contender : contenders) {
         if (!contender.ok()) continue;
         try {
@@ -79,6 +79,7 @@ void finish_all(std::span<Contender> contenders) {
         const techniques::NodeStats counted = nodes(contender.maps);
         contender.cell.nodes = {counted.cells, counted.total, counted.max, counted.histogram};
     }
+    refuse_too_large(contenders, memory_limit);
 }
 
 // Of the expected RMS, over the seeds and this one.
@@ -192,7 +193,7 @@ void build_all(std::span<Contender> contenders, const RaySource& source, const t
             tiles += batch.size();
             if (watch) watch(tiles / aprons.size());
         });
-    finish_all(contenders);
+    finish_all(contenders, memory_limit);
 }
 
 void check_functions(std::span<Contender> contenders, const RaySource& source, const rays::MapLayout& layout,
@@ -213,6 +214,7 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
 }
 
 void check_answers(Contender& contender, const Asked& asked, std::span<const float> answers) {
+    if (const std::string fault = bench::fault(contender.maps); !fault.empty()) return fail(contender, fault);
     const bool bounded = contender.promises.unit_range;
     for (std::size_t i = 0; i < answers.size(); ++i) {
         const float v = answers[i];

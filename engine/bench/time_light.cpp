@@ -51,13 +51,16 @@ double warm_builds(std::span<Contender> contenders, const RaySource& source, con
     return stopwatch.seconds();
 }
 
-bool all_narrow(const BuildSeconds& seconds, const std::vector<LookupMeasurement>& plans, double goal) {
+// Those of contenders that failed meanwhile do not count.
+bool all_narrow(std::span<const Contender> contenders, const BuildSeconds& seconds,
+                const std::vector<LookupMeasurement>& plans, double goal) {
     const auto narrow = [goal](std::vector<double> times) {
         return results::is_narrow(results::summarise(std::move(times)), goal);
     };
     return std::all_of(plans.begin(), plans.end(), [&](const LookupMeasurement& measured) {
-        return narrow(milliseconds(seconds[measured.contender])) && narrow(measured.plan.image.ns) &&
-               narrow(measured.plan.random.ns);
+        return !contenders[measured.contender].ok() ||
+               (narrow(milliseconds(seconds[measured.contender])) && narrow(measured.plan.image.ns) &&
+                narrow(measured.plan.random.ns));
     });
 }
 
@@ -89,16 +92,18 @@ results::TimingReport time_light(const LightJob& job, std::span<Contender> conte
             if (job.watch) job.watch("timing builds", r + 1, rule.most);
             const base::ThreadLimit one_thread(1);
             for (LookupMeasurement& measured : plans)
-                time_repetition(contenders[measured.contender].maps, measured.plan, r % 2 == 1);
+                if (const Contender& contender = contenders[measured.contender]; contender.ok())
+                    time_repetition(contender.maps, measured.plan, r % 2 == 1);
             if (job.watch) job.watch("timing lookups", r + 1, rule.most);
         },
-        [&] { return all_narrow(seconds, plans, timing.goal); });
+        [&] { return all_narrow(contenders, seconds, plans, timing.goal); });
     report.seconds = stopwatch.seconds();
     if (const std::optional<double> after = steal_seconds(); after && steal_before)
         report.steal_seconds = std::max(0.0, *after - *steal_before);
 
     for (const LookupMeasurement& measured : plans) {
         Contender& contender = contenders[measured.contender];
+        if (!contender.ok()) continue;
         // Many more places are timed than judged; their answers must be valid too.
         for (const LookupOrder* order : {&measured.plan.image, &measured.plan.random}) {
             check_answers(contender, order->asked(), order->answers);
