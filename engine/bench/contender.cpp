@@ -118,6 +118,8 @@ Contender make_contender(const scene::TechniqueRequest& request, const std::stri
     results::Cell& cell = contender.cell;
     cell.technique = contender.row->id;
     cell.version = contender.row->version;
+    if (const techniques::Library& library = contender.row->library; !library.file.empty())
+        cell.library = {library.file, library.hash, library.isolated};
     cell.parameters = techniques::to_string(contender.values, contender.row->parameters, false);
     cell.parameters_json = techniques::to_json(contender.values).dump();
     cell.defaults = cell.parameters.empty();

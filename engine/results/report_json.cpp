@@ -92,9 +92,10 @@ json to_json(const NodeCounts& nodes) {
 }
 
 json to_json(const Cell& cell, const LightResult& light) {
-    return {{"technique", cell.technique},
-            {"version", cell.version},
-            {"parameters", json::parse(cell.parameters_json)},
+    json out = {{"technique", cell.technique}, {"version", cell.version}};
+    if (const auto& library = cell.library)
+        out["library"] = {{"file", library->file}, {"hash", library->hash}, {"isolated", library->isolated}};
+    const json rest = {{"parameters", json::parse(cell.parameters_json)},
             {"label", cell.parameters},
             {"defaults", cell.defaults},
             {"where", cell.where},
@@ -112,6 +113,8 @@ json to_json(const Cell& cell, const LightResult& light) {
             {"over_seeds", to_json(cell.over_seeds)},
             {"on_bytes_error_front", to_string(cell.on_bytes_front)},
             {"times", to_json(cell.times, light)}};
+    out.update(rest);
+    return out;
 }
 
 json to_json(const MapDescription& layout) {

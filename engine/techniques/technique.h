@@ -214,6 +214,7 @@ std::unique_ptr<Map> create_map(const ParameterValues& values) {
 struct Library {
     std::string file;  // its name, without folders
     std::string hash;  // of its content
+    bool isolated = false;  // its maps live in processes of their own
     friend bool operator==(const Library&, const Library&) = default;
 };
 

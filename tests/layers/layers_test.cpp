@@ -108,9 +108,9 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
          {"base", "scene", "techniques", "document", "results", "bench", "recommend", "compare", "service/privacy",
           "service/process", "service/jobs", "service/web", "service/api"}},
         {"service/http", {"base", "service/api", "service/http"}},
-        // The command line also reads and writes deep shadow map files.
+        // The command line also reads and writes deep shadow map files, and loads techniques from outside.
         {"service/cli",
-         {"base", "scene", "curves", "techniques", "techniques/deep", "document", "results", "compare", "bench",
+         {"base", "scene", "curves", "techniques", "techniques/deep", "techniques/external", "document", "results", "compare", "bench",
           "recommend", "render", "claims", "service/privacy", "service/process", "service/jobs", "service/api",
           "service/http", "service/web", "service/cli"}},
         {"service", {"service/cli"}},

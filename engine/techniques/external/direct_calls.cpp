@@ -126,7 +126,7 @@ public:
         : declared_(std::move(declared)), grid_(make_cells(layout, declared_->cells)) {
         const std::vector<shadowbench_value> list = values_of(*declared_, values);
         const shadowbench_layout given = layout_of(layout);
-        faults().check("create", [&] { return functions().create(list.data(), &given, &map_); });
+        faults().check("create", [&] { return functions().create(list.data(), list.size(), &given, &map_); });
         if (!map_) faults().report("create() made no map");
     }
     ~DirectMap() override {
@@ -210,7 +210,7 @@ auto ask(const Declared& declared, const char* name, const Function& function, c
          const rays::MapLayout& layout) {
     const std::vector<shadowbench_value> list = values_of(declared, values);
     const shadowbench_layout given = layout_of(layout);
-    return declared.faults.guard(name, [&] { return function(list.data(), &given); });
+    return declared.faults.guard(name, [&] { return function(list.data(), list.size(), &given); });
 }
 
 class DirectTechnique final : public TechniqueCalls {

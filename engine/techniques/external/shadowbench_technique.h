@@ -41,7 +41,8 @@ typedef struct shadowbench_parameter {
     size_t word_count;
 } shadowbench_parameter;
 
-/* The value of a parameter. Functions get one for each parameter, in the order in which they are declared. */
+/* The value of a parameter. Functions get one for each parameter, in the order in which they are declared; words are
+ * gone when the function returns. */
 typedef struct shadowbench_value {
     double number;
     const char *word; /* NULL: it is the number */
@@ -137,7 +138,8 @@ typedef struct shadowbench_technique {
     size_t trade_count;
 
     /* Makes an empty map. A coloured scene gets one for each colour channel. */
-    const char *(*create)(const shadowbench_value *values, const shadowbench_layout *layout, void **map);
+    const char *(*create)(const shadowbench_value *values, size_t value_count, const shadowbench_layout *layout,
+                          void **map);
     void (*destroy)(void *map);
     /* Called once for each tile, from several threads at once for different tiles. The rays are gone afterwards. */
     const char *(*add)(void *map, const shadowbench_rays *tile);
@@ -165,9 +167,9 @@ typedef struct shadowbench_technique {
     size_t (*touched)(const void *map, const shadowbench_query *query, const shadowbench_footprint *footprint,
                       const void **lines, size_t capacity);
     /* The largest curve error that these values promise. NULL: none is promised. */
-    double (*error_bound)(const shadowbench_value *values, const shadowbench_layout *layout);
+    double (*error_bound)(const shadowbench_value *values, size_t value_count, const shadowbench_layout *layout);
     /* The least bytes that a finished map of this layout holds, to refuse what cannot fit. NULL: 0. */
-    uint64_t (*least_bytes)(const shadowbench_value *values, const shadowbench_layout *layout);
+    uint64_t (*least_bytes)(const shadowbench_value *values, size_t value_count, const shadowbench_layout *layout);
 } shadowbench_technique;
 
 typedef struct shadowbench_library {

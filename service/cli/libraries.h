@@ -1,0 +1,22 @@
+// The libraries of techniques that a command loads.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/result.h"
+#include "service/cli/commands.h"
+
+namespace shadowbench::service {
+
+// Adds their techniques to the registry; one that is there is not read again. A library that cannot be used gets a row
+// that fails with the reason. Throws Error: no_such_file or io; bad_input if not even such a row can be made.
+void load_libraries(const LibraryArguments& libraries);
+
+// The options that load the same again, wherever the command runs.
+std::vector<std::string> arguments_of(const LibraryArguments& libraries);
+
+// Whether every technique of a result came from where the registry has it now.
+bool same_libraries(const results::Result& result);
+
+}  // namespace shadowbench::service
