@@ -13,6 +13,12 @@ namespace shadowbench::service {
 // that fails with the reason. Throws Error: no_such_file or io; bad_input if not even such a row can be made.
 void load_libraries(const LibraryArguments& libraries);
 
+// The shared libraries of a folder, by name. Throws Error{no_such_file}.
+std::vector<std::string> libraries_in(const std::string& folder);
+
+// Of all that are loaded; empty: none is.
+std::string hash_of_libraries();
+
 // The options that load the same again, wherever the command runs.
 std::vector<std::string> arguments_of(const LibraryArguments& libraries);
 

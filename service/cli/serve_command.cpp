@@ -16,6 +16,7 @@
 #include "results/write_result.h"
 #include "service/api/helper_side.h"
 #include "service/api/service.h"
+#include "service/cli/libraries.h"
 #include "service/cli/scenario_files.h"
 #include "service/cli/server_commands.h"
 #include "service/cli/this_program.h"
@@ -78,7 +79,9 @@ JobLimits job_limits(const ServeArguments& arguments) {
     return limits;
 }
 
-ServiceOptions service_options(const ServeArguments& arguments, const std::string& program) {
+// `further`: arguments of every helper.
+ServiceOptions service_options(const ServeArguments& arguments, const std::string& program,
+                               const std::vector<std::string>& further) {
     ServiceOptions options;
     options.data = folders_of(arguments.data);
     options.scenarios = scenario_folders();
@@ -89,7 +92,8 @@ ServiceOptions service_options(const ServeArguments& arguments, const std::strin
     options.limits.seconds = arguments.estimate_seconds;
     options.waiting = std::max<std::size_t>(1, arguments.workers / 4);
     options.event_streams = arguments.event_clients;
-    options.start_helper = [program](const std::vector<std::string>& words) {
+    options.start_helper = [program, further](std::vector<std::string> words) {
+        words.insert(words.end(), further.begin(), further.end());
         return start_process(program, words, static_cast<std::size_t>(helper_memory * gib));
     };
     return options;
@@ -123,11 +127,16 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     const HeldProgram held;
     const std::string program = held.path();
     const HttpOptions http = http_options(arguments);
-    const ServiceOptions options = service_options(arguments, program);
+    LibraryArguments libraries{{}, true, arguments.call_seconds};
+    if (!arguments.libraries.empty()) libraries.files = libraries_in(arguments.libraries);
+    load_libraries(libraries);
+    const std::vector<std::string> further = libraries.files.empty() ? libraries.files : arguments_of(libraries);
+    const ServiceOptions options = service_options(arguments, program, further);
     std::vector<std::string> data;
     for (const fs::path& folder : options.data) data.push_back(folder.string());
     Jobs jobs(arguments.state, program, data, job_limits(arguments),
-              [&](const std::string& line) { err << fmt::format("shadowbench: {}\n", line) << std::flush; });
+              [&](const std::string& line) { err << fmt::format("shadowbench: {}\n", line) << std::flush; },
+              {further, hash_of_libraries()});
     Service service(jobs, options);
     HttpServer server(service, options.event_streams, http);
     if (!arguments.port_file.empty()) base::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});
@@ -146,10 +155,12 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
 }
 
 void examine_command(const HelperArguments& arguments, std::ostream& out) {
+    load_libraries(arguments.libraries);
     examine_lines(folders_of(arguments.data), std::cin, out);
 }
 
 void curves_command(const HelperArguments& arguments, std::ostream& out) {
+    load_libraries(arguments.libraries);
     curve_lines(folders_of(arguments.data), arguments.light, arguments.variant, std::cin, out);
 }
 

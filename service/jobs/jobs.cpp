@@ -62,9 +62,10 @@ std::string new_id() {
     return fmt::format("j-{:08x}{:08x}", random(), random());
 }
 
-std::string program_version() {
+// `further`: see FurtherArguments.
+std::string program_version(const std::string& further) {
     const results::Program build = results::this_program();
-    return fmt::format("{} {}", build.version, build.commit);
+    return fmt::format("{} {}{}{}", build.version, build.commit, further.empty() ? "" : " ", further);
 }
 
 // Requests with the same idempotency key must have the same hash.
@@ -135,16 +136,17 @@ std::optional<JobState> parse_job_state(const std::string& text) {
 
 struct Jobs::State {
     State(const fs::path& path, const std::string& program, const std::vector<std::string>& data, JobLimits limits,
-          const Say& say)
-        : checked_program(check_program(program)),
+          const Say& say, const FurtherArguments& further)
+        : version(program_version(further.key)),
+          checked_program(check_program(program)),
           folder(path, say),
           folders(make_job_folders(path)),
           opened(open_store(folder, folders, say)),
           store(*opened),
           presence({path, folder.database()}),
           board(store.next_revision()),
-          place{store, board, presence, folders, checked_program, data, limits, hidden_folders(path.string(), data),
-                say} {
+          place{store, board, presence, folders, checked_program, data, further.words, limits,
+                hidden_folders(path.string(), data), say} {
         recover(folder, store, folders, say);
     }
 
@@ -152,7 +154,7 @@ struct Jobs::State {
     // without such a job.
     std::optional<bool> reuse_result(const NewJob& job);
 
-    std::string checked_program;
+    std::string version, checked_program;
     StateFolder folder;  // first member: locked before the others exist, and until they are gone
     JobFolders folders;
     std::unique_ptr<JobStore> opened;
@@ -195,8 +197,8 @@ std::optional<bool> Jobs::State::reuse_result(const NewJob& job) {
 }
 
 Jobs::Jobs(fs::path state, std::string program, std::vector<std::string> data, JobLimits limits,
-           std::function<void(const std::string& line)> say)
-    : state_(std::make_unique<State>(state, program, data, limits, one_at_a_time(std::move(say)))) {
+           std::function<void(const std::string& line)> say, FurtherArguments further)
+    : state_(std::make_unique<State>(state, program, data, limits, one_at_a_time(std::move(say)), further)) {
     State& all = *state_;
     for (int i = 0; i < std::max(limits.parallel, 1); ++i)
         all.workers.emplace_back([&place = std::as_const(all.place)] { run_jobs(place); });
@@ -216,7 +218,7 @@ Submitted Jobs::submit(const JobRequest& request) {
             return {outcome_of(known->outcome), info_of(known->job, all.board.shown(known->job.id))};
     job.id = new_id();
     job.name = request.name;
-    job.key = {request.hash, request.seed, program_version(), request.pictures, request.recommend};
+    job.key = {request.hash, request.seed, all.version, request.pictures, request.recommend};
     job.scenario = request.scenario;
     job.created = now_utc();
     job.idempotency_key = request.idempotency_key;
@@ -299,7 +301,7 @@ Jobs::Retry Jobs::retry(const std::string& id) {
         const bool ended = job && (job->state == job_states::failed || job->state == job_states::cancelled);
         if (job && all.board.has_run(id))
             return ended ? std::nullopt : std::optional(JobStore::Retried{JobStore::Retry::refused, 0});
-        return all.store.retry(id, program_version(), all.place.limits.queue);
+        return all.store.retry(id, all.version, all.place.limits.queue);
     };
     std::optional<JobStore::Retried> retried = try_once();
     for (; !retried; retried = try_once()) {

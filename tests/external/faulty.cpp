@@ -1,6 +1,7 @@
 // A library that does wrong what it is asked for: a technique by its parameter `fault`, the library itself by
 // $SHADOWBENCH_TEST_FAULT. With the fault "none" the map is sound: everything is lit, and nothing casts a shadow.
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -11,9 +12,9 @@
 
 namespace {
 
-const char* const words[] = {"none",  "create", "no_map",     "add",      "finish",  "lookup",   "throw",
-                             "nan",   "few",    "rises",      "vertices", "endless", "unsorted", "nodes",
-                             "bytes", "least",  "null_lines", "bound",    "second",  "crash",    "loop"};
+const char* const words[] = {"none",       "create", "no_map",   "add",     "finish",   "lookup", "throw", "nan",
+                             "few",        "rises",  "vertices", "endless", "unsorted", "nodes",  "bytes", "least",
+                             "null_lines", "bound",  "second",   "crash",   "loop",     "print"};
 
 struct Map {
     std::string fault;
@@ -43,6 +44,7 @@ const char* add(void* map, const shadowbench_rays*) {
     return fails(map, "add");
 }
 const char* finish(void* map) {
+    if (has(map, "print")) std::puts("printed by a library"), std::fflush(stdout);
     return fails(map, "finish");
 }
 const char* lookup(const void* map, const shadowbench_query*, const shadowbench_footprint*, size_t count, float* out) {
@@ -115,6 +117,7 @@ extern "C" __attribute__((visibility("default"))) const shadowbench_library* sha
     techniques[0] = techniques[1] = good;
     library = {SHADOWBENCH_TECHNIQUE_ABI, 1, sizeof(shadowbench_technique), techniques};
     if (fault == "throw") throw 1;
+    if (fault == "crash") std::raise(SIGSEGV);
     if (fault == "null") return nullptr;
     if (fault == "abi") library.abi = 7;
     if (fault == "size") library.technique_size = 8;

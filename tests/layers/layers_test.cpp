@@ -100,6 +100,8 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
           "render", "claims"}},
         {"service/privacy", {"base", "service/privacy"}},
         {"service/process", {"base", "service/process"}},
+        {"service/isolation",
+         {"base", "rays", "curves", "techniques", "techniques/external", "service/process", "service/isolation"}},
         {"service/store", {"base", "service/store"}},
         {"service/jobs",
          {"base", "bench", "results", "service/privacy", "service/process", "service/store", "service/jobs"}},
@@ -111,7 +113,7 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         // The command line also reads and writes deep shadow map files, and loads techniques from outside.
         {"service/cli",
          {"base", "scene", "curves", "techniques", "techniques/deep", "techniques/external", "document", "results", "compare", "bench",
-          "recommend", "render", "claims", "service/privacy", "service/process", "service/jobs", "service/api",
+          "recommend", "render", "claims", "service/privacy", "service/process", "service/isolation", "service/jobs", "service/api",
           "service/http", "service/web", "service/cli"}},
         {"service", {"service/cli"}},
     };
