@@ -25,7 +25,13 @@
 // Hidden: see shadowbench_function_map.hpp.
 namespace shadowbench __attribute__((visibility("hidden"))) {
 
-    // What a technique says of itself. All pointers are to constants.
+    // See shadowbench_promises.
+struct Promises {
+    bool monotone = true, unit_range = true, opaque_only = false, localised = true, approximate = false, early = false;
+    double leak = 0.0;
+};
+
+// What a technique says of itself. All pointers are to constants.
     struct About {
         const char* id = "";
         const char* title = "";
@@ -33,7 +39,7 @@ namespace shadowbench __attribute__((visibility("hidden"))) {
         int version = 1;
         std::vector<shadowbench_parameter> parameters = {};
         std::vector<shadowbench_trade> trades = {};
-        shadowbench_promises promises = {1, 1, 0, 1, 0, 0, 0.0};
+        Promises promises = {};
         double (*error_bound)(const shadowbench_value* values, size_t value_count,
                               const shadowbench_layout* layout) = nullptr;
     };
@@ -143,7 +149,8 @@ namespace shadowbench __attribute__((visibility("hidden"))) {
             f.title = about.title;
             f.paper = about.paper;
             f.version = about.version;
-            f.promises = about.promises;
+            const Promises& p = about.promises;
+        f.promises = {p.monotone, p.unit_range, p.opaque_only, p.localised, p.approximate, p.early, p.leak};
             f.parameters = about.parameters.data();
             f.parameter_count = about.parameters.size();
             f.trades = about.trades.data();
