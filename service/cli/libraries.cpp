@@ -46,7 +46,7 @@ std::string hash_of_libraries() {
     return text.empty() ? "" : base::hash_text(text);
 }
 
-std::vector<std::string> arguments_of(const LibraryArguments& libraries) {
+std::vector<std::string> library_arguments(const LibraryArguments& libraries) {
     std::vector<std::string> arguments;
     for (const std::string& file : libraries.files)
         arguments.insert(arguments.end(), {"--technique-library", std::filesystem::absolute(file).string()});

@@ -20,7 +20,7 @@ std::vector<std::string> libraries_in(const std::string& folder);
 std::string hash_of_libraries();
 
 // The options that load the same again, wherever the command runs.
-std::vector<std::string> arguments_of(const LibraryArguments& libraries);
+std::vector<std::string> library_arguments(const LibraryArguments& libraries);
 
 // Whether every technique of a result came from where the registry has it now.
 bool same_libraries(const results::Result& result);

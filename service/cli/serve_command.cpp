@@ -130,7 +130,7 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     LibraryArguments libraries{{}, true, arguments.call_seconds};
     if (!arguments.libraries.empty()) libraries.files = libraries_in(arguments.libraries);
     load_libraries(libraries);
-    const std::vector<std::string> further = libraries.files.empty() ? libraries.files : arguments_of(libraries);
+    const std::vector<std::string> further = libraries.files.empty() ? libraries.files : library_arguments(libraries);
     const ServiceOptions options = service_options(arguments, program, further);
     std::vector<std::string> data;
     for (const fs::path& folder : options.data) data.push_back(folder.string());

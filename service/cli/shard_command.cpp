@@ -91,7 +91,7 @@ std::vector<std::string> arguments_again(const RunArguments& arguments) {
     add("--data", arguments.data);
     add("--only", arguments.only);
     if (arguments.threads != 0) add("--threads", {std::to_string(arguments.threads)});
-    for (const std::string& argument : arguments_of(arguments.libraries)) again.push_back(argument);
+    for (const std::string& argument : library_arguments(arguments.libraries)) again.push_back(argument);
     if (arguments.memory_limit != JobArguments().memory_limit)
         add("--memory-limit", {fmt::format("{}", arguments.memory_limit)});
     return again;
