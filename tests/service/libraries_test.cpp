@@ -56,7 +56,7 @@ TEST_F(Libraries, AreListedValidatedRunAndNamedInTheResult) {
     EXPECT_THAT(
         out_, AllOf(HasSubstr("stairs        stairs of equal height (version 1; an example)"), HasSubstr("external: "),
                     HasSubstr("recommend tries: resolution, samples_per_pixel, stairs")));
-    const std::string file = scenario({{{"type", "*"}}, {{"type", "stairs"}, {"stairs", 64}}});
+    const std::string file = scenario({{{"type", "*"}}, {{"type", "stairs"}, {"stairs", 32}}});
     EXPECT_EQ(run({"validate", file}), 65) << "not without the library";
     EXPECT_THAT(out_, HasSubstr("unknown technique \"stairs\""));
     EXPECT_EQ(run({"validate", file, "--technique-library", SHADOWBENCH_STAIRS}), 0) << out_;
@@ -71,7 +71,7 @@ TEST_F(Libraries, AreListedValidatedRunAndNamedInTheResult) {
     EXPECT_EQ(measured[1]["technique"], "stairs");
     EXPECT_EQ(measured[1]["status"], "ok") << measured[1]["reason"];
     EXPECT_EQ(measured[1]["library"]["hash"].get<std::string>().size(), 16u);
-    EXPECT_LE(measured[1]["curve_error"]["max"].get<double>(), 0.5 / 64 + 1e-6);
+    EXPECT_LE(measured[1]["curve_error"]["max"].get<double>(), 0.5 / 32 + 1e-6);
     EXPECT_GT(measured[1]["times"]["lookup_random_order"]["ratio_to_floor"]["median"].get<double>(), 0.0);
 }
 

@@ -48,7 +48,7 @@ TEST(ExternalTechnique, IsARowAsItsLibraryDescribesIt) {
     ASSERT_EQ(row.parameters.size(), 1u);
     EXPECT_STREQ(row.parameters[0].name, "stairs");
     EXPECT_EQ(row.parameters[0].kind, ParameterKind::integer);
-    EXPECT_EQ(row.parameters[0].standard, 16.0);
+    EXPECT_EQ(row.parameters[0].standard, 64.0);
     EXPECT_EQ(row.parameters[0].max, 1024.0);
     ASSERT_EQ(row.traits.trades.size(), 1u);
     EXPECT_EQ(row.traits.trades[0].scale, Trade::Scale::logarithmic);

@@ -110,7 +110,7 @@ namespace shadowbench __attribute__((visibility("hidden"))) {
             vertices_.reserve(all);
             for (const Curve& curve : curves_) vertices_.insert(vertices_.end(), curve.begin(), curve.end());
             building_ += held();
-            curves_ = {};
+            std::vector<Curve>().swap(curves_);  // assigning {} would keep its memory
         }
 
         void lookup(const Query* queries, const Footprint*, std::size_t count, float* visibility) const {
