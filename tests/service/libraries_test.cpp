@@ -117,6 +117,9 @@ TEST_F(Libraries, InProcessesOfTheirOwnMayCrash) {
 TEST_F(Libraries, ThatCannotBeUsedFailARowOfTheirName) {
     const std::string file = scenario({{{"type", "*"}}});
     EXPECT_EQ(run({"list", "techniques", "--technique-library", temporary_.path("missing.so")}), 66) << out_;
+    EXPECT_EQ(run({"serve", "--technique-libraries", temporary_.path("missing"), "--state", temporary_.path("state")}),
+              66)
+        << out_;
     EXPECT_EQ(run({"run", file, "--only", "deep", "--only", "outside_nothing", "--technique-library",
                    SHADOWBENCH_NOTHING, "--out", temporary_.path("out")}),
               2)
