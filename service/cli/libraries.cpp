@@ -61,7 +61,8 @@ bool same_libraries(const results::Result& result) {
             if (cell.technique != row.id) continue;
             const techniques::Library& own = row.library;
             if (own.file.empty()) return !cell.library;
-            return cell.library && cell.library->file == own.file && cell.library->hash == own.hash;
+            return cell.library && cell.library->file == own.file && cell.library->hash == own.hash &&
+                   cell.library->isolated == own.isolated;
         }
         return true;  // the scenario has it no more
     };
