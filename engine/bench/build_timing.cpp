@@ -43,9 +43,8 @@ void attempt(Contender& contender, const Step& step) {
 TimedBuild begin_timed(std::span<Contender> contenders, std::size_t i, const techniques::BuildInput& input) {
     TimedBuild build{i, {}};
     Contender& contender = contenders[i];
-    attempt(contender, [&] {
-        time_part(build, [&] { build.maps = begin_maps(*contender.row, contender.values, input); });
-    });
+    attempt(contender,
+            [&] { time_part(build, [&] { build.maps = begin_maps(*contender.row, contender.values, input); }); });
     return build;
 }
 

@@ -131,9 +131,9 @@ std::string library_lines(const LightResult& light) {
     std::string text;
     for (const Cell& cell : light.cells) {
         if (!cell.library) continue;
-        const std::string line =
-            fmt::format("    external: {} from {}, hash {}{}\n", cell.technique, cell.library->file, cell.library->hash,
-                        cell.library->isolated ? ", in processes of its own: its times hold the way there and back" : "");
+        const std::string line = fmt::format(
+            "    external: {} from {}, hash {}{}\n", cell.technique, cell.library->file, cell.library->hash,
+            cell.library->isolated ? ", in processes of its own: its times hold the way there and back" : "");
         if (text.find(line) == std::string::npos) text += line;
     }
     return text;

@@ -98,8 +98,8 @@ public:
     // Lookups of the finished map become those of these values. They may differ from the values of the map only in
     // parameters whose trades are `only_lookups`. Not while another thread looks up.
     virtual void set_lookups(const ParameterValues&) {}
-    // Why no answer of the map counts; empty: they do. Const functions do not throw, so that they can be timed: what went
-    // wrong in one of them stands here. Only maps of techniques from outside have faults.
+    // Why no answer of the map counts; empty: they do. Const functions do not throw, so that they can be timed: what
+    // went wrong in one of them stands here. Only maps of techniques from outside have faults.
     virtual std::string fault() const { return {}; }
 
     // The number of values in a lookup's answer: 1, or the channels of the layout passed to begin.
@@ -212,8 +212,8 @@ std::unique_ptr<Map> create_map(const ParameterValues& values) {
 
 // The file that a technique from outside was loaded from.
 struct Library {
-    std::string file;  // its name, without folders
-    std::string hash;  // of its content
+    std::string file;       // its name, without folders
+    std::string hash;       // of its content
     bool isolated = false;  // its maps live in processes of their own
     friend bool operator==(const Library&, const Library&) = default;
 };

@@ -68,12 +68,12 @@ void add_library_options(CLI::App& command, LibraryArguments& libraries) {
     repeatable(files);
     CLI::Option* isolate =
         command
-            .add_flag("--isolate", libraries.isolate,
-                      "Run each map of these techniques in a process of its own, so that not even a crash or an endless "
-                      "loop ends the command. Their times then hold the way there and back")
+            .add_flag(
+                "--isolate", libraries.isolate,
+                "Run each map of these techniques in a process of its own, so that not even a crash or an endless "
+                "loop ends the command. Their times then hold the way there and back")
             ->needs(files);
-    command
-        .add_option("--call-seconds", libraries.call_seconds, "With --isolate: seconds that one call may take")
+    command.add_option("--call-seconds", libraries.call_seconds, "With --isolate: seconds that one call may take")
         ->needs(isolate)
         ->check(in_range(0.01, 1e6))
         ->capture_default_str();

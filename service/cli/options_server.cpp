@@ -79,9 +79,10 @@ void add_serve(CLI::App& app, Commands& commands) {
                      "Folder of the jobs and their results: a new or empty one, or that of an earlier server")
         ->capture_default_str();
     add_data(*serve, arguments->data, "Scenarios may name the files of this folder [no files]");
-    serve->add_option("--technique-libraries", arguments->libraries,
-                      "Load techniques from the shared libraries (*.so) of this folder, as they are now. Their maps live "
-                      "in processes of their own, as with run --isolate [none]");
+    serve->add_option(
+        "--technique-libraries", arguments->libraries,
+        "Load techniques from the shared libraries (*.so) of this folder, as they are now. Their maps live "
+        "in processes of their own, as with run --isolate [none]");
     serve
         ->add_option("--call-seconds", arguments->call_seconds,
                      "Seconds that one call of a technique from outside may take")

@@ -145,8 +145,16 @@ struct Jobs::State {
           store(*opened),
           presence({path, folder.database()}),
           board(store.next_revision()),
-          place{store, board, presence, folders, checked_program, data, further.words, limits,
-                hidden_folders(path.string(), data), say} {
+          place{store,
+                board,
+                presence,
+                folders,
+                checked_program,
+                data,
+                further.words,
+                limits,
+                hidden_folders(path.string(), data),
+                say} {
         recover(folder, store, folders, say);
     }
 

@@ -99,9 +99,9 @@ class Jobs {
 public:
     // Opens or makes the folder `state` (see state_folder.h), requeues the jobs that ran when the last server died,
     // adopts results that the database does not know, and starts the workers. They run `program job FOLDER --data
-    // DIR...` with further arguments. `say` gets messages for the operator, a line each, one at a time: files that were moved aside, adopted
-    // results, storage that fails and works again. These lines name folders of the machine. Throws base::Error{usage}
-    // for a folder of another program, {io} where it is not writable or another server holds it.
+    // DIR...` with further arguments. `say` gets messages for the operator, a line each, one at a time: files that were
+    // moved aside, adopted results, storage that fails and works again. These lines name folders of the machine. Throws
+    // base::Error{usage} for a folder of another program, {io} where it is not writable or another server holds it.
     Jobs(std::filesystem::path state, std::string program, std::vector<std::string> data, JobLimits limits,
          std::function<void(const std::string& line)> say = {}, FurtherArguments further = {});
     ~Jobs();

@@ -112,9 +112,9 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"service/http", {"base", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files, and loads techniques from outside.
         {"service/cli",
-         {"base", "scene", "curves", "techniques", "techniques/deep", "techniques/external", "document", "results", "compare", "bench",
-          "recommend", "render", "claims", "service/privacy", "service/process", "service/isolation", "service/jobs", "service/api",
-          "service/http", "service/web", "service/cli"}},
+         {"base", "scene", "curves", "techniques", "techniques/deep", "techniques/external", "document", "results",
+          "compare", "bench", "recommend", "render", "claims", "service/privacy", "service/process",
+          "service/isolation", "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
         {"service", {"service/cli"}},
     };
     for (const Include& include : includes()) {

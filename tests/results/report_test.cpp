@@ -133,8 +133,9 @@ TEST(ResultJson, names_the_library_of_a_technique_from_outside) {
     EXPECT_EQ(cells[0]["library"].dump(), R"({"file":"libdeep.so","hash":"0123456789abcdef","isolated":true})");
     EXPECT_FALSE(cells[1].contains("library"));
     EXPECT_EQ(to_json(from_json(nlohmann::json::parse(json.dump()), "")), json);
-    EXPECT_NE(to_table(result).find("    external: deep from libdeep.so, hash 0123456789abcdef, in processes of its own"),
-              std::string::npos);
+    EXPECT_NE(
+        to_table(result).find("    external: deep from libdeep.so, hash 0123456789abcdef, in processes of its own"),
+        std::string::npos);
     EXPECT_NE(to_csv(result).find(",deep,0,0123456789abcdef,tolerance=0.02,"), std::string::npos);
 }
 
@@ -189,8 +190,8 @@ TEST(ResultJson, of_the_wrong_form_is_refused_at_its_place) {
 }
 
 std::size_t rows_with(const std::vector<std::string>& lines, const std::string& part) {
-    return static_cast<std::size_t>(
-        std::count_if(lines.begin(), lines.end(), [&](const std::string& l) { return l.find(part) != std::string::npos; }));
+    return static_cast<std::size_t>(std::count_if(
+        lines.begin(), lines.end(), [&](const std::string& l) { return l.find(part) != std::string::npos; }));
 }
 
 TEST(ResultCsv, has_a_row_a_measure_and_quotes_what_needs_it) {

@@ -22,7 +22,7 @@ extern "C" {
 /* What a function that returns a count returns if it fails. */
 #define SHADOWBENCH_FAILED ((size_t)-1)
 
-/* --- parameters ---------------------------------------------------------------------------------------------------- */
+/* --- parameters --- */
 
 enum {
     SHADOWBENCH_NUMBER = 0,        /* in [min, max] */
@@ -32,12 +32,12 @@ enum {
 };
 
 typedef struct shadowbench_parameter {
-    const char *name; /* lower-case letters, digits and _, as for the id of a technique */
-    const char *doc;  /* one line: what it means, in which unit */
+    const char* name; /* lower-case letters, digits and _, as for the id of a technique */
+    const char* doc;  /* one line: what it means, in which unit */
     int32_t kind;
     double standard, min, max; /* the default and the range, inclusive */
-    const char *standard_word; /* the default if it is a word, else NULL */
-    const char *const *words;
+    const char* standard_word; /* the default if it is a word, else NULL */
+    const char* const* words;
     size_t word_count;
 } shadowbench_parameter;
 
@@ -45,7 +45,7 @@ typedef struct shadowbench_parameter {
  * gone when the function returns. */
 typedef struct shadowbench_value {
     double number;
-    const char *word; /* NULL: it is the number */
+    const char* word; /* NULL: it is the number */
 } shadowbench_value;
 
 /* What shadowbench recommend varies, because it trades cost against error. */
@@ -56,12 +56,12 @@ enum {
 };
 
 typedef struct shadowbench_trade {
-    const char *parameter;
+    const char* parameter;
     int32_t scale;
     double from, to;
 } shadowbench_trade;
 
-/* --- light rays and queries ----------------------------------------------------------------------------------------- */
+/* --- light rays and queries --- */
 
 typedef struct shadowbench_layout {
     int32_t width, height;           /* of the map, pixels */
@@ -72,16 +72,16 @@ typedef struct shadowbench_layout {
 } shadowbench_layout;
 
 /* The light rays of one tile. Ray r has the segments begin[r] to begin[r + 1] - 1, sorted by z_front, then z_back. Rays
- * are ordered by pixel (row after row of the tile), then by sample (row after row of the pixel). A surface has z_front ==
- * z_back and shades what lies strictly behind it. A medium has a constant extinction between its ends. Segments may
+ * are ordered by pixel (row after row of the tile), then by sample (row after row of the pixel). A surface has z_front
+ * == z_back and shades what lies strictly behind it. A medium has a constant extinction between its ends. Segments may
  * overlap: their transmittances multiply. */
 typedef struct shadowbench_rays {
     int32_t x0, y0, width, height; /* pixels of the map */
     int32_t samples;               /* rays of a pixel */
-    const uint32_t *begin;         /* width * height * samples + 1 */
-    const float *z_front;
-    const float *z_back;        /* NULL if the tile holds only surfaces */
-    const float *transmittance; /* in [0, 1] */
+    const uint32_t* begin;         /* width * height * samples + 1 */
+    const float* z_front;
+    const float* z_back;        /* NULL if the tile holds only surfaces */
+    const float* transmittance; /* in [0, 1] */
 } shadowbench_rays;
 
 /* How much light reaches (x, y, z) over a footprint `width` pixels wide? Any floats are asked. Outside the map, or at a
@@ -97,13 +97,13 @@ typedef struct shadowbench_footprint {
     float ux, uy, vx, vy;
 } shadowbench_footprint;
 
-/* Stored functions are piecewise linear in depth. Two vertices at one z are a step; a function has its first value up to
- * its first vertex, also at a step there, and its last value behind the last vertex. No vertices: 1 everywhere. */
+/* Stored functions are piecewise linear in depth. Two vertices at one z are a step; a function has its first value up
+ * to its first vertex, also at a step there, and its last value behind the last vertex. No vertices: 1 everywhere. */
 typedef struct shadowbench_vertex {
     float z, value;
 } shadowbench_vertex;
 
-/* --- a technique ---------------------------------------------------------------------------------------------------- */
+/* --- a technique --- */
 
 /* Which rays a stored function stands for. */
 enum {
@@ -126,64 +126,65 @@ typedef struct shadowbench_promises {
 } shadowbench_promises;
 
 typedef struct shadowbench_technique {
-    const char *id;    /* lower-case letters, digits and _ */
-    const char *title; /* one line */
-    const char *paper; /* "authors year" */
+    const char* id;    /* lower-case letters, digits and _ */
+    const char* title; /* one line */
+    const char* paper; /* "authors year" */
     int32_t version;   /* from 1; grows when the same rays give other answers or bytes */
     int32_t cells;
     shadowbench_promises promises;
-    const shadowbench_parameter *parameters;
+    const shadowbench_parameter* parameters;
     size_t parameter_count;
-    const shadowbench_trade *trades;
+    const shadowbench_trade* trades;
     size_t trade_count;
 
     /* Makes an empty map. A coloured scene gets one for each colour channel. */
-    const char *(*create)(const shadowbench_value *values, size_t value_count, const shadowbench_layout *layout,
-                          void **map);
-    void (*destroy)(void *map);
+    const char* (*create)(const shadowbench_value* values, size_t value_count, const shadowbench_layout* layout,
+                          void** map);
+    void (*destroy)(void* map);
     /* Called once for each tile, from several threads at once for different tiles. The rays are gone afterwards. */
-    const char *(*add)(void *map, const shadowbench_rays *tile);
+    const char* (*add)(void* map, const shadowbench_rays* tile);
     /* Called once, last. The map does not change afterwards; the functions below may run on several threads. */
-    const char *(*finish)(void *map);
+    const char* (*finish)(void* map);
 
     /* Writes `count` answers, all finite, and in [0, 1] if that is promised. `footprints` has one for each query, or is
      * NULL. */
-    const char *(*lookup)(const void *map, const shadowbench_query *queries, const shadowbench_footprint *footprints,
-                          size_t count, float *visibility);
+    const char* (*lookup)(const void* map, const shadowbench_query* queries, const shadowbench_footprint* footprints,
+                          size_t count, float* visibility);
     /* Bytes that the finished map holds, and the most that were held while building besides the rays. */
-    const char *(*bytes)(const void *map, uint64_t *held, uint64_t *working);
+    const char* (*bytes)(const void* map, uint64_t* held, uint64_t* working);
 
-    /* The following may be NULL. Those that return a number report a fault by SHADOWBENCH_FAILED (nodes: UINT32_MAX). */
+    /* The following may be NULL. Those that return a number report a fault by SHADOWBENCH_FAILED (nodes:
+     * UINT32_MAX). */
 
     /* Nodes that cell (x, y) stores. NULL: not counted. */
-    uint32_t (*nodes)(const void *map, int32_t x, int32_t y);
+    uint32_t (*nodes)(const void* map, int32_t x, int32_t y);
     /* Writes at most `capacity` vertices of the function of cell (x, y), and returns their number. If it is above
-     * `capacity`, the function is called again with room for as many. A function that is not piecewise linear is sampled
-     * at its own nodes and at `depths` (sorted). NULL only with SHADOWBENCH_CELL_NONE. */
-    size_t (*stored)(const void *map, int32_t x, int32_t y, const float *depths, size_t depth_count,
-                     shadowbench_vertex *out, size_t capacity);
+     * `capacity`, the function is called again with room for as many. A function that is not piecewise linear is
+     * sampled at its own nodes and at `depths` (sorted). NULL only with SHADOWBENCH_CELL_NONE. */
+    size_t (*stored)(const void* map, int32_t x, int32_t y, const float* depths, size_t depth_count,
+                     shadowbench_vertex* out, size_t capacity);
     /* The same for the lines of memory that a lookup reads: an address in each 64-byte line, once, and no other. The
      * addresses are read, to time the floor of the lookup. NULL: lookups are timed without a floor. */
-    size_t (*touched)(const void *map, const shadowbench_query *query, const shadowbench_footprint *footprint,
-                      const void **lines, size_t capacity);
+    size_t (*touched)(const void* map, const shadowbench_query* query, const shadowbench_footprint* footprint,
+                      const void** lines, size_t capacity);
     /* The largest curve error that these values promise. NULL: none is promised. */
-    double (*error_bound)(const shadowbench_value *values, size_t value_count, const shadowbench_layout *layout);
+    double (*error_bound)(const shadowbench_value* values, size_t value_count, const shadowbench_layout* layout);
     /* The least bytes that a finished map of this layout holds, to refuse what cannot fit. NULL: 0. */
-    uint64_t (*least_bytes)(const shadowbench_value *values, size_t value_count, const shadowbench_layout *layout);
+    uint64_t (*least_bytes)(const shadowbench_value* values, size_t value_count, const shadowbench_layout* layout);
 } shadowbench_technique;
 
 typedef struct shadowbench_library {
     uint32_t abi; /* SHADOWBENCH_TECHNIQUE_ABI; read before anything else */
     uint32_t technique_count;
     size_t technique_size; /* sizeof(shadowbench_technique) */
-    const shadowbench_technique *techniques;
+    const shadowbench_technique* techniques;
 } shadowbench_library;
 
 /* The one exported function. What it returns stays as it is until the program ends. */
 #if defined(__GNUC__)
 __attribute__((visibility("default")))
 #endif
-const shadowbench_library *shadowbench_techniques(void);
+const shadowbench_library* shadowbench_techniques(void);
 
 #ifdef __cplusplus
 }
