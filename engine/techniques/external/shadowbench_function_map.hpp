@@ -178,3 +178,4 @@ private:
 };
 
 }  // namespace shadowbench
+#pragma GCC visibility pop

@@ -179,6 +179,7 @@ Technique of_function(About about) {
 }
 
 }  // namespace shadowbench
+#pragma GCC visibility pop
 
 // Once in a library: its techniques, each made by of_function or of_class.
 #define SHADOWBENCH_TECHNIQUES(...)                                                                     \
