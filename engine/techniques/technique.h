@@ -215,6 +215,7 @@ struct Library {
     std::string file;       // its name, without folders
     std::string hash;       // of its content
     bool isolated = false;  // its maps live in processes of their own
+    std::string fault = {};  // why it cannot be used, so that its maps fail; empty: it can
     friend bool operator==(const Library&, const Library&) = default;
 };
 

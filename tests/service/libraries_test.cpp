@@ -120,6 +120,9 @@ TEST_F(Libraries, ThatCannotBeUsedFailARowOfTheirName) {
     EXPECT_EQ(run({"serve", "--technique-libraries", temporary_.path("missing"), "--state", temporary_.path("state")}),
               66)
         << out_;
+    EXPECT_EQ(run({"validate", file, "--technique-library", SHADOWBENCH_NOTHING}), 0) << out_;
+    EXPECT_THAT(
+        out_, HasSubstr("note: technique outside_nothing, from liboutside_nothing.so, will fail: it does not export"));
     EXPECT_EQ(run({"run", file, "--only", "deep", "--only", "outside_nothing", "--technique-library",
                    SHADOWBENCH_NOTHING, "--out", temporary_.path("out")}),
               2)

@@ -24,7 +24,6 @@ struct Owned {
     std::vector<Parameter> parameters;
     Library library;
     std::shared_ptr<TechniqueCalls> calls;
-    std::string reason;  // why it cannot be used
 };
 
 bool is_name(const std::string& text) {
@@ -121,7 +120,7 @@ void check_description(const Description& description, const std::string& where)
 }
 
 Technique make_row(const Outside& technique, const Library& library) {
-    const auto owned = std::make_shared<Owned>(Owned{technique.description, {}, library, technique.calls, {}});
+    const auto owned = std::make_shared<Owned>(Owned{technique.description, {}, library, technique.calls});
     const Description& description = owned->description;
     for (const OutsideParameter& p : description.parameters) owned->parameters.push_back(parameter_of(p));
     Technique row{
@@ -153,15 +152,15 @@ Technique make_broken_row(const std::string& id, const Library& library, const s
     owned->description.id = id;
     owned->description.title = "cannot be used: " + reason;
     owned->library = library;
-    owned->reason = reason;
+    owned->library.fault = reason;
     return {.id = owned->description.id.c_str(),
             .title = owned->description.title.c_str(),
             .paper = "from outside",
             .version = 1,
             .create = [owned](const ParameterValues&) -> std::unique_ptr<Map> {
-                return std::make_unique<BrokenMap>(owned->library.file, owned->reason);
+                return std::make_unique<BrokenMap>(owned->library.file, owned->library.fault);
             },
-            .library = library};
+            .library = owned->library};
 }
 
 }  // namespace shadowbench::techniques
