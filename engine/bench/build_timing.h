@@ -11,10 +11,10 @@
 namespace shadowbench::bench {
 
 // Builds every contender that is ok once, in order, appends the seconds of each to seconds[i], and counts its pass.
-// Capturing and
-// splitting colours into channels are not timed. Each map is dropped at once if the light rays are kept; otherwise all
-// maps grow together, since each pass captures the rays again.
-void time_builds(std::span<const Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
+// Capturing and splitting colours into channels are not timed. Each map is dropped at once if the light rays are kept;
+// otherwise all maps grow together, since each pass captures the rays again. A technique that throws Error{internal},
+// though it could build this map before, fails.
+void time_builds(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
                  std::vector<std::vector<double>>& seconds, results::TimedPasses& passes);
 
 }  // namespace shadowbench::bench

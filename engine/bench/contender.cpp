@@ -65,7 +65,7 @@ void refuse_too_large(std::span<Contender> contenders, std::size_t memory_limit)
             fail(contender, "the map grew beyond the memory limit");
 }
 
-void finish_all(std::span<Contender> contenders) {
+void finish_all(std::span<Contender> contenders, std::size_t memory_limit) {
     for (Contender& contender : contenders) {
         if (!contender.ok()) continue;
         try {
@@ -79,6 +79,7 @@ void finish_all(std::span<Contender> contenders) {
         const techniques::NodeStats counted = nodes(contender.maps);
         contender.cell.nodes = {counted.cells, counted.total, counted.max, counted.histogram};
     }
+    refuse_too_large(contenders, memory_limit);
 }
 
 // Of the expected RMS, over the seeds and this one.
@@ -117,6 +118,8 @@ Contender make_contender(const scene::TechniqueRequest& request, const std::stri
     results::Cell& cell = contender.cell;
     cell.technique = contender.row->id;
     cell.version = contender.row->version;
+    if (const techniques::Library& library = contender.row->library; !library.file.empty())
+        cell.library = {library.file, library.hash, library.isolated};
     cell.parameters = techniques::to_string(contender.values, contender.row->parameters, false);
     cell.parameters_json = techniques::to_json(contender.values).dump();
     cell.defaults = cell.parameters.empty();
@@ -192,7 +195,7 @@ void build_all(std::span<Contender> contenders, const RaySource& source, const t
             tiles += batch.size();
             if (watch) watch(tiles / aprons.size());
         });
-    finish_all(contenders);
+    finish_all(contenders, memory_limit);
 }
 
 void check_functions(std::span<Contender> contenders, const RaySource& source, const rays::MapLayout& layout,
@@ -213,6 +216,7 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
 }
 
 void check_answers(Contender& contender, const Asked& asked, std::span<const float> answers) {
+    if (const std::string fault = bench::fault(contender.maps); !fault.empty()) return fail(contender, fault);
     const bool bounded = contender.promises.unit_range;
     for (std::size_t i = 0; i < answers.size(); ++i) {
         const float v = answers[i];

@@ -63,8 +63,8 @@ void build_all(std::span<Contender> contenders, const RaySource& source, const t
 void check_functions(std::span<Contender> contenders, const RaySource& source, const rays::MapLayout& layout,
                      const RaySource::Watch& watch);
 
-// Fails the contender if an answer is not finite or, where that is promised, not in [0, 1]. Answers are stored channel
-// after channel.
+// Fails the contender if its maps have a fault, or if an answer is not finite or, where that is promised, not in [0,
+// 1]. Answers are stored channel after channel.
 void check_answers(Contender& contender, const Asked& asked, std::span<const float> answers);
 
 // Looks up the judged queries and fails the contender as check_answers() does. Otherwise returns answer minus truth,

@@ -295,8 +295,13 @@ std::vector<CurveVerdict> check_curves(const RaySource& source, const MapLayout&
     }
 
     std::vector<CurveVerdict> verdicts;
-    for (std::size_t m = 0; m < maps.size(); ++m)
+    for (std::size_t m = 0; m < maps.size(); ++m) {
+        if (std::string fault = bench::fault(*maps[m].maps); !fault.empty()) {
+            verdicts.push_back({std::nullopt, std::move(fault)});
+            continue;
+        }
         verdicts.push_back(merge(tiles, m, layout.media ? pass.linearisation(is_fine(maps[m], layout)) : 0.0));
+    }
     return verdicts;
 }
 

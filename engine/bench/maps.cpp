@@ -33,6 +33,12 @@ void set_lookups(Maps& maps, const techniques::ParameterValues& values) {
     for (const auto& map : maps.parts) map->set_lookups(values);
 }
 
+std::string fault(const Maps& maps) {
+    for (const auto& map : maps.parts)
+        if (std::string fault = map->fault(); !fault.empty()) return fault;
+    return {};
+}
+
 void lookup(const Maps& maps, const Asked& asked, std::span<float> visibility) {
     const std::size_t per_map = asked.queries.size() * static_cast<std::size_t>(maps.parts[0]->channels());
     for (std::size_t p = 0; p < maps.parts.size(); ++p) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "techniques/technique.h"
@@ -42,6 +43,9 @@ void add(Maps& maps, const rays::LightRays& tile);
 void finish(Maps& maps);
 // See Map::set_lookups.
 void set_lookups(Maps& maps, const techniques::ParameterValues& values);
+
+// Why no answer of the maps counts; empty: they do. See Map::fault.
+std::string fault(const Maps& maps);
 
 // Answers are stored channel after channel: `visibility` has queries.size() * channels() places.
 void lookup(const Maps& maps, const Asked& asked, std::span<float> visibility);

@@ -202,6 +202,7 @@ struct PixelProbe::State {
             out.error_max = std::max(out.error_max, curves::distance(curve, truth, layout.z_min, layout.z_max).max);
             out.channels.push_back(with_ends(std::move(curve), layout));
         }
+        out.absent = fault(*maps[i]);
         return out;
     }
 };

@@ -52,10 +52,12 @@ double warm_builds(std::span<Contender> contenders, const RaySource& source, con
     return stopwatch.seconds();
 }
 
-bool all_narrow(const std::vector<LookupMeasurement>& plans, double goal,
+// Those of contenders that failed meanwhile do not count.
+bool all_narrow(std::span<const Contender> contenders, const std::vector<LookupMeasurement>& plans, double goal,
                 const std::function<std::vector<double>(const LookupMeasurement&)>& times) {
     return std::all_of(plans.begin(), plans.end(), [&](const LookupMeasurement& measured) {
-        return results::is_narrow(results::summarise(times(measured)), goal);
+        return !contenders[measured.contender].ok() ||
+               results::is_narrow(results::summarise(times(measured)), goal);
     });
 }
 
@@ -87,10 +89,11 @@ results::TimingReport time_light(const LightJob& job, std::span<Contender> conte
     const auto lookups = [&](std::size_t r) {
         const base::ThreadLimit one_thread(1);
         for (LookupMeasurement& measured : plans)
-            time_repetition(contenders[measured.contender].maps, measured.plan, r % 2 == 1);
+            if (const Contender& contender = contenders[measured.contender]; contender.ok())
+                time_repetition(contender.maps, measured.plan, r % 2 == 1);
         if (job.watch) job.watch("timing lookups", r + 1, rule.most);
     };
-    const auto narrow = [&](const auto& times) { return all_narrow(plans, timing.goal, times); };
+    const auto narrow = [&](const auto& times) { return all_narrow(contenders, plans, timing.goal, times); };
     const RoundPart parts[] = {
         {builds,
          [&] {
@@ -107,6 +110,7 @@ results::TimingReport time_light(const LightJob& job, std::span<Contender> conte
 
     for (const LookupMeasurement& measured : plans) {
         Contender& contender = contenders[measured.contender];
+        if (!contender.ok()) continue;
         // Many more places are timed than judged; their answers must be valid too.
         for (const LookupOrder* order : {&measured.plan.image, &measured.plan.random}) {
             check_answers(contender, order->asked(), order->answers);

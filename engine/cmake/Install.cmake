@@ -39,6 +39,19 @@ endforeach()
 install(TARGETS ${engine_targets} EXPORT shadowbench ARCHIVE COMPONENT development
         INCLUDES DESTINATION "${headers}")
 
+# What a technique from outside is compiled with: headers alone, without the engine and its libraries.
+set(technique_headers techniques/external)
+install(DIRECTORY engine/${technique_headers}/ DESTINATION "${headers}/${technique_headers}" COMPONENT development
+        FILES_MATCHING PATTERN "*.hpp")
+add_library(shadowbench_technique INTERFACE)
+add_library(shadowbench::technique ALIAS shadowbench_technique)
+target_include_directories(shadowbench_technique INTERFACE
+                           "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/engine/${technique_headers}>"
+                           "$<INSTALL_INTERFACE:${headers}/${technique_headers}>")
+target_compile_features(shadowbench_technique INTERFACE cxx_std_20)
+set_target_properties(shadowbench_technique PROPERTIES EXPORT_NAME technique)
+install(TARGETS shadowbench_technique EXPORT shadowbench-technique)
+
 add_custom_target(installed DEPENDS shadowbench ${layer_targets} COMMENT "All that is installed")
 
 include(CMakePackageConfigHelpers)
@@ -47,6 +60,8 @@ set(made "${CMAKE_CURRENT_BINARY_DIR}/generated")
 configure_package_config_file(engine/cmake/shadowbench-config.cmake.in "${made}/shadowbench-config.cmake"
                               INSTALL_DESTINATION "${package}")
 write_basic_package_version_file("${made}/shadowbench-config-version.cmake" COMPATIBILITY SameMinorVersion)
+install(EXPORT shadowbench-technique NAMESPACE shadowbench:: FILE shadowbench-technique-targets.cmake
+        DESTINATION "${package}" COMPONENT development)
 install(EXPORT shadowbench NAMESPACE shadowbench:: FILE shadowbench-targets.cmake DESTINATION "${package}"
         COMPONENT development)
 install(FILES "${made}/shadowbench-config.cmake" "${made}/shadowbench-config-version.cmake"

@@ -54,12 +54,14 @@ bool Trials::time_builds(std::vector<Timed>& timed, int repetitions, const Stopw
             std::shared_ptr<const bench::StoredRays> captured;
             double capture_ms = 0.0;
             for (auto one = first; one != last; ++one) {
+                if (!one->attempt.contender.ok()) continue;  // since an earlier repetition
                 const auto rays = store_->rays(rays_of_all, one->attempt.contender.needs);
                 const techniques::BuildInput input{rays->frame->layout, rays->frame->view, casters_.get()};
                 std::vector<std::vector<double>> seconds(1);
                 results::TimedPasses passes;
                 bench::time_builds(std::span(&one->attempt.contender, 1), *rays->source, input, seconds, passes);
-                one->build_ms.push_back(1e3 * seconds[0].at(0));
+                if (seconds[0].empty()) continue;  // it failed
+                one->build_ms.push_back(1e3 * seconds[0][0]);
                 const bool charged = !one->setting.row->traits.traces;
                 if (charged && rays != captured) {
                     captured = rays;
@@ -189,9 +191,14 @@ std::vector<Confirmed> Trials::confirm(std::span<const Point> points, const Conf
             timed.push_back({i, setting, lookups_of(points[i]), std::move(attempt)});
         }
     }
-    std::erase_if(timed, [&](const Timed& one) { return !answers[one.index].failed.empty(); });
+    const auto drop_failed = [&] {
+        std::erase_if(timed, [&](const Timed& one) { return !answers[one.index].failed.empty(); });
+    };
+    drop_failed();
     const bool builds_cut = !time_builds(timed, how.builds_asked ? least_repetitions : shown_builds, stopwatch,
                                          builds_share * how.most_seconds);
+    for (const Timed& one : timed) answers[one.index].failed = one.attempt.failed();
+    drop_failed();
     plan_lookups(timed);
     time_lookups(timed, least_repetitions,
                  std::isfinite(how.most_seconds) ? how.lookups_share * how.most_seconds : longest_timing);

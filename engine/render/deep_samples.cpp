@@ -157,6 +157,8 @@ DeepBlock samples_of_functions(const bench::Maps& maps, int y) {
                 base::ErrorCode::bad_input, "--technique",
                 fmt::format("the function of cell ({}, {}) rises with depth, which a deep image cannot hold", x, y));
     }
+    if (const std::string fault = bench::fault(maps); !fault.empty())
+        throw base::Error(base::ErrorCode::internal, "--technique", fault);
     return block;
 }
 

@@ -72,8 +72,9 @@ bench::Truth find_truth(const Work& work, const scene::Light& light, const rays:
     return all;
 }
 
-// Fails a technique that answers outside [0, 1].
+// Fails a technique whose map has a fault, or that answers outside [0, 1].
 void check_answers(Contender& contender, const std::vector<float>& answers) {
+    if (const std::string fault = bench::fault(contender.maps); !fault.empty()) return bench::fail(contender, fault);
     for (const float v : answers)
         if (!(v >= -rounding && v <= 1.0f + rounding))
             return bench::fail(contender, fmt::format("a lookup answers {}, which is not in [0, 1]", v));

@@ -130,6 +130,10 @@ Cell read_cell(const Field& field) {
     Cell cell;
     cell.technique = field.at("technique").text();
     cell.version = read_int(field.at("version"));
+    if (field.has("library")) {
+        const Field library = field.at("library");
+        cell.library = {library.at("file").text(), library.at("hash").text(), library.at("isolated").truth()};
+    }
     cell.parameters_json = field.at("parameters").object().dump();
     cell.parameters = field.at("label").text();
     cell.defaults = flag_or_false(field, "defaults");

@@ -30,8 +30,8 @@ Result from_json(const nlohmann::json& json, const std::string& origin);
 // Removes every "times" object, at any depth.
 void strip_times(nlohmann::ordered_json& result);
 
-// A header line, then one row per cell, separated by commas and quoted as in RFC 4180. A number that does not exist is
-// an empty field.
+// A tidy table: a header line, then one row for each measure of each cell, with its interval, separated by commas and
+// quoted as in RFC 4180. A cell without measures, which failed, has one row. results/README.md describes the columns.
 std::string to_csv(const Result& result);
 
 // A table for people: the notes of the file readers, then for each variant and light, what was captured and how

@@ -1,6 +1,8 @@
+#include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,16 @@ std::string csv_number(double value) {
     return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
 
+// One value that a cell has.
+struct Measure {
+    const char* name;
+    const char* unit;
+    double value;
+    std::optional<metrics::Interval> interval = {};
+    const char* covers = "";          // what the interval covers
+    std::optional<bool> narrow = {};  // of a time: whether its interval is as narrow as timing.goal
+};
+
 struct Row {
     const Result& result;
     const VariantResult& variant;
@@ -22,6 +34,7 @@ struct Row {
     const Settling& floors;  // of the light
     const Cell& cell;
     const std::string& machine;  // that measured the light
+    const Measure* measure;      // null: a cell without any
 };
 
 std::string settings_text(const VariantResult& variant) {
@@ -31,22 +44,8 @@ std::string settings_text(const VariantResult& variant) {
     return text;
 }
 
-std::string from_times(const Row& row, double (*read)(const CellTimes&)) {
-    return row.cell.times ? csv_number(read(*row.cell.times)) : std::string();
-}
-
-std::string from_curve(const Row& row, double (*read)(const CurveErrors&)) {
-    return row.cell.curve ? csv_number(read(*row.cell.curve)) : std::string();
-}
-
-std::string from_lookup(const Row& row, double (*read)(const LookupErrors&)) {
-    return row.cell.lookup ? csv_number(read(*row.cell.lookup)) : std::string();
-}
-
-std::string settled_text(const Row& row, const Sample& (*read)(const CellTimes&)) {
-    if (!row.cell.times) return "";
-    const std::optional<bool> settled = is_settled(read(*row.cell.times), row.light);
-    return !settled ? "" : *settled ? "1" : "0";
+std::string truth_text(const std::optional<bool>& truth) {
+    return !truth ? "" : *truth ? "1" : "0";
 }
 
 struct Column {
@@ -54,8 +53,7 @@ struct Column {
     std::string (*value)(const Row&);
 };
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
+// results/README.md says what each is.
 const Column columns[] = {
     {"scenario", [](const Row& r) { return r.result.name; }},
     {"scenario_hash", [](const Row& r) { return r.result.hash; }},
@@ -69,77 +67,92 @@ const Column columns[] = {
     {"segments", [](const Row& r) { return fmt::format("{}", r.light.segments); }},
     {"technique", [](const Row& r) { return r.cell.technique; }},
     {"version", [](const Row& r) { return fmt::format("{}", r.cell.version); }},
+    {"library", [](const Row& r) { return r.cell.library ? r.cell.library->hash : std::string(); }},
     {"parameters", [](const Row& r) { return r.cell.parameters; }},
     {"status", [](const Row& r) { return std::string(r.cell.status == CellStatus::ok ? "ok" : "failed"); }},
     {"reason", [](const Row& r) { return r.cell.reason; }},
-    {"outside_promise", [](const Row& r) { return std::string(r.cell.outside_promise ? "1" : "0"); }},
-    {"build_ms", [](const Row& r) { return from_times(r, [](const CellTimes& t) { return t.build_ms.median; }); }},
-    {"build_ns_per_segment",
-     [](const Row& r) { return from_times(r, [](const CellTimes& t) { return t.ns_per_segment; }); }},
-    {"lookup_image_ns",
-     [](const Row& r) { return from_times(r, [](const CellTimes& t) { return t.image_order.ns.median; }); }},
-    {"lookup_image_ratio",
-     [](const Row& r) {
-         return from_times(r,
-                           [](const CellTimes& t) { return t.image_order.ratio ? t.image_order.ratio->median : none; });
-     }},
-    {"lookup_random_ns",
-     [](const Row& r) { return from_times(r, [](const CellTimes& t) { return t.random_order.ns.median; }); }},
-    {"lookup_random_ratio",
-     [](const Row& r) {
-         return from_times(
-             r, [](const CellTimes& t) { return t.random_order.ratio ? t.random_order.ratio->median : none; });
-     }},
-    {"bytes", [](const Row& r) { return fmt::format("{}", r.cell.bytes); }},
-    {"working_bytes", [](const Row& r) { return fmt::format("{}", r.cell.working_bytes); }},
-    {"nodes_total", [](const Row& r) { return fmt::format("{}", r.cell.nodes.total); }},
-    {"nodes_mean", [](const Row& r) { return csv_number(r.cell.nodes.mean()); }},
-    {"nodes_max", [](const Row& r) { return fmt::format("{}", r.cell.nodes.max); }},
-    {"curve_error_max", [](const Row& r) { return from_curve(r, [](const CurveErrors& e) { return e.norms.max; }); }},
-    {"curve_error_rms", [](const Row& r) { return from_curve(r, [](const CurveErrors& e) { return e.norms.rms; }); }},
-    {"curve_error_mean", [](const Row& r) { return from_curve(r, [](const CurveErrors& e) { return e.norms.mean; }); }},
-    {"curve_error_p99", [](const Row& r) { return from_curve(r, [](const CurveErrors& e) { return e.norms.p99; }); }},
-    {"lookup_error_max",
-     [](const Row& r) { return from_lookup(r, [](const LookupErrors& e) { return e.norms.max; }); }},
-    {"lookup_error_rms",
-     [](const Row& r) { return from_lookup(r, [](const LookupErrors& e) { return e.norms.rms; }); }},
-    {"lookup_error_mean",
-     [](const Row& r) { return from_lookup(r, [](const LookupErrors& e) { return e.norms.mean; }); }},
-    {"lookup_error_p99",
-     [](const Row& r) { return from_lookup(r, [](const LookupErrors& e) { return e.norms.p99; }); }},
-    {"lookup_error_signed_mean",
-     [](const Row& r) { return from_lookup(r, [](const LookupErrors& e) { return e.signed_mean; }); }},
-    {"lookup_error_rms_low",
-     [](const Row& r) {
-         return from_lookup(r, [](const LookupErrors& e) { return e.interval ? e.interval->low : none; });
-     }},
-    {"lookup_error_rms_high",
-     [](const Row& r) {
-         return from_lookup(r, [](const LookupErrors& e) { return e.interval ? e.interval->high : none; });
-     }},
-    {"lookup_error_rms_interval_covers",
-     [](const Row& r) {
-         if (!r.cell.lookup || !r.cell.lookup->interval) return std::string();
-         return std::string(r.cell.lookup->interval->covers_rays ? "truth and rays" : "truth");
-     }},
+    {"outside_promise", [](const Row& r) { return truth_text(r.cell.outside_promise); }},
+    {"verdict", [](const Row& r) { return std::string(to_string(r.cell.verdict)); }},
+    {"verdict_why", [](const Row& r) { return r.cell.verdict_why; }},
     {"on_time_error_front",
      [](const Row& r) { return std::string(to_string(r.cell.times ? r.cell.times->on_front : metrics::OnFront::no)); }},
     {"on_bytes_error_front", [](const Row& r) { return std::string(to_string(r.cell.on_bytes_front)); }},
-    {"verdict", [](const Row& r) { return std::string(to_string(r.cell.verdict)); }},
-    {"verdict_why", [](const Row& r) { return r.cell.verdict_why; }},
-    {"settled", [](const Row& r) { return std::string(!r.floors.known()    ? ""
-                                                      : r.floors.settled() ? "1"
-                                                                           : "0"); }},
-    {"build_settled",
-     [](const Row& r) { return settled_text(r, [](const CellTimes& t) -> const Sample& { return t.build_ms; }); }},
-    {"lookup_image_settled",
+    {"quiet",
+     [](const Row& r) { return truth_text(r.floors.known() ? std::optional(r.floors.settled()) : std::nullopt); }},
+    {"measure", [](const Row& r) { return std::string(r.measure ? r.measure->name : ""); }},
+    {"unit", [](const Row& r) { return std::string(r.measure ? r.measure->unit : ""); }},
+    {"value", [](const Row& r) { return r.measure ? csv_number(r.measure->value) : std::string(); }},
+    {"low",
      [](const Row& r) {
-         return settled_text(r, [](const CellTimes& t) -> const Sample& { return t.image_order.ns; });
+         return r.measure && r.measure->interval ? csv_number(r.measure->interval->low) : std::string();
      }},
-    {"lookup_random_settled",
+    {"high",
      [](const Row& r) {
-         return settled_text(r, [](const CellTimes& t) -> const Sample& { return t.random_order.ns; });
+         return r.measure && r.measure->interval ? csv_number(r.measure->interval->high) : std::string();
      }},
+    {"interval_covers", [](const Row& r) { return std::string(r.measure ? r.measure->covers : ""); }},
+    {"narrow", [](const Row& r) { return r.measure ? truth_text(r.measure->narrow) : std::string(); }},
+};
+
+// The measures of one cell.
+class Measures {
+public:
+    Measures(const Cell& cell, const LightResult& light) : light_(light) {
+        if (cell.times) add_times(*cell.times);
+        if (cell.status == CellStatus::ok) add_sizes(cell);
+        if (cell.curve) {
+            add_norms({"curve_error_max", "curve_error_rms", "curve_error_mean", "curve_error_p99"}, cell.curve->norms);
+            add({"curve_error_l1", "visibility x length", cell.curve->mean_l1});
+        }
+        if (cell.lookup) add_lookup(*cell.lookup);
+    }
+    const std::vector<Measure>& list() const { return list_; }
+
+private:
+    void add(const Measure& measure) {
+        if (std::isfinite(measure.value)) list_.push_back(measure);
+    }
+    void add_sample(const char* name, const char* unit, const Sample& sample, bool is_time) {
+        const std::optional<bool> narrow = is_time ? is_settled(sample, light_) : std::nullopt;
+        add({name, unit, sample.median, sample.interval, "repetitions", narrow});
+    }
+    void add_order(const std::array<const char*, 3>& names, const LookupTimes& times) {
+        add_sample(names[0], "ns", times.ns, true);
+        if (times.floor) add_sample(names[1], "ns", *times.floor, false);
+        if (times.ratio) add_sample(names[2], "1", *times.ratio, false);
+    }
+    void add_times(const CellTimes& times) {
+        add_sample("build_ms", "ms", times.build_ms, true);
+        add({"build_ns_per_segment", "ns", times.ns_per_segment});
+        add_order({"lookup_image_ns", "lookup_image_floor_ns", "lookup_image_ratio"}, times.image_order);
+        add_order({"lookup_random_ns", "lookup_random_floor_ns", "lookup_random_ratio"}, times.random_order);
+    }
+    void add_sizes(const Cell& cell) {
+        add({"bytes", "bytes", static_cast<double>(cell.bytes)});
+        add({"working_bytes", "bytes", static_cast<double>(cell.working_bytes)});
+        add({"nodes_total", "nodes", static_cast<double>(cell.nodes.total)});
+        add({"nodes_mean", "nodes", cell.nodes.mean()});
+        add({"nodes_max", "nodes", static_cast<double>(cell.nodes.max)});
+    }
+    void add_norms(const std::array<const char*, 4>& names, const metrics::ErrorNorms& norms,
+                   const Measure& interval_of_rms = {}) {
+        add({names[0], "visibility", norms.max});
+        add({names[1], "visibility", norms.rms, interval_of_rms.interval, interval_of_rms.covers});
+        add({names[2], "visibility", norms.mean});
+        add({names[3], "visibility", norms.p99});
+    }
+    void add_lookup(const LookupErrors& errors) {
+        Measure rms{"", "", 0.0};
+        if (errors.interval) {
+            rms.interval = metrics::Interval{errors.interval->low, errors.interval->high};
+            rms.covers = errors.interval->covers_rays ? "truth and rays" : "truth";
+        }
+        add_norms({"lookup_error_max", "lookup_error_rms", "lookup_error_mean", "lookup_error_p99"}, errors.norms, rms);
+        add({"lookup_error_signed_mean", "visibility", errors.signed_mean});
+    }
+
+    const LightResult& light_;
+    std::vector<Measure> list_;
 };
 
 // RFC 4180: a field with a comma, a quote or a line break is put in quotes, and its own quotes are doubled.
@@ -151,6 +164,12 @@ std::string quoted(const std::string& field) {
         text += c;
     }
     return text + '"';
+}
+
+std::string line_of(const Row& row) {
+    std::string line;
+    for (const Column& column : columns) line += (&column == columns ? "" : ",") + quoted(column.value(row));
+    return line + "\n";
 }
 
 // `machine_of` gives the machine of a light, by its number in the whole result.
@@ -165,11 +184,10 @@ std::string csv_text(const Result& result, const MachineOf& machine_of) {
             const Settling floors = settling(light);
             const std::string machine = machine_of(lights++);
             for (const Cell& cell : light.cells) {
-                std::string line;
-                for (const Column& column : columns)
-                    line += (&column == columns ? "" : ",") +
-                            quoted(column.value({result, variant, light, floors, cell, machine}));
-                text += line + "\n";
+                const Measures measures(cell, light);
+                for (const Measure& measure : measures.list())
+                    text += line_of({result, variant, light, floors, cell, machine, &measure});
+                if (measures.list().empty()) text += line_of({result, variant, light, floors, cell, machine, nullptr});
             }
         }
     return text;

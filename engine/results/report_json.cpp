@@ -92,26 +92,29 @@ json to_json(const NodeCounts& nodes) {
 }
 
 json to_json(const Cell& cell, const LightResult& light) {
-    return {{"technique", cell.technique},
-            {"version", cell.version},
-            {"parameters", json::parse(cell.parameters_json)},
-            {"label", cell.parameters},
-            {"defaults", cell.defaults},
-            {"where", cell.where},
-            {"status", cell.status == CellStatus::ok ? "ok" : "failed"},
-            {"reason", cell.reason},
-            {"verdict", to_string(cell.verdict)},
-            {"verdict_why", cell.verdict_why},
-            {"outside_promise", cell.outside_promise},
-            {"promised_curve_error", number(cell.error_bound)},
-            {"bytes", cell.bytes},
-            {"working_bytes", cell.working_bytes},
-            {"nodes", to_json(cell.nodes)},
-            {"curve_error", to_json(cell.curve)},
-            {"lookup_error", to_json(cell.lookup)},
-            {"over_seeds", to_json(cell.over_seeds)},
-            {"on_bytes_error_front", to_string(cell.on_bytes_front)},
-            {"times", to_json(cell.times, light)}};
+    json out = {{"technique", cell.technique}, {"version", cell.version}};
+    if (const auto& library = cell.library)
+        out["library"] = {{"file", library->file}, {"hash", library->hash}, {"isolated", library->isolated}};
+    const json rest = {{"parameters", json::parse(cell.parameters_json)},
+                       {"label", cell.parameters},
+                       {"defaults", cell.defaults},
+                       {"where", cell.where},
+                       {"status", cell.status == CellStatus::ok ? "ok" : "failed"},
+                       {"reason", cell.reason},
+                       {"verdict", to_string(cell.verdict)},
+                       {"verdict_why", cell.verdict_why},
+                       {"outside_promise", cell.outside_promise},
+                       {"promised_curve_error", number(cell.error_bound)},
+                       {"bytes", cell.bytes},
+                       {"working_bytes", cell.working_bytes},
+                       {"nodes", to_json(cell.nodes)},
+                       {"curve_error", to_json(cell.curve)},
+                       {"lookup_error", to_json(cell.lookup)},
+                       {"over_seeds", to_json(cell.over_seeds)},
+                       {"on_bytes_error_front", to_string(cell.on_bytes_front)},
+                       {"times", to_json(cell.times, light)}};
+    out.update(rest);
+    return out;
 }
 
 json to_json(const MapDescription& layout) {

@@ -126,6 +126,19 @@ std::string warning_line(const LightResult& light) {
         count(a.rays), count(a.other_crossings), count(a.other_transmittance));
 }
 
+// The techniques from outside, a line each; empty if there are none.
+std::string library_lines(const LightResult& light) {
+    std::string text;
+    for (const Cell& cell : light.cells) {
+        if (!cell.library) continue;
+        const std::string line = fmt::format(
+            "    external: {} from {}, hash {}{}\n", cell.technique, cell.library->file, cell.library->hash,
+            cell.library->isolated ? ", in processes of its own: its times hold the way there and back" : "");
+        if (text.find(line) == std::string::npos) text += line;
+    }
+    return text;
+}
+
 // Empty if every stored function was compared.
 std::string share_line(const LightResult& light) {
     std::string names;
@@ -190,7 +203,7 @@ std::string to_table(const Result& result) {
             for (const Cell& cell : light.cells) table.add(row_of(cell, light));
             const Settling found = settling(light);
             marked = marked || !found.uncertain.empty();
-            text += table.text("    ") + share_line(light) + disturbed_line(found);
+            text += table.text("    ") + library_lines(light) + share_line(light) + disturbed_line(found);
         }
     }
     return text + legend + (marked ? mark_legend : "");

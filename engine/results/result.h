@@ -99,10 +99,19 @@ struct TimingReport {
 
 enum class CellStatus { ok, failed };
 
+// The file of a technique from outside.
+struct TechniqueLibrary {
+    std::string file;       // its name, without folders
+    std::string hash;       // of its content
+    bool isolated = false;  // its maps were in processes of their own; times hold the way there and back
+    friend bool operator==(const TechniqueLibrary&, const TechniqueLibrary&) = default;
+};
+
 // One technique with one set of parameters, on one light.
 struct Cell {
     std::string technique;
     int version = 0;
+    std::optional<TechniqueLibrary> library = {};  // absent: the technique is part of the program
     std::string parameters;       // "tolerance=0.02 filter=point": what sweeps set, and what differs from the defaults
     std::string parameters_json;  // all of them
     bool defaults = false;        // whether all have their default values

@@ -1,5 +1,6 @@
 // The registry, made from rows.inc, which has one line for each technique.
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "techniques/technique.h"
@@ -10,13 +11,30 @@ namespace shadowbench::techniques {
 #include "techniques/rows.inc"
 #undef ROW
 
-std::span<const Technique> all() {
-    static const Technique rows[] = {
+namespace {
+
+std::deque<Technique>& rows() {
+    static std::deque<Technique> rows = {
 #define ROW(name) name(),
 #include "techniques/rows.inc"
 #undef ROW
     };
     return rows;
+}
+
+}  // namespace
+
+const std::deque<Technique>& all() {
+    return rows();
+}
+
+void add(Technique row, const std::string& where) {
+    for (const Technique& other : all())
+        if (std::string(other.id) == row.id)
+            throw base::Error(base::ErrorCode::bad_input, where,
+                              "there is a technique \"" + std::string(row.id) + "\" already" +
+                                  (other.library.file.empty() ? "" : ", from " + other.library.file));
+    rows().push_back(std::move(row));
 }
 
 const Technique& find(const std::string& id, const std::string& where) {

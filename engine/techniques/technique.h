@@ -4,6 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -96,6 +98,9 @@ public:
     // Lookups of the finished map become those of these values. They may differ from the values of the map only in
     // parameters whose trades are `only_lookups`. Not while another thread looks up.
     virtual void set_lookups(const ParameterValues&) {}
+    // Why no answer of the map counts; empty: they do. Const functions do not throw, so that they can be timed: what
+    // went wrong in one of them stands here. Only maps of techniques from outside have faults.
+    virtual std::string fault() const { return {}; }
 
     // The number of values in a lookup's answer: 1, or the channels of the layout passed to begin.
     virtual int channels() const { return 1; }
@@ -205,7 +210,17 @@ std::unique_ptr<Map> create_map(const ParameterValues& values) {
     return std::make_unique<Made>(values);
 }
 
-// Rows use named fields; fields that are not named have their defaults.
+// The file that a technique from outside was loaded from.
+struct Library {
+    std::string file;       // its name, without folders
+    std::string hash;       // of its content
+    bool isolated = false;  // its maps live in processes of their own
+    std::string fault = {};  // why it cannot be used, so that its maps fail; empty: it can
+    friend bool operator==(const Library&, const Library&) = default;
+};
+
+// Rows use named fields; fields that are not named have their defaults. Functions may have state: those of a technique
+// from outside hold its library.
 struct Technique {
     const char* id = "";
     const char* title = "";
@@ -213,28 +228,34 @@ struct Technique {
     int version = 1;  // increases when the same rays give other answers or bytes
     Promises promises = {};
     std::span<const Parameter> parameters = {};
-    std::unique_ptr<Map> (*create)(const ParameterValues& values) = nullptr;
+    std::function<std::unique_ptr<Map>(const ParameterValues& values)> create = nullptr;
     // The largest curve error (see metrics) that these values promise for a map of this layout; infinity: no promise.
-    double (*error_bound)(const ParameterValues& values, const rays::MapLayout& layout) = no_bound;
+    std::function<double(const ParameterValues& values, const rays::MapLayout& layout)> error_bound = no_bound;
     // Makes a finished map from given functions instead of rays: function i is pixel (i, 0) of a map one pixel high.
     // Null if the technique cannot store every piecewise-linear function.
-    std::unique_ptr<Map> (*from_curves)(const ParameterValues& values,
-                                        std::span<const curves::Curve> functions) = nullptr;
+    std::function<std::unique_ptr<Map>(const ParameterValues& values, std::span<const curves::Curve> functions)>
+        from_curves = nullptr;
     // The least number of bytes that the finished map of this layout holds, to refuse what cannot fit before work
     // starts.
-    std::size_t (*least_bytes)(const ParameterValues& values, const rays::MapLayout& layout) = no_bytes;
+    std::function<std::size_t(const ParameterValues& values, const rays::MapLayout& layout)> least_bytes = no_bytes;
     bool coloured = false;  // one map holds all channels of a coloured scene
     // For rows whose promises depend on the values: what these values promise; `promises` is then for the defaults.
-    Promises (*promises_of)(const ParameterValues& values) = nullptr;
+    std::function<Promises(const ParameterValues& values)> promises_of = nullptr;
     Traits traits = {};
+    Library library = {};  // of a technique from outside; empty: the technique is part of this program
 };
 
 inline Promises promises(const Technique& row, const ParameterValues& values) {
     return row.promises_of ? row.promises_of(values) : row.promises;
 }
 
-// The registry: one row for each technique, in the order of rows.inc.
-std::span<const Technique> all();
+// The registry: one row for each technique, in the order of rows.inc, then those that were added. Rows stay where they
+// are.
+const std::deque<Technique>& all();
+
+// Adds a row. The program calls it before it reads the registry from several threads. Throws Error{bad_input}, place
+// `where`, if a row has this id.
+void add(Technique row, const std::string& where);
 
 // Throws Error{bad_input} that lists the known names.
 const Technique& find(const std::string& id, const std::string& where);

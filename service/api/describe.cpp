@@ -55,18 +55,20 @@ ordered_json describe(const Parameter& parameter) {
 ordered_json describe(const techniques::Technique& row) {
     ordered_json parameters = ordered_json::array();
     for (const Parameter& parameter : row.parameters) parameters.push_back(describe(parameter));
-    return {{"id", row.id},
-            {"title", row.title},
-            {"paper", row.paper},
-            {"version", row.version},
-            {"promises",
-             {{"monotone", row.promises.monotone},
-              {"unit_range", row.promises.unit_range},
-              {"opaque_only", row.promises.opaque_only},
-              {"localised", row.promises.localised},
-              {"approximate", row.promises.approximate},
-              {"early", row.promises.early}}},
-            {"parameters", std::move(parameters)}};
+    ordered_json described = {{"id", row.id},
+                              {"title", row.title},
+                              {"paper", row.paper},
+                              {"version", row.version},
+                              {"promises",
+                               {{"monotone", row.promises.monotone},
+                                {"unit_range", row.promises.unit_range},
+                                {"opaque_only", row.promises.opaque_only},
+                                {"localised", row.promises.localised},
+                                {"approximate", row.promises.approximate},
+                                {"early", row.promises.early}}},
+                              {"parameters", std::move(parameters)}};
+    if (!row.library.file.empty()) described["library"] = {{"file", row.library.file}, {"hash", row.library.hash}};
+    return described;
 }
 
 // The document under this name, or nothing: the file is broken, or another scenario has the name that it gives itself.

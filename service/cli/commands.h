@@ -7,12 +7,20 @@
 
 namespace shadowbench::service {
 
+// Techniques from outside.
+struct LibraryArguments {
+    std::vector<std::string> files;
+    bool isolate = false;        // each map in a process of its own
+    double call_seconds = 60.0;  // that one call may take there
+};
+
 struct JobArguments {
     std::vector<std::string> set;   // path=value
     std::vector<std::string> data;  // folders
     std::vector<std::string> only;  // technique ids
     int threads = 0;                // 0: all processors
     double memory_limit = 16.0;     // GiB
+    LibraryArguments libraries;
 };
 
 struct ScenarioArguments : JobArguments {
@@ -71,7 +79,7 @@ bool render_command(const RenderArguments& arguments, std::ostream& out, std::os
 void export_command(const ExportArguments& arguments, std::ostream& out, std::ostream& err);
 // Throws the last fault of the scenario; the others go to `err`, a line each.
 void validate_command(const ScenarioArguments& arguments, std::ostream& out, std::ostream& err);
-void list_techniques(std::ostream& out);
+void list_techniques(const LibraryArguments& libraries, std::ostream& out);
 void list_scenarios(std::ostream& out);
 void reproduce_command(const ReproduceArguments& arguments, std::ostream& out, std::ostream& err);
 void curve_command(const CurveArguments& arguments, std::ostream& out);

@@ -95,12 +95,12 @@ std::string export_map(const ExportArguments& arguments, bool tiled, const bench
 
 void export_command(const ExportArguments& arguments, std::ostream& out, std::ostream& err) {
     const bool tiled = is_tiled(arguments);
+    const Job job = read_job(arguments);  // first: it loads the libraries of techniques
     document::TechniqueChoice technique = document::read_any_technique(arguments.technique);
     if (tiled && technique.row->id != std::string("deep"))
         throw Error(ErrorCode::usage, "--out " + arguments.out,
                     "only technique deep can be written as .dsm; write an .exr");
     if (tiled) technique.values.values["storage"] = std::string("memory");  // a map in tiles keeps no levels to write
-    const Job job = read_job(arguments);
     { const base::PendingFile writable(arguments.out); }  // fails now rather than after all the work
     const base::ThreadLimit threads(job.options.threads);
     ProgressBar bar(err);

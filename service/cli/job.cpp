@@ -7,6 +7,7 @@
 
 #include "base/read_text.h"
 #include "document/document.h"
+#include "service/cli/libraries.h"
 #include "service/cli/scenario_files.h"
 
 namespace shadowbench::service {
@@ -26,6 +27,7 @@ nlohmann::json read_document(const fs::path& file) {
 }  // namespace
 
 Job read_job(const JobArguments& arguments, const fs::path& scenario) {
+    load_libraries(arguments.libraries);
     Job job;
     nlohmann::json document = read_document(scenario);
     for (const std::string& assignment : arguments.set) document::set_value(document, assignment);

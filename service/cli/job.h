@@ -18,7 +18,8 @@ struct Job {
     bench::RunOptions options;
 };
 
-// `scenario` may also be a result.json: it stands for the scenario that it holds. Throws base::Error.
+// `scenario` may also be a result.json: it stands for the scenario that it holds. Loads the libraries of techniques.
+// Throws base::Error.
 Job read_job(const JobArguments& arguments, const std::filesystem::path& scenario);
 Job read_job(const ScenarioArguments& arguments);
 

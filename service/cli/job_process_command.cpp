@@ -22,6 +22,7 @@
 #include "results/report.h"
 #include "results/write_result.h"
 #include "scene/scenario.h"
+#include "service/cli/libraries.h"
 #include "service/cli/recommend_job.h"
 #include "service/jobs/fraction.h"
 #include "service/jobs/progress_line.h"
@@ -136,6 +137,7 @@ std::optional<StorageFault> storage_fault(const Error& error, const std::string&
 
 bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
     const fs::path folder = arguments.folder;
+    load_libraries(arguments.libraries);
     const TemporaryPlace temporary(arguments.folder);
     const nlohmann::json document = scene::parse_json(base::read_text(folder / "scenario.json"), "scenario.json");
     bench::RunOptions options;

@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "service/cli/commands.h"
+
 namespace shadowbench::service {
 
 struct JobProcessArguments {
     std::string folder;
     std::vector<std::string> data;
+    LibraryArguments libraries;
     double memory_limit = 16.0;  // GiB
     bool pictures = true;
 };

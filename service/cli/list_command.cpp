@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "scene/named_scenarios.h"
 #include "service/cli/commands.h"
+#include "service/cli/libraries.h"
 #include "service/cli/scenario_files.h"
 #include "techniques/technique.h"
 #include "techniques/trades.h"
@@ -53,9 +54,12 @@ std::string trades_of(const techniques::Traits& traits) {
 
 }  // namespace
 
-void list_techniques(std::ostream& out) {
+void list_techniques(const LibraryArguments& libraries, std::ostream& out) {
+    load_libraries(libraries);
     for (const techniques::Technique& row : techniques::all()) {
         out << fmt::format("{:<14}{} (version {}; {})\n", row.id, row.title, row.version, row.paper);
+        if (!row.library.file.empty())
+            out << fmt::format("{:<14}external: {}, hash {}\n", "", row.library.file, row.library.hash);
         out << fmt::format("{:<14}promises: {}\n", "", promises_of(row.promises));
         for (const Parameter& parameter : row.parameters)
             out << fmt::format("{:<14}{}={}  [{}] {}\n", "", parameter.name, standard_of(parameter),

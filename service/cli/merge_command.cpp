@@ -14,6 +14,7 @@
 #include "results/merge_cells.h"
 #include "results/report.h"
 #include "service/cli/job.h"
+#include "service/cli/libraries.h"
 #include "service/cli/outcomes.h"
 #include "service/cli/sweep_commands.h"
 #include "service/cli/sweep_folder.h"
@@ -128,6 +129,7 @@ results::Result write_merged(const std::vector<results::SweepCell>& cells, const
 }  // namespace
 
 bool merge_command(const MergeArguments& arguments, std::ostream& out) {
+    load_libraries(arguments.libraries);
     const Sweep sweep = common_sweep(arguments.folders);
     const std::vector<PlannedCell> planned = planned_of(sweep, arguments.folders[0]);
     CellsByHash files = read_cells(arguments.folders, planned);

@@ -15,6 +15,7 @@ class Option;
 namespace shadowbench::service {
 
 struct JobArguments;
+struct LibraryArguments;
 
 struct Command {
     CLI::App* app;                                                 // the subcommand, with its options
@@ -40,6 +41,7 @@ void set_help(CLI::App& command, const char* group, std::initializer_list<const 
 
 // Options that several commands share; arguments and folder must outlive the parsing.
 void add_job_options(CLI::App& command, JobArguments& arguments);
+void add_library_options(CLI::App& command, LibraryArguments& libraries);
 void add_only_option(CLI::App& command, JobArguments& arguments);
 void add_folder_option(CLI::App& command, std::string& folder, const char* text);
 

@@ -57,6 +57,26 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
                     "GiB of memory. A scenario that certainly needs more is refused")
         ->check(in_range(0.001, 1e6))
         ->capture_default_str();
+    add_library_options(command, arguments.libraries);
+}
+
+void add_library_options(CLI::App& command, LibraryArguments& libraries) {
+    CLI::Option* files = command.add_option(
+        "--technique-library", libraries.files,
+        "Load techniques from this shared library, made with shadowbench_technique.h. They are then techniques as all "
+        "others; a fault of the library fails only their rows");
+    repeatable(files);
+    CLI::Option* isolate =
+        command
+            .add_flag(
+                "--isolate", libraries.isolate,
+                "Run each map of these techniques in a process of its own, so that not even a crash or an endless "
+                "loop ends the command. Their times then hold the way there and back")
+            ->needs(files);
+    command.add_option("--call-seconds", libraries.call_seconds, "With --isolate: seconds that one call may take")
+        ->needs(isolate)
+        ->check(in_range(0.01, 1e6))
+        ->capture_default_str();
 }
 
 void add_folder_option(CLI::App& command, std::string& folder, const char* text) {
@@ -177,14 +197,23 @@ void add_export(CLI::App& app, Commands& commands) {
 }
 
 void add_list(CLI::App& app, Commands& commands) {
-    const auto arguments = std::make_shared<std::string>();
+    struct ListArguments {
+        std::string what;
+        LibraryArguments libraries;
+    };
+    const auto arguments = std::make_shared<ListArguments>();
     CLI::App* list = app.add_subcommand("list", "List the techniques with their parameters, or the scenarios");
-    set_help(*list, command_groups::measure, {"list techniques", "list scenarios"});
-    list->add_option("WHAT", *arguments, "techniques or scenarios")
+    set_help(*list, command_groups::measure,
+             {"list techniques", "list scenarios", "list techniques --technique-library ./libstairs.so"});
+    list->add_option("WHAT", arguments->what, "techniques or scenarios")
         ->required()
         ->check(CLI::IsMember({"techniques", "scenarios"}));
+    add_library_options(*list, arguments->libraries);
     commands.push_back({list, [arguments](std::ostream& out, std::ostream&) {
-                            *arguments == "techniques" ? list_techniques(out) : list_scenarios(out);
+                            if (arguments->what == "techniques")
+                                list_techniques(arguments->libraries, out);
+                            else
+                                list_scenarios(out);
                             return 0;
                         }});
 }

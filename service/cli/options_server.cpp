@@ -8,6 +8,7 @@
 #include "service/cli/options.h"
 #include "service/cli/server_commands.h"
 #include "service/http/prefix.h"
+#include "service/isolation/host.h"
 
 namespace shadowbench::service {
 namespace {
@@ -136,6 +137,15 @@ void add_serve(CLI::App& app, Commands& commands) {
                      "Folder of the jobs and their results: a new or empty one, or that of an earlier server")
         ->capture_default_str();
     add_data(*serve, arguments->data, "Scenarios may name the files of this folder [no files]");
+    serve->add_option(
+        "--technique-libraries", arguments->libraries,
+        "Load techniques from the shared libraries (*.so) of this folder, as they are now. Their maps live "
+        "in processes of their own, as with run --isolate [none]");
+    serve
+        ->add_option("--call-seconds", arguments->call_seconds,
+                     "Seconds that one call of a technique from outside may take")
+        ->check(CLI::Range(0.01, 1e6))
+        ->capture_default_str();
     serve->add_option("--grace", arguments->grace, "Seconds that running jobs may take to finish when the server stops")
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
@@ -192,6 +202,7 @@ void add_helpers(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<HelperArguments>();
     CLI::App* examine = app.add_subcommand("examine", "Check scenarios, one per line of standard input")->group("");
     add_data(*examine, arguments->data, "Scenarios may name the files of this folder");
+    add_library_options(*examine, arguments->libraries);
     commands.push_back({examine, [arguments](std::ostream& out, std::ostream&) {
                             examine_command(*arguments, out);
                             return 0;
@@ -200,6 +211,7 @@ void add_helpers(CLI::App& app, Commands& commands) {
         app.add_subcommand("curves", "Read a scenario, then pixels, one per line; write their visibility functions")
             ->group("");
     add_data(*curves, arguments->data, "Scenarios may name the files of this folder");
+    add_library_options(*curves, arguments->libraries);
     curves->add_option("--light", arguments->light, "A light's name, or its number, from 0 [the first light]");
     curves->add_option("--variant", arguments->variant, "Number of a combination of the sweeps' values, from 0");
     commands.push_back({curves, [arguments](std::ostream& out, std::ostream&) {
@@ -208,10 +220,22 @@ void add_helpers(CLI::App& app, Commands& commands) {
                         }});
 }
 
+// Not in --help: --isolate runs it, for each map.
+void add_technique_host(CLI::App& app, Commands& commands) {
+    const auto library = std::make_shared<std::string>();
+    CLI::App* host = app.add_subcommand("technique-host", "Serve a library of techniques on standard input, a socket");
+    host->group("");
+    host->add_option("LIBRARY", *library)->required();
+    commands.push_back({host, [library](std::ostream&, std::ostream&) {
+                            host_techniques(*library);
+                            return 0;
+                        }});
+}
+
 }  // namespace
 
 void add_server_commands(CLI::App& app, Commands& commands) {
-    for (const auto add : {add_serve, add_submit, add_helpers}) add(app, commands);
+    for (const auto add : {add_serve, add_submit, add_helpers, add_technique_host}) add(app, commands);
 }
 
 }  // namespace shadowbench::service

@@ -19,6 +19,7 @@
 #include "service/cli/outcomes.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/scenario_files.h"
+#include "techniques/technique.h"
 
 namespace shadowbench::service {
 
@@ -150,6 +151,10 @@ void validate_command(const ScenarioArguments& arguments, std::ostream& out, std
                        validated.techniques, validated.techniques == 1 ? "" : "s");
     for (const std::string& file : validated.files) out << "file: " << file << "\n";
     for (const std::string& note : validated.notes) out << "note: " << note << "\n";
+    for (const techniques::Technique& row : techniques::all())
+        if (!row.library.fault.empty())
+            out << fmt::format("note: technique {}, from {}, will fail: {}\n", row.id, row.library.file,
+                               row.library.fault);
     for (const std::string& light : validated.blind)
         out << fmt::format(
             "note: light {} sees nothing that casts a shadow: no caster is inside its map and behind its "

@@ -14,6 +14,7 @@
 #include "results/write_result.h"
 #include "service/api/helper_side.h"
 #include "service/api/service.h"
+#include "service/cli/libraries.h"
 #include "service/cli/notify.h"
 #include "service/cli/scenario_files.h"
 #include "service/cli/server_commands.h"
@@ -84,7 +85,9 @@ JobLimits job_limits(const ServeArguments& arguments, const std::vector<NamedTok
     return limits;
 }
 
-ServiceOptions service_options(const ServeArguments& arguments, const std::string& program, const Log& log) {
+// `further`: arguments of every helper.
+ServiceOptions service_options(const ServeArguments& arguments, const std::string& program,
+                               const std::vector<std::string>& further, const Log& log) {
     ServiceOptions options;
     options.data = folders_of(arguments.data);
     options.scenarios = scenario_folders();
@@ -96,7 +99,8 @@ ServiceOptions service_options(const ServeArguments& arguments, const std::strin
     options.waiting = std::max<std::size_t>(1, arguments.workers / 4);
     options.event_streams = arguments.event_clients;
     options.log = log;
-    options.start_helper = [program](const std::vector<std::string>& words) {
+    options.start_helper = [program, further](std::vector<std::string> words) {
+        words.insert(words.end(), further.begin(), further.end());
         return start_process(program, words, static_cast<std::size_t>(helper_memory * gib));
     };
     return options;
@@ -133,10 +137,14 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     const std::vector<NamedToken> tokens =
         arguments.token_file.empty() ? std::vector<NamedToken>() : read_tokens(arguments.token_file);
     const HttpOptions http = http_options(arguments, tokens, log);
-    const ServiceOptions options = service_options(arguments, program, log);
+    LibraryArguments libraries{{}, true, arguments.call_seconds};
+    if (!arguments.libraries.empty()) libraries.files = libraries_in(arguments.libraries);
+    load_libraries(libraries);
+    const std::vector<std::string> further = libraries.files.empty() ? libraries.files : library_arguments(libraries);
+    const ServiceOptions options = service_options(arguments, program, further, log);
     std::vector<std::string> data;
     for (const fs::path& folder : options.data) data.push_back(folder.string());
-    Jobs jobs(arguments.state, program, data, job_limits(arguments, tokens), log);
+    Jobs jobs(arguments.state, program, data, job_limits(arguments, tokens), log, {further, hash_of_libraries()});
     Service service(jobs, options);
     HttpServer server(service, options.event_streams, http);
     if (!arguments.port_file.empty()) base::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});
@@ -173,10 +181,12 @@ void fsck_command(const StateArguments& arguments, std::ostream& out) {
 }
 
 void examine_command(const HelperArguments& arguments, std::ostream& out) {
+    load_libraries(arguments.libraries);
     examine_lines(folders_of(arguments.data), std::cin, out);
 }
 
 void curves_command(const HelperArguments& arguments, std::ostream& out) {
+    load_libraries(arguments.libraries);
     curve_lines(folders_of(arguments.data), arguments.light, arguments.variant, std::cin, out);
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "service/cli/commands.h"
+
 namespace shadowbench::service {
 
 struct ServeArguments {
@@ -16,6 +18,8 @@ struct ServeArguments {
     std::string token_file;  // empty: no token
     std::string state = "results/service";
     std::vector<std::string> data;  // folders
+    std::string libraries;          // folder of libraries of techniques; empty: none
+    double call_seconds = 60.0;     // that one call of such a technique may take
     double grace = 10.0;            // seconds that a running job may take to finish when the server stops
     std::size_t queue = 2000;
     int parallel = 1;                               // jobs at a time
@@ -50,6 +54,7 @@ struct SubmitArguments {
 
 struct HelperArguments {
     std::vector<std::string> data;
+    LibraryArguments libraries;
     std::string light;
     std::size_t variant = 0;
 };

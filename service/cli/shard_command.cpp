@@ -18,6 +18,7 @@
 #include "results/program.h"
 #include "results/settled.h"
 #include "service/cli/job.h"
+#include "service/cli/libraries.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/scenario_files.h"
 #include "service/cli/sweep_commands.h"
@@ -90,6 +91,7 @@ std::vector<std::string> arguments_again(const RunArguments& arguments) {
     add("--data", arguments.data);
     add("--only", arguments.only);
     if (arguments.threads != 0) add("--threads", {std::to_string(arguments.threads)});
+    for (const std::string& argument : library_arguments(arguments.libraries)) again.push_back(argument);
     if (arguments.memory_limit != JobArguments().memory_limit)
         add("--memory-limit", {fmt::format("{}", arguments.memory_limit)});
     return again;
@@ -144,6 +146,11 @@ bool is_there(const std::optional<results::SweepCell>& found, const PlannedCell&
     if (!found) return false;
     const std::string file = cell_file(folder, cell).string();
     const results::Program own = results::this_program(), &other = found->result.program;
+    if (!same_libraries(found->result)) {
+        out << fmt::format("measured again: {}: {} is of other libraries of techniques\n", cell.title, file)
+            << std::flush;
+        return false;
+    }
     const bool there = same_version(own, other);
     out << (there ? fmt::format("skipped: {}: {} has it\n", cell.title, file)
                   : fmt::format("measured again: {}: {} is of version {} ({}), this is {} ({})\n", cell.title, file,

@@ -12,6 +12,7 @@ namespace shadowbench::service {
 struct MergeArguments {
     std::vector<std::string> folders;  // that run --shard has filled
     std::string out;                   // folder; empty: results/runs/<scenario name>
+    LibraryArguments libraries;        // with which the cells were measured
 };
 
 // run --shard. Returns whether every technique kept its promises in every cell of the shard.

@@ -123,9 +123,9 @@ Submitted::Outcome outcome_of(JobStore::Added::Outcome outcome) {
 
 }  // namespace
 
-std::string program_version() {
+std::string program_version(const std::string& further) {
     const results::Program build = results::this_program();
-    return fmt::format("{} {}", build.version, build.commit);
+    return fmt::format("{} {}{}{}", build.version, build.commit, further.empty() ? "" : " ", further);
 }
 
 const char* to_string(JobState state) {
@@ -141,8 +141,9 @@ std::optional<JobState> parse_job_state(const std::string& text) {
 }
 
 Jobs::State::State(const fs::path& path, const std::string& program, const std::vector<std::string>& data,
-                   JobLimits limits, Log log)
-    : checked_program(check_program(program)),
+                   JobLimits limits, Log log, const FurtherArguments& further)
+    : version(program_version(further.key)),
+      checked_program(check_program(program)),
       news(std::move(log)),
       folder(path, [this](const std::string& line) { news.recovered(line); }),
       folders(make_job_folders(path)),
@@ -150,7 +151,16 @@ Jobs::State::State(const fs::path& path, const std::string& program, const std::
       store(*opened),
       presence({path, folder.database()}),
       board(store.next_revision()),
-      place{store, board, presence, folders, checked_program, data, limits, hidden_folders(path.string(), data), news} {
+      place{store,
+            board,
+            presence,
+            folders,
+            checked_program,
+            data,
+            further.words,
+            limits,
+            hidden_folders(path.string(), data),
+            news} {
     const std::vector<StoredJob> cut_off = store.list({job_states::running}, INT32_MAX, 0);
     recover(folder, store, folders, [this](const std::string& line) { news.recovered(line); });
     for (const StoredJob& job : cut_off)
@@ -194,8 +204,9 @@ void Jobs::State::reuse_result(NewJob& job) {
     remove_folder(work);
 }
 
-Jobs::Jobs(fs::path state, std::string program, std::vector<std::string> data, JobLimits limits, Log log)
-    : state_(std::make_unique<State>(state, program, data, limits, std::move(log))) {
+Jobs::Jobs(fs::path state, std::string program, std::vector<std::string> data, JobLimits limits, Log log,
+           FurtherArguments further)
+    : state_(std::make_unique<State>(state, program, data, limits, std::move(log), further)) {
     State& all = *state_;
     for (int i = 0; i < std::max(limits.parallel, 1); ++i)
         all.workers.emplace_back([&place = std::as_const(all.place)] { run_jobs(place); });
@@ -220,7 +231,7 @@ Submitted Jobs::submit(const JobRequest& request) {
             return {outcome_of(known->outcome), info_of(known->job, all.board.shown(known->job.id))};
     job.id = new_id();
     job.name = request.name;
-    job.key = {request.hash, request.seed, program_version(), request.pictures, request.recommend};
+    job.key = {request.hash, request.seed, all.version, request.pictures, request.recommend};
     job.scenario = request.scenario;
     job.created = now_utc();
     job.idempotency_key = request.idempotency_key;

@@ -114,15 +114,21 @@ struct JobPage {
     std::string next;           // cursor of the next page; empty: this is the last
 };
 
+// Arguments of each run beyond those of Jobs, and what tells its results from those of runs with others.
+struct FurtherArguments {
+    std::vector<std::string> words;
+    std::string key;
+};
+
 class Jobs {
 public:
     // Opens or makes the folder `state` (see state_folder.h), requeues the jobs that ran when the last server died,
     // adopts results that the database does not know, and starts the workers. They run `program job FOLDER --data
-    // DIR...`. `log` gets what happens to jobs, files that were moved aside, adopted results, and storage that fails
-    // and works again. Its lines name folders of the machine. Throws base::Error{usage} for a folder of another
-    // program, {io} where it is not writable or another server holds it.
+    // DIR...` with further arguments. `log` gets what happens to jobs, files that were moved aside, adopted results, and
+    // storage that fails and works again. Its lines name folders of the machine. Throws base::Error{usage} for a folder
+    // of another program, {io} where it is not writable or another server holds it.
     Jobs(std::filesystem::path state, std::string program, std::vector<std::string> data, JobLimits limits,
-         Log log = {});
+         Log log = {}, FurtherArguments further = {});
     ~Jobs();
     Jobs(const Jobs&) = delete;
     Jobs& operator=(const Jobs&) = delete;

@@ -76,7 +76,7 @@ Jobs::Retry Jobs::retry(const std::string& id) {
         const bool ended = job && (job->state == job_states::failed || job->state == job_states::cancelled);
         if (job && all.board.has_run(id))
             return ended ? std::nullopt : std::optional(JobStore::Retried{JobStore::Retry::refused, 0});
-        return all.store.retry(id, program_version(), all.place.limits.queue, all.place.limits.owners);
+        return all.store.retry(id, all.version, all.place.limits.queue, all.place.limits.owners);
     };
     std::optional<JobStore::Retried> retried = try_once();
     for (; !retried; retried = try_once()) {

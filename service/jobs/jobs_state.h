@@ -19,11 +19,12 @@
 
 namespace shadowbench::service {
 
-std::string program_version();
+// `further`: see FurtherArguments::key.
+std::string program_version(const std::string& further);
 
 struct Jobs::State {
     State(const std::filesystem::path& path, const std::string& program, const std::vector<std::string>& data,
-          JobLimits limits, Log log);
+          JobLimits limits, Log log, const FurtherArguments& further);
 
     // Gives a new job the results of an earlier one with the same key, if there is one: sets `kept` and `bytes`.
     void reuse_result(NewJob& job);
@@ -31,7 +32,7 @@ struct Jobs::State {
     Change remove(const StoredJob& job, const char* reason);
     void remove_unpinned(const std::string& id, const char* reason);
 
-    std::string checked_program;
+    std::string version, checked_program;
     JobNews news;
     StateFolder folder;  // locked before the members below exist, and until they are gone
     JobFolders folders;

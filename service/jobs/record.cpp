@@ -133,6 +133,15 @@ std::string request_of(const json& document) {
     return recommendation->is_object() ? recommendation->value("request", json::object()).dump() : "{}";
 }
 
+// Whether a technique from outside was measured.
+bool has_library(const results::Result& result) {
+    for (const results::VariantResult& variant : result.variants)
+        for (const results::LightResult& light : variant.lights)
+            for (const results::Cell& cell : light.cells)
+                if (cell.library) return true;
+    return false;
+}
+
 KeptJob from_result(const results::Result& result, const json& document, const fs::path& folder,
                     const std::string& id) {
     const Field scenario = results::top(document, "").at("scenario");
@@ -143,6 +152,8 @@ KeptJob from_result(const results::Result& result, const json& document, const f
     const bool has_seed = scenario.has("rays") && scenario.at("rays").has("seed");
     kept.job.key.seed = has_seed ? scenario.at("rays").at("seed").count() : std::uint64_t{1};
     kept.job.key.program = result.program.version + " " + result.program.commit;
+    // It answers no later request: which libraries were loaded is not known.
+    if (has_library(result)) kept.job.key.program += " with a technique from outside";
     kept.job.key.recommend = request_of(document);
     // A scene without objects has no pictures, whether they were wanted or not.
     kept.job.key.pictures = type_of(folder / "images") != fs::file_type::not_found ||

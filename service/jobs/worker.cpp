@@ -60,6 +60,7 @@ std::vector<std::string> arguments_of(const Workplace& place, const StoredJob& j
     arguments.insert(arguments.end(), {"--memory-limit", fmt::format("{}", static_cast<double>(place.limits.memory) /
                                                                                (1024.0 * 1024.0 * 1024.0))});
     if (!job.key.pictures) arguments.push_back("--no-pictures");
+    arguments.insert(arguments.end(), place.further.begin(), place.further.end());
     return arguments;
 }
 

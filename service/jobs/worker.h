@@ -22,7 +22,7 @@ struct Workplace {
     const Presence& presence;  // of the state folder and its database
     JobFolders folders;
     std::string program;
-    std::vector<std::string> data;
+    std::vector<std::string> data, further;  // of the arguments of a run
     JobLimits limits;
     std::vector<HiddenFolder> hidden;
     JobNews& news;

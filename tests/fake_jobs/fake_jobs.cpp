@@ -85,7 +85,7 @@ Shared& shared(const Jobs& jobs) {
 
 struct Jobs::State : fake::Shared {};
 
-Jobs::Jobs(fs::path state, std::string, std::vector<std::string>, JobLimits limits, Log)
+Jobs::Jobs(fs::path state, std::string, std::vector<std::string>, JobLimits limits, Log, FurtherArguments)
     : state_(std::make_unique<State>()) {
     state_->folder = std::move(state);
     state_->limits = limits;

@@ -101,6 +101,8 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"service/log", {"service/log"}},
         {"service/privacy", {"base", "service/privacy"}},
         {"service/process", {"base", "service/process"}},
+        {"service/isolation",
+         {"base", "rays", "curves", "techniques", "techniques/external", "service/process", "service/isolation"}},
         {"service/store", {"base", "service/store"}},
         {"service/jobs",
          {"base", "bench", "results", "service/log", "service/privacy", "service/process", "service/store",
@@ -110,11 +112,11 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
          {"base", "scene", "techniques", "document", "results", "bench", "recommend", "compare", "service/log",
           "service/privacy", "service/process", "service/jobs", "service/web", "service/api"}},
         {"service/http", {"base", "service/log", "service/api", "service/http"}},
-        // The command line also reads and writes deep shadow map files.
+        // The command line also reads and writes deep shadow map files, and loads techniques from outside.
         {"service/cli",
-         {"base", "scene", "curves", "techniques", "techniques/deep", "document", "results", "compare", "bench",
-          "recommend", "render", "claims", "service/log", "service/privacy", "service/process", "service/jobs",
-          "service/api", "service/http", "service/web", "service/cli"}},
+         {"base", "scene", "curves", "techniques", "techniques/deep", "techniques/external", "document", "results", "compare", "bench",
+          "recommend", "render", "claims", "service/log", "service/privacy", "service/process", "service/isolation",
+          "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
         {"service", {"service/cli"}},
     };
     for (const Include& include : includes()) {

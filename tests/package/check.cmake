@@ -59,6 +59,18 @@ foreach(user IN ITEMS by_cmake by_pkg_config)
   expect("${text}" "visibility 0.2500, expected 0.2500")
 endforeach()
 
+# --- a technique from outside ------------------------------------------------------------------------------------------
+run("${CMAKE_COMMAND}" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}"
+    "-DCMAKE_PREFIX_PATH=${prefix}" -S "${CMAKE_CURRENT_LIST_DIR}/../external" -B "${WORK}/stairs")
+run("${CMAKE_COMMAND}" --build "${WORK}/stairs")
+set(library "${WORK}/stairs/libstairs.so")
+run(${program} list techniques --technique-library "${library}")
+expect("${text}" "external: libstairs.so, hash ")
+run(${program} run hard/one_hair --only deep --only stairs --technique-library "${library}" --out "${WORK}/with_stairs")
+expect("${text}" "external: stairs from libstairs.so, hash ")
+file(STRINGS "${WORK}/stairs/../with_stairs/result.csv" rows REGEX ",stairs,")
+expect("${rows}" ",ok,")
+
 # --- the version, which CMake's project() states ------------------------------------------------------------------------
 file(READ "${prefix}/share/doc/shadowbench/CITATION.cff" text)
 expect("${text}" "\nversion: ${VERSION}\n")

@@ -77,9 +77,6 @@ TEST(ResultJson, gives_every_cell_a_verdict) {
     EXPECT_EQ(cells[1]["verdict"], "failed");
     EXPECT_EQ(cells[1]["verdict_why"], cells[1]["reason"]);
     EXPECT_EQ(json["schema_version"], 1) << "new keys do not change the meaning of old ones";
-    EXPECT_NE(to_csv(small_result())
-                  .find(",verdict,verdict_why,settled,build_settled,lookup_image_settled,lookup_random_settled\n"),
-              std::string::npos);
 }
 
 TEST(ResultJson, holds_the_clock_under_times_only) {
@@ -125,6 +122,21 @@ TEST(ResultJson, says_how_certainly_a_cell_is_on_a_front) {
     const nlohmann::json again = to_json(read);
     EXPECT_EQ(again["variants"][0]["lights"][0]["cells"][0]["on_bytes_error_front"], "no");
     EXPECT_EQ(nlohmann::json(to_json(from_json(again, ""))), again);
+}
+
+TEST(ResultJson, names_the_library_of_a_technique_from_outside) {
+    Result result = small_result();
+    Cell& cell = result.variants[0].lights[0].cells[0];
+    cell.library = TechniqueLibrary{"libdeep.so", "0123456789abcdef", true};
+    const nlohmann::ordered_json json = to_json(result);
+    const auto& cells = json["variants"][0]["lights"][0]["cells"];
+    EXPECT_EQ(cells[0]["library"].dump(), R"({"file":"libdeep.so","hash":"0123456789abcdef","isolated":true})");
+    EXPECT_FALSE(cells[1].contains("library"));
+    EXPECT_EQ(to_json(from_json(nlohmann::json::parse(json.dump()), "")), json);
+    EXPECT_NE(
+        to_table(result).find("    external: deep from libdeep.so, hash 0123456789abcdef, in processes of its own"),
+        std::string::npos);
+    EXPECT_NE(to_csv(result).find(",deep,0,0123456789abcdef,tolerance=0.02,"), std::string::npos);
 }
 
 TEST(ResultJson, of_an_earlier_program_has_no_intervals) {
@@ -181,12 +193,25 @@ TEST(ResultJson, of_the_wrong_form_is_refused_at_its_place) {
     test::error_of([] { from_json(nlohmann::json::array(), ""); }, base::ErrorCode::bad_input, "");
 }
 
-TEST(ResultCsv, has_a_row_a_cell_and_quotes_what_needs_it) {
-    const std::vector<std::string> lines = lines_of(to_csv(small_result()));
-    ASSERT_EQ(lines.size(), 3u);
+std::size_t rows_with(const std::vector<std::string>& lines, const std::string& part) {
+    return static_cast<std::size_t>(std::count_if(
+        lines.begin(), lines.end(), [&](const std::string& l) { return l.find(part) != std::string::npos; }));
+}
+
+TEST(ResultCsv, has_a_row_a_measure_and_quotes_what_needs_it) {
+    Result result = small_result();
+    result.variants[0].lights[0].cells[1].curve.reset();
+    const std::vector<std::string> lines = lines_of(to_csv(result));
     EXPECT_EQ(lines[0].rfind("scenario,", 0), 0u);
-    EXPECT_NE(lines[1].find(",\"/rays/seed=[1,2]\",key,"), std::string::npos) << lines[1];
-    EXPECT_NE(lines[2].find(",\"cell (3, 4): it \"\"rises\"\", a lot\","), std::string::npos) << lines[2];
+    EXPECT_TRUE(lines[0].ends_with(",quiet,measure,unit,value,low,high,interval_covers,narrow")) << lines[0];
+    EXPECT_EQ(rows_with(lines, ",build_ms,ms,2,1,3,repetitions,"), 1u) << "the median and its interval";
+    EXPECT_EQ(rows_with(lines, ",lookup_random_ns,ns,7.5,"), 1u);
+    EXPECT_EQ(rows_with(lines, ",lookup_random_ratio,"), 0u) << "what was not measured has no row";
+    EXPECT_EQ(rows_with(lines, ",lookup_error_rms,visibility,0.25,0.2,0.3,truth and rays,"), 1u);
+    EXPECT_EQ(rows_with(lines, ",nodes_total,nodes,7,,,,"), 1u) << "an exact measure has no interval";
+    EXPECT_EQ(rows_with(lines, ",failed,\"cell (3, 4): it \"\"rises\"\", a lot\","), 1u) << "a failed cell is not lost";
+    EXPECT_TRUE(lines.back().ends_with(",,,,,,,")) << "and has no measure: " << lines.back();
+    EXPECT_EQ(rows_with(lines, ",\"/rays/seed=[1,2]\",key,"), lines.size() - 1);
     // Outside quotes, every line has as many commas as the header.
     const auto commas = [](const std::string& line) {
         bool quoted = false;

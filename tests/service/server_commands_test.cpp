@@ -138,6 +138,20 @@ TEST_F(ServerCommands, JobsAndHelpersAreRunByTheProgramThatServes) {
     EXPECT_EQ(removed.code, 0) << removed.err;
 }
 
+TEST_F(ServerCommands, TechniquesFromOutsideComeFromItsFolderAndMayCrash) {
+    fs::create_directory(path("libraries"));
+    fs::copy_file(SHADOWBENCH_FAULTY, path("libraries/libfaulty.so"));
+    write("libraries/notes.txt", "no library");
+    nlohmann::json scenario = nlohmann::json::parse(tiny);
+    scenario["techniques"] = {{{"type", "deep"}}, {{"type", "faulty"}, {"fault", "crash"}}};
+    write("crash.json", scenario.dump());
+    serve({"--technique-libraries", path("libraries")});
+    const Outcome crash = cli({"submit", path("crash.json"), "--server", url_, "--wait", "--no-pictures"});
+    EXPECT_EQ(crash.code, 2) << crash.err;
+    EXPECT_NE(crash.out.find("lookup() ended its process"), std::string::npos) << crash.out;
+    EXPECT_NE(crash.out.find("    deep "), std::string::npos) << crash.out;
+}
+
 TEST_F(ServerCommands, SubmitWaitsForAServerThatIsStartedAnew) {
     serve();
     // Long enough to be cut off.

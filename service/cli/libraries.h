@@ -1,0 +1,28 @@
+// The libraries of techniques that a command loads.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/result.h"
+#include "service/cli/commands.h"
+
+namespace shadowbench::service {
+
+// Adds their techniques to the registry; one that is there is not read again. A library that cannot be used gets a row
+// that fails with the reason. Throws Error: no_such_file or io; bad_input if not even such a row can be made.
+void load_libraries(const LibraryArguments& libraries);
+
+// The shared libraries of a folder, by name. Throws Error{no_such_file}.
+std::vector<std::string> libraries_in(const std::string& folder);
+
+// Of all that are loaded; empty: none is.
+std::string hash_of_libraries();
+
+// The options that load the same again, wherever the command runs.
+std::vector<std::string> library_arguments(const LibraryArguments& libraries);
+
+// Whether every technique of a result came from where the registry has it now.
+bool same_libraries(const results::Result& result);
+
+}  // namespace shadowbench::service

@@ -1,0 +1,53 @@
+// A process of a technique, and the connection to it.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <string>
+
+#include "service/isolation/message.h"
+#include "service/process/child_process.h"
+#include "service/process/descriptor.h"
+
+namespace shadowbench::service {
+
+// The two ends of a connection. Throws Error{io}.
+struct SocketPair {
+    SocketPair();
+    Descriptor own, other;
+};
+
+class Connection {
+public:
+    // Starts `program technique-host library`. Throws as ChildProcess does.
+    Connection(const std::string& program, const std::string& library, double call_seconds);
+
+    bool alive() const { return !dead_; }
+
+    // One request at a time; others wait. The first one may take half a minute more: the process starts meanwhile.
+    // `function` names it in messages. Throws Error{internal}, place: the library, if
+    // the process answers that it failed; if it ends, does not answer in time, or answers what makes no sense, which
+    // all end it.
+    MessageReader ask(Request request, const char* function, const MessageWriter& body);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void send(const void* from, std::size_t size, const char* function);
+    void receive(void* to, std::size_t size, const char* function);
+    void wait(short events, const char* function);
+    [[noreturn]] void end(const std::string& why);
+    [[noreturn]] void end_lost(const char* function);
+
+    std::string library_;
+    double call_seconds_;
+    SocketPair sockets_;
+    ChildProcess child_;
+    std::mutex mutex_;
+    std::atomic<bool> dead_ = false;
+    bool started_ = false;
+    Clock::time_point until_;  // of the request that is asked
+};
+
+}  // namespace shadowbench::service
