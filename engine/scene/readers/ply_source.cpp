@@ -14,7 +14,9 @@
 #include "base/error.h"
 #include "base/utf8.h"
 #include "scene/limits.h"
+#include "scene/readers/extension.h"
 #include "scene/readers/file_reader.h"
+#include "scene/readers/unpacked_bytes.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -89,9 +91,13 @@ bool is_space(char c) {
 }  // namespace
 
 PlySource::PlySource(const std::filesystem::path& file) : file_(file.string()) {
-    FileReader reader(file);
-    const std::vector<char> bytes = reader.array<char>(reader.size(), "file");
-    bytes_.assign(bytes.begin(), bytes.end());
+    if (extension_of(file) == ".gz") {
+        bytes_ = unpacked_file(file);
+    } else {
+        FileReader reader(file);
+        const std::vector<char> bytes = reader.array<char>(reader.size(), "file");
+        bytes_.assign(bytes.begin(), bytes.end());
+    }
     read_header();
 }
 
