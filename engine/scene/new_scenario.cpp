@@ -97,6 +97,21 @@ std::string_view type_of(const Object& object) {
     return "mesh";
 }
 
+// By its name or, if several have that, by its number.
+void put_medium(ordered_json& object, const DataFile& data, const Object& medium) {
+    int number = 0, same = 0, before = 0;
+    for (const Object& each : data.scene.objects) {
+        if (!std::holds_alternative<GridVolume>(each.shape)) continue;
+        if (&each == &medium) number = before;
+        ++before;
+        same += each.name == medium.name;
+    }
+    if (same == 1)
+        object["grid"] = medium.name;
+    else
+        object["grid"] = number;
+}
+
 // One of several objects of a file is named by its type too, and a medium by its own name.
 ordered_json object_of(const DataFile& data, const Object& from, const std::string& name) {
     const bool several = data.format->loader == several_objects;
@@ -109,7 +124,7 @@ ordered_json object_of(const DataFile& data, const Object& from, const std::stri
     if (texture) put_quad(object, std::get<Mesh>(from.shape));
     if (const auto* volume = std::get_if<GridVolume>(&from.shape)) {
         if (several)
-            object["grid"] = from.name;
+            put_medium(object, data, from);
         else
             put_volume(object, data, *volume);
     }

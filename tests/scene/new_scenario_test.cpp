@@ -96,6 +96,20 @@ TEST(NewScenario, APbrtSceneIsAnObjectOfEachType) {
     EXPECT_EQ(in_one_line(made[1]), R"({"type": "particles", "name": "scene_particles", "file": "s.pbrt"})");
     EXPECT_EQ(in_one_line(made[2]), R"({"type": "volume", "name": "scene_smoke", "file": "s.pbrt", "grid": "smoke"})");
     EXPECT_EQ(in_one_line(made[3]), R"({"type": "mesh", "name": "scene_mesh", "file": "s.pbrt"})");
+    // Media of the same name are told apart by their numbers.
+    const std::string box =
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1] \"integer indices\" "
+        "[0 1 2 1 2 3 4 5 6 5 6 7 0 1 4 1 4 5 2 3 6 3 6 7 0 2 4 2 4 6 1 3 5 3 5 7]\n";
+    const auto two = test::write_file("two.pbrt",
+                                      "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n"
+                                      "MediumInterface \"fog\" \"\" Material \"interface\"\n" +
+                                          box + "Translate 2 0 0\n" + box);
+    const std::vector<ordered_json> fogs = scene_objects(read_data_file(two, {}), "two.pbrt");
+    ASSERT_EQ(fogs.size(), 2u);
+    EXPECT_EQ(fogs[0]["grid"], 0);
+    EXPECT_EQ(fogs[1]["grid"], 1);
+    const Scenario foggy = loaded(made_from({two}), two.parent_path());
+    EXPECT_EQ(std::get<GridVolume>(foggy.scene.objects[1].shape).lower, Vec3d(2, 0, 0));
     const Scenario scenario = loaded(made_from({case_file("scene.pbrt")}), case_file("scene.pbrt").parent_path());
     ASSERT_EQ(scenario.scene.objects.size(), 5u);
     EXPECT_EQ(std::get<GridVolume>(scenario.scene.objects[2].shape).density.back(), 12.0f);

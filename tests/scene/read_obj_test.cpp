@@ -43,6 +43,12 @@ TEST(ReadObj, SplitsAConvexPolygonIntoTheFanOfItsFirstCorner) {
     EXPECT_THAT(read(corners + "f 1 2 3 4\n").triangles, ElementsAre(Vec3i(0, 1, 2), Vec3i(0, 2, 3)));
 }
 
+// Editors leave blanks behind the mark of continuation, which looked like a corner then.
+TEST(ReadObj, LinesContinueAfterAMarkWithBlanksBehindIt) {
+    for (const char* mark : {"\\\n", "\\ \t\n", "\\ \r\n"})
+        EXPECT_EQ(read(corners + "f 1 2 " + mark + "3 4\n").triangles.size(), 2u) << mark;
+}
+
 TEST(ReadObj, CountsNegativeIndicesFromTheEnd) {
     EXPECT_THAT(read(corners + "f -4 -3 -2\n").triangles, ElementsAre(Vec3i(0, 1, 2)));
 }

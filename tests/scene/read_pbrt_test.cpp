@@ -255,6 +255,9 @@ TEST(ReadPbrt, RefusesFilesThatLeadOutAndEndlessOnes) {
     const std::string object = "ObjectBegin \"o\" " + triangle + "ObjectEnd ObjectInstance \"o\" ";
     EXPECT_THAT(refused(object + "ObjectInstance \"o\" ObjectInstance \"o\" ObjectInstance \"o\"", elements),
                 HasSubstr("over 10 vertices"));
+    EXPECT_THAT(refused("Shape \"curve\" \"float width\" 0.001 \"point3 P\" [0 0 0 0 9 0 9 9 0 9 0 0]", elements),
+                HasSubstr("over 10 points of hair"));
+    EXPECT_THAT(refused("MakeNamedMedium \"\xe4\" \"string type\" \"nanovdb\""), HasSubstr("of UTF-8"));
     PbrtLimits voxels;
     voxels.voxels = 5;
     EXPECT_THAT(refused(grid(""), voxels), HasSubstr("6 voxels; the limit"));

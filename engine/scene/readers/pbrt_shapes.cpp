@@ -147,7 +147,7 @@ void add_placed(const Hair& hair, const Matrix& place, const PbrtStatement& stat
     to.append(placed);
 }
 
-void add_pbrt_curve(const PbrtStatement& shape, const Matrix& place, Strands& to) {
+void add_pbrt_curve(const PbrtStatement& shape, const Matrix& place, std::uint64_t most_points, Strands& to) {
     const double degree = shape.number("degree", 3.0);
     if (degree != 2.0 && degree != 3.0) shape.fail(fmt::format("a curve of degree {}; 2 and 3 are read", degree));
     const std::string basis = shape.text("basis", "bezier");
@@ -173,6 +173,7 @@ void add_pbrt_curve(const PbrtStatement& shape, const Matrix& place, Strands& to
         }
         if (piece == 0 && !to.ends_at(curve[0])) to.begin(curve[0]);
         to.curve_to(curve);
+        if (to.points() > most_points) shape.fail(fmt::format("over {} points of hair", most_points));
     }
 }
 

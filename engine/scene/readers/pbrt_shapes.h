@@ -1,6 +1,7 @@
 // The shapes of a pbrt scene, at the place that a matrix gives them. A fault throws Error{bad_input} at the statement.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "scene/readers/pbrt_statement.h"
@@ -18,8 +19,8 @@ void add_placed(const Mesh& mesh, const Matrix& place, const PbrtStatement& stat
 void add_placed(const Hair& hair, const Matrix& place, const PbrtStatement& statement, Strands& to);
 
 // A curve of degree 2 or 3, a Bezier curve or a B-spline. It goes on with the last strand if it begins where that
-// ended.
-void add_pbrt_curve(const PbrtStatement& shape, const Matrix& place, Strands& to);
+// ended. More than `most_points` of all strands are a fault.
+void add_pbrt_curve(const PbrtStatement& shape, const Matrix& place, std::uint64_t most_points, Strands& to);
 
 // The box whose faces twelve triangles cover once, along the axes.
 std::optional<Box3d> box_of(const Mesh& mesh);

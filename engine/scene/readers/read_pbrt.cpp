@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/utf8.h"
 #include "scene/readers/beside.h"
 #include "scene/readers/extension.h"
 #include "scene/readers/pbrt_files.h"
@@ -130,6 +131,9 @@ private:
     }
 
     void make_medium(const Statement& s) {
+        constexpr std::size_t longest_name = 256;  // of a grid in a scenario
+        if (s.texts[0].empty() || s.texts[0].size() > longest_name || !base::is_utf8(s.texts[0]))
+            s.fail(fmt::format("a medium's name has 1 to {} bytes of UTF-8", longest_name));
         if (media_.size() >= most_media) s.fail(fmt::format("over {} media", most_media));
         if (medium(s.texts[0])) s.fail(fmt::format("a second medium \"{}\"", s.texts[0].substr(0, 40)));
         PbrtMediumSource made = read_pbrt_medium_source(s, state_.now.place, limits_.voxels - voxels_);
@@ -236,8 +240,7 @@ private:
         if (type != "curve")
             return pass(is_word(type) ? fmt::format("shapes of the type {}", type) : "shapes of another type");
         if (s.text("type", "flat") == "ribbon") pass("directions of ribbons");
-        add_pbrt_curve(s, state_.now.place, shapes().strands);
-        check_elements(s, 0, 0, 0);
+        add_pbrt_curve(s, state_.now.place, limits_.elements, shapes().strands);
     }
 
     void object_begin(const Statement& s) {
