@@ -64,14 +64,15 @@ private:
     // --- files ---
 
     std::string content(const fs::path& name) {
-        std::error_code fault;
-        const bool packed = extension_of(name) == ".gz";
-        count_file(name, packed ? gzip_bytes(name) : fs::file_size(name, fault));
-        return packed ? unpacked_file(name) : base::read_text(name);
+        count_file(name);
+        return extension_of(name) == ".gz" ? unpacked_file(name) : base::read_text(name);
     }
 
-    void count_file(const fs::path& name, std::uint64_t bytes) {
-        bytes_ += bytes;
+    // A file that is not there is left to its reader.
+    void count_file(const fs::path& name) {
+        std::error_code fault;
+        const std::uint64_t bytes = extension_of(name) == ".gz" ? gzip_bytes(name) : fs::file_size(name, fault);
+        if (!fault) bytes_ += bytes;
         if (++files_ > limits_.files || bytes_ > limits_.bytes)
             throw Error(ErrorCode::bad_input, name.string(),
                         fmt::format("the scene reads over {} files or {} bytes, of all files together", limits_.files,
@@ -211,8 +212,7 @@ private:
 
     void add_ply(const Statement& s) {
         const fs::path name = find(s, s.text("filename", ""));
-        std::error_code fault;
-        count_file(name, extension_of(name) == ".gz" ? gzip_bytes(name) : fs::file_size(name, fault));
+        count_file(name);
         const MeshFile ply = read_ply(name);
         for (const PassedOver& each : ply.passed_over) pass(each.what, each.count);
         if (s.find("displacement")) pass("displacements");
