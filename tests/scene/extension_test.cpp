@@ -92,8 +92,9 @@ TEST(Extensions, OfVolumesThatAreUnknownAreNamed) {
         const base::Error error = error_of([&] { load("volume", file, keys); });
         EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
         EXPECT_EQ(error.where(), "/scene/objects/0/file");
-        EXPECT_THAT(error.message(), HasSubstr("must end in .vdb, .pvm, .dds, .nrrd, .nhdr, .mhd, .mha, .vol, .raw or "
-                                               ".gz; .slc is not read"));
+        EXPECT_THAT(error.message(),
+                    HasSubstr("must end in .vdb, .pvm, .dds, .nrrd, .nhdr, .mhd, .mha, .vol, .pbrt, .raw or "
+                              ".gz; .slc is not read"));
         EXPECT_THAT(error.message(), HasSubstr(R"("format", "size", and "spacing" or "lower" and "upper")"));
     }
 }

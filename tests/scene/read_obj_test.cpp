@@ -262,9 +262,9 @@ TEST(ReadObj, NeverCrashesOnAFileCutAnywhere) {
 
 TEST(ReadMesh, RefusesOtherFormatsAndMissingFiles) {
     EXPECT_EQ(error_of([] { read_mesh(test::write_file("a.Fbx", "")); }).message(),
-              "the name of a mesh file must end in .obj, .ply, .stl, .gltf or .glb; .Fbx is not read");
+              "the name of a mesh file must end in .obj, .ply, .stl, .gltf, .glb or .pbrt; .Fbx is not read");
     EXPECT_EQ(error_of([] { read_mesh(test::write_file("obj", "")); }).message(),
-              "the name of a mesh file must end in .obj, .ply, .stl, .gltf or .glb");
+              "the name of a mesh file must end in .obj, .ply, .stl, .gltf, .glb or .pbrt");
     EXPECT_EQ(error_of([] { read_mesh("/nowhere/a.obj"); }).code(), base::ErrorCode::no_such_file);
     EXPECT_EQ(error_of([] { read_mesh("/nowhere/a.ply"); }).code(), base::ErrorCode::no_such_file);
 }
