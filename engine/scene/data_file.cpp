@@ -18,7 +18,10 @@
 #include "scene/load.h"
 #include "scene/readers/extension.h"
 #include "scene/readers/grid_files.h"
+#include "scene/readers/hair_files.h"
 #include "scene/readers/kinds.h"
+#include "scene/readers/pbrt_files.h"
+#include "scene/readers/point_files.h"
 #include "scene/readers/text_lines.h"
 #include "scene/readers/unpacked_bytes.h"
 #include "scene/stage.h"
@@ -48,22 +51,32 @@ float guess_radius(const Hair& hair) {
     return box.isEmpty() ? 0.0f : static_cast<float>(to_digits(box.size().length() / 2000.0, 1));
 }
 
-void add_hair(DataFile& data, Hair hair) {
+void read_hair_file(DataFile& data) {
+    HairFile file = read_strands(data.file, 0.0f);
+    Hair& hair = file.hair;
     const auto strands = [&] { return hair.strand_begin.empty() ? std::size_t{0} : hair.strand_begin.size() - 1; };
     data.guessed_radius = std::none_of(hair.radii.begin(), hair.radii.end(), [](float radius) { return radius > 0; });
     if (data.guessed_radius) hair.radii.assign(hair.points.size(), guess_radius(hair));
     const std::size_t all = strands();
     merge_equal_points(hair);
     data.short_strands = all - strands();
-    add_object(data, std::move(hair));
+    add_object(data, std::move(hair), std::move(file.passed_over));
 }
 
-void read_tressfx_file(DataFile& data) {
-    add_hair(data, read_tressfx(data.file, 0.0f));
+// Of points on a surface; see guessed_radius.
+float guess_radius(const Particles& points) {
+    Box3d box;
+    for (const Vec3f& centre : points.centres) box.extendBy(Vec3d(centre));
+    if (box.isEmpty()) return 0.0f;
+    const double size = std::max(box.size().length(), min_length);
+    return static_cast<float>(to_digits(0.5 * size / std::sqrt(static_cast<double>(points.centres.size())), 1));
 }
 
-void read_hair_file(DataFile& data) {
-    add_hair(data, read_hair(data.file, 0.0f));
+void read_point_file(DataFile& data) {
+    PointFile file = read_points(data.file, 0.0f);
+    data.guessed_radius = !file.has_radii;
+    if (data.guessed_radius) file.points.radii.assign(file.points.centres.size(), guess_radius(file.points));
+    add_object(data, std::move(file.points), std::move(file.passed_over));
 }
 
 void read_vdb_file(DataFile& data) {
@@ -126,6 +139,23 @@ void read_deep_file(DataFile& data) {
     data.scene.deep_image = read_deep_image(data.file, data.choice.deep);
 }
 
+// An object of each type that the scene has something for; what is passed over is told with the first.
+void read_pbrt_file(DataFile& data) {
+    PbrtFile scene = read_pbrt(data.file);
+    const std::size_t curves = scene.hair.strand_begin.size() - 1;
+    merge_equal_points(scene.hair);
+    data.short_strands = curves - (scene.hair.strand_begin.size() - 1);
+    data.facts = std::move(scene.facts);
+    if (scene.hair.strand_begin.size() > 1) add_object(data, std::move(scene.hair));
+    if (!scene.particles.centres.empty()) add_object(data, std::move(scene.particles));
+    for (PbrtMedium& medium : scene.media) {
+        add_object(data, std::move(medium.volume));
+        data.scene.objects.back().name = std::move(medium.name);
+    }
+    if (!scene.mesh.triangles.empty() || data.scene.objects.empty()) add_object(data, std::move(scene.mesh));
+    data.scene.objects[0].passed_over = std::move(scene.passed_over);
+}
+
 void read_texture_file(DataFile& data) {
     auto texture = std::make_shared<const AlphaTexture>(read_alpha(data.file));
     const float half = 0.5f * static_cast<float>(texture->width) / static_cast<float>(texture->height);
@@ -141,11 +171,14 @@ constexpr const char* texture_title = "image, an alpha texture";
 
 constexpr std::array formats{
     FileFormat{".obj", "Wavefront OBJ mesh", "mesh", nullptr, read_mesh_file},
+    FileFormat{".ply", "PLY point cloud", "particles", is_point_cloud, read_point_file},
     FileFormat{".ply", "PLY mesh", "mesh", nullptr, read_mesh_file},
     FileFormat{".stl", "STL mesh", "mesh", nullptr, read_mesh_file},
     FileFormat{".gltf", "glTF mesh", "mesh", nullptr, read_mesh_file},
     FileFormat{".glb", "binary glTF mesh", "mesh", nullptr, read_mesh_file},
-    FileFormat{".tfx", "TressFX hair", "hair", nullptr, read_tressfx_file},
+    FileFormat{".tfx", "TressFX hair", "hair", nullptr, read_hair_file},
+    FileFormat{".txt", "strands in text, as of Mitsuba", "hair", nullptr, read_hair_file},
+    FileFormat{".hair", "hair in Mitsuba's format", "hair", is_mitsuba_hair, read_hair_file},
     FileFormat{".hair", "hair in Cem Yuksel's format", "hair", nullptr, read_hair_file},
     FileFormat{".vdb", "OpenVDB grid", "volume", nullptr, read_vdb_file},
     FileFormat{".nvdb", "NanoVDB grid", "volume", nullptr, read_nanovdb_file},
@@ -159,6 +192,7 @@ constexpr std::array formats{
     FileFormat{".slc", "volume of VolVis", "volume", nullptr, read_slc_file},
     FileFormat{".raw", "volume of raw values", "volume", nullptr, read_raw_file},
     FileFormat{".gz", "volume of packed raw values", "volume", nullptr, read_raw_file},
+    FileFormat{".pbrt", "pbrt scene", several_objects, nullptr, read_pbrt_file},
     FileFormat{".exr", "deep OpenEXR image", "deep_image", is_deep_image, read_deep_file},
     FileFormat{".exr", texture_title, "quad", nullptr, read_texture_file},
     FileFormat{".dds", texture_title, "quad", nullptr, read_texture_file},
@@ -280,24 +314,32 @@ RawLayout raw_layout(const std::filesystem::path& file, std::uint64_t bytes) {
 
 Box3d bounds(const DataFile& data) {
     Box3d box = bounds(data.scene, false);
-    if (!box.isEmpty() || data.scene.objects.empty()) return box;
-    if (const auto* mesh = std::get_if<Mesh>(&data.scene.objects[0].shape))
-        for (const Vec3f& position : mesh->positions) box.extendBy(Vec3d(position));
+    if (!box.isEmpty()) return box;
+    for (const Object& object : data.scene.objects)
+        if (const auto* mesh = std::get_if<Mesh>(&object.shape))
+            for (const Vec3f& position : mesh->positions) box.extendBy(Vec3d(position));
     return box;
 }
 
+bool casts_shadow(const Object& object) {
+    const auto any = [](const std::vector<float>& values) {
+        return std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
+    };
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) return !mesh->triangles.empty();
+    if (const auto* hair = std::get_if<Hair>(&object.shape)) return hair->strand_begin.size() > 1;
+    if (const auto* points = std::get_if<Particles>(&object.shape)) return any(points->density);
+    const auto* volume = std::get_if<GridVolume>(&object.shape);
+    return volume && any(volume->density);
+}
+
 bool casts_shadow(const DataFile& data) {
-    if (data.scene.deep_image) {
-        const DeepImage& image = *data.scene.deep_image;
-        for (std::size_t sample = 0; sample < image.z_front.size(); ++sample)
-            if (!behind_everything(image, sample)) return true;
-        return false;
-    }
-    const auto& shape = data.scene.objects[0].shape;
-    if (const auto* mesh = std::get_if<Mesh>(&shape)) return !mesh->triangles.empty();
-    if (const auto* hair = std::get_if<Hair>(&shape)) return hair->strand_begin.size() > 1;
-    const auto* volume = std::get_if<GridVolume>(&shape);
-    return volume && std::any_of(volume->density.begin(), volume->density.end(), [](float d) { return d > 0.0f; });
+    if (!data.scene.deep_image)
+        return std::any_of(data.scene.objects.begin(), data.scene.objects.end(),
+                           [](const Object& object) { return casts_shadow(object); });
+    const DeepImage& image = *data.scene.deep_image;
+    for (std::size_t sample = 0; sample < image.z_front.size(); ++sample)
+        if (!behind_everything(image, sample)) return true;
+    return false;
 }
 
 }  // namespace shadowbench::scene

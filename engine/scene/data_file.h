@@ -23,11 +23,15 @@ struct FileChoice {
 
 struct DataFile;
 
+// The loader of files that objects of several types load, each its own part.
+inline constexpr std::string_view several_objects = "objects";
+
 // Several formats may share an extension; the first whose `is` holds is the one.
 struct FileFormat {
     std::string_view extension;  // in lower case: ".vdb"
     std::string_view title;      // what it is: "OpenVDB grid"
-    std::string_view loader;     // what loads it in a scenario: "volume", the type of an object, or "deep_image"
+    std::string_view
+        loader;  // what loads it in a scenario: "volume", the type of an object, "deep_image", or the above
     bool (*is)(const std::filesystem::path& file);  // null: always
     void (*read)(DataFile& data);                   // reads data.file into the other members
 };
@@ -41,8 +45,11 @@ struct DataFile {
     FileChoice choice;
     const FileFormat* format = nullptr;
     std::uint64_t bytes = 0;
-    Scene scene;                      // one object, which may hold nothing that casts a shadow; or a deep image
-    bool guessed_radius = false;      // hair: the file has no width, so a 2000th of the diagonal stands in
+    // One object, which may hold nothing that casts a shadow; or several, whose media have names; or a deep image.
+    Scene scene;
+    // The file has no width of its hair or points. A 2000th of the diagonal stands in for that of hair, and for that of
+    // points half the distance at which as many would be spread over a sphere of that size.
+    bool guessed_radius = false;
     std::uint64_t short_strands = 0;  // hair: strands without length, which are left out
     bool no_box = false;              // volume: the file has no box
     std::string raw_type;             // raw values: as in a scenario, "uint8"
@@ -67,7 +74,8 @@ RawLayout raw_layout(const std::filesystem::path& file, std::uint64_t bytes);
 // The box of what casts shadows; of a mesh without triangles, that of its vertices. Empty for a deep image.
 Box3d bounds(const DataFile& data);
 
-// Whether a light could meet anything in the file.
+// Whether a light could meet anything in the file, or in one of its objects.
 bool casts_shadow(const DataFile& data);
+bool casts_shadow(const Object& object);
 
 }  // namespace shadowbench::scene

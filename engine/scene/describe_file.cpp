@@ -79,11 +79,13 @@ std::string describe_shape(const GridVolume& volume) {
                        spread_of(volume.density).text());
 }
 
+std::string describe_shape(const Particles& points) {
+    return fmt::format("  {}, density {}\n", counted(points.centres.size(), "point", "points"),
+                       spread_of(points.density).text());
+}
+
 // No file gives these.
 std::string describe_shape(const Spheres&) {
-    return "";
-}
-std::string describe_shape(const Particles&) {
     return "";
 }
 
@@ -122,10 +124,21 @@ std::string describe_box(const DataFile& data) {
                        point_text(box.max - box.min));
 }
 
-std::string describe_width(const DataFile& data, const Hair& hair) {
-    if (!data.guessed_radius) return fmt::format("  half-width {}\n", spread_of(hair.radii).text());
-    return fmt::format("  the file has no width of hair; a half-width of {} is a guess, by its size\n",
-                       hair.radii.empty() ? 0.0f : hair.radii[0]);
+std::string describe_width(const DataFile& data, const Object& object) {
+    const auto* hair = std::get_if<Hair>(&object.shape);
+    const auto* points = std::get_if<Particles>(&object.shape);
+    if (!hair && !points) return "";
+    const std::vector<float>& radii = hair ? hair->radii : points->radii;
+    const char* const name = hair ? "half-width" : "radius";
+    if (!data.guessed_radius) return fmt::format("  {} {}\n", name, spread_of(radii).text());
+    return fmt::format("  the file has no {}; a {} of {} is a guess, by its size\n",
+                       hair ? "width of hair" : "radius of points", name, radii.empty() ? 0.0f : radii[0]);
+}
+
+std::string describe_object(const DataFile& data, const Object& object) {
+    const std::string shape = std::visit([](const auto& each) { return describe_shape(each); }, object.shape);
+    const std::string name = object.name.empty() ? "" : fmt::format("  medium \"{}\":\n", object.name);
+    return name + shape + describe_width(data, object);
 }
 
 // What the file says, or does not say, besides its values.
@@ -137,8 +150,6 @@ std::string describe_source(const DataFile& data) {
                             data.vdb->axes.empty() ? "" : "; its axes run along " + data.vdb->axes);
     if (data.no_box) text += "  the file has no box: its voxels are taken to have edges of 1\n";
     for (const std::string& fact : data.facts) text += fmt::format("  {}\n", fact);
-    if (data.scene.objects.empty()) return text;
-    if (const auto* hair = std::get_if<Hair>(&data.scene.objects[0].shape)) text += describe_width(data, *hair);
     return text;
 }
 
@@ -163,7 +174,7 @@ std::string describe_file(const DataFile& data) {
     else if (data.format->loader == "quad")
         text += describe_texture(*std::get<Mesh>(data.scene.objects[0].shape).alpha);
     else
-        text += std::visit([](const auto& shape) { return describe_shape(shape); }, data.scene.objects[0].shape);
+        for (const Object& object : data.scene.objects) text += describe_object(data, object);
     text += describe_box(data) + describe_source(data) + describe_notes(data);
     std::string shown;
     for (std::size_t begin = 0; begin < text.size();) {

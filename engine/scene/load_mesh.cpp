@@ -43,8 +43,8 @@ Mesh inline_mesh(const json& from, const std::string& where) {
 std::string no_triangles(const MeshFile& file) {
     if (file.passed_over.empty() && !file.mesh.positions.empty())
         return fmt::format(
-            "a point cloud: {} vertices and no faces; a mesh needs faces, and points are drawn by an object "
-            "of type spheres or particles that has them as its centres",
+            "a point cloud: {} vertices and no faces; a mesh needs faces, and points are drawn by an object of type "
+            "particles, which takes a .ply file and a radius, or by one of type spheres",
             file.mesh.positions.size());
     std::string message = "the mesh has no triangles";
     for (const PassedOver& each : file.passed_over)

@@ -14,6 +14,9 @@
 #include "scene/procedural.h"
 #include "scene/readers/extension.h"
 #include "scene/readers/files.h"
+#include "scene/readers/hair_files.h"
+#include "scene/readers/pbrt_files.h"
+#include "scene/readers/point_files.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -57,7 +60,34 @@ Loaded spheres(const json& from, const SearchPath&, const std::string& where) {
     return {std::move(shape)};
 }
 
-Loaded particles(const json& from, const SearchPath&, const std::string& where) {
+Loaded particles_from_file(const json& from, const SearchPath& path, const std::string& where) {
+    for (const char* key : {"centres", "radii", "density"})
+        if (from.contains(key))
+            refuse(fmt::format("{}/{}", where, key), "the particles already have a file; remove one of the two");
+    const std::filesystem::path name = find_file(path, from["file"].get<std::string>(), where + "/file");
+    const std::string extension = extension_of(name);
+    if (extension != ".ply" && extension != ".pbrt")
+        refuse(where + "/file", unknown_extension(name, "particle", {".ply", ".pbrt"}));
+    double radius = 0.0;
+    read(from, "radius", radius);
+    if (extension == ".pbrt") {
+        if (radius > 0.0) refuse(where + "/radius", "the spheres of a pbrt scene have their own; remove this key");
+        PbrtFile scene = read_pbrt(name);
+        return {std::move(scene.particles), std::move(scene.passed_over)};
+    }
+    PointFile file = read_points(name, static_cast<float>(radius));
+    if (!file.has_radii && radius == 0.0)
+        refuse(where, "\"radius\" is missing: the file does not hold that of its points");
+    return {std::move(file.points), std::move(file.passed_over)};
+}
+
+Loaded particles(const json& from, const SearchPath& path, const std::string& where) {
+    if (from.contains("file")) return particles_from_file(from, path, where);
+    for (const char* key : {"centres", "radii", "density"})
+        if (!from.contains(key))
+            refuse(where, fmt::format("\"{}\" is missing: particles have a file, or centres, radii and density", key));
+    if (from.contains("radius"))
+        refuse(where + "/radius", "only the points of a file have one; give each its radius in radii");
     Particles shape;
     read(from, "centres", shape.centres);
     read(from, "radii", shape.radii);
@@ -77,10 +107,19 @@ Loaded hair(const json& from, const SearchPath& path, const std::string& where) 
     double radius = 0.0;
     read(from, "radius", radius);
     const std::string extension = extension_of(file);
-    if (extension == ".hair") return {with_length(read_hair(file, static_cast<float>(radius)))};
-    if (extension != ".tfx") refuse(where + "/file", unknown_extension(file, "hair", {".tfx", ".hair"}));
-    if (radius == 0.0) refuse(where, "\"radius\" is missing: .tfx files do not hold the width of hair");
-    return {with_length(read_tressfx(file, static_cast<float>(radius)))};
+    if (std::find(hair_extensions.begin(), hair_extensions.end(), extension) == hair_extensions.end())
+        refuse(where + "/file", unknown_extension(file, "hair", {hair_extensions.begin(), hair_extensions.end()}));
+    CurveBasis basis = CurveBasis::linear;
+    if (from.contains("basis")) {
+        if (extension != ".txt" && !(extension == ".hair" && is_mitsuba_hair(file)))
+            refuse(where + "/basis",
+                   "only for Mitsuba's files of points; the lines between those of other files are known");
+        if (from["basis"] == "bspline") basis = CurveBasis::bspline;
+    }
+    HairFile strands = read_strands(file, static_cast<float>(radius), basis);
+    if (!strands.has_radii && radius == 0.0)
+        refuse(where, "\"radius\" is missing: the file does not hold the width of its hair");
+    return {with_length(std::move(strands.hair)), std::move(strands.passed_over)};
 }
 
 Loaded hair_ball(const json& from, const SearchPath&, const std::string& where) {

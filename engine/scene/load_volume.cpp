@@ -16,6 +16,7 @@
 #include "scene/readers/extension.h"
 #include "scene/readers/files.h"
 #include "scene/readers/grid_files.h"
+#include "scene/readers/pbrt_files.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -46,7 +47,7 @@ GridChoice grid_choice(const json& from) {
     return grid->get<int>();
 }
 
-enum class VolumeKind { raw, vdb, nanovdb, pvm, dds, nrrd, metaimage, mitsuba, slc };
+enum class VolumeKind { raw, vdb, nanovdb, pvm, dds, nrrd, metaimage, mitsuba, slc, pbrt };
 
 // The reader of a file, by its extension. Raw values may have any other extension too.
 struct VolumeFormat {
@@ -59,7 +60,8 @@ constexpr std::array volume_formats{
     VolumeFormat{".nrrd", VolumeKind::nrrd},     VolumeFormat{".nhdr", VolumeKind::nrrd},
     VolumeFormat{".mhd", VolumeKind::metaimage}, VolumeFormat{".mha", VolumeKind::metaimage},
     VolumeFormat{".vol", VolumeKind::mitsuba},   VolumeFormat{".slc", VolumeKind::slc},
-    VolumeFormat{".raw", VolumeKind::raw},       VolumeFormat{".gz", VolumeKind::raw}};
+    VolumeFormat{".pbrt", VolumeKind::pbrt},     VolumeFormat{".raw", VolumeKind::raw},
+    VolumeFormat{".gz", VolumeKind::raw}};
 
 // Refuses an unknown extension, unless the scenario says how to read raw values.
 VolumeKind volume_kind(const json& from, const std::filesystem::path& file, const std::string& where) {
@@ -138,6 +140,8 @@ GridVolume load_file(const json& from, const std::filesystem::path& file, Volume
             return read_metaimage(file, negative_of(from)).volume;
         case VolumeKind::mitsuba:
             return read_mitsuba_volume(file, negative_of(from)).volume;
+        case VolumeKind::pbrt:
+            return read_pbrt_medium(file, grid_choice(from));
         case VolumeKind::raw:
             break;
     }
@@ -169,18 +173,21 @@ void read_step(const json& from, const std::string& where, GridVolume& volume) {
 GridVolume load_volume(const json& from, const SearchPath& path, const std::string& where) {
     const std::filesystem::path file = find_file(path, from["file"].get<std::string>(), where + "/file");
     const VolumeKind kind = volume_kind(from, file, where);
-    const bool vdb = kind == VolumeKind::vdb || kind == VolumeKind::nanovdb;
-    if (!vdb) refuse_keys(from, where, {"grid"}, "only .vdb and .nvdb files have named grids; remove this key");
+    if (kind == VolumeKind::pbrt && negative_of(from) == Negative::refuse)
+        refuse(where + "/negative", "densities below 0 of a .pbrt file count as 0; remove this key");
+    const bool placed = kind == VolumeKind::vdb || kind == VolumeKind::nanovdb || kind == VolumeKind::pbrt;
+    if (!placed)
+        refuse_keys(from, where, {"grid"}, "only .vdb, .nvdb and .pbrt files have named grids; remove this key");
     if (kind != VolumeKind::dds)
         refuse_keys(from, where, {"channel"}, "only .dds files have channels; remove this key");
     if (kind != VolumeKind::raw)
         refuse_keys(from, where, {"format", "size", "byte_order", "skip", "spacing"},
                     fmt::format("a {} file has its own; remove this key", file.extension().string()));
-    if (vdb)
+    if (placed)
         refuse_keys(from, where, {"lower", "upper"},
                     fmt::format("a {} file has its own; remove this key", file.extension().string()));
     GridVolume volume = load_file(from, file, kind, where);
-    if (!vdb) read_box(from, where, volume.lower, volume.upper);
+    if (!placed) read_box(from, where, volume.lower, volume.upper);
     return volume;
 }
 

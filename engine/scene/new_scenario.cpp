@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -72,11 +73,68 @@ void put_volume(ordered_json& object, const DataFile& data, const GridVolume& vo
         object["extinction"] = number(std::min(to_digits(optical_depth / column, 2), max_coordinate));
 }
 
+void put_points(ordered_json& object, const DataFile& data, const Particles& points) {
+    if (points.radii.empty()) return;
+    double column = 0.0;  // through the middle of all points together
+    for (std::size_t i = 0; i < points.radii.size(); ++i)
+        column += 2.0 * static_cast<double>(points.radii[i]) * static_cast<double>(points.density[i]);
+    column /= static_cast<double>(points.radii.size());
+    if (data.guessed_radius) object["radius"] = number(to_digits(static_cast<double>(points.radii[0]), 1));
+    if (column > 0.0) object["extinction"] = number(std::min(to_digits(optical_depth / column, 2), max_coordinate));
+}
+
 void put_quad(ordered_json& object, const Mesh& quad) {
     const double width = to_digits(2.0 * static_cast<double>(quad.positions[1].x), 4);
     object["corner"] = point(Vec3d(-0.5 * width, 0, 0));
     object["edge_u"] = point(Vec3d(width, 0, 0));
     object["edge_v"] = point(Vec3d(0, 1, 0));
+}
+
+std::string_view type_of(const Object& object) {
+    if (std::holds_alternative<Hair>(object.shape)) return "hair";
+    if (std::holds_alternative<GridVolume>(object.shape)) return "volume";
+    if (std::holds_alternative<Particles>(object.shape)) return "particles";
+    return "mesh";
+}
+
+// By its name or, if several have that, by its number.
+void put_medium(ordered_json& object, const DataFile& data, const Object& medium) {
+    int number = 0, same = 0, before = 0;
+    for (const Object& each : data.scene.objects) {
+        if (!std::holds_alternative<GridVolume>(each.shape)) continue;
+        if (&each == &medium) number = before;
+        ++before;
+        same += each.name == medium.name;
+    }
+    if (same == 1)
+        object["grid"] = medium.name;
+    else
+        object["grid"] = number;
+}
+
+// One of several objects of a file is named by its type too, and a medium by its own name.
+ordered_json object_of(const DataFile& data, const Object& from, const std::string& name) {
+    const bool several = data.format->loader == several_objects;
+    const std::string_view type = several ? type_of(from) : data.format->loader;
+    std::string own = data.file.stem().string();
+    if (several) own += fmt::format("_{}", from.name.empty() ? type : from.name);
+    ordered_json object{{"type", std::string(type)}, {"name", as_name(own)}};
+    const bool texture = data.format->loader == "quad";
+    object[texture ? "alpha_texture" : "file"] = name;
+    if (texture) put_quad(object, std::get<Mesh>(from.shape));
+    if (const auto* volume = std::get_if<GridVolume>(&from.shape)) {
+        if (several)
+            put_medium(object, data, from);
+        else
+            put_volume(object, data, *volume);
+    }
+    if (const auto* points = std::get_if<Particles>(&from.shape); points && !several) put_points(object, data, *points);
+    if (const auto* hair = std::get_if<Hair>(&from.shape)) {
+        if (data.guessed_radius && !hair->radii.empty())
+            object["radius"] = number(to_digits(static_cast<double>(hair->radii[0]), 1));
+        object["opacity"] = hair_opacity;
+    }
+    return object;
 }
 
 ordered_json deep_object(const DataFile& data, const std::string& name) {
@@ -90,17 +148,17 @@ ordered_json deep_object(const DataFile& data, const std::string& name) {
     throw Error(ErrorCode::bad_input, data.file.string(), message);
 }
 
-bool is_point_cloud(const DataFile& data) {
+bool has_only_points(const DataFile& data) {
     if (data.scene.deep_image || !data.scene.objects[0].passed_over.empty()) return false;
     const auto* mesh = std::get_if<Mesh>(&data.scene.objects[0].shape);
     return mesh && !mesh->positions.empty() && mesh->triangles.empty();
 }
 
 void check_shadow(const DataFile& data) {
-    if (is_point_cloud(data))
+    if (has_only_points(data))
         refuse_file(data,
-                    "a point cloud, which has no faces and so casts no shadow; put its points into a scenario as the "
-                    "centres of an object of type spheres or particles");
+                    "a point cloud, which has no faces and so casts no shadow; write it as PLY, whose points are read "
+                    "as particles, or put its points into a scenario as the centres of an object of type spheres");
     if (!casts_shadow(data)) refuse_file(data, "nothing in it casts a shadow");
 }
 
@@ -130,29 +188,39 @@ int map_side(const GridVolume& volume) {
         std::bit_floor(static_cast<unsigned>(std::clamp(std::min(4.0 * longest, most), 64.0, 256.0))));
 }
 
-// For hair or a mesh.
+// For hair, a mesh or points.
 int map_side(std::size_t primitives) {
     return primitives > 10'000 ? 512 : 256;
 }
 
+std::vector<const Object*> objects_of(std::span<const DataFile> files) {
+    std::vector<const Object*> objects;
+    for (const DataFile& data : files)
+        for (const Object& object : data.scene.objects) objects.push_back(&object);
+    return objects;
+}
+
 ordered_json rays_for(std::span<const DataFile> files) {
     int volume_side = 0, surface_side = 0;
-    for (const DataFile& data : files) {
-        const auto& shape = data.scene.objects[0].shape;
+    for (const Object* object : objects_of(files)) {
+        const auto& shape = object->shape;
         if (const auto* volume = std::get_if<GridVolume>(&shape))
             volume_side = volume_side == 0 ? map_side(*volume) : std::min(volume_side, map_side(*volume));
         if (const auto* hair = std::get_if<Hair>(&shape))
             surface_side = std::max(surface_side, map_side(hair->points.size()));
         if (const auto* mesh = std::get_if<Mesh>(&shape))
             surface_side = std::max(surface_side, map_side(mesh->triangles.size()));
+        if (const auto* points = std::get_if<Particles>(&shape))
+            surface_side = std::max(surface_side, map_side(points->centres.size()));
     }
     if (volume_side > 0) return {{"resolution", volume_side}, {"samples_per_pixel", media_rays}};
     return {{"resolution", surface_side}, {"samples_per_pixel", surface_rays}};
 }
 
 bool any_media(std::span<const DataFile> files) {
-    return std::any_of(files.begin(), files.end(), [](const DataFile& data) {
-        return std::holds_alternative<GridVolume>(data.scene.objects[0].shape);
+    const std::vector<const Object*> objects = objects_of(files);
+    return std::any_of(objects.begin(), objects.end(), [](const Object* object) {
+        return std::holds_alternative<GridVolume>(object->shape) || std::holds_alternative<Particles>(object->shape);
     });
 }
 
@@ -176,7 +244,7 @@ ordered_json camera_of(const Stage& stage, bool media) {
 }
 
 ordered_json deep_scenario(const DataFile& data, const std::string& name) {
-    return {{"scene", {{"deep_image", scene_object(data, name)}}}, {"receivers", {{"type", "probes"}}}};
+    return {{"scene", {{"deep_image", deep_object(data, name)}}}, {"receivers", {{"type", "probes"}}}};
 }
 
 // Everything but a name and techniques.
@@ -185,15 +253,15 @@ ordered_json object_scenario(std::span<const DataFile> files, std::span<const st
     ordered_json objects = ordered_json::array();
     bool waits = false;  // whether the last object is a mesh that takes a texture
     for (std::size_t i = 0; i < files.size(); ++i) {
-        ordered_json object = scene_object(files[i], names[i]);
-        if (waits && object.contains("alpha_texture")) {
-            objects.back()["alpha_texture"] = object["alpha_texture"];
+        std::vector<ordered_json> made = scene_objects(files[i], names[i]);
+        if (waits && made[0].contains("alpha_texture")) {
+            objects.back()["alpha_texture"] = made[0]["alpha_texture"];
             waits = false;
             continue;
         }
         check_bounds(files[i]);
         box.extendBy(bounds(files[i]));
-        objects.push_back(std::move(object));
+        for (ordered_json& object : made) objects.push_back(std::move(object));
         waits = takes_texture(files[i]);
     }
     const Stage stage = stage_around(box, up);
@@ -207,27 +275,20 @@ ordered_json object_scenario(std::span<const DataFile> files, std::span<const st
 
 }  // namespace
 
-ordered_json scene_object(const DataFile& data, const std::string& name) {
-    if (data.scene.deep_image) return deep_object(data, name);
-    const auto& shape = data.scene.objects[0].shape;
-    const auto* mesh = std::get_if<Mesh>(&shape);
-    ordered_json object{{"type", std::string(data.format->loader)}, {"name", as_name(data.file.stem().string())}};
-    const bool texture = data.format->loader == "quad";
-    object[texture ? "alpha_texture" : "file"] = name;
-    if (mesh && texture) put_quad(object, *mesh);
-    if (const auto* volume = std::get_if<GridVolume>(&shape)) put_volume(object, data, *volume);
-    if (const auto* hair = std::get_if<Hair>(&shape)) {
-        if (data.guessed_radius && !hair->radii.empty())
-            object["radius"] = number(to_digits(static_cast<double>(hair->radii[0]), 1));
-        object["opacity"] = hair_opacity;
-    }
-    return object;
+std::vector<ordered_json> scene_objects(const DataFile& data, const std::string& name) {
+    if (data.scene.deep_image) return {deep_object(data, name)};
+    std::vector<ordered_json> made;
+    for (const Object& object : data.scene.objects)
+        if (casts_shadow(object)) made.push_back(object_of(data, object, name));
+    return made;
 }
 
 bool is_opaque(std::span<const DataFile> files) {
-    return std::all_of(files.begin(), files.end(), [](const DataFile& data) {
-        if (data.scene.deep_image) return false;
-        const auto* mesh = std::get_if<Mesh>(&data.scene.objects[0].shape);
+    if (std::any_of(files.begin(), files.end(), [](const DataFile& data) { return data.scene.deep_image.has_value(); }))
+        return false;
+    const std::vector<const Object*> objects = objects_of(files);
+    return std::all_of(objects.begin(), objects.end(), [](const Object* object) {
+        const auto* mesh = std::get_if<Mesh>(&object->shape);
         return mesh && !mesh->alpha;
     });
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -12,9 +13,10 @@
 
 namespace shadowbench::scene {
 
-// What loads the file in a scenario, which calls it `name`: an object, or the value of "deep_image". Hair is
-// translucent. The optical depth through a volume's densest column is about 2.
-nlohmann::ordered_json scene_object(const DataFile& data, const std::string& name);
+// What loads the file in a scenario, which calls it `name`: the objects that cast shadows, or the value of
+// "deep_image". Hair is translucent. The optical depth is about 2 through a volume's densest column and through the
+// middle of a point, except of media whose file states their extinction.
+std::vector<nlohmann::ordered_json> scene_objects(const DataFile& data, const std::string& name);
 
 // Whether only opaque surfaces cast shadows in a scenario around the files.
 bool is_opaque(std::span<const DataFile> files);

@@ -64,9 +64,9 @@ bool is_deep_map(const std::string& file) {
 // With what loads the file in a scenario, where it holds something to load.
 std::string describe_data(const scene::DataFile& data, const std::string& name) {
     std::string text = scene::describe_file(data);
-    if (scene::casts_shadow(data))
-        text += fmt::format("  {}: {}\n", data.scene.deep_image ? "deep_image" : "object",
-                            scene::in_one_line(scene::scene_object(data, name)));
+    if (!scene::casts_shadow(data)) return text;
+    for (const auto& object : scene::scene_objects(data, name))
+        text += fmt::format("  {}: {}\n", data.scene.deep_image ? "deep_image" : "object", scene::in_one_line(object));
     return text;
 }
 

@@ -11,10 +11,10 @@ namespace shadowbench::service {
 namespace {
 
 constexpr const char* data_formats =
-    "Data files are meshes (.obj, .ply, .stl, .gltf, .glb), hair (.tfx, .hair), volumes (.vdb, .nvdb, .nrrd, "
-    ".nhdr, .mhd, .mha, .vol, .slc, .pvm, .dds, .raw, .gz), deep images (.exr), and images as alpha textures (.png, "
-    ".jpg, .tif, .tga, .dds, .exr). Raw values, which gzip may have packed (.gz), form a cube of uint8 or float32, or "
-    "have their size "
+    "Data files are meshes (.obj, .ply, .stl, .gltf, .glb), point clouds (.ply), hair (.tfx, .hair, .txt), volumes "
+    "(.vdb, .nvdb, .nrrd, .nhdr, .mhd, .mha, .vol, .slc, .pvm, .dds, .raw, .gz), scenes (.pbrt), deep images (.exr), and "
+    "images as alpha textures (.png, .jpg, .tif, .tga, .dds, .exr). Raw values, which gzip may have packed (.gz), form a "
+    "cube of uint8 or float32, or have their size "
     "and type in the name of the file, as in ball_32x32x24_int16.raw.";
 
 void add_data_options(CLI::App& command, FileArguments& arguments, const char* files) {
@@ -50,8 +50,9 @@ void add_new(CLI::App& app, Commands& commands) {
              {"new tree.obj --out tree.json", "new leaves.obj leaves.png trunk.obj --out tree.json",
               "new scan.stl --up z --out scan.json"},
              std::string("Places a ground, a light and a camera by the boxes of the files, and takes techniques that "
-                         "fit them. The optical depth through a volume's densest column is about 2; the opacity of "
-                         "hair is 0.6. An image becomes the alpha texture of the mesh before it, if that has texture "
+                         "fit them. The optical depth through a volume's densest column, or through a point of a "
+                         "cloud, is about 2, but media of pbrt keep theirs; the opacity of hair is 0.6. An image "
+                         "becomes the alpha texture of the mesh before it, if that has texture "
                          "coordinates, and else a quad. A deep image stands alone.\n") +
                  data_formats);
     add_data_options(*made, *arguments, "Data files");

@@ -44,12 +44,12 @@ std::string message_of_loader(const std::string& type) {
 
 // A format that a loader knows and the table does not, or the other way round, would be seen here.
 TEST(DataFile, TheTableHasTheExtensionsThatLoadersName) {
-    for (const char* type : {"mesh", "hair", "volume"}) {
+    for (const char* type : {"mesh", "hair", "volume", "particles"}) {
         const std::string message = message_of_loader(type);
         std::set<std::string> named, loaded;
         for (const FileFormat& format : file_formats()) {
             const std::string extension(format.extension);
-            if (format.loader == type) loaded.insert(extension);
+            if (format.loader == type || format.loader == several_objects) loaded.insert(extension);
             if (message.find(extension) != std::string::npos) named.insert(extension);
         }
         EXPECT_EQ(named, loaded) << message;
@@ -175,9 +175,12 @@ TEST(DataFile, HairWithoutAWidthGetsOneOfItsSize) {
 
 TEST(DataFile, MeshesAreDescribedWithWhatIsPassedOver) {
     EXPECT_THAT(described(case_file("points.ply")),
-                AllOf(HasSubstr("points.ply: PLY mesh, 126 B\n"), HasSubstr("a point cloud: 4 points and no faces\n"),
-                      HasSubstr("bounds [0, 1, -1] to [1, 1, 0], size [1, 0, 1]\n")));
-    EXPECT_FALSE(casts_shadow(read_data_file(case_file("points.ply"), {})));
+                AllOf(HasSubstr("points.ply: PLY point cloud, 126 B\n"), HasSubstr("  4 points, density 1\n"),
+                      HasSubstr("the file has no radius of points; a radius of 0.4 is a guess"),
+                      HasSubstr("bounds [-0.4, 0.6, -1.4] to [1.4, 1.4, 0.4], size [1.8, 0.8, 1.8]\n")));
+    const auto lone = test::write_file("lone.obj", "v 0 1 0\nv 1 1 -1\n");
+    EXPECT_THAT(described(lone), HasSubstr("a point cloud: 2 points and no faces\n"));
+    EXPECT_FALSE(casts_shadow(read_data_file(lone, {})));
     EXPECT_THAT(described(case_file("placed.gltf")),
                 AllOf(HasSubstr("placed.gltf: glTF mesh, "), HasSubstr("12 vertices, 6 triangles\n"),
                       HasSubstr("alpha texture: 3 x 3 pixels, alpha 0.5\n"),
@@ -187,6 +190,15 @@ TEST(DataFile, MeshesAreDescribedWithWhatIsPassedOver) {
                       HasSubstr("note: passed over: faces of fewer than 3 corners (1)\n")));
     // The spare vertex at 9 casts no shadow.
     EXPECT_THAT(described(case_file("bom.obj")), HasSubstr("to [1, 1, 0], size [1, 0, 1]\n"));
+}
+
+TEST(DataFile, AnObjectOfEachTypeIsReadFromAPbrtScene) {
+    EXPECT_THAT(
+        described(case_file("scene.pbrt")),
+        AllOf(HasSubstr("scene.pbrt: pbrt scene, "), HasSubstr("  1 strand, 3 points; 3 a strand\n"),
+              HasSubstr("  1 point, density 0.25\n  radius 3\n"),
+              HasSubstr("  medium \"smoke\":\n  1 x 2 x 3 voxels, 6 in all"), HasSubstr("  6 vertices, 2 triangles\n"),
+              HasSubstr("note: passed over: shapes of the type disk (1)\n"), HasSubstr("note: it fills its own box")));
 }
 
 TEST(DataFile, GridsAreDescribedWithTheirAxesAndActiveVoxels) {

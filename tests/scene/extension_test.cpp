@@ -93,7 +93,7 @@ TEST(Extensions, OfVolumesThatAreUnknownAreNamed) {
         EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
         EXPECT_EQ(error.where(), "/scene/objects/0/file");
         EXPECT_THAT(error.message(), HasSubstr("must end in .vdb, .nvdb, .pvm, .dds, .nrrd, .nhdr, .mhd, .mha, .vol, "
-                                               ".slc, .raw or .gz; .abc is not read"));
+                                               ".slc, .pbrt, .raw or .gz; .abc is not read"));
         EXPECT_THAT(error.message(), HasSubstr(R"("format", "size", and "spacing" or "lower" and "upper")"));
     }
 }

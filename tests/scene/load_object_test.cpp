@@ -207,8 +207,21 @@ TEST(LoadObject, HairNeedsAWidth) {
                 HasSubstr("no strands"));
     test::write_file("a.abc", "");
     const base::Error unknown = failure(R"({"type": "hair", "file": "a.abc", "radius": 1})", {folder});
-    EXPECT_EQ(unknown.message(), "the name of a hair file must end in .tfx or .hair; .abc is not read");
+    EXPECT_EQ(unknown.message(), "the name of a hair file must end in .tfx, .hair, .txt or .pbrt; .abc is not read");
     EXPECT_EQ(unknown.where(), "/scene/objects/0/file");
+}
+
+TEST(LoadObject, HairOfMitsubaMayBeSplines) {
+    const auto folder = test::write_file("s.txt", "-1 1 0 1\n0 0 0 1\n1 1 0 1\n2 4 0 1\n").parent_path();
+    const auto first = [&](const char* keys) {
+        const Object object = load(fmt::format(R"({{"type": "hair", "file": "s.txt"{}}})", keys), {folder});
+        return std::get<Hair>(object.shape).points[0];
+    };
+    EXPECT_EQ(first(""), Vec3f(-1, 1, 0));
+    EXPECT_EQ(first(R"(, "basis": "bspline")").x, 0.0f);
+    test::write_file("a.tfx", "");
+    EXPECT_EQ(failure(R"({"type": "hair", "file": "a.tfx", "basis": "linear"})", {folder}).where(),
+              "/scene/objects/0/basis");
 }
 
 TEST(LoadObject, LimitsHair) {
@@ -325,6 +338,27 @@ TEST_P(Procedural, SchemaDocumentsTheDefaultsOfTheStruct) {
 INSTANTIATE_TEST_SUITE_P(Objects, Procedural,
                          testing::Values("hair_ball", "cloud", "density_box", "crossed_rods", "smoke_column"));
 
+TEST(LoadParticles, AreThePointsOfAFile) {
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n";
+    const auto folder = test::write_file("plain.ply", head + "end_header\n1 2 3\n4 5 6\n").parent_path();
+    test::write_file("own.ply", head + "property float radius\nend_header\n1 2 3 0.5\n4 5 6 0.25\n");
+    const auto load_points = [&](const char* keys) {
+        return std::get<Particles>(load(fmt::format(R"({{"type": "particles", {}}})", keys), {folder}).shape);
+    };
+    EXPECT_EQ(load_points(R"("file": "plain.ply", "radius": 2)").radii, (std::vector<float>{2, 2}));
+    EXPECT_EQ(load_points(R"("file": "own.ply")").radii, (std::vector<float>{0.5f, 0.25f}));
+    EXPECT_EQ(load_points(R"("file": "own.ply", "radius": 2)").radii, (std::vector<float>{2, 2}));
+    const auto refused = [&](const char* keys) {
+        return failure(fmt::format(R"({{"type": "particles", {}}})", keys), {folder});
+    };
+    EXPECT_THAT(refused(R"("file": "plain.ply")").message(), HasSubstr("\"radius\" is missing"));
+    EXPECT_EQ(refused(R"("file": "own.ply", "radii": [1])").where(), "/scene/objects/0/radii");
+    EXPECT_THAT(refused(R"("centres": [[0, 0, 0]], "radii": [1])").message(), HasSubstr("\"density\" is missing"));
+    EXPECT_EQ(refused(R"("centres": [[0, 0, 0]], "radii": [1], "density": [1], "radius": 1)").where(),
+              "/scene/objects/0/radius");
+}
+
 TEST(LoadObject, NamesAPointCloudAndWhatToDoWithIt) {
     const std::string ply =
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
@@ -336,7 +370,7 @@ TEST(LoadObject, NamesAPointCloudAndWhatToDoWithIt) {
         EXPECT_EQ(error.code(), base::ErrorCode::bad_input);
         EXPECT_EQ(error.where(), "/scene/objects/0/file");
         EXPECT_THAT(error.message(), HasSubstr("a point cloud"));
-        EXPECT_THAT(error.message(), HasSubstr("spheres or particles"));
+        EXPECT_THAT(error.message(), HasSubstr("of type particles"));
     }
     const auto file = test::write_file("lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\nf 1 2\n");
     EXPECT_THAT(failure(R"({"type": "mesh", "file": "lines.obj"})", {file.parent_path()}).message(),

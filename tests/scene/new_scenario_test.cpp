@@ -42,8 +42,8 @@ Scenario loaded(const ordered_json& scenario, const std::filesystem::path& folde
 }
 
 TEST(NewScenario, OfEachKindOfFileLoads) {
-    for (const char* name : {"bom.obj", "edge.obj", "strips.ply", "placed.gltf", "noname.vdb", "rot90.vdb",
-                             "tinyneg.vdb", "zback0.exr", "inf.exr", "layered.exr"}) {
+    for (const char* name : {"bom.obj", "edge.obj", "strips.ply", "points.ply", "placed.gltf", "noname.vdb",
+                             "rot90.vdb", "tinyneg.vdb", "zback0.exr", "inf.exr", "layered.exr"}) {
         SCOPED_TRACE(name);
         const Scenario scenario = loaded(made_from({case_file(name)}), case_file(name).parent_path());
         EXPECT_EQ(scenario.name, std::string(name).substr(0, std::string(name).find('.')));
@@ -77,15 +77,53 @@ TEST(NewScenario, APastedObjectLoadsWhatWasRead) {
     std::string bytes(24, '\0');
     bytes[5] = '\xff';
     const auto file = test::write_file("ball_2x3x4.raw", bytes);
-    const ordered_json object = scene_object(read_data_file(file, {}), "ball_2x3x4.raw");
+    const ordered_json object = scene_objects(read_data_file(file, {}), "ball_2x3x4.raw").at(0);
     EXPECT_EQ(in_one_line(object),
               R"({"type": "volume", "name": "ball_2x3x4", "file": "ball_2x3x4.raw", "format": "uint8", )"
               R"("size": [2, 3, 4], "lower": [0, 0, 0], "upper": [2, 3, 4], "extinction": 2})");
     FileChoice choice;
     choice.deep.layer = "rgba";
     choice.deep.part = 0;
-    EXPECT_EQ(in_one_line(scene_object(read_data_file(case_file("layered.exr"), choice), "a.exr")),
+    EXPECT_EQ(in_one_line(scene_objects(read_data_file(case_file("layered.exr"), choice), "a.exr").at(0)),
               R"({"file": "a.exr", "layer": "rgba", "part": 0})");
+}
+
+// Its own extinction, so that no factor is made up.
+TEST(NewScenario, APbrtSceneIsAnObjectOfEachType) {
+    const std::vector<ordered_json> made = scene_objects(read_data_file(case_file("scene.pbrt"), {}), "s.pbrt");
+    ASSERT_EQ(made.size(), 4u);
+    EXPECT_EQ(in_one_line(made[0]), R"({"type": "hair", "name": "scene_hair", "file": "s.pbrt", "opacity": 0.6})");
+    EXPECT_EQ(in_one_line(made[1]), R"({"type": "particles", "name": "scene_particles", "file": "s.pbrt"})");
+    EXPECT_EQ(in_one_line(made[2]), R"({"type": "volume", "name": "scene_smoke", "file": "s.pbrt", "grid": "smoke"})");
+    EXPECT_EQ(in_one_line(made[3]), R"({"type": "mesh", "name": "scene_mesh", "file": "s.pbrt"})");
+    // Media of the same name are told apart by their numbers.
+    const std::string box =
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1] \"integer indices\" "
+        "[0 1 2 1 2 3 4 5 6 5 6 7 0 1 4 1 4 5 2 3 6 3 6 7 0 2 4 2 4 6 1 3 5 3 5 7]\n";
+    const auto two = test::write_file("two.pbrt",
+                                      "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n"
+                                      "MediumInterface \"fog\" \"\" Material \"interface\"\n" +
+                                          box + "Translate 2 0 0\n" + box);
+    const std::vector<ordered_json> fogs = scene_objects(read_data_file(two, {}), "two.pbrt");
+    ASSERT_EQ(fogs.size(), 2u);
+    EXPECT_EQ(fogs[0]["grid"], 0);
+    EXPECT_EQ(fogs[1]["grid"], 1);
+    const Scenario foggy = loaded(made_from({two}), two.parent_path());
+    EXPECT_EQ(std::get<GridVolume>(foggy.scene.objects[1].shape).lower, Vec3d(2, 0, 0));
+    const Scenario scenario = loaded(made_from({case_file("scene.pbrt")}), case_file("scene.pbrt").parent_path());
+    ASSERT_EQ(scenario.scene.objects.size(), 5u);
+    EXPECT_EQ(std::get<GridVolume>(scenario.scene.objects[2].shape).density.back(), 12.0f);
+}
+
+// Without the guess, a cloud of points casts no shadow at all; with another extinction, its points are walls or
+// nothing.
+TEST(NewScenario, PointsHaveARadiusAndAnOpticalDepthOf2) {
+    EXPECT_EQ(in_one_line(scene_objects(read_data_file(case_file("points.ply"), {}), "points.ply").at(0)),
+              R"({"type": "particles", "name": "points", "file": "points.ply", "radius": 0.4, "extinction": 2.5})");
+    const Scenario scenario = loaded(made_from({case_file("points.ply")}), case_file("points.ply").parent_path());
+    const auto& points = std::get<Particles>(scenario.scene.objects[0].shape);
+    EXPECT_EQ(points.radii, std::vector<float>(4, 0.4f));
+    EXPECT_EQ(points.centres[2], Vec3f(1, 1, -1));
 }
 
 TEST(NewScenario, AVolumeKeepsTheBoxOfItsFile) {
@@ -165,7 +203,8 @@ TEST(NewScenario, NamesAreThoseThatTheSchemaTakes) {
 }
 
 TEST(NewScenario, RefusesWhatCannotCastAShadow) {
-    EXPECT_THAT(error_of([] { made_from({case_file("points.ply")}); }).message(), HasSubstr("a point cloud"));
+    const auto lone = test::write_file("lone.obj", "v 0 1 0\nv 1 1 -1\n");
+    EXPECT_THAT(error_of([&] { made_from({lone}); }).message(), HasSubstr("a point cloud"));
     const auto empty = test::write_file("empty_2x2x2.raw", std::string(8, '\0'));
     EXPECT_THAT(error_of([&] { made_from({empty}); }).message(), HasSubstr("nothing in it casts a shadow"));
     const base::Error two = error_of([] { made_from({case_file("bom.obj"), case_file("inf.exr")}); });

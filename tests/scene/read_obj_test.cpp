@@ -43,6 +43,12 @@ TEST(ReadObj, SplitsAConvexPolygonIntoTheFanOfItsFirstCorner) {
     EXPECT_THAT(read(corners + "f 1 2 3 4\n").triangles, ElementsAre(Vec3i(0, 1, 2), Vec3i(0, 2, 3)));
 }
 
+// Editors leave blanks behind the mark of continuation, which looked like a corner then.
+TEST(ReadObj, LinesContinueAfterAMarkWithBlanksBehindIt) {
+    for (const char* mark : {"\\\n", "\\ \t\n", "\\ \r\n"})
+        EXPECT_EQ(read(corners + "f 1 2 " + mark + "3 4\n").triangles.size(), 2u) << mark;
+}
+
 TEST(ReadObj, CountsNegativeIndicesFromTheEnd) {
     EXPECT_THAT(read(corners + "f -4 -3 -2\n").triangles, ElementsAre(Vec3i(0, 1, 2)));
 }
@@ -256,9 +262,9 @@ TEST(ReadObj, NeverCrashesOnAFileCutAnywhere) {
 
 TEST(ReadMesh, RefusesOtherFormatsAndMissingFiles) {
     EXPECT_EQ(error_of([] { read_mesh(test::write_file("a.Fbx", "")); }).message(),
-              "the name of a mesh file must end in .obj, .ply, .stl, .gltf or .glb; .Fbx is not read");
+              "the name of a mesh file must end in .obj, .ply, .stl, .gltf, .glb or .pbrt; .Fbx is not read");
     EXPECT_EQ(error_of([] { read_mesh(test::write_file("obj", "")); }).message(),
-              "the name of a mesh file must end in .obj, .ply, .stl, .gltf or .glb");
+              "the name of a mesh file must end in .obj, .ply, .stl, .gltf, .glb or .pbrt");
     EXPECT_EQ(error_of([] { read_mesh("/nowhere/a.obj"); }).code(), base::ErrorCode::no_such_file);
     EXPECT_EQ(error_of([] { read_mesh("/nowhere/a.ply"); }).code(), base::ErrorCode::no_such_file);
 }

@@ -67,10 +67,10 @@ TEST_F(FileCommands, InspectDescribesEachFileAndWhatLoadsIt) {
         EXPECT_THAT(outcome.out, HasSubstr(text));
 }
 
-TEST_F(FileCommands, InspectNamesAPointCloudAndPastesNothing) {
+TEST_F(FileCommands, InspectReadsAPointCloudAsParticles) {
     const Outcome outcome = cli({"inspect", case_file("points.ply")});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_THAT(outcome.out, AllOf(HasSubstr("a point cloud: 4 points and no faces"), Not(HasSubstr("object:"))));
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("PLY point cloud"), HasSubstr("object: {\"type\": \"particles\"")));
 }
 
 TEST_F(FileCommands, InspectReadsTheGridPartAndLayerAskedFor) {

@@ -12,7 +12,7 @@ namespace shadowbench::scene {
 std::string extension_of(const std::filesystem::path& file);
 
 // What is wrong with the name of a file that no reader takes: its extension, and those that `kind` of file may have:
-// "the name of a hair file must end in .tfx or .hair; .abc is not read".
+// "the name of a hair file must end in .tfx, .hair, .txt or .pbrt; .abc is not read".
 std::string unknown_extension(const std::filesystem::path& file, std::string_view kind,
                               const std::vector<std::string_view>& known);
 

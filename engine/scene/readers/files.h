@@ -27,7 +27,7 @@ struct MeshFile {
     std::vector<PassedOver> passed_over;
 };
 
-// Chooses the format by the extension: .obj, .ply (ASCII and binary, faces and triangle strips), .stl, .gltf or .glb.
+// Chooses the format by the extension: .obj, .ply (ASCII and binary, faces and triangle strips), .stl, .gltf, .glb or .pbrt.
 // Splits polygons into triangles that cover them once (triangulate.h); a polygon that crosses itself is bad input. A
 // file may hold only vertices.
 MeshFile read_mesh(const std::filesystem::path& file);

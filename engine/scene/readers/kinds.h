@@ -12,4 +12,8 @@ bool is_deep_image(const std::filesystem::path& file);
 // the file ends before its header does.
 bool is_dds_volume(const std::filesystem::path& file);
 
+// Whether the header of a .ply file states vertices, but neither faces nor triangle strips. False for what is no PLY
+// file, and for a file that cannot be read.
+bool is_point_cloud(const std::filesystem::path& file);
+
 }  // namespace shadowbench::scene

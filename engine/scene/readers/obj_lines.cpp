@@ -77,11 +77,12 @@ std::string_view without_comment(std::string_view line) {
     return line.substr(0, line.find('#'));
 }
 
-// Whether the line continues in the next one; removes the mark of continuation. The comment has been removed, so
-// comments do not continue.
+// Whether the line continues in the next one; removes the mark of continuation and blanks after it. The comment has been
+// removed, so comments do not continue.
 bool take_continuation(std::string_view& line) {
-    if (!line.ends_with('\\')) return false;
-    line.remove_suffix(1);
+    const std::size_t last = line.find_last_not_of(" \t");
+    if (last == std::string_view::npos || line[last] != '\\') return false;
+    line.remove_suffix(line.size() - last);
     return true;
 }
 

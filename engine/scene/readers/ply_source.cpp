@@ -14,7 +14,9 @@
 #include "base/error.h"
 #include "base/utf8.h"
 #include "scene/limits.h"
+#include "scene/readers/extension.h"
 #include "scene/readers/file_reader.h"
+#include "scene/readers/unpacked_bytes.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -89,8 +91,12 @@ bool is_space(char c) {
 }  // namespace
 
 PlySource::PlySource(const std::filesystem::path& file) : file_(file.string()) {
-    FileReader reader(file);
-    bytes_ = reader.text(reader.size(), "file");
+    if (extension_of(file) == ".gz") {
+        bytes_ = unpacked_file(file);
+    } else {
+        FileReader reader(file);
+        bytes_ = reader.text(reader.size(), "file");
+    }
     read_header();
 }
 

@@ -26,7 +26,7 @@ struct PlyElement {
 
 class PlySource {
 public:
-    // Reads the header. Throws Error: no_such_file, io, bad_input.
+    // Reads the header. Unpacks a file whose extension is .gz. Throws Error: no_such_file, io, bad_input.
     explicit PlySource(const std::filesystem::path& file);
 
     const std::vector<PlyElement>& elements() const { return elements_; }

@@ -17,9 +17,9 @@ struct MeshFormat {
     std::string_view extension;
     MeshFile (*read)(const std::filesystem::path& file);
 };
-constexpr std::array mesh_formats{MeshFormat{".obj", read_obj}, MeshFormat{".ply", read_ply},
-                                  MeshFormat{".stl", read_stl}, MeshFormat{".gltf", read_gltf},
-                                  MeshFormat{".glb", read_gltf}};
+constexpr std::array mesh_formats{MeshFormat{".obj", read_obj},  MeshFormat{".ply", read_ply},
+                                  MeshFormat{".stl", read_stl},  MeshFormat{".gltf", read_gltf},
+                                  MeshFormat{".glb", read_gltf}, MeshFormat{".pbrt", read_pbrt_mesh}};
 
 }  // namespace
 

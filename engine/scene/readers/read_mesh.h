@@ -21,6 +21,9 @@ MeshFile read_stl(const std::filesystem::path& file);
 // glTF 2.0, text and binary (read_gltf.cpp). The mesh has a texture if the alpha of any material is below 1.
 MeshFile read_gltf(const std::filesystem::path& file);
 
+// The triangles of a pbrt scene (pbrt_files.h).
+MeshFile read_pbrt_mesh(const std::filesystem::path& file);
+
 // If there are many kinds, the rest are counted together as "other things".
 void pass_over(MeshFile& file, std::string_view what, std::uint64_t count = 1);
 

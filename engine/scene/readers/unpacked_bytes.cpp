@@ -127,4 +127,15 @@ std::uint64_t gzip_bytes(const std::filesystem::path& file) {
     return reader.value<std::uint32_t>("size");
 }
 
+std::string unpacked_file(const std::filesystem::path& file) {
+    const std::uint64_t size = gzip_bytes(file);
+    FileReader reader(file);
+    UnpackedBytes bytes(reader, 0, Packing::deflate);
+    bytes.need(size, "content");
+    std::string content(static_cast<std::size_t>(size), '\0');
+    bytes.read({reinterpret_cast<std::uint8_t*>(content.data()), content.size()}, "content");
+    if (!bytes.at_end()) bytes.fail(size, "more content than the end of the file states");
+    return content;
+}
+
 }  // namespace shadowbench::scene

@@ -61,4 +61,7 @@ private:
 // The number of unpacked bytes that the end of a gzip file states; right below 4 GiB and for files of one member.
 std::uint64_t gzip_bytes(const std::filesystem::path& file);
 
+// All that a gzip file of one member unpacks to. Throws Error{bad_input} if it is damaged or goes on after that member.
+std::string unpacked_file(const std::filesystem::path& file);
+
 }  // namespace shadowbench::scene
