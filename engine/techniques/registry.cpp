@@ -1,7 +1,9 @@
 // The registry, made from rows.inc, which has one line for each technique.
 #include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "base/nearest.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::techniques {
@@ -21,11 +23,14 @@ std::span<const Technique> all() {
 
 const Technique& find(const std::string& id, const std::string& where) {
     std::string names;
+    std::vector<std::string> ids;
     for (const Technique& row : all()) {
         if (id == row.id) return row;
         names += (names.empty() ? "" : ", ") + std::string(row.id);
+        ids.push_back(row.id);
     }
-    throw base::Error(base::ErrorCode::bad_input, where, "unknown technique \"" + id + "\"; there are: " + names);
+    throw base::Error(base::ErrorCode::bad_input, where,
+                      "unknown technique \"" + id + "\"" + base::perhaps(id, ids) + "; there are: " + names);
 }
 
 void NodeStats::add(std::uint32_t nodes) {

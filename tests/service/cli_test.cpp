@@ -361,7 +361,7 @@ TEST_F(CliOfMany, finds_folders_by_name) {
     EXPECT_EQ(found.code, 0) << found.err;
     EXPECT_EQ(names_in("out"), (Names{"a", "b", "verdicts.md"}));
     fs::create_directories(folder_ / "hollow");
-    fails({"run", path("hollow")}, 66, path("hollow") + ": there is no scenario");
+    fails({"run", path("hollow")}, 66, path("hollow") + ": this is a folder without scenarios");
     fails({"run", path("tiny.json"), path("gone")}, 66, "gone");
 }
 
