@@ -15,6 +15,7 @@ class Option;
 namespace shadowbench::service {
 
 struct JobArguments;
+struct OutputArguments;
 
 struct Command {
     CLI::App* app;                                                 // the subcommand, with its options
@@ -41,6 +42,7 @@ void set_help(CLI::App& command, const char* group, std::initializer_list<const 
 // Options that several commands share; arguments and folder must outlive the parsing.
 void add_job_options(CLI::App& command, JobArguments& arguments);
 void add_only_option(CLI::App& command, JobArguments& arguments);
+void add_output_options(CLI::App& command, OutputArguments& arguments);
 void add_folder_option(CLI::App& command, std::string& folder, const char* text);
 
 // Each adds its subcommand, as the functions below do for theirs.
@@ -56,5 +58,6 @@ void add_server_commands(CLI::App& app, Commands& commands);
 void add_gate_commands(CLI::App& app, Commands& commands);
 void add_kernel_commands(CLI::App& app, Commands& commands);
 void add_web_commands(CLI::App& app, Commands& commands);
+void add_help_commands(CLI::App& app, Commands& commands);
 
 }  // namespace shadowbench::service

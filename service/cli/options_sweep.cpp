@@ -22,8 +22,9 @@ void add_merge(CLI::App& app, Commands& commands) {
     add_folder_option(*merge, arguments->out,
                       "Folder of the result [results/runs/<scenario name>, in the current folder]. Each of several "
                       "scenarios gets a folder of its name there");
-    commands.push_back({merge, [arguments](std::ostream& out, std::ostream&) {
-                            return merge_command(*arguments, out) ? 0 : promise_broken;
+    add_output_options(*merge, arguments->output);
+    commands.push_back({merge, [arguments](std::ostream& out, std::ostream& err) {
+                            return merge_command(*arguments, out, err) ? 0 : promise_broken;
                         }});
 }
 

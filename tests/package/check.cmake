@@ -40,7 +40,9 @@ foreach(file IN ITEMS share/shadowbench/scenario.schema.json share/doc/shadowben
                       share/doc/shadowbench/README.md share/doc/shadowbench/CHANGELOG.md
                       share/doc/shadowbench/engine/compare/README.md share/doc/shadowbench/engine/techniques/README.md
                       share/doc/shadowbench/results/README.md share/doc/shadowbench/scenarios/README.md
-                      share/doc/shadowbench/service/README.md)
+                      share/doc/shadowbench/service/README.md share/man/man1/shadowbench.1
+                      share/man/man1/shadowbench-run.1 share/bash-completion/completions/shadowbench
+                      share/zsh/site-functions/_shadowbench share/fish/vendor_completions.d/shadowbench.fish)
   if(NOT EXISTS "${prefix}/${file}")
     message(FATAL_ERROR "${file} is not installed")
   endif()
