@@ -172,7 +172,7 @@ std::string to_fitting_table(const Result& result, const TableStyle& asked) {
     std::string text = base::wrapped(heading_text(result), style.width);
     bool marked = false;
     for (const VariantResult& variant : result.variants) {
-        text += base::wrapped(settings_text(variant), style.width);
+        text += base::wrapped(settings_lines(variant), style.width);
         for (const LightResult& light : variant.lights) {
             const Settling found = settling(light);
             marked = marked || !found.uncertain.empty();

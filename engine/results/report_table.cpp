@@ -60,7 +60,7 @@ std::string to_table(const Result& result) {
     std::string text = heading_text(result);
     bool marked = false;
     for (const VariantResult& variant : result.variants) {
-        text += settings_text(variant);
+        text += settings_lines(variant);
         for (const LightResult& light : variant.lights) {
             base::Table table({"technique", "build ms", "ns/seg", "image ns", "x floor", "random ns", "x floor",
                                "bytes", "nodes mean", "max", "curve max", "lookup rms", "rms 95 %", "p99", "max",

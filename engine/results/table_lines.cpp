@@ -125,7 +125,7 @@ std::string heading_text(const Result& result) {
     return result.name + (result.purpose.empty() ? "" : ": " + result.purpose) + "\n" + notes_text(result.notes, "  ");
 }
 
-std::string settings_text(const VariantResult& variant) {
+std::string settings_lines(const VariantResult& variant) {
     std::string text;
     for (const document::Setting& setting : variant.settings)
         text += fmt::format("{} = {}\n", setting.pointer, setting.value);

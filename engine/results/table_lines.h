@@ -21,7 +21,7 @@ std::string interval_text(const LookupErrors& errors);
 // Whole lines: the name, purpose and notes of the result; what the sweeps set; what stands above and below the rows of
 // a light: what was captured, how accurate the truth is, and what was not quiet or not compared.
 std::string heading_text(const Result& result);
-std::string settings_text(const VariantResult& variant);
+std::string settings_lines(const VariantResult& variant);
 std::string text_above(const LightResult& light, int threads);
 std::string text_below(const LightResult& light, const Settling& found);
 
