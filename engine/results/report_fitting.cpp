@@ -23,7 +23,7 @@ constexpr const char* fitting_legend =
     "above the noise tolerance. --wide shows all columns.\n";
 
 constexpr std::size_t least_line = 60, rows_indent = 4, columns_gap = 2;
-constexpr std::size_t name_room = 24, least_name = 14;  // characters of the first column
+constexpr std::size_t name_room = 24, least_name = 10;  // characters of the first column
 
 enum FittingColumn {
     of_name,
