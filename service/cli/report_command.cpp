@@ -51,6 +51,11 @@ std::vector<fs::path> results_of_machines(const fs::path& folder) {
     return files;
 }
 
+bool was_quiet(const results::LightResult& light) {
+    const results::Settling found = results::settling(light);
+    return found.known() && found.settled();
+}
+
 void add_gallery_rows(const fs::path& file, std::vector<GalleryRow>& rows) {
     const results::Result result = results::from_json(read_result(file), file.string());
     for (const results::VariantResult& variant : result.variants) {
@@ -60,7 +65,7 @@ void add_gallery_rows(const fs::path& file, std::vector<GalleryRow>& rows) {
         for (const results::LightResult& light : variant.lights) {
             GalleryRow row{result.name, light.name + settings, file.parent_path().filename().string(),
                            file.stem().string(), results::machine_text(result.machine), result.program.version,
-                           results::settling(light).settled(), {}};
+                           was_quiet(light), {}};
             for (const results::Cell& cell : light.cells) {
                 if (!cell.times) continue;
                 const results::LookupTimes& lookup = cell.times->random_order;

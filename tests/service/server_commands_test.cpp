@@ -104,10 +104,13 @@ protected:
 std::string words_of(const std::string& table) {
     std::string words;
     std::istringstream lines(table);
-    for (std::string line; std::getline(lines, line);)
-        if (line.find("capture:") == std::string::npos && line.find("result:") == std::string::npos &&
-            line.find("written:") == std::string::npos && line.find("    deep") != 0 && line.find("    uncomp") != 0)
-            words += line.substr(0, line.find("  build ms")) + "\n";
+    bool capture = false;  // whose lines go on
+    for (std::string line; std::getline(lines, line) && line.rfind("light ", 0) != 0;) {
+        capture = line.rfind("    capture:", 0) == 0 || (capture && line.rfind("    truth:", 0) != 0);
+        const bool row = line.rfind("    technique", 0) == 0 || line.rfind("    deep", 0) == 0 ||
+                         line.rfind("    uncomp", 0) == 0;
+        if (!capture && !row) words += line + "\n";
+    }
     return words;
 }
 
