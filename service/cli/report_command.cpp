@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -42,11 +43,10 @@ nlohmann::json read_result(const fs::path& file) {
 // The results that lie in the folders of this folder, as results/machines has them, by path; empty if there are none.
 std::vector<fs::path> results_of_machines(const fs::path& folder) {
     std::vector<fs::path> files;
-    for (const auto& machine : fs::directory_iterator(folder)) {
-        if (!machine.is_directory()) continue;
-        for (const auto& entry : fs::directory_iterator(machine.path()))
-            if (entry.is_regular_file() && entry.path().extension() == ".json") files.push_back(entry.path());
-    }
+    std::error_code ignored;
+    for (const auto& machine : fs::directory_iterator(folder, ignored))
+        for (const auto& entry : fs::directory_iterator(machine.path(), ignored))
+            if (entry.is_regular_file(ignored) && entry.path().extension() == ".json") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }

@@ -87,11 +87,11 @@ TEST_F(HelpFiles, have_a_page_with_every_option_of_every_command) {
 TEST_F(HelpFiles, have_pages_that_man_can_format) {
     if (shell("command -v groff").empty()) GTEST_SKIP() << "groff is not installed";
     const std::string pages = (share() / "man/man1").string();
-    const std::string text = shell("groff -man -Tascii -P-c -ww -rLL=78n '" + pages + "/shadowbench-run.1'");
+    const std::string text = shell("groff -man -Tascii -P-cbu -rLL=78n '" + pages + "/shadowbench-run.1'");
     EXPECT_THAT(text, HasSubstr("--memory-limit FLOAT"));
     EXPECT_THAT(text, HasSubstr("shadowbench run scenarios/hard --verdicts"));
     EXPECT_THAT(text, Not(HasSubstr("warning")));
-    EXPECT_EQ(shell("for page in '" + pages + "'/*; do groff -man -ww -z \"$page\"; done"), "") << "warnings of groff";
+    EXPECT_EQ(shell("for page in '" + pages + "'/*; do groff -man -wmac -wescape -wsyntax -wfont -wmissing -z \"$page\"; done"), "") << "warnings of groff";
 }
 
 TEST_F(HelpFiles, complete_commands_options_and_values_in_bash) {

@@ -6,6 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -48,17 +49,14 @@ class RunOutput : public ::testing::Test {
 protected:
     RunOutput() {
         for (const char* name : {"one", "two"})
-            std::ofstream(folder_ / (std::string(name) + ".json")) << nlohmann::json{
-                {"name", name},
-                {"scene",
-                 {{"objects",
-                   {{{"type", "sphere"}, {"centre", {0, 0, 0}}, {"radius", 1}, {"opacity", 0.5}}}}}},
-                {"lights", {{{"type", "directional"}, {"direction", {0, -1, 0}}}}},
-                {"rays", {{"resolution", 8}, {"samples_per_pixel", 4}}},
-                {"receivers", {{"type", "probes"}, {"count", 200}}},
-                {"reference", {{"samples_per_pixel", 16}, {"queries", 20}, {"spread_seeds", 2}}},
-                {"timing", {{"repetitions", 1}, {"lookups", 64}}},
-                {"techniques", {{{"type", "deep"}, {"tolerance", 0.02}}, {{"type", "uncompressed"}}}}};
+            std::ofstream(folder_ / (std::string(name) + ".json")) << "{\"name\": \"" << name << "\", " << R"(
+                "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
+                "lights": [{"type": "directional", "direction": [0, -1, 0]}],
+                "rays": {"resolution": 8, "samples_per_pixel": 4},
+                "receivers": {"type": "probes", "count": 200},
+                "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
+                "timing": {"repetitions": 1, "lookups": 64},
+                "techniques": [{"type": "deep", "tolerance": 0.02}, {"type": "uncompressed"}]})";
     }
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
     std::string text_of(const std::string& name) const { return base::read_text(folder_ / name); }
