@@ -112,10 +112,12 @@ TEST_F(HelpFiles, can_be_read_by_other_shells_that_are_installed) {
     const std::string fish = text_of("fish/vendor_completions.d/shadowbench.fish");
     EXPECT_THAT(zsh, HasSubstr("'*--only=[Use only techniques of this type]:TEXT:(shadow_map"));
     EXPECT_THAT(fish, HasSubstr("'__fish_seen_subcommand_from run' -l only -x -a 'shadow_map"));
-    if (!shell("command -v zsh").empty())
-        EXPECT_EQ(shell("zsh -n '" + (share() / "zsh/site-functions/_shadowbench").string() + "'"), "");
-    if (!shell("command -v fish").empty())
-        EXPECT_EQ(shell("fish -n '" + (share() / "fish/vendor_completions.d/shadowbench.fish").string() + "'"), "");
+    const auto faults = [](const std::string& program, const std::string& file) {
+        if (shell("command -v " + program).empty()) return std::string();
+        return shell(program + " -n '" + (share() / file).string() + "'");
+    };
+    EXPECT_EQ(faults("zsh", "zsh/site-functions/_shadowbench"), "");
+    EXPECT_EQ(faults("fish", "fish/vendor_completions.d/shadowbench.fish"), "");
 }
 
 TEST_F(HelpFiles, are_printed_one_by_one) {
