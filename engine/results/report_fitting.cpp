@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,8 +22,8 @@ constexpr const char* fitting_legend =
     "bytes and error; T? and B? perhaps none does. degraded: every promise holds, but none bounds the error, and it is "
     "above the noise tolerance. --wide shows all columns.\n";
 
-constexpr std::size_t least_line = 60, rows_indent = 4, columns_gap = 2;
-constexpr std::size_t name_room = 24, least_name = 10;  // characters of the first column
+constexpr std::size_t least_line = 60, rows_indent = 2, columns_gap = 2;
+constexpr std::size_t name_room = 20, most_name_room = 24, least_name = 10;  // characters of the first column
 
 enum FittingColumn {
     of_name,
@@ -57,6 +57,16 @@ Fields fields_of(const Cell& cell, const LightResult& light) {
     return fields;
 }
 
+// Of the first column: so much that no word of the settings is broken, in reason.
+std::size_t room_for_words(const std::vector<Fields>& rows) {
+    std::size_t room = name_room;
+    for (const Fields& row : rows) {
+        std::istringstream words(row[of_name]);
+        for (std::string word; words >> word;) room = std::max(room, word.size() + 2);  // indented
+    }
+    return std::min(room, most_name_room);
+}
+
 // The columns that fit into lines of this width, and the width of the first.
 struct Fitting {
     std::vector<FittingColumn> columns;
@@ -75,7 +85,7 @@ Fitting fit(const std::vector<Fields>& rows, std::size_t width) {
             if (c != of_name) used += columns_gap + widths[c];
         return used;
     };
-    const std::size_t wanted = std::min(widths[of_name], name_room);
+    const std::size_t wanted = std::min(widths[of_name], room_for_words(rows));
     for (const FittingColumn column : left_out)
         if (rest() + wanted > width) std::erase(fitting.columns, column);
     const std::size_t left = width > rest() ? width - rest() : 0;

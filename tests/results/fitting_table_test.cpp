@@ -78,7 +78,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 // The line of the table that begins with this, without what is beside it.
 std::string line_with(const std::string& text, const std::string& start) {
     for (const std::string& line : lines_of(text))
-        if (line.rfind("    " + start, 0) == 0) return line;
+        if (line.rfind("  " + start, 0) == 0) return line;
     return "";
 }
 
@@ -110,8 +110,8 @@ TEST(FittingTable, breaks_long_settings_and_loses_none) {
     std::string words;
     bool inside = false;
     for (const std::string& line : lines_of(narrow)) {
-        if (line.rfind("    deep", 0) == 0) inside = true;
-        if (line.rfind("    uncompressed", 0) == 0) inside = false;
+        if (line.rfind("  deep", 0) == 0) inside = true;
+        if (line.rfind("  uncompressed", 0) == 0) inside = false;
         if (!inside) continue;
         const std::size_t first = line.find_first_not_of(' ');
         std::istringstream in(line.substr(first, line.find("  ", first) - first));
