@@ -3,11 +3,29 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace shadowbench::base {
+namespace {
+
+constexpr std::size_t least_width = 20;
+
+// Without the colours, each of which is an escape sequence that ends with an m.
+std::size_t visible_size(const std::string& text) {
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\x1b')
+            i = std::min(text.find('m', i), text.size());
+        else
+            ++size;
+    }
+    return size;
+}
+
+}  // namespace
 
 Table::Table(std::vector<std::string> header) {
     rows_.push_back(std::move(header));
@@ -20,18 +38,44 @@ void Table::add(std::vector<std::string> row) {
 std::string Table::text(const std::string& indent) const {
     std::vector<std::size_t> widths(rows_[0].size(), 0);
     for (const auto& row : rows_)
-        for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+        for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], visible_size(row[c]));
     std::string text;
     for (const auto& row : rows_) {
         std::string line = indent;
         for (std::size_t c = 0; c < row.size(); ++c) {
             const bool left = c == 0 || c + 1 == row.size();
             if (c > 0) line += "  ";
-            line += left ? fmt::format("{:<{}}", row[c], widths[c]) : fmt::format("{:>{}}", row[c], widths[c]);
+            const std::string padding(widths[c] - visible_size(row[c]), ' ');
+            line += left ? row[c] + padding : padding + row[c];
         }
         text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     }
     return text;
+}
+
+std::string wrapped(const std::string& text, std::size_t width) {
+    width = std::max(width, least_width);
+    std::string result;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+        const std::string indent(std::min(first + 2, width / 2), ' ');
+        while (line.size() > width) {
+            std::size_t cut = line.rfind(' ', width);
+            if (cut == std::string::npos || line.find_first_not_of(' ') >= cut) cut = width;
+            result += line.substr(0, cut) + "\n";
+            const std::size_t rest = line.find_first_not_of(' ', cut);
+            line = rest == std::string::npos ? "" : indent + line.substr(rest);
+        }
+        result += line + "\n";
+    }
+    return result;
+}
+
+std::string coloured(const std::string& text, Colour colour) {
+    if (colour == Colour::none || text.empty()) return text;
+    const char* const codes[] = {"0", "1", "31", "32", "33"};
+    return fmt::format("\x1b[{}m{}\x1b[0m", codes[static_cast<std::size_t>(colour)], text);
 }
 
 std::string number_text(double value) {

@@ -7,7 +7,8 @@
 
 namespace shadowbench::base {
 
-// The first and the last column are aligned to the left, the others to the right.
+// The first and the last column are aligned to the left, the others to the right. Colours (see coloured()) take no
+// space.
 class Table {
 public:
     explicit Table(std::vector<std::string> header);
@@ -17,6 +18,14 @@ public:
 private:
     std::vector<std::vector<std::string>> rows_;
 };
+
+// Lines of at most `width` characters, broken at spaces: a line that goes on is indented as it began, and by two spaces
+// more. A word that is too long for a line is broken too. A width below 20 counts as 20.
+std::string wrapped(const std::string& text, std::size_t width);
+
+enum class Colour { none, bold, red, green, yellow };
+// The text as a terminal shows it in this colour.
+std::string coloured(const std::string& text, Colour colour);
 
 // Six digits, or as many more as tell the number from all others: "0.02", "1e-05".
 std::string number_text(double value);

@@ -9,6 +9,15 @@ install(DIRECTORY scenarios DESTINATION "${share}" COMPONENT program PATTERN REA
 install(FILES engine/scene/scenario.schema.json service/api/openapi.json DESTINATION "${share}" COMPONENT program)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE "${CMAKE_CURRENT_BINARY_DIR}/web/licences.txt"
         DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
+# Manual pages and the completions of shells, from the program's own help.
+set(help "${CMAKE_CURRENT_BINARY_DIR}/generated/share")
+add_custom_command(OUTPUT "${help}.made"
+  COMMAND ${CMAKE_COMMAND} -E rm -rf "${help}"
+  COMMAND shadowbench help-files --out "${help}"
+  COMMAND ${CMAKE_COMMAND} -E touch "${help}.made"
+  DEPENDS shadowbench VERBATIM)
+add_custom_target(help_files ALL DEPENDS "${help}.made")
+install(DIRECTORY "${help}/" DESTINATION "${CMAKE_INSTALL_DATADIR}" COMPONENT program)
 # The manuals keep their folders, so that the links between them hold.
 foreach(folder IN ITEMS engine/compare engine/techniques results scenarios service)
   install(FILES ${folder}/README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}" COMPONENT program)
@@ -53,6 +62,7 @@ set_target_properties(shadowbench_technique PROPERTIES EXPORT_NAME technique)
 install(TARGETS shadowbench_technique EXPORT shadowbench-technique)
 
 add_custom_target(installed DEPENDS shadowbench ${layer_targets} COMMENT "All that is installed")
+add_dependencies(installed help_files)
 
 include(CMakePackageConfigHelpers)
 set(package "${CMAKE_INSTALL_LIBDIR}/cmake/shadowbench")

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/json_pointer.h"
+#include "base/nearest.h"
 #include "base/utf8.h"
 #include "document/pointer.h"
 #include "scene/scenario.h"
@@ -150,15 +151,17 @@ std::vector<base::Error> all_faults(const json& document, const Error& first) {
 void keep_only(Variant& variant, std::span<const std::string> types) {
     if (types.empty()) return;
     const json& items = variant.document->at("techniques");
-    std::string present;
-    for (const json& item : items) {
-        const std::string type = item.at("type").get<std::string>();
-        if ((" " + present + " ").find(" " + type + " ") == std::string::npos)
-            present += (present.empty() ? "" : " ") + type;
-    }
+    std::vector<std::string> present;
+    const auto is_present = [&](const std::string& type) {
+        return std::find(present.begin(), present.end(), type) != present.end();
+    };
+    for (const json& item : items)
+        if (const std::string type = item.at("type").get<std::string>(); !is_present(type)) present.push_back(type);
     for (const std::string& type : types)
-        if ((" " + present + " ").find(" " + type + " ") == std::string::npos)
-            throw Error(ErrorCode::usage, "--only " + type, "the scenario has no such technique; it has: " + present);
+        if (!is_present(type))
+            throw Error(ErrorCode::usage, "--only " + type,
+                        "the scenario has no such technique" + base::perhaps(type, present) +
+                            fmt::format("; it has: {}", fmt::join(present, " ")));
 
     json kept = json::array();
     std::vector<std::string> kept_where;

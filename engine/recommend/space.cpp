@@ -96,6 +96,15 @@ std::string words_of_answers(const Technique& row, const ParameterValues& values
     return words;
 }
 
+// A name on the command line, not in a file.
+void refuse_unknown(const std::string& id) {
+    try {
+        techniques::find(id, "--only " + id);
+    } catch (const base::Error& unknown) {
+        throw base::Error(base::ErrorCode::usage, unknown.where(), unknown.message());
+    }
+}
+
 }  // namespace
 
 std::vector<Axis> Space::Rays::axes() const {
@@ -115,7 +124,7 @@ Space::Space(const scene::Scenario& scenario, std::span<const std::string> only)
         explored = {found.sides, {}, found.steps_an_octave, sample_stride};
         for (const int side : sample_sides) explored.samples.push_back(side * side);
     }
-    for (const std::string& id : only) techniques::find(id, "--only");
+    for (const std::string& id : only) refuse_unknown(id);
     for (const Technique& row : techniques::all()) {
         if (!only.empty() && std::count(only.begin(), only.end(), row.id) == 0) continue;
         if (row.traits.traces && fixed) continue;  // there is no scene to trace

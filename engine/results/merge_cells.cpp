@@ -72,6 +72,11 @@ std::optional<Found> first_difference(const nlohmann::ordered_json& one, const n
     return {};
 }
 
+// Their figures are compared as numbers; between machines the last digit in words may be rounded otherwise.
+void leave_out_words(nlohmann::ordered_json& light) {
+    for (auto& row : light.at("cells")) row.erase("verdict_why");
+}
+
 // What is compared of a cell.
 nlohmann::ordered_json exact_part(const SweepCell& cell, bool portable) {
     nlohmann::ordered_json whole = to_json(cell.result);
@@ -80,10 +85,26 @@ nlohmann::ordered_json exact_part(const SweepCell& cell, bool portable) {
     else
         strip_times(whole);
     nlohmann::ordered_json light = std::move(whole.at("variants").front().at("lights").front());
-    // Its figures are compared as numbers; between machines their last digit may be rounded otherwise.
-    if (portable)
-        for (auto& row : light.at("cells")) row.erase("verdict_why");
+    if (portable) leave_out_words(light);
     return light;
+}
+
+constexpr Slack between_machines{1e-6, 1e-12};
+
+// The first difference of two lights.
+std::optional<Disagreement> first_of_lights(const nlohmann::ordered_json& ours, const nlohmann::ordered_json& theirs,
+                                            const Slack& slack) {
+    const std::optional<Found> found = first_difference(ours, theirs, slack, "");
+    if (!found) return {};
+    // "/cells/2/bytes" is "bytes" of the third technique.
+    const std::string start = "/cells/";
+    const std::size_t end = found->pointer.find('/', start.size());
+    if (found->pointer.rfind(start, 0) != 0 || end == std::string::npos)
+        return Disagreement{found->pointer, found->one, found->other};
+    const nlohmann::ordered_json& row = ours.at(nlohmann::ordered_json::json_pointer(found->pointer.substr(0, end)));
+    return Disagreement{title(row.at("technique").get<std::string>(), row.at("label").get<std::string>()) + ": " +
+                            found->pointer.substr(end),
+                        found->one, found->other};
 }
 
 void add_missing(const std::vector<std::string>& lines, std::vector<std::string>& to) {
@@ -166,17 +187,29 @@ std::vector<std::string> machines_of(const nlohmann::json& result) {
 std::optional<Disagreement> disagreement(const SweepCell& one, const SweepCell& other) {
     const bool portable = one.result.machine.cpu != other.result.machine.cpu;
     const nlohmann::ordered_json ours = exact_part(one, portable), theirs = exact_part(other, portable);
-    const std::optional<Found> found = first_difference(ours, theirs, portable ? Slack{1e-6, 1e-12} : Slack{}, "");
-    if (!found) return {};
-    // "/cells/2/bytes" is "bytes" of the third technique.
-    const std::string start = "/cells/";
-    const std::size_t end = found->pointer.find('/', start.size());
-    if (found->pointer.rfind(start, 0) != 0 || end == std::string::npos)
-        return Disagreement{found->pointer, found->one, found->other};
-    const nlohmann::ordered_json& row = ours.at(nlohmann::ordered_json::json_pointer(found->pointer.substr(0, end)));
-    return Disagreement{title(row.at("technique").get<std::string>(), row.at("label").get<std::string>()) + ": " +
-                            found->pointer.substr(end),
-                        found->one, found->other};
+    return first_of_lights(ours, theirs, portable ? between_machines : Slack{});
+}
+
+std::optional<Disagreement> portable_disagreement(const nlohmann::ordered_json& one,
+                                                  const nlohmann::ordered_json& other) {
+    nlohmann::ordered_json ours = one, theirs = other;
+    make_portable_result(ours);
+    make_portable_result(theirs);
+    nlohmann::ordered_json &variants = ours.at("variants"), &their_variants = theirs.at("variants");
+    const auto count_of = [](const nlohmann::ordered_json& values) { return std::to_string(values.size()); };
+    if (variants.size() != their_variants.size())
+        return Disagreement{"/variants", count_of(variants), count_of(their_variants)};
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        nlohmann::ordered_json &lights = variants[v].at("lights"), &their_lights = their_variants[v].at("lights");
+        if (lights.size() != their_lights.size())
+            return Disagreement{"/lights", count_of(lights), count_of(their_lights)};
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+            leave_out_words(lights[l]);
+            leave_out_words(their_lights[l]);
+            if (auto found = first_of_lights(lights[l], their_lights[l], between_machines)) return found;
+        }
+    }
+    return {};
 }
 
 }  // namespace shadowbench::results

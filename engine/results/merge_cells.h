@@ -57,4 +57,8 @@ struct Disagreement {
 // models only those of portable.h are compared, and numbers may differ by 1e-6, or by 1e-12 near 0.
 std::optional<Disagreement> disagreement(const SweepCell& one, const SweepCell& other);
 
+// The same of two results, each as portable.h makes it or with times too. Only the lights of their variants count.
+std::optional<Disagreement> portable_disagreement(const nlohmann::ordered_json& one,
+                                                  const nlohmann::ordered_json& other);
+
 }  // namespace shadowbench::results

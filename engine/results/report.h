@@ -1,6 +1,7 @@
 // A result as JSON, CSV and a table.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,22 @@ void strip_times(nlohmann::ordered_json& result);
 std::string to_csv(const Result& result);
 
 // A table for people: the notes of the file readers, then for each variant and light, what was captured and how
-// accurate the truth is, then one line per cell.
+// accurate the truth is, then one line per cell. It has all columns, and its lines are as long as they are.
 std::string to_table(const Result& result);
+
+struct TableStyle {
+    std::size_t width = 100;  // characters of a line, at least 60
+    bool colour = false;
+};
+
+// The same with the columns that decide, in lines of this width: what does not fit goes on in the next line. Where the
+// width is too small for all of them, it leaves out the interval of the error, then the ratio to the floor, then the
+// interval of the time.
+std::string to_fitting_table(const Result& result, const TableStyle& style = {});
+
+// In a sentence or two a light, what the table means: which technique has the smallest error, and which of those that
+// may have it takes the fewest bytes and answers fastest. Ties are called ties, and what the intervals of the fronts
+// (fronts.h) leave open is called undecided. For many lights: in how many of them a technique is the cheapest.
+std::string meaning_text(const Result& result, const TableStyle& style = {});
 
 }  // namespace shadowbench::results

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/nearest.h"
 #include "scene/schema_words.h"
 
 namespace shadowbench::scene {
@@ -86,9 +87,7 @@ void unknown_keys(const json& schema, const json& value, const json::json_pointe
         if (out.size() >= most) return;
         std::vector<std::string> names;
         for (const auto& [name, also_unused] : properties.items()) names.push_back(name);
-        std::string message = fmt::format("unknown key \"{}\"", shorten(key));
-        if (const std::string near = closest(key, names); !near.empty())
-            message += fmt::format(", perhaps \"{}\"", near);
+        std::string message = fmt::format("unknown key \"{}\"{}", shorten(key), base::perhaps(key, names));
         if (!properties.empty()) message += "; the keys here are: " + names_of(properties);
         if (!patterns.empty()) message += "; keys here match: " + names_of(patterns);
         out.push_back({(at / key).to_string(), message});
@@ -141,8 +140,7 @@ std::optional<std::string> wrong_value(const json& schema, const json& value) {
             found = found || word == value;
         }
         if (!found) {
-            const std::string near = value.is_string() ? closest(value.get<std::string>(), words) : "";
-            return expected() + (near.empty() ? "" : fmt::format(", perhaps \"{}\"", near));
+            return expected() + (value.is_string() ? base::perhaps(value.get<std::string>(), words) : "");
         }
     }
     if (value.is_number() && !in_range(schema, value.get<double>())) return expected();

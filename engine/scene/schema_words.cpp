@@ -1,7 +1,6 @@
 #include "scene/schema_words.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -94,31 +93,6 @@ bool has_type(const json& value, const json& type) {
     const std::string name = type.get<std::string>();
     if (name == "integer") return value.is_number_integer();
     return name == value.type_name();
-}
-
-std::string closest(const std::string& word, const std::vector<std::string>& names) {
-    if (word.size() > longest_shown) return "";
-    std::string best;
-    // A third of the letters may be wrong: closer words are likely typing errors, others are different words.
-    std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
-    for (const std::string& name : names) {
-        std::vector<std::size_t> row(name.size() + 1);
-        std::iota(row.begin(), row.end(), std::size_t{0});
-        for (std::size_t i = 0; i < word.size(); ++i) {
-            std::size_t diagonal = row[0];
-            row[0] = i + 1;
-            for (std::size_t j = 0; j < name.size(); ++j) {
-                const std::size_t replaced = diagonal + (word[i] == name[j] ? 0 : 1);
-                diagonal = row[j + 1];
-                row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-            }
-        }
-        if (row.back() < least) {
-            least = row.back();
-            best = name;
-        }
-    }
-    return best;
 }
 
 }  // namespace shadowbench::scene

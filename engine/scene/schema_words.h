@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <string>
-#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -22,8 +21,5 @@ bool has_type(const nlohmann::json& value, const nlohmann::json& type);
 // Matches a regular expression as JSON Schema does: anywhere in the text unless anchored.
 bool matches(const std::string& text, const nlohmann::json& pattern);
 bool matches_any(const std::string& text, const nlohmann::json& pattern_properties);
-
-// The name that was probably meant; empty if none is near (edit distance; Levenshtein 1966).
-std::string closest(const std::string& word, const std::vector<std::string>& names);
 
 }  // namespace shadowbench::scene

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/json_pointer.h"
+#include "base/nearest.h"
 #include "base/table.h"
 
 namespace shadowbench::techniques {
@@ -94,11 +95,12 @@ ParameterValues read_parameters(std::span<const Parameter> declared, const json&
         const auto p = std::find_if(declared.begin(), declared.end(),
                                     [&name = key](const Parameter& d) { return name == d.name; });
         if (p == declared.end()) {
-            std::string names;
-            for (const Parameter& d : declared) names += fmt::format("{}{}", names.empty() ? "" : ", ", d.name);
+            std::vector<std::string> names;
+            for (const Parameter& d : declared) names.push_back(d.name);
             throw base::Error(base::ErrorCode::bad_input, base::append_token(where, key),
                               names.empty() ? "unknown parameter: this technique takes none"
-                                            : "unknown parameter; there are: " + names);
+                                            : fmt::format("unknown parameter{}; there are: {}", base::perhaps(key, names),
+                                                          fmt::join(names, ", ")));
         }
         result.values[key] = read(*p, value, base::append_token(where, key));
     }

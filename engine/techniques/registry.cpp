@@ -1,8 +1,10 @@
 // The registry, made from rows.inc, which has one line for each technique.
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "base/nearest.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::techniques {
@@ -39,11 +41,14 @@ void add(Technique row, const std::string& where) {
 
 const Technique& find(const std::string& id, const std::string& where) {
     std::string names;
+    std::vector<std::string> ids;
     for (const Technique& row : all()) {
         if (id == row.id) return row;
         names += (names.empty() ? "" : ", ") + std::string(row.id);
+        ids.push_back(row.id);
     }
-    throw base::Error(base::ErrorCode::bad_input, where, "unknown technique \"" + id + "\"; there are: " + names);
+    throw base::Error(base::ErrorCode::bad_input, where,
+                      "unknown technique \"" + id + "\"" + base::perhaps(id, ids) + "; there are: " + names);
 }
 
 void NodeStats::add(std::uint32_t nodes) {

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <new>
 #include <ostream>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "base/error.h"
+#include "base/nearest.h"
 #include "results/program.h"
 #include "service/cli/child.h"
 #include "service/cli/options.h"
@@ -28,9 +32,10 @@ constexpr const char* program_notes = R"(Examples:
 shadowbench COMMAND --help describes a command and its options.
 A SCENARIO is a file, or the name of one in ./scenarios, in the folders of $SHADOWBENCH_SCENARIOS, or among the
 scenarios that were installed with the program. Results go to results/ in the current folder, unless --out is given.
-Exit codes: 0 success; 1 slower (compare, ab); 2 a technique broke a promise, a cell is missing (merge), or a measure is
-larger, less accurate or missing (compare, ab); 64 wrong usage; 65 bad input; 66 no such file; 70 internal fault;
-74 input or output failed.)";
+Exit codes: 0 success; 1 slower (compare, ab); 2 a technique broke a promise (run, merge, render, baseline, submit), a
+cell is missing (merge), nothing reaches the error (recommend, submit), a kernel answered wrongly (instructions,
+baseline), or a measure is larger, less accurate or missing (compare, ab); 64 wrong usage; 65 bad input; 66 no such
+file; 70 internal fault; 74 input or output failed.)";
 
 // The parser with all commands.
 struct CommandLine {
@@ -44,7 +49,7 @@ struct CommandLine {
                                                       build.compiler, build.build_type));
         app.require_subcommand(1);
         for (const auto add : {add_measuring_commands, add_web_commands, add_gate_commands, add_kernel_commands,
-                               add_server_commands, add_job_commands})
+                               add_server_commands, add_job_commands, add_help_commands})
             add(app, commands);
         app.footer(program_notes);  // last: a subcommand takes on the footer that is there when it is added
     }
@@ -57,15 +62,47 @@ int report(std::ostream& err, ErrorCode code, std::string message) {
     return static_cast<int>(code);
 }
 
-// CLI11's message, except that it calls an unknown command a missing one.
-std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
-    if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
-        std::string names;
-        const auto shown = [](const CLI::App* command) { return !command->get_group().empty(); };
-        for (const CLI::App* command : app.get_subcommands(shown)) names += ", " + command->get_name();
-        return fmt::format("unknown command \"{}\"; there are: {} (see shadowbench --help)", argv[1], names.substr(2));
+using Names = std::vector<std::string>;
+
+// What the user may have meant by an option that the command does not have.
+std::string near_option(const CLI::App& command, int argc, const char* const* argv) {
+    Names names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i], option = word.substr(0, word.find('='));
+        if (option.size() < 3 || option.compare(0, 2, "--") != 0) continue;
+        if (std::find(names.begin(), names.end(), option) == names.end()) return base::perhaps(option, names);
     }
-    return std::string(error.what()) + " (see shadowbench --help)";
+    return "";
+}
+
+// What the user may have meant in a message as of CLI::IsMember: "--measure: rns not in {rms,max}".
+std::string near_word(const std::string& message) {
+    const std::size_t list = message.find(" not in {"), end = message.find('}', list);
+    if (list == std::string::npos || end == std::string::npos) return "";
+    const std::size_t first = message.rfind(' ', list - 1) + 1, names_from = list + std::strlen(" not in {");
+    Names names;
+    std::istringstream words(message.substr(names_from, end - names_from));
+    for (std::string name; std::getline(words, name, ',');) names.push_back(name);
+    return base::perhaps(message.substr(first, list - first), names);
+}
+
+// CLI11's message, except that it calls an unknown command a missing one. It names what a misspelt word may mean.
+std::string usage_message(const CLI::App& app, int argc, const char* const* argv, const CLI::ParseError& error) {
+    const std::vector<CLI::App*> parsed = app.get_subcommands();
+    if (parsed.empty() && argc > 1 && argv[1][0] != '-') {
+        Names names;
+        const auto shown = [](const CLI::App* command) { return !command->get_group().empty(); };
+        for (const CLI::App* command : app.get_subcommands(shown)) names.push_back(command->get_name());
+        return fmt::format("unknown command \"{}\"{}; there are: {} (see shadowbench --help)", argv[1],
+                           base::perhaps(argv[1], names), fmt::join(names, ", "));
+    }
+    const std::string message = error.what();
+    const bool extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    return message + (extra ? near_option(parsed.empty() ? app : *parsed[0], argc, argv) : near_word(message)) +
+           (parsed.empty() ? " (see shadowbench --help)"
+                           : fmt::format(" (see shadowbench {} --help)", parsed[0]->get_name()));
 }
 
 int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "service/cli/output.h"
+
 namespace shadowbench::service {
 
 // Techniques from outside.
@@ -32,6 +34,7 @@ struct RunArguments : JobArguments {
     std::string out;                     // folder; empty: results/runs/<scenario name>
     std::string verdicts;                // file; empty: verdicts.md beside the results, if there are several scenarios
     std::string shard;                   // "i/n"; empty: everything
+    OutputArguments output;
 };
 
 struct RenderArguments : ScenarioArguments {

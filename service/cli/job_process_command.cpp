@@ -161,7 +161,7 @@ bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
             reporter.report(progress, fraction.measuring(progress));
         });
         for (std::string& note : result.notes) note = hide(note, hidden);
-        base::write_files({{folder / "table.txt", results::to_table(result)}});
+        base::write_files({{folder / "table.txt", results::to_fitting_table(result) + results::meaning_text(result)}});
         results::write_result(folder, result);
         kept = !results::any_failed(result);
     }

@@ -16,6 +16,7 @@
 #include "service/cli/job.h"
 #include "service/cli/libraries.h"
 #include "service/cli/outcomes.h"
+#include "service/cli/output.h"
 #include "service/cli/sweep_commands.h"
 #include "service/cli/sweep_folder.h"
 
@@ -117,20 +118,22 @@ void say_missing(const std::vector<const PlannedCell*>& missing, std::size_t all
 }
 
 // Writes the result of one scenario and prints its table.
-results::Result write_merged(const std::vector<results::SweepCell>& cells, const fs::path& folder, std::ostream& out) {
+results::Result write_merged(const std::vector<results::SweepCell>& cells, const fs::path& folder, Output& output) {
     results::Merged merged = results::merge_cells(cells);
     base::write_files({{folder / "result.json", results::to_json(merged).dump(1) + "\n"},
                        {folder / "result.csv", results::to_csv(merged)}});
-    out << results::to_table(merged.result) << results::machines_text(merged)
-        << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string()) << std::flush;
+    output.add(merged);
+    conclude(merged.result, folder, output);
     return std::move(merged.result);
 }
 
 }  // namespace
 
-bool merge_command(const MergeArguments& arguments, std::ostream& out) {
+bool merge_command(const MergeArguments& arguments, std::ostream& out, std::ostream& err) {
     load_libraries(arguments.libraries);
     const Sweep sweep = common_sweep(arguments.folders);
+    const bool several = sweep.scenarios.size() > 1;
+    Output output(arguments.output, several, out, err);
     const std::vector<PlannedCell> planned = planned_of(sweep, arguments.folders[0]);
     CellsByHash files = read_cells(arguments.folders, planned);
 
@@ -144,11 +147,10 @@ bool merge_command(const MergeArguments& arguments, std::ostream& out) {
             ++lacking[cell.scenario];
             continue;
         }
-        check_doubled(cell, found->second, out);
+        check_doubled(cell, found->second, output.text());
         cells[cell.scenario].push_back(std::move(found->second[0].cell));
     }
 
-    const bool several = sweep.scenarios.size() > 1;
     bool kept = true;
     std::vector<results::ScenarioOutcome> outcomes;
     for (std::size_t s = 0; s < sweep.scenarios.size(); ++s) {
@@ -158,11 +160,12 @@ bool merge_command(const MergeArguments& arguments, std::ostream& out) {
                 document, fmt::format("{} of {} cells are missing", lacking[s], lacking[s] + cells[s].size())));
             continue;
         }
-        outcomes.push_back({write_merged(cells[s], results_folder(arguments.out, several, document), out), ""});
+        outcomes.push_back({write_merged(cells[s], results_folder(arguments.out, several, document), output), ""});
         kept = kept && !results::any_failed(outcomes.back().result);
     }
-    report_outcomes(outcomes, several, verdicts_file("", arguments.out, several), out);
-    say_missing(missing, planned.size(), sweep, arguments.folders[0], out);
+    report_outcomes(outcomes, several, verdicts_file("", arguments.out, several), output);
+    say_missing(missing, planned.size(), sweep, arguments.folders[0], arguments.output.has_data() ? err : output.text());
+    output.end();
     return kept && missing.empty();
 }
 

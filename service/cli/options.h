@@ -16,6 +16,7 @@ namespace shadowbench::service {
 
 struct JobArguments;
 struct LibraryArguments;
+struct OutputArguments;
 
 struct Command {
     CLI::App* app;                                                 // the subcommand, with its options
@@ -43,6 +44,7 @@ void set_help(CLI::App& command, const char* group, std::initializer_list<const 
 void add_job_options(CLI::App& command, JobArguments& arguments);
 void add_library_options(CLI::App& command, LibraryArguments& libraries);
 void add_only_option(CLI::App& command, JobArguments& arguments);
+void add_output_options(CLI::App& command, OutputArguments& arguments);
 void add_folder_option(CLI::App& command, std::string& folder, const char* text);
 
 // Each adds its subcommand, as the functions below do for theirs.
@@ -58,5 +60,6 @@ void add_server_commands(CLI::App& app, Commands& commands);
 void add_gate_commands(CLI::App& app, Commands& commands);
 void add_kernel_commands(CLI::App& app, Commands& commands);
 void add_web_commands(CLI::App& app, Commands& commands);
+void add_help_commands(CLI::App& app, Commands& commands);
 
 }  // namespace shadowbench::service

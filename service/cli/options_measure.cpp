@@ -85,6 +85,20 @@ void add_folder_option(CLI::App& command, std::string& folder, const char* text)
     });
 }
 
+void add_output_options(CLI::App& command, OutputArguments& arguments) {
+    command.add_flag("--wide", arguments.wide, "Show all columns of the table, however long its lines become");
+    command
+        .add_flag("--json", arguments.json,
+                  "Print what result.json holds, and nothing else; of several scenarios or a folder an array")
+        ->excludes("--wide");
+    command
+        .add_flag("--csv", arguments.csv,
+                  "Print what result.csv holds, and nothing else; of several scenarios under one header")
+        ->excludes("--wide")
+        ->excludes("--json");
+    command.add_flag("--quiet", arguments.quiet, "Show no progress, and print nothing but errors and --json or --csv");
+}
+
 void add_only_option(CLI::App& command, JobArguments& arguments) {
     repeatable(command.add_option("--only", arguments.only, "Use only techniques of this type"));
 }
@@ -102,6 +116,8 @@ void add_run(CLI::App& app, Commands& commands) {
     set_help(*run, command_groups::measure,
              {"run quickstart", "run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64",
               "run scenarios/hard --verdicts results/stability.md"},
+             "The table is as wide as the terminal, or as $COLUMNS says. It has colours on a terminal, unless $NO_COLOR "
+             "is set.\n"
              "Four machines share a sweep if each runs one part, --shard 0/4 to --shard 3/4, with --out sweep.\n"
              "Then shadowbench merge sweep makes one result of the parts.\n"
              "Exit codes: 0; 2 a technique broke a promise; others as in shadowbench --help.");
@@ -119,13 +135,17 @@ void add_run(CLI::App& app, Commands& commands) {
                     "verdicts.md in the folder of the results]")
         ->check(
             [](const std::string& name) { return std::string(name.empty() ? "the name of the file is empty" : ""); });
+    add_output_options(*run, arguments->output);
     run->add_option("--shard", arguments->shard,
                     "i/n: measure only part i of n, counted from 0, of the cells (a cell is one variant with one "
                     "light), and write each cell to DIR/cells. Cells that are there are skipped, so the same command "
                     "continues. Merge them with shadowbench merge DIR")
         ->check([](const std::string& part) { return std::string(part.empty() ? "expected i/n, as in 0/4" : ""); })
         ->needs("--out")
-        ->excludes("--verdicts");
+        ->excludes("--verdicts")
+        ->excludes("--wide")
+        ->excludes("--json")
+        ->excludes("--csv");
     commands.push_back({run, [arguments](std::ostream& out, std::ostream& err) {
                             const auto command = arguments->shard.empty() ? run_command : shard_command;
                             return command(*arguments, out, err) ? 0 : promise_broken;

@@ -23,8 +23,9 @@ void add_merge(CLI::App& app, Commands& commands) {
                       "Folder of the result [results/runs/<scenario name>, in the current folder]. Each of several "
                       "scenarios gets a folder of its name there");
     add_library_options(*merge, arguments->libraries);
-    commands.push_back({merge, [arguments](std::ostream& out, std::ostream&) {
-                            return merge_command(*arguments, out) ? 0 : promise_broken;
+    add_output_options(*merge, arguments->output);
+    commands.push_back({merge, [arguments](std::ostream& out, std::ostream& err) {
+                            return merge_command(*arguments, out, err) ? 0 : promise_broken;
                         }});
 }
 

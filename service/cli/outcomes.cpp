@@ -1,11 +1,17 @@
 #include "service/cli/outcomes.h"
 
+#include <exception>
 #include <ostream>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/hash_text.h"
+#include "base/read_text.h"
+#include "base/table.h"
 #include "base/write_files.h"
+#include "document/document.h"
 #include "results/settled.h"
 #include "service/cli/job.h"
 #include "techniques/technique.h"
@@ -17,6 +23,19 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* standard_folder = "results/runs";
+
+// Whether render has drawn this scenario, with these values, into the folder.
+bool are_pictures_of(const fs::path& folder, const results::Result& result) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(folder / "images.json", ignored)) return false;
+    try {
+        const nlohmann::json images = nlohmann::json::parse(base::read_text(folder / "images.json"));
+        const auto document = document::expand(nlohmann::json::parse(result.document)).front().document;
+        return images.at("scenario_hash") == base::hash_text(document->dump());
+    } catch (const std::exception&) {  // no images.json of this program
+        return false;
+    }
+}
 
 }  // namespace
 
@@ -39,7 +58,8 @@ results::ScenarioOutcome without_result(const nlohmann::json& document, const st
 }
 
 void report_outcomes(const std::vector<results::ScenarioOutcome>& outcomes, bool several, const fs::path& verdicts,
-                     std::ostream& out) {
+                     Output& output) {
+    std::ostream& out = output.text();
     std::vector<std::string> columns;
     for (const techniques::Technique& row : techniques::all()) columns.push_back(row.id);
     if (several) out << results::verdicts_text(outcomes, columns);
@@ -49,7 +69,18 @@ void report_outcomes(const std::vector<results::ScenarioOutcome>& outcomes, bool
     }
     std::vector<const results::Result*> all;
     for (const results::ScenarioOutcome& outcome : outcomes) all.push_back(&outcome.result);
-    out << results::unsettled_line(all);
+    out << base::wrapped(results::unsettled_line(all), output.style().width);
+}
+
+void conclude(const results::Result& result, const fs::path& folder, Output& output) {
+    output.explain(result);
+    output.text() << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
+    for (const fs::path& pictures : {folder / "images", fs::path("results/images") / result.name})
+        if (are_pictures_of(pictures, result)) {
+            output.text() << fmt::format("pictures: {}\n", pictures.string());
+            break;
+        }
+    output.text() << std::flush;
 }
 
 }  // namespace shadowbench::service

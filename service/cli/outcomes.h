@@ -2,13 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "results/report_verdicts.h"
+#include "service/cli/output.h"
 
 namespace shadowbench::service {
 
@@ -25,6 +25,10 @@ results::ScenarioOutcome without_result(const nlohmann::json& document, const st
 // Prints the verdicts over several scenarios, writes them to a file if it is not empty, and says which times are
 // unsettled.
 void report_outcomes(const std::vector<results::ScenarioOutcome>& outcomes, bool several,
-                     const std::filesystem::path& verdicts, std::ostream& out);
+                     const std::filesystem::path& verdicts, Output& output);
+
+// Prints what the table of a result means, which files hold it, and where its pictures are, if render has drawn this
+// scenario.
+void conclude(const results::Result& result, const std::filesystem::path& folder, Output& output);
 
 }  // namespace shadowbench::service

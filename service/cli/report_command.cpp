@@ -1,5 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,8 +13,11 @@
 #include "base/read_text.h"
 #include "base/write_files.h"
 #include "results/report.h"
+#include "results/settled.h"
+#include "results/sweep_cell.h"
 #include "results/write_result.h"
 #include "service/cli/commands.h"
+#include "service/web/gallery.h"
 #include "service/web/report.h"
 
 namespace shadowbench::service {
@@ -32,6 +40,53 @@ nlohmann::json read_result(const fs::path& file) {
     return result;
 }
 
+// The results that lie in the folders of this folder, as results/machines has them, by path; empty if there are none.
+std::vector<fs::path> results_of_machines(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code ignored;
+    for (const auto& machine : fs::directory_iterator(folder, ignored))
+        for (const auto& entry : fs::directory_iterator(machine.path(), ignored))
+            if (entry.is_regular_file(ignored) && entry.path().extension() == ".json") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+bool was_quiet(const results::LightResult& light) {
+    const results::Settling found = results::settling(light);
+    return found.known() && found.settled();
+}
+
+void add_gallery_rows(const fs::path& file, std::vector<GalleryRow>& rows) {
+    const results::Result result = results::from_json(read_result(file), file.string());
+    for (const results::VariantResult& variant : result.variants) {
+        std::string settings;
+        for (const document::Setting& setting : variant.settings)
+            settings += fmt::format(", {} = {}", setting.pointer, setting.value);
+        for (const results::LightResult& light : variant.lights) {
+            GalleryRow row{result.name, light.name + settings, file.parent_path().filename().string(),
+                           file.stem().string(), results::machine_text(result.machine), result.program.version,
+                           was_quiet(light), {}};
+            for (const results::Cell& cell : light.cells) {
+                if (!cell.times) continue;
+                const results::LookupTimes& lookup = cell.times->random_order;
+                row.cells.emplace_back(
+                    results::title(cell),
+                    fmt::format("{:.3g} ns{}", lookup.ns.median,
+                                lookup.ratio ? fmt::format(", {:.1f} x floor", lookup.ratio->median) : ""));
+            }
+            rows.push_back(std::move(row));
+        }
+    }
+}
+
+// The page of results/machines.
+void report_machines(const std::vector<fs::path>& files, const fs::path& page, std::ostream& out) {
+    std::vector<GalleryRow> rows;
+    for (const fs::path& file : files) add_gallery_rows(file, rows);
+    base::write_files({{page, gallery_html(rows)}});
+    out << fmt::format("written: {} ({} result{})\n", page.string(), files.size(), files.size() == 1 ? "" : "s");
+}
+
 }  // namespace
 
 void report_command(const ReportArguments& arguments, std::ostream& out) {
@@ -39,6 +94,11 @@ void report_command(const ReportArguments& arguments, std::ostream& out) {
     if (!fs::is_directory(folder))
         throw Error(ErrorCode::no_such_file, arguments.folder,
                     "no such folder; give the one in which run wrote result.json");
+    if (!fs::exists(folder / "result.json") && arguments.images.empty())
+        if (const std::vector<fs::path> machines = results_of_machines(folder); !machines.empty()) {
+            report_machines(machines, arguments.out.empty() ? folder / "report.html" : fs::path(arguments.out), out);
+            return;
+        }
     const nlohmann::json result = read_result(folder / "result.json");
     const fs::path images = arguments.images.empty() ? folder / "images" : fs::path(arguments.images);
     if (!arguments.images.empty() && !fs::exists(images / "images.json"))

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/nearest.h"
 #include "base/write_files.h"
 #include "claims/paper.h"
 #include "claims/quick.h"
@@ -24,14 +25,15 @@ namespace fs = std::filesystem;
 
 std::vector<const claims::Paper*> chosen(const std::string& name) {
     std::vector<const claims::Paper*> papers;
-    std::string names = "all";
+    std::vector<std::string> names{"all"};
     for (const claims::Paper& paper : claims::all_papers()) {
         if (name == "all" || name == paper.id) papers.push_back(&paper);
-        names += std::string(", ") + paper.id;
+        names.push_back(paper.id);
     }
     if (papers.empty())
         throw base::Error(base::ErrorCode::usage, "reproduce",
-                          fmt::format("unknown paper \"{}\"; there are: {}", name, names));
+                          fmt::format("unknown paper \"{}\"{}; there are: {}", name, base::perhaps(name, names),
+                                      fmt::join(names, ", ")));
     return papers;
 }
 

@@ -12,11 +12,11 @@
 #include "base/write_files.h"
 #include "bench/run.h"
 #include "document/document.h"
-#include "results/report.h"
 #include "results/write_result.h"
 #include "service/cli/commands.h"
 #include "service/cli/job.h"
 #include "service/cli/outcomes.h"
+#include "service/cli/output.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/scenario_files.h"
 #include "techniques/technique.h"
@@ -45,15 +45,9 @@ void refuse_equal_names(const std::vector<Planned>& plan) {
     }
 }
 
-// The scenarios that the arguments name. If there are several, all are checked before the first runs.
-std::vector<Planned> make_plan(const RunArguments& arguments, bool& several, std::ostream& err) {
-    std::vector<fs::path> files;
-    several = arguments.scenarios.size() > 1;
-    for (const std::string& name : arguments.scenarios) {
-        const FoundScenarios found = find_scenarios(name);
-        several = several || found.folder;
-        files.insert(files.end(), found.files.begin(), found.files.end());
-    }
+// If there are several scenarios, all are checked before the first runs.
+std::vector<Planned> make_plan(const RunArguments& arguments, const std::vector<fs::path>& files, bool several,
+                               std::ostream& err) {
     std::vector<Planned> plan;
     if (!several) {
         Job job = read_job(arguments, files[0]);
@@ -102,8 +96,15 @@ bench::Validated check(const Job& job, std::ostream& err) {
 }  // namespace
 
 bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
-    bool several = false;
-    const std::vector<Planned> plan = make_plan(arguments, several, err);
+    std::vector<fs::path> scenarios;
+    bool several = arguments.scenarios.size() > 1;
+    for (const std::string& name : arguments.scenarios) {
+        const FoundScenarios found = find_scenarios(name);
+        several = several || found.folder;
+        scenarios.insert(scenarios.end(), found.files.begin(), found.files.end());
+    }
+    Output output(arguments.output, several, out, err);
+    const std::vector<Planned> plan = make_plan(arguments, scenarios, several, output.progress());
     // Folders are made before hours of work. A run that fails leaves no new folder.
     base::Undo made_for_verdicts;
     const fs::path verdicts = verdicts_file(arguments.verdicts, arguments.out, several);
@@ -122,7 +123,7 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
         try {
             const std::string place =
                 several ? fmt::format("{}/{} {}", i + 1, plan.size(), planned.folder.filename().string()) : "";
-            outcomes.push_back({run_one(planned, place, err), ""});
+            outcomes.push_back({run_one(planned, place, output.progress()), ""});
         } catch (const base::Error& error) {
             if (!several) throw;
             // Validation could not find this. The other scenarios run.
@@ -134,10 +135,12 @@ bool run_command(const RunArguments& arguments, std::ostream& out, std::ostream&
         results::write_result(planned.folder, result);
         made[i].keep();
         kept = kept && !results::any_failed(result);
-        out << results::to_table(result)
-            << fmt::format("written: {0}/result.json, {0}/result.csv\n", planned.folder.string()) << std::flush;
+        output.add(result);
+        if (several) conclude(result, planned.folder, output);
     }
-    report_outcomes(outcomes, several, verdicts, out);
+    report_outcomes(outcomes, several, verdicts, output);
+    if (!several) conclude(outcomes[0].result, plan[0].folder, output);
+    output.end();
     made_for_verdicts.keep();
     if (first_error) throw *first_error;
     return kept;

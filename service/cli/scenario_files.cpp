@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/nearest.h"
 #include "scene/named_scenarios.h"
 #include "service/cli/this_program.h"
 
@@ -47,6 +48,15 @@ fs::path scenario_folder(const std::string& name) {
     return {};
 }
 
+std::vector<std::string> known_names(const std::vector<fs::path>& folders) {
+    std::vector<std::string> names;
+    for (const scene::NamedScenario& scenario : scene::list_scenarios(folders)) {
+        names.push_back(scenario.name);
+        names.push_back(scenario.file.stem().string());
+    }
+    return names;
+}
+
 }  // namespace
 
 std::vector<fs::path> scenario_folders() {
@@ -63,10 +73,15 @@ fs::path find_scenario(const std::string& name) {
     if (fs::is_regular_file(name, ignored)) return name;
     const std::vector<fs::path> folders = scenario_folders();
     if (fs::path found = scene::find_scenario(folders, name); !found.empty()) return found;
+    if (const fs::path folder = scenario_folder(name); !folder.empty())
+        throw Error(ErrorCode::no_such_file, name,
+                    scenarios_in(folder).empty() ? "this is a folder without scenarios (*.json)"
+                                                 : "this is a folder; name one of the scenarios (*.json) in it");
     std::string looked_in;
     for (const fs::path& folder : folders) looked_in += ", " + folder.string();
     throw Error(ErrorCode::no_such_file, name,
-                "there is no such file, and no scenario of this name in" + looked_in.substr(1));
+                "there is no such file, and no scenario of this name" + base::perhaps(name, known_names(folders)) +
+                    ", in" + looked_in.substr(1));
 }
 
 FoundScenarios find_scenarios(const std::string& name) {
@@ -77,7 +92,7 @@ FoundScenarios find_scenarios(const std::string& name) {
         if (folder.empty()) throw;
         FoundScenarios found{scenarios_in(folder), true};
         if (found.files.empty())
-            throw Error(ErrorCode::no_such_file, folder.string(), "there is no scenario (*.json) in this folder");
+            throw Error(ErrorCode::no_such_file, folder.string(), "this is a folder without scenarios (*.json)");
         return found;
     }
 }

@@ -14,11 +14,13 @@
 
 #include "base/durable_file.h"
 #include "base/error.h"
+#include "base/table.h"
 #include "bench/cell_runner.h"
 #include "results/program.h"
 #include "results/settled.h"
 #include "service/cli/job.h"
 #include "service/cli/libraries.h"
+#include "service/cli/output.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/scenario_files.h"
 #include "service/cli/sweep_commands.h"
@@ -161,7 +163,9 @@ bool is_there(const std::optional<results::SweepCell>& found, const PlannedCell&
 
 }  // namespace
 
-bool shard_command(const RunArguments& arguments, std::ostream& out, std::ostream& err) {
+bool shard_command(const RunArguments& arguments, std::ostream& all_out, std::ostream& all_err) {
+    Output output(arguments.output, true, all_out, all_err);
+    std::ostream &out = output.text(), &err = output.progress();
     const Shard shard = read_shard(arguments.shard);
     const std::vector<Swept> swept = read_swept(arguments);
     const Sweep sweep = sweep_of(swept, arguments);
@@ -205,7 +209,7 @@ bool shard_command(const RunArguments& arguments, std::ostream& out, std::ostrea
                        own.size(), all.size(), measured.size(), skipped, own.size() - measured.size() - skipped);
     std::vector<const results::Result*> timed;
     for (const results::Result& result : measured) timed.push_back(&result);
-    out << results::unsettled_line(timed);
+    out << base::wrapped(results::unsettled_line(timed), output.style().width);
     if (first_error) throw *first_error;
     return kept;
 }

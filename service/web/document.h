@@ -8,6 +8,9 @@
 
 namespace shadowbench::service {
 
+// Text in which an HTML parser finds no tag and no end of an attribute.
+std::string escaped_html(std::string_view text);
+
 // The HTML. `script` is the path of an asset; it finds `data` as JSON in the element with the id "data".
 std::string document(std::string_view title, std::string_view script, const nlohmann::json& data);
 

@@ -12,6 +12,30 @@ TEST(Table, aligns_its_columns) {
     EXPECT_EQ(table.text(" "), " name     n  note\n a       10  x\n longer   7\n");
 }
 
+TEST(Table, gives_colours_no_space) {
+    Table table({"name", "n", "end"});
+    table.add({"a", coloured("10", Colour::red), coloured("x", Colour::green)});
+    table.add({"b", "7", ""});
+    EXPECT_EQ(table.text(""), "name   n  end\na     \x1b[31m10\x1b[0m  \x1b[32mx\x1b[0m\nb      7\n");
+    EXPECT_EQ(coloured("x", Colour::none), "x");
+    EXPECT_EQ(coloured("", Colour::bold), "");
+}
+
+TEST(Wrapped, breaks_lines_at_spaces_and_indents_what_goes_on) {
+    EXPECT_EQ(wrapped("a short line\n", 20), "a short line\n");
+    EXPECT_EQ(wrapped("  twenty letters and more of them\nnext", 20),
+              "  twenty letters and\n    more of them\nnext\n");
+    EXPECT_EQ(wrapped("exactly twenty chars", 20), "exactly twenty chars\n");
+    EXPECT_EQ(wrapped(" " + std::string(45, 'x') + " y", 20),
+              " " + std::string(19, 'x') + "\n   " + std::string(17, 'x') + "\n   " + std::string(9, 'x') + " y\n")
+        << "a word longer than a line";
+    EXPECT_EQ(wrapped(std::string(15, ' ') + "word another\n", 20),
+              std::string(15, ' ') + "word\n" + std::string(10, ' ') + "another\n")
+        << "a deep indentation leaves half of the line";
+    EXPECT_EQ(wrapped("", 20), "");
+    EXPECT_EQ(wrapped("0123456789 0123456789", 0), wrapped("0123456789 0123456789", 20));
+}
+
 TEST(NumberText, gives_different_numbers_different_texts) {
     EXPECT_EQ(number_text(0.02), "0.02");
     EXPECT_EQ(number_text(1e-5), "1e-05");

@@ -40,9 +40,32 @@ foreach(file IN ITEMS share/shadowbench/scenario.schema.json share/doc/shadowben
                       share/doc/shadowbench/README.md share/doc/shadowbench/CHANGELOG.md
                       share/doc/shadowbench/engine/compare/README.md share/doc/shadowbench/engine/techniques/README.md
                       share/doc/shadowbench/results/README.md share/doc/shadowbench/scenarios/README.md
-                      share/doc/shadowbench/service/README.md)
+                      share/doc/shadowbench/service/README.md share/man/man1/shadowbench.1
+                      share/man/man1/shadowbench-run.1 share/bash-completion/completions/shadowbench
+                      share/zsh/site-functions/_shadowbench share/fish/vendor_completions.d/shadowbench.fish)
   if(NOT EXISTS "${prefix}/${file}")
     message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
+
+# --- the libraries of an image: service/container -----------------------------------------------------------------------
+# What is collected is all that the program loads, apart from the C library and its like.
+run("${CMAKE_COMMAND}" -E env COLLECT=list "${CMAKE_CURRENT_LIST_DIR}/../../service/container/collect"
+    "${prefix}/bin/shadowbench")
+string(REGEX MATCHALL "[^\n]+" collected "${text}")
+set(image "${WORK}/image")
+file(MAKE_DIRECTORY "${image}")
+foreach(library IN LISTS collected)
+  cmake_path(GET library FILENAME name)
+  file(CREATE_LINK "${library}" "${image}/${name}" SYMBOLIC)
+endforeach()
+run(/lib64/ld-linux-x86-64.so.2 --inhibit-cache --library-path "${image}" --list "${prefix}/bin/shadowbench")
+expect("${text}" "${image}/libOpenImageIO.so")
+string(REGEX MATCHALL "[^\n]+" loaded "${text}")
+foreach(line IN LISTS loaded)
+  if(line MATCHES "=>" AND NOT line MATCHES "=> ${image}/"
+     AND NOT line MATCHES "(libc|libm|libdl|librt|libpthread|libresolv|libgcc_s|ld-linux-x86-64)\\.so")
+    message(FATAL_ERROR "An image of service/container would lack a library: ${line}")
   endif()
 endforeach()
 

@@ -91,10 +91,28 @@ TEST_F(Cli, refuses_wrong_usage) {
     fails({"run", path("tiny.json"), "--only", "pcf"}, 64, "deep uncompressed");
 }
 
+TEST_F(Cli, names_what_a_misspelt_word_may_mean) {
+    fails({"rnu"}, 64, "unknown command \"rnu\", perhaps \"run\"; there are: ");
+    fails({"run", path("tiny.json"), "--wdie"}, 64, "--wdie, perhaps \"--wide\" (see shadowbench run --help)");
+    fails({"run", path("tiny.json"), "--memory-limits=3"}, 64, "perhaps \"--memory-limit\"");
+    fails({"run", path("tiny.json"), "--only", "depp"}, 64, "perhaps \"deep\"; it has: deep uncompressed");
+    fails({"list", "scenario"}, 64, "perhaps \"scenarios\"");
+    fails({"recommend", path("tiny.json"), "--error", "0.1", "--measure", "rsm"}, 64, "perhaps \"rms\"");
+    fails({"recommend", path("tiny.json"), "--error", "0.1", "--only", "depp"}, 64, "perhaps \"deep\"");
+    fails({"reproduce", "reeves1978"}, 64, "perhaps \"reeves1987\"");
+    fails_with("techniques.0.type=depe", 65, "unknown technique \"depe\", perhaps \"deep\"; there are: ");
+    fails_with("techniques.0.tolerence=0.1", 65, "unknown parameter, perhaps \"tolerance\"");
+    setenv("SHADOWBENCH_SCENARIOS", folder_.c_str(), 1);
+    fails({"run", "tinny"}, 66, "no scenario of this name, perhaps \"tiny\", in ");
+    unsetenv("SHADOWBENCH_SCENARIOS");
+}
+
 TEST_F(Cli, says_which_file_is_missing) {
     fails({"run", "no_such_scenario"}, 66, "no_such_scenario");
     fails({"validate", path("missing.json")}, 66, "missing.json");
-    fails({"validate", folder_.string()}, 66, folder_.string());
+    fails({"validate", folder_.string()}, 66, folder_.string() + ": this is a folder; name one of the scenarios");
+    fs::create_directories(folder_ / "hollow");
+    fails({"validate", path("hollow")}, 66, path("hollow") + ": this is a folder without scenarios");
     fails({"validate", path("tiny.json"), "--data", path("nowhere")}, 66, "--data " + path("nowhere"));
     fails({"curve", path("missing.txt")}, 66, "missing.txt");
     write("hair.json", R"({"name": "h", "scene": {"objects": [{"type": "hair", "file": "gone.tfx", "radius": 0.1}]},
@@ -365,7 +383,7 @@ TEST_F(CliOfMany, finds_folders_by_name) {
     EXPECT_EQ(found.code, 0) << found.err;
     EXPECT_EQ(names_in("out"), (Names{"a", "b", "verdicts.md"}));
     fs::create_directories(folder_ / "hollow");
-    fails({"run", path("hollow")}, 66, path("hollow") + ": there is no scenario");
+    fails({"run", path("hollow")}, 66, path("hollow") + ": this is a folder without scenarios");
     fails({"run", path("tiny.json"), path("gone")}, 66, "gone");
 }
 

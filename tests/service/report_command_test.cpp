@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -42,6 +43,27 @@ TEST_F(ReportCommand, WritesBesideTheResultOrWhereItIsTold) {
     EXPECT_THAT(out_.str(), HasSubstr("without pictures"));
     EXPECT_EQ(report({folder_.string(), "--out", (folder_ / "new" / "page.html").string()}), 0) << err_.str();
     EXPECT_TRUE(fs::exists(folder_ / "new" / "page.html"));
+}
+
+// Otherwise results that others send would be seen by nobody.
+TEST_F(ReportCommand, MakesOnePageOfTheResultsOfMachines) {
+    const fs::path released = fs::path(SHADOWBENCH_SOURCE_DIR) / "tests/released/0.2.0/result.json";
+    for (const char* name : {"one", "two<b>"}) {
+        fs::create_directories(folder_ / name);
+        fs::copy_file(released, folder_ / name / "2026-11-30.json");
+    }
+    EXPECT_EQ(report({folder_.string()}), 0) << err_.str();
+    EXPECT_THAT(out_.str(), HasSubstr("(2 results)"));
+    std::ifstream stream(folder_ / "report.html");
+    const std::string page{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    EXPECT_THAT(page, HasSubstr("<h2>two_sheets, light sun</h2>"));
+    EXPECT_THAT(page, HasSubstr("<th scope=\"col\">deep tolerance=0.01</th>"));
+    EXPECT_THAT(page, HasSubstr("~ one, AMD EPYC, ")) << "of a machine that was not quiet";
+    EXPECT_THAT(page, HasSubstr("two&lt;b&gt;"));
+    EXPECT_THAT(page, testing::Not(HasSubstr("<b>"))) << "names are no HTML";
+    write("one/broken.json", "{}");
+    EXPECT_EQ(report({folder_.string()}), 65);
+    EXPECT_THAT(err_.str(), HasSubstr("broken.json"));
 }
 
 TEST_F(ReportCommand, TakesPicturesFromItsFolderOrAnother) {
