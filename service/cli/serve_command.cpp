@@ -16,11 +16,13 @@
 #include "results/write_result.h"
 #include "service/api/helper_side.h"
 #include "service/api/service.h"
+#include "service/cli/child.h"
 #include "service/cli/scenario_files.h"
 #include "service/cli/server_commands.h"
 #include "service/cli/this_program.h"
 #include "service/http/server.h"
 #include "service/jobs/jobs.h"
+#include "service/jobs/launched.h"
 
 namespace shadowbench::service {
 namespace {
@@ -67,6 +69,13 @@ private:
     sigset_t set_{}, before_{};
 };
 
+// Its first word must be a program, unless a shell has more to do there.
+void check_launcher(const std::string& launcher) {
+    const std::string first = launcher.substr(0, launcher.find(' '));
+    if (first.find_first_of("/'\"\\$`(){};=~") == std::string::npos)
+        find_program(first, "name a command that starts others, as in --launcher 'srun --exclusive -N1 -n1'");
+}
+
 JobLimits job_limits(const ServeArguments& arguments) {
     JobLimits limits;
     limits.queue = arguments.queue;
@@ -74,6 +83,7 @@ JobLimits job_limits(const ServeArguments& arguments) {
     limits.memory = static_cast<std::size_t>(arguments.job_memory * gib);
     limits.parallel = arguments.parallel;
     limits.grace = arguments.grace;
+    limits.launcher = arguments.launcher;
     limits.min_free = static_cast<std::uint64_t>(arguments.min_free * mib);
     return limits;
 }
@@ -122,11 +132,13 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     std::signal(SIGPIPE, SIG_IGN);  // writing to a closed connection is an error, not a signal
     const HeldProgram held;
     const std::string program = held.path();
+    if (!arguments.launcher.empty()) check_launcher(arguments.launcher);
     const HttpOptions http = http_options(arguments);
     const ServiceOptions options = service_options(arguments, program);
     std::vector<std::string> data;
     for (const fs::path& folder : options.data) data.push_back(folder.string());
-    Jobs jobs(arguments.state, program, data, job_limits(arguments),
+    // Another machine knows nothing of files that this process holds open.
+    Jobs jobs(arguments.state, arguments.launcher.empty() ? program : this_program(), data, job_limits(arguments),
               [&](const std::string& line) { err << fmt::format("shadowbench: {}\n", line) << std::flush; });
     Service service(jobs, options);
     HttpServer server(service, options.event_streams, http);
@@ -143,6 +155,14 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     stopper.join();
     jobs.stop();
     out << "stopped\n";
+}
+
+void guard_command(const GuardArguments& arguments, std::ostream& out, std::ostream& err) {
+    ChildLimits limits;
+    limits.seconds = arguments.seconds;
+    limits.memory = arguments.memory;
+    guard_job(arguments.words.front(), {arguments.words.begin() + 1, arguments.words.end()}, limits,
+              arguments.silence, out, err);
 }
 
 void examine_command(const HelperArguments& arguments, std::ostream& out) {

@@ -19,6 +19,7 @@ struct ServeArguments {
     double grace = 10.0;            // seconds that a running job may take to finish when the server stops
     std::size_t queue = 2000;
     int parallel = 1;                               // jobs at a time
+    std::string launcher;                           // words of a shell; empty: none
     double job_seconds = 3600.0, job_memory = 8.0;  // GiB
     double estimate_seconds = 1800.0;
     int resolution = 4096, samples = 4096;
@@ -42,11 +43,20 @@ struct HelperArguments {
     std::size_t variant = 0;
 };
 
+struct GuardArguments {
+    double seconds = 3600.0;
+    double silence = 0.0;            // of the server
+    std::size_t memory = 0;          // bytes
+    std::vector<std::string> words;  // of the command that it runs
+};
+
 // Runs until SIGTERM or SIGINT. Messages for the operator go to `err`, a line each: see Jobs.
 void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostream& err);
 // Returns whether every technique kept its promises; true without --wait.
 bool submit_command(const SubmitArguments& arguments, std::ostream& out, std::ostream& err);
 // The helpers of the server: see service/api/helper_side.h.
+// What a launcher starts on another machine: see service/jobs/launched.h.
+void guard_command(const GuardArguments& arguments, std::ostream& out, std::ostream& err);
 void examine_command(const HelperArguments& arguments, std::ostream& out);
 void curves_command(const HelperArguments& arguments, std::ostream& out);
 

@@ -73,6 +73,7 @@ struct JobLimits {
     int parallel = 1;                            // jobs that run at a time
     double grace = 10.0;                         // seconds that stop() waits for running jobs before it requeues them
     std::uint64_t min_free = 0;                  // bytes of the disk that must be free for a job to start
+    std::string launcher;                        // starts jobs on other machines: see launched.h; empty: here
 };
 
 // The disk of the state folder.
