@@ -62,7 +62,8 @@ void add_serve(CLI::App& app, Commands& commands) {
     CLI::App* serve = app.add_subcommand("serve", "Run scenarios that clients send over HTTP; serve their results");
     set_help(*serve, command_groups::serve,
              {"serve", "serve --data ~/volumes --port 8080", "serve --host 0.0.0.0 --token-file token.txt"},
-             "With --launcher 'srun --exclusive -N1 -n1' --parallel 4, four nodes of Slurm run the jobs.\nServes the API, which /openapi.json describes, and a page. SIGTERM and SIGINT stop it.");
+             "With --launcher 'srun --exclusive -N1 -n1' --parallel 4, four nodes of Slurm run the jobs.\nServes the "
+             "API, which /openapi.json describes, and a page. SIGTERM and SIGINT stop it.");
     serve
         ->add_option("--host", arguments->host,
                      "Address to listen on. One that other machines can reach needs --token-file")
@@ -81,10 +82,11 @@ void add_serve(CLI::App& app, Commands& commands) {
     serve->add_option("--grace", arguments->grace, "Seconds that running jobs may take to finish when the server stops")
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
-    serve->add_option("--launcher", arguments->launcher,
-                      "Start jobs through this command, on machines that share the state folder, the --data folders and "
-                      "this program's file, as in 'srun --exclusive -N1 -n1'. Use --parallel for as many jobs as there "
-                      "are machines");
+    serve->add_option(
+        "--launcher", arguments->launcher,
+        "Start jobs through this command, on machines that share the state folder, the --data folders and "
+        "this program's file, as in 'srun --exclusive -N1 -n1'. Use --parallel for as many jobs as there "
+        "are machines");
     add_limits(*serve, *arguments);
     commands.push_back({serve, [arguments](std::ostream& out, std::ostream& err) {
                             serve_command(*arguments, out, err);

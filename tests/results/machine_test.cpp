@@ -59,7 +59,7 @@ TEST_F(MachineFiles, SayWhatTheMachineIs) {
     EXPECT_EQ(machine.kernel, "Linux 6.1.0-18-amd64");
     EXPECT_EQ(machine.governor, "performance, powersave");
     EXPECT_EQ(machine.smt, "off");
-    EXPECT_EQ(machine.memory, 16303428u * 1024u);
+    EXPECT_EQ(machine.memory, 16694710272u);
     EXPECT_EQ(machine.numa_nodes, 2);
     EXPECT_EQ(machine.container, "docker");
     write("run/systemd/container", "lxc\n");
