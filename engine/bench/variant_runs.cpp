@@ -8,7 +8,6 @@
 
 #include "base/hash_text.h"
 #include "base/parallel.h"
-#include "base/utc.h"
 #include "bench/camera_points.h"
 #include "bench/light_run.h"
 #include "results/machine.h"
@@ -59,7 +58,7 @@ VariantRuns::VariantRuns(const nlohmann::json& document, const RunOptions& optio
 
 results::Result VariantRuns::describe() const {
     results::Result result;
-    result.times.started = base::now_utc();
+    result.times = results::times_at_start();
     result.times.threads = base::thread_count();
     result.program = results::this_program();
     result.machine = results::this_machine();

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/utc.h"
 #include "bench/build_timing.h"
 #include "bench/clock.h"
 #include "bench/curve_check.h"
@@ -18,6 +17,7 @@
 #include "document/document.h"
 #include "recommend/attempt.h"
 #include "recommend/check.h"
+#include "results/machine.h"
 
 namespace shadowbench::recommend {
 namespace {
@@ -59,7 +59,7 @@ Trials::Trials(const nlohmann::json& document, const bench::RunOptions& options,
                Measure measure, const bench::ProgressCallback& progress)
     : options_(options),
       threads_(options.threads),
-      started_(base::now_utc()),
+      times_(results::times_at_start()),
       loader_(options.data),
       progress_(progress),
       measure_(measure) {

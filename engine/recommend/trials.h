@@ -95,7 +95,8 @@ private:
 
     bench::RunOptions options_;
     base::ThreadLimit threads_;
-    std::string document_, started_;
+    std::string document_;
+    results::RunTimes times_;  // of the start
     bench::ScenarioLoader loader_;
     bench::ProgressCallback progress_;
     Measure measure_;

@@ -59,7 +59,9 @@ results::Result Trials::result() const {
     result.only = options_.only;
     result.program = results::this_program();
     result.machine = results::this_machine();
-    result.times = {started_, seconds_, base::thread_count()};
+    result.times = times_;
+    result.times.seconds = seconds_;
+    result.times.threads = base::thread_count();
     for (const auto& [rays, light] : recorded_) {
         results::VariantResult variant;
         const base::Vec2i sides = rays.resolution;

@@ -23,13 +23,15 @@ bool same_model(const Machine& one, const Machine& other) {
 }
 
 nlohmann::ordered_json to_json(const CellOrigin& origin) {
-    return {{"variant", origin.place.variant},
-            {"light", origin.place.light},
-            {"node", origin.node},
-            {"machine", nlohmann::ordered_json::parse(origin.machine_json)},
-            {"started", origin.times.started},
-            {"seconds", origin.times.seconds},
-            {"threads", origin.times.threads}};
+    nlohmann::ordered_json out = {{"variant", origin.place.variant},
+                                  {"light", origin.place.light},
+                                  {"node", origin.node},
+                                  {"machine", nlohmann::ordered_json::parse(origin.machine_json)},
+                                  {"started", origin.times.started},
+                                  {"seconds", origin.times.seconds},
+                                  {"threads", origin.times.threads}};
+    add_state_to(out, origin.times);
+    return out;
 }
 
 struct Found {
@@ -122,6 +124,8 @@ Merged merge_cells(std::span<const SweepCell> cells) {
     result.notes.clear();
     result.files.clear();
     result.times.seconds = 0.0;
+    result.times.load.reset();  // each cell has its own
+    result.times.slurm_job = result.times.slurm_node = "";
     bool several = false;
     for (const SweepCell& cell : cells) {
         const VariantResult& variant = cell.result.variants.at(0);

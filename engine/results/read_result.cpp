@@ -258,6 +258,25 @@ void check_version(const Field& version) {
                                           result_schema_version));
 }
 
+std::string text_in(const Field& field, const char* key) {
+    return field.has(key) ? field.at(key).text() : "";
+}
+
+// Results of earlier versions have the first two alone.
+Machine read_machine(const Field& field) {
+    Machine machine;
+    machine.cpu = field.at("cpu").text();
+    machine.logical_cores = read_int(field.at("logical_cores"));
+    machine.microcode = text_in(field, "microcode");
+    machine.kernel = text_in(field, "kernel");
+    machine.governor = text_in(field, "governor");
+    machine.smt = text_in(field, "smt");
+    if (field.has("memory")) machine.memory = field.at("memory").count();
+    if (field.has("numa_nodes")) machine.numa_nodes = read_int(field.at("numa_nodes"));
+    machine.container = text_in(field, "container");
+    return machine;
+}
+
 }  // namespace
 
 Result from_json(const nlohmann::json& document, const std::string& origin) {
@@ -280,10 +299,13 @@ Result from_json(const nlohmann::json& document, const std::string& origin) {
     for (std::size_t i = 0; i < only.array().size(); ++i) result.only.push_back(only.item(i).text());
     result.program = {program.at("version").text(), program.at("commit").text(), program.at("compiler").text(),
                       program.at("build_type").text()};
-    result.machine = {machine.at("cpu").text(), read_int(machine.at("logical_cores"))};
+    result.machine = read_machine(machine);
     result.times.started = times.at("started").text();
     if (times.has("seconds")) result.times.seconds = times.at("seconds").at_least_zero();
     if (times.has("threads")) result.times.threads = read_int(times.at("threads"));
+    if (times.has("load")) result.times.load = times.at("load").at_least_zero();
+    result.times.slurm_job = text_in(times, "slurm_job");
+    result.times.slurm_node = text_in(times, "slurm_node");
     const bool deep_image = scenario.contains("/scene/deep_image"_json_pointer);
     for (std::size_t i = 0; i < variants.array().size(); ++i)
         result.variants.push_back(read_variant(variants.item(i), deep_image));

@@ -22,6 +22,9 @@ std::string notes_text(const std::vector<std::string>& notes, const std::string&
 // "notes" is there only if there are some.
 nlohmann::ordered_json to_json(const Result& result);
 
+// Adds the load and the job of Slurm, as far as they are known, to an object of times.
+void add_state_to(nlohmann::ordered_json& out, const RunTimes& times);
+
 // The inverse of to_json(), and the only place that reads measurements from a result.json: to_json(from_json(j)) == j
 // for every j that to_json() wrote. Also reads results that earlier programs wrote under this schema version, and
 // portable baselines (portable.h): what they lack keeps its default. Throws Error{bad_input} for a value that is

@@ -193,17 +193,35 @@ json to_json(const LightResult& light) {
 }
 
 // Whether the times are settled, and for which lights they are not.
+// Keys that the machine does not say are left out.
+json to_json(const Machine& machine) {
+    json out = {{"cpu", machine.cpu}, {"logical_cores", machine.logical_cores}};
+    const auto add = [&](const char* key, const std::string& value) {
+        if (!value.empty()) out[key] = value;
+    };
+    add("microcode", machine.microcode);
+    add("kernel", machine.kernel);
+    add("governor", machine.governor);
+    add("smt", machine.smt);
+    if (machine.memory != 0) out["memory"] = machine.memory;
+    if (machine.numa_nodes != 0) out["numa_nodes"] = machine.numa_nodes;
+    add("container", machine.container);
+    return out;
+}
+
 json to_json(const RunTimes& times, const Result& result) {
     json unsettled = json::array();
     for (std::size_t v = 0; v < result.variants.size(); ++v)
         for (const LightResult& light : result.variants[v].lights)
             if (std::string why = unsettled_text(settling(light)); !why.empty())
                 unsettled.push_back({{"variant", v}, {"light", light.name}, {"why", std::move(why)}});
-    return {{"started", times.started},
-            {"seconds", times.seconds},
-            {"threads", times.threads},
-            {"settled", to_json(settled(result))},
-            {"unsettled", std::move(unsettled)}};
+    json out = {{"started", times.started},
+                {"seconds", times.seconds},
+                {"threads", times.threads},
+                {"settled", to_json(settled(result))},
+                {"unsettled", std::move(unsettled)}};
+    add_state_to(out, times);
+    return out;
 }
 
 json to_json(const VariantResult& variant) {
@@ -214,6 +232,12 @@ json to_json(const VariantResult& variant) {
 }
 
 }  // namespace
+
+void add_state_to(nlohmann::ordered_json& out, const RunTimes& times) {
+    if (times.load) out["load"] = *times.load;
+    if (!times.slurm_job.empty()) out["slurm_job"] = times.slurm_job;
+    if (!times.slurm_node.empty()) out["slurm_node"] = times.slurm_node;
+}
 
 nlohmann::ordered_json to_json(const Result& result) {
     json variants = json::array();
@@ -228,7 +252,7 @@ nlohmann::ordered_json to_json(const Result& result) {
                       {"commit", result.program.commit},
                       {"compiler", result.program.compiler},
                       {"build_type", result.program.build_type}};
-    out["machine"] = {{"cpu", result.machine.cpu}, {"logical_cores", result.machine.logical_cores}};
+    out["machine"] = to_json(result.machine);
     out["times"] = to_json(result.times, result);
     out["variants"] = std::move(variants);
     return out;

@@ -209,15 +209,24 @@ struct VariantResult {
     std::vector<LightResult> lights;
 };
 
+// Empty or 0: the system does not say, or the result is of an earlier version.
 struct Machine {
     std::string cpu;
     int logical_cores = 0;
+    std::string microcode = {}, kernel = {};  // "0xa101148", "Linux 6.1.0"
+    std::string governor = {};                // of the processors' frequency; several: "performance, powersave"
+    std::string smt = {};                     // threads that share a core: "on", "off", "notsupported"
+    std::uint64_t memory = 0;                 // bytes
+    int numa_nodes = 0;
+    std::string container = {};  // "docker"
 };
 
 struct RunTimes {
     std::string started;  // UTC, ISO 8601
     double seconds = 0.0;
-    int threads = 0;  // of capture and checks; builds and lookups are timed on one
+    int threads = 0;                              // of capture and checks; builds and lookups are timed on one
+    std::optional<double> load = {};              // at the start: processes that ran or wanted to, over a minute
+    std::string slurm_job = {}, slurm_node = {};  // "12_3" of an array; empty: not a job of Slurm
 };
 
 struct Result {

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -44,6 +46,16 @@ void check_program(const std::string& program) {
     if (!fs::exists(program, failed)) throw Error(ErrorCode::no_such_file, program, "there is no such program");
     if (fs::is_directory(program, failed) || access(program.c_str(), X_OK) != 0)
         throw Error(ErrorCode::usage, program, "this file cannot be executed; name a program");
+}
+
+std::string find_program(const std::string& name, const std::string& remedy) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const fs::path program = fs::path(folder) / name;
+        if (access(program.c_str(), X_OK) == 0) return program.string();
+    }
+    throw Error(ErrorCode::no_such_file, name, "the program is not in $PATH; " + remedy);
 }
 
 int run_child(const std::string& program, const std::vector<std::string>& arguments, const fs::path& log) {

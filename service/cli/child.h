@@ -12,6 +12,9 @@ namespace shadowbench::service {
 // Throws Error{no_such_file} where it is not there, {usage} where it cannot be executed.
 void check_program(const std::string& program);
 
+// The path of a program in $PATH. Throws Error{no_such_file}, place: its name, that ends with the remedy.
+std::string find_program(const std::string& name, const std::string& remedy);
+
 // While it lives, signals that end a program (SIGHUP, SIGINT, SIGQUIT, SIGTERM) wait: run_child() looks for them, and
 // the end of the last such object lets them through. A command makes one before its temporary folder, so that a signal
 // never leaves the folder behind. Ignored ones (nohup) stay ignored.

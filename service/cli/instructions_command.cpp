@@ -1,10 +1,7 @@
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
 #include <sstream>
-
-#include <unistd.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -31,16 +28,6 @@ using json = nlohmann::ordered_json;
 // hiding these features makes the counts of different processors comparable. Symbols are bound before counting starts.
 constexpr const char* environment[] = {
     "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX512BW,-AVX2,-AVX,-FMA,-ERMS", "LD_BIND_NOW=1"};
-
-std::string find_valgrind() {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        const fs::path program = fs::path(folder) / "valgrind";
-        if (access(program.c_str(), X_OK) == 0) return program.string();
-    }
-    throw Error(ErrorCode::no_such_file, "valgrind", "the program is not in $PATH; install the package valgrind");
-}
 
 // The last line that the program itself wrote: valgrind's lines begin with "==".
 std::string last_line(const std::string& text) {
@@ -118,7 +105,7 @@ bool instructions_command(const InstructionArguments& arguments, std::ostream& o
     const EndingSignals signals;
     const base::TemporaryFolder folder;
     const fs::path log = folder.path() / "log";
-    const std::string valgrind = find_valgrind();
+    const std::string valgrind = find_program("valgrind", "install the package valgrind");
     const int code = count(valgrind, arguments_of(arguments, program, valgrind, folder.path()), log);
     const std::string output = base::read_text(log);
     if (code != 0 && code != wrong_answer)

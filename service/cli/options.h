@@ -50,6 +50,7 @@ void add_folder_option(CLI::App& command, std::string& folder, const char* text)
 // Each adds its subcommand, as the functions below do for theirs.
 void add_recommend(CLI::App& app, Commands& commands);
 void add_merge(CLI::App& app, Commands& commands);
+void add_sweep(CLI::App& app, Commands& commands);
 void add_inspect(CLI::App& app, Commands& commands);
 void add_new(CLI::App& app, Commands& commands);
 

@@ -293,8 +293,8 @@ void add_reproduce(CLI::App& app, Commands& commands) {
 }  // namespace
 
 void add_measuring_commands(CLI::App& app, Commands& commands) {
-    for (const auto add : {add_run, add_merge, add_recommend, add_render, add_validate, add_new, add_inspect, add_export,
-                           add_list, add_curve, add_reproduce})
+    for (const auto add : {add_run, add_sweep, add_merge, add_recommend, add_render, add_validate, add_new, add_inspect,
+                           add_export, add_list, add_curve, add_reproduce})
         add(app, commands);
 }
 

@@ -112,7 +112,8 @@ void add_serve(CLI::App& app, Commands& commands) {
     CLI::App* serve = app.add_subcommand("serve", "Run scenarios that clients send over HTTP; serve their results");
     set_help(*serve, command_groups::serve,
              {"serve", "serve --data ~/volumes --port 8080", "serve --host 0.0.0.0 --token-file token.txt"},
-             "Serves the API, which /openapi.json describes, and a page. SIGTERM and SIGINT stop it.");
+             "With --launcher 'srun --exclusive -N1 -n1' --parallel 4, four nodes of Slurm run the jobs.\nServes the "
+             "API, which /openapi.json describes, and a page. SIGTERM and SIGINT stop it.");
     serve
         ->add_option("--host", arguments->host,
                      "Address to listen on. One that other machines can reach needs --token-file")
@@ -149,6 +150,11 @@ void add_serve(CLI::App& app, Commands& commands) {
     serve->add_option("--grace", arguments->grace, "Seconds that running jobs may take to finish when the server stops")
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
+    serve->add_option(
+        "--launcher", arguments->launcher,
+        "Start jobs through this command, on machines that share the state folder, the --data folders and "
+        "this program's file, as in 'srun --exclusive -N1 -n1'. Use --parallel for as many jobs as there "
+        "are machines");
     add_limits(*serve, *arguments);
     add_retention(*serve, *arguments);
     add_log(*serve, *arguments);
@@ -205,6 +211,16 @@ void add_helpers(CLI::App& app, Commands& commands) {
     add_library_options(*examine, arguments->libraries);
     commands.push_back({examine, [arguments](std::ostream& out, std::ostream&) {
                             examine_command(*arguments, out);
+                            return 0;
+                        }});
+    const auto guarded = std::make_shared<GuardArguments>();
+    CLI::App* guard = app.add_subcommand("guard", "Run a job where a launcher has started it")->group("");
+    guard->add_option("--seconds", guarded->seconds, "Seconds that it may run");
+    guard->add_option("--silence", guarded->silence, "Seconds without a sign of life of the server that end it");
+    guard->add_option("--memory", guarded->memory, "Bytes that it may take");
+    guard->add_option("COMMAND", guarded->words, "The program and its arguments")->required();
+    commands.push_back({guard, [guarded, guard](std::ostream& out, std::ostream& err) {
+                            guard_command(*guarded, out, err);
                             return 0;
                         }});
     CLI::App* curves =

@@ -14,6 +14,7 @@
 #include "results/write_result.h"
 #include "service/api/helper_side.h"
 #include "service/api/service.h"
+#include "service/cli/child.h"
 #include "service/cli/libraries.h"
 #include "service/cli/notify.h"
 #include "service/cli/scenario_files.h"
@@ -24,6 +25,7 @@
 #include "service/jobs/backup.h"
 #include "service/jobs/jobs.h"
 #include "service/log/log.h"
+#include "service/jobs/launched.h"
 
 namespace shadowbench::service {
 namespace {
@@ -70,6 +72,13 @@ private:
     sigset_t set_{}, before_{};
 };
 
+// Its first word must be a program, unless a shell has more to do there.
+void check_launcher(const std::string& launcher) {
+    const std::string first = launcher.substr(0, launcher.find(' '));
+    if (first.find_first_of("/'\"\\$`(){};=~") == std::string::npos)
+        find_program(first, "name a command that starts others, as in --launcher 'srun --exclusive -N1 -n1'");
+}
+
 JobLimits job_limits(const ServeArguments& arguments, const std::vector<NamedToken>& tokens) {
     JobLimits limits;
     limits.queue = arguments.queue;
@@ -77,6 +86,7 @@ JobLimits job_limits(const ServeArguments& arguments, const std::vector<NamedTok
     limits.memory = static_cast<std::size_t>(arguments.job_memory * gib);
     limits.parallel = arguments.parallel;
     limits.grace = arguments.grace;
+    limits.launcher = arguments.launcher;
     limits.min_free = static_cast<std::uint64_t>(arguments.min_free * mib);
     for (const NamedToken& token : tokens) limits.owners[token.name] = token.limits;
     limits.retention.days = arguments.keep_days;
@@ -133,6 +143,7 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     std::signal(SIGPIPE, SIG_IGN);  // writing to a closed connection is an error, not a signal
     const HeldProgram held;
     const std::string program = held.path();
+    if (!arguments.launcher.empty()) check_launcher(arguments.launcher);
     const Log log = log_to(err, arguments);
     const std::vector<NamedToken> tokens =
         arguments.token_file.empty() ? std::vector<NamedToken>() : read_tokens(arguments.token_file);
@@ -144,7 +155,9 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     const ServiceOptions options = service_options(arguments, program, further, log);
     std::vector<std::string> data;
     for (const fs::path& folder : options.data) data.push_back(folder.string());
-    Jobs jobs(arguments.state, program, data, job_limits(arguments, tokens), log, {further, hash_of_libraries()});
+    // Another machine knows nothing of files that this process holds open.
+    Jobs jobs(arguments.state, arguments.launcher.empty() ? program : this_program(), data,
+              job_limits(arguments, tokens), log, {further, hash_of_libraries()});
     Service service(jobs, options);
     HttpServer server(service, options.event_streams, http);
     if (!arguments.port_file.empty()) base::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});
@@ -178,6 +191,14 @@ void fsck_command(const StateArguments& arguments, std::ostream& out) {
         throw Error(ErrorCode::bad_input, arguments.state,
                     fmt::format("{} {} found", faults.size(), faults.size() == 1 ? "fault" : "faults"));
     out << fmt::format("{}: no faults\n", arguments.state);
+}
+
+void guard_command(const GuardArguments& arguments, std::ostream& out, std::ostream& err) {
+    ChildLimits limits;
+    limits.seconds = arguments.seconds;
+    limits.memory = arguments.memory;
+    guard_job(arguments.words.front(), {arguments.words.begin() + 1, arguments.words.end()}, limits,
+              arguments.silence, out, err);
 }
 
 void examine_command(const HelperArguments& arguments, std::ostream& out) {

@@ -23,6 +23,7 @@ struct ServeArguments {
     double grace = 10.0;            // seconds that a running job may take to finish when the server stops
     std::size_t queue = 2000;
     int parallel = 1;                               // jobs at a time
+    std::string launcher;                           // words of a shell; empty: none
     double job_seconds = 3600.0, job_memory = 8.0;  // GiB
     double estimate_seconds = 1800.0;
     int resolution = 4096, samples = 4096;
@@ -59,6 +60,13 @@ struct HelperArguments {
     std::size_t variant = 0;
 };
 
+struct GuardArguments {
+    double seconds = 3600.0;
+    double silence = 0.0;            // of the server
+    std::size_t memory = 0;          // bytes
+    std::vector<std::string> words;  // of the command that it runs
+};
+
 // Runs until SIGTERM or SIGINT. The log goes to `err`.
 void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostream& err);
 // Returns whether every technique kept its promises; true without --wait.
@@ -67,6 +75,8 @@ void backup_command(const StateArguments& arguments, std::ostream& out);
 // Throws Error{bad_input} where it finds faults, which it prints.
 void fsck_command(const StateArguments& arguments, std::ostream& out);
 // The helpers of the server: see service/api/helper_side.h.
+// What a launcher starts on another machine: see service/jobs/launched.h.
+void guard_command(const GuardArguments& arguments, std::ostream& out, std::ostream& err);
 void examine_command(const HelperArguments& arguments, std::ostream& out);
 void curves_command(const HelperArguments& arguments, std::ostream& out);
 

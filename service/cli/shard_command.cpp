@@ -1,6 +1,5 @@
 #include <charconv>
 #include <deque>
-#include <map>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -18,13 +17,12 @@
 #include "bench/cell_runner.h"
 #include "results/program.h"
 #include "results/settled.h"
-#include "service/cli/job.h"
 #include "service/cli/libraries.h"
 #include "service/cli/output.h"
 #include "service/cli/progress_bar.h"
-#include "service/cli/scenario_files.h"
 #include "service/cli/sweep_commands.h"
 #include "service/cli/sweep_folder.h"
+#include "service/cli/swept_scenarios.h"
 
 namespace shadowbench::service {
 
@@ -52,59 +50,6 @@ Shard read_shard(const std::string& text) {
         throw base::Error(base::ErrorCode::usage, "--shard " + text,
                           "expected i/n, the shard's number from 0 on and the number of shards, as in 0/4");
     return shard;
-}
-
-// A scenario of the sweep.
-struct Swept {
-    fs::path file;
-    Job job;
-};
-
-// All scenarios that the arguments name, each with its document checked.
-std::vector<Swept> read_swept(const RunArguments& arguments) {
-    std::vector<Swept> swept;
-    std::map<std::string, fs::path> names;
-    for (const std::string& name : arguments.scenarios) {
-        const FoundScenarios found = find_scenarios(name);
-        for (const fs::path& file : found.files) {
-            try {
-                Job job = read_job(arguments, file);
-                bench::cells_of(*job.document, arguments.only);
-                swept.push_back({file, std::move(job)});
-            } catch (const base::Error& error) {
-                throw in_file(error, file);
-            }
-            const auto [other, is_new] = names.emplace(swept.back().job.document->at("name").get<std::string>(), file);
-            if (!is_new)
-                throw base::Error(base::ErrorCode::bad_input, file.string() + ": /name",
-                                  other->second.string() + " has the same name; rename one of them");
-        }
-    }
-    return swept;
-}
-
-// What a command needs to measure the same again, but for --shard and --out.
-std::vector<std::string> arguments_again(const RunArguments& arguments) {
-    std::vector<std::string> again = arguments.scenarios;
-    const auto add = [&](const char* option, const std::vector<std::string>& values) {
-        for (const std::string& value : values) again.insert(again.end(), {option, value});
-    };
-    add("--set", arguments.set);
-    add("--data", arguments.data);
-    add("--only", arguments.only);
-    if (arguments.threads != 0) add("--threads", {std::to_string(arguments.threads)});
-    for (const std::string& argument : library_arguments(arguments.libraries)) again.push_back(argument);
-    if (arguments.memory_limit != JobArguments().memory_limit)
-        add("--memory-limit", {fmt::format("{}", arguments.memory_limit)});
-    return again;
-}
-
-Sweep sweep_of(const std::vector<Swept>& swept, const RunArguments& arguments) {
-    Sweep sweep;
-    for (const Swept& one : swept) sweep.scenarios.push_back(one.job.document);
-    sweep.only = arguments.only;
-    sweep.arguments = arguments_again(arguments);
-    return sweep;
 }
 
 bool same_version(const results::Program& one, const results::Program& other) {
@@ -192,6 +137,7 @@ bool shard_command(const RunArguments& arguments, std::ostream& all_out, std::os
             ++skipped;
             continue;
         }
+        out << fmt::format("measuring: {}\n", cell.title) << std::flush;
         std::optional<results::SweepCell> fresh;
         try {
             fresh = measuring.measure(cell, fmt::format("{}/{}", i + 1, own.size()));

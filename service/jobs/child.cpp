@@ -15,6 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds tick{50};
+constexpr std::chrono::seconds between_signs{1};  // of life
 constexpr std::size_t kept_errors = 4096;
 constexpr std::size_t most_at_once = std::size_t{1} << 20;  // bytes read between two looks at the clock
 
@@ -83,8 +84,18 @@ private:
 
 ChildReport run_child(const std::string& program, const std::vector<std::string>& arguments, const ChildLimits& limits,
                       const std::function<void(std::string_view)>& on_line, const std::function<bool()>& should_end) {
-    Pipe out, err;
-    ChildProcess child(program, arguments, {.out = out.write.number(), .err = err.write.number()});
+    Pipe in, out, err;
+    const bool polite = limits.farewell > 0.0;
+    ChildProcess child(program, arguments,
+                       {.in = polite ? in.read.number() : -1, .out = out.write.number(), .err = err.write.number()});
+    ::fcntl(in.write.number(), F_SETFL, O_NONBLOCK);
+    // This process keeps the reading end too, so that writing never raises SIGPIPE.
+    auto next_sign = Clock::now();
+    const auto give_sign = [&] {
+        if (!polite || Clock::now() < next_sign) return;
+        next_sign = Clock::now() + between_signs;
+        [[maybe_unused]] const ssize_t ignored = ::write(in.write.number(), "\n", 1);  // if it is full, none is needed
+    };
     out.write.close();
     err.write.close();
 
@@ -104,6 +115,13 @@ ChildReport run_child(const std::string& program, const std::vector<std::string>
         if (child.resident() > limits.memory) return ChildEnd::out_of_memory;
         return ChildEnd::exited;
     };
+    const auto farewell = [&] {
+        const auto end = Clock::now() + std::chrono::duration<double>(limits.farewell);
+        for (; !child.has_ended() && Clock::now() < end; read_all()) {
+            pollfd waiting[] = {output.waiting(), errors.waiting()};
+            ::poll(waiting, 2, static_cast<int>(tick.count()));
+        }
+    };
     int quick = 20;  // a child that closes its output usually exits within microseconds
     for (auto next_look = Clock::now() + tick; report.end == ChildEnd::exited && !child.has_ended();) {
         pollfd waiting[] = {output.waiting(), errors.waiting()};
@@ -112,7 +130,14 @@ ChildReport run_child(const std::string& program, const std::vector<std::string>
         read_all();
         if (Clock::now() < next_look) continue;
         next_look = Clock::now() + tick;
+        give_sign();
         report.end = beyond();
+    }
+    if (report.end != ChildEnd::exited && polite) {
+        in.write.close();
+        farewell();
+        if (!child.has_ended()) child.terminate();
+        farewell();
     }
     if (report.end == ChildEnd::exited) read_all();
     const ChildExit exit = child.end();

@@ -50,6 +50,8 @@ std::string how_it_ended(const ChildReport& report, const JobLimits& limits) {
             const char* name = ::sigdescr_np(report.code);
             return fmt::format("the job's process was ended by signal {} ({})", report.code, name ? name : "unknown");
         }
+        case ChildEnd::lost:
+            return fmt::format("the launcher ended with exit code {} before the job", report.code);
         case ChildEnd::exited:
         case ChildEnd::stopped:
             break;
@@ -64,7 +66,8 @@ JobFault fault_of_end(const ChildReport& report, const JobLimits& limits, const 
     const bool over_limit = report.end == ChildEnd::out_of_time || report.end == ChildEnd::out_of_memory;
     const base::ErrorCode code = over_limit ? base::ErrorCode::bad_input : base::ErrorCode::internal;
     std::string message = how_it_ended(report, limits);
-    const bool died = report.end == ChildEnd::exited || report.end == ChildEnd::signalled;
+    const bool died = report.end == ChildEnd::exited || report.end == ChildEnd::signalled ||
+                      report.end == ChildEnd::lost;
     if (const std::string quote = died ? last_lines(report.errors) : ""; !quote.empty())
         message += ": " + hide(quote, folders, OtherPaths::last_part);
     return {static_cast<int>(code), "", base::Error(code, "", message).message()};

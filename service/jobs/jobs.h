@@ -91,6 +91,7 @@ struct JobLimits {
     std::uint64_t min_free = 0;                  // bytes of the disk that must be free for a job to start
     LimitsByOwner owners = {};
     Retention retention = {};
+    std::string launcher = {};                    // starts jobs on other machines: see launched.h; empty: here
 };
 
 // The disk of the state folder.

@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "service/jobs/child.h"
+#include "service/jobs/launched.h"
 #include "service/jobs/progress_line.h"
 #include "service/jobs/record.h"
 #include "service/jobs/room.h"
@@ -120,7 +121,7 @@ Verdict judge(const Workplace& place, const StoredJob& job, const JobBoard::Run&
         if (finished && has_result(work)) return Success{report.code == 0};
         return reported.value_or(fault_of_end(report, place.limits, place.hidden));
     }
-    if (report.end == ChildEnd::signalled) {
+    if (report.end == ChildEnd::signalled || report.end == ChildEnd::lost) {
         // Who ends the server often ends its processes too, in any order. So a death counts once the server has
         // outlived it for a moment.
         place.board.pause(last_moment);
@@ -136,8 +137,10 @@ Verdict judge(const Workplace& place, const StoredJob& job, const JobBoard::Run&
 std::optional<Waits> storage_fault(const Workplace& place, const Verdict& verdict, const ChildReport& report,
                                    const Listener& listener, const fs::path& work) {
     const auto* requeue = std::get_if<Requeue>(&verdict);
-    const bool died = report.end == ChildEnd::exited || report.end == ChildEnd::signalled;
-    if (!died || !(std::holds_alternative<JobFault>(verdict) || (requeue && !requeue->uncounted))) return std::nullopt;
+    const bool killed = report.end == ChildEnd::signalled || report.end == ChildEnd::lost;
+    if (!(killed || report.end == ChildEnd::exited) ||
+        !(std::holds_alternative<JobFault>(verdict) || (requeue && !requeue->uncounted)))
+        return std::nullopt;
     if (const auto& fault = listener.storage_fault()) return Waits{fault->message, bytes_in(work) + fault->bytes};
     if (!has_room(place.folders.work, least_room))
         return Waits{"nothing can be written to " + place.folders.work.string(), bytes_in(work)};
@@ -145,7 +148,7 @@ std::optional<Waits> storage_fault(const Workplace& place, const Verdict& verdic
     // is enough; if the fault is its own, it fails then. What the job itself has written counts as free: else a job
     // that takes the space and dies of its own fault would start again without end.
     const auto* failed = std::get_if<JobFault>(&verdict);
-    const bool other = failed && failed->code != static_cast<int>(ErrorCode::io) && report.end != ChildEnd::signalled;
+    const bool other = failed && failed->code != static_cast<int>(ErrorCode::io) && !killed;
     const std::uintmax_t own = bytes_in(work);
     if (other || !is_low(place, own)) return std::nullopt;
     return Waits{"little space is left on the disk of " + place.folders.work.string(), own};
@@ -171,12 +174,16 @@ Verdict execute(const Workplace& place, const StoredJob& job, JobBoard::Run& run
     if (!job.key.recommend.empty()) write_input(work / recommend_name, job.key.recommend);
     Listener listener(place, run);
     const ChildLimits limits{place.limits.seconds, place.limits.memory};
-    const ChildReport report = run_child(
-        place.program, arguments_of(place, job, work), limits, [&](std::string_view line) { listener.hear(line); },
-        [&] {
-            listener.pass_on();
-            return place.board.is_cancelled(run) || place.board.past_deadline();
-        });
+    const auto hear = [&](std::string_view line) { listener.hear(line); };
+    const auto should_end = [&] {
+        listener.pass_on();
+        return place.board.is_cancelled(run) || place.board.past_deadline();
+    };
+    const std::string& launcher = place.limits.launcher;
+    const ChildReport report =
+        launcher.empty() ? run_child(place.program, arguments_of(place, job, work), limits, hear, should_end)
+                         : run_launched(launcher, place.program, place.program,
+                                        arguments_of(place, job, fs::absolute(work)), limits, hear, should_end);
     Verdict verdict = judge(place, job, run, work, report, listener.fault());
     if (auto waits = storage_fault(place, verdict, report, listener, work)) return std::move(*waits);
     if (const auto* success = std::get_if<Success>(&verdict)) {

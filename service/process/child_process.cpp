@@ -116,6 +116,10 @@ std::size_t ChildProcess::resident() const {
     return read ? static_cast<std::size_t>(pages) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) : 0;
 }
 
+void ChildProcess::terminate() const {
+    ::kill(child_, SIGTERM);
+}
+
 ChildExit ChildProcess::end() {
     group_.kill();
     ::kill(child_, SIGKILL);  // which may have left the group

@@ -45,6 +45,7 @@ public:
 
     bool has_ended() const;        // the child; what it started may still run
     std::size_t resident() const;  // bytes; 0 once it has ended
+    void terminate() const;        // asks it to end: SIGTERM
     ChildExit end();               // kills all that still runs of it and its group, and waits for it; once
 
 private:

@@ -114,8 +114,8 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
         {"service/http", {"base", "service/log", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files, and loads techniques from outside.
         {"service/cli",
-         {"base", "scene", "curves", "techniques", "techniques/deep", "techniques/external", "document", "results", "compare", "bench",
-          "recommend", "render", "claims", "service/log", "service/privacy", "service/process", "service/isolation",
+         {"base", "scene", "curves", "techniques", "techniques/deep", "techniques/external", "document", "results",
+          "compare", "bench", "recommend", "render", "claims", "service/log", "service/privacy", "service/process", "service/isolation",
           "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
         {"service", {"service/cli"}},
     };

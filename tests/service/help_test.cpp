@@ -76,7 +76,7 @@ Words values_of(const Words& words, const std::string& option) {
 // The scenarios that an example names: of commands that take them first, the words before the first option.
 Words scenarios_of(const Words& words) {
     const std::set<std::string> takes_scenarios{"run",    "recommend", "render", "validate",
-                                                "export", "baseline",  "submit"};
+                                                "export", "baseline",  "submit", "sweep"};
     if (takes_scenarios.count(words[0]) == 0) return {};
     const auto option =
         std::find_if(words.begin(), words.end(), [](const std::string& word) { return word[0] == '-'; });

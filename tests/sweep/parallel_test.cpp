@@ -1,0 +1,70 @@
+// sweep with GNU parallel, on this machine.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "sweep/swept.h"
+
+namespace shadowbench {
+namespace {
+
+using testing::HasSubstr;
+
+class WithParallel : public Swept {
+protected:
+    WithParallel() : Swept(5) {}
+
+    void SetUp() override {
+        if (shell("command -v parallel >/dev/null") != 0) GTEST_SKIP() << "GNU parallel is missing";
+    }
+    int sweep(const std::string& more = "") const {
+        return shell(program("sweep swept.json --out sweep --engine parallel --nodes 2 " + more, "sweep.log"));
+    }
+};
+
+TEST_F(WithParallel, MeasuresAllPartsAndMergesThem) {
+    ASSERT_EQ(sweep(), 0) << text("sweep.log");
+    EXPECT_EQ(cells(), 5u);
+    EXPECT_THAT(text("sweep/batch/part-1.log"), HasSubstr("shard 1/2 has 2 of 5 cells: 2 measured"));
+    expect_result_of_one_machine();
+}
+
+// The log of finished parts alone would say that nothing is left to do.
+TEST_F(WithParallel, MeasuresACellAgainThatWasRemoved) {
+    ASSERT_EQ(sweep("--ssh :"), 0) << text("sweep.log");
+    fs::remove(fs::directory_iterator(path("sweep/cells"))->path());
+    ASSERT_EQ(sweep("--ssh :"), 0) << text("sweep.log");
+    EXPECT_EQ(cells(), 5u);
+    ASSERT_EQ(sweep("--ssh :"), 0) << text("sweep.log");
+    EXPECT_EQ(lines("measuring: ").size(), 5u);
+    EXPECT_EQ(lines("written: ").size(), 5u);
+    int times = 0;
+    for (const auto& [line, count] : lines("shard ")) times += count;
+    EXPECT_EQ(times, 4) << "parts that are finished are not started again";
+}
+
+TEST_F(WithParallel, PassesOnTheExitCodeOfAPartThatFails) {
+    const std::string set = R"(--set 'sweeps={"/receivers": [{"type": "points", "positions": [[50, 0, 0]]},)"
+                            R"( {"type": "probes", "count": 200}]}')";
+    EXPECT_EQ(sweep(set), 65);
+    EXPECT_THAT(text("sweep.log"), HasSubstr("part 0 ended with exit code 65; "));
+    EXPECT_THAT(text("sweep.log"), HasSubstr("swept.json: /receivers: none of"));
+    EXPECT_THAT(text("sweep.log"), HasSubstr("1 of 2 cells are missing"));
+    EXPECT_EQ(cells(), 1u) << "the other part was measured";
+}
+
+// What is printed does the same, in any POSIX shell, whatever quotes the names and values need.
+TEST_F(WithParallel, PrintsCommandsThatAShellCanRun) {
+    const std::string arguments =
+        "sweep swept.json --engine parallel --nodes 2 --out \"sweep's {} %d\" --set "
+        "'sweeps={\"/rays/seed\":\n[1, 2]}'";
+    ASSERT_EQ(shell(program(arguments + " --print", "script")), 0) << text("script");
+    EXPECT_FALSE(fs::exists(path("sweep's {} %d"))) << "nothing was started";
+    ASSERT_EQ(shell("cd " + path("") + " && sh ./script >script.log 2>&1"), 0) << text("script.log");
+    EXPECT_TRUE(fs::exists(path("sweep's {} %d/result/result.json"))) << text("script.log");
+}
+
+}  // namespace
+}  // namespace shadowbench
