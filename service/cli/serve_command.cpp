@@ -24,8 +24,8 @@
 #include "service/http/server.h"
 #include "service/jobs/backup.h"
 #include "service/jobs/jobs.h"
-#include "service/log/log.h"
 #include "service/jobs/launched.h"
+#include "service/log/log.h"
 
 namespace shadowbench::service {
 namespace {
