@@ -84,7 +84,9 @@ float sample(const AlphaTexture& texture, float u, float v) {
     return std::lerp(upper, lower, y.fraction);
 }
 
-void place(GridVolume& volume, const base::Matrix4d& to_world) {
+void place(GridVolume& volume, const base::Matrix4d& move) {
+    const base::Matrix4d to_world = volume.frame ? volume.frame->to_world * move : move;
+    volume.frame.reset();
     bool along_axes = true;  // scaled and moved only, so that a box stays one
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) along_axes = along_axes && (i == k ? to_world[i][i] > 0.0 : to_world[i][k] == 0.0);

@@ -74,7 +74,7 @@ struct GridVolume {
     ReadNotes notes{};
     std::optional<GridFrame> frame{};  // absent: the box is in the world
 };
-void place(GridVolume& volume, const base::Matrix4d& to_world);  // moves a volume whose box is in the world
+void place(GridVolume& volume, const base::Matrix4d& move);  // moves it in the world
 Box3d world_box(const GridVolume& volume);
 // World lengths: the longest way through the box, and the least distance between neighbouring layers of voxels.
 double longest_way(const GridVolume& volume);
