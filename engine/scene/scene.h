@@ -236,7 +236,7 @@ int channels(const Scene& scene);
 // What the readers of the scene's files passed over, one line each after its place: "/scene/objects/0: ...". Printable.
 std::vector<std::string> read_notes(const Scene& scene);
 
-// The same, and which lights have no map.
+// The same, which lights have no map, and which have a border that is too narrow for their lookups.
 std::vector<std::string> notes(const Scenario& scenario);
 
 // Whether any shadow caster is a medium; whether any moves.
