@@ -84,6 +84,7 @@ std::string remedy(const scene::Receivers& receivers, const scene::Light& light,
     };
     for (const CameraPoint& point : seen) note(point.position);
     for (const Vec3d& point : receivers.points) note(point);
+    if (has[static_cast<std::size_t>(*light.face)]) return "; some are in its face, but nearer than its \"near\"";
     std::string faces;
     for (std::size_t i = 0; i < has.size(); ++i)
         if (has[i]) faces += fmt::format("{}\"{}\"", faces.empty() ? "" : ", ", scene::cube_faces[i]);

@@ -70,7 +70,7 @@ void check_sweeps(const results::Result& run, const std::string& origin) {
 
 // The width of all footprints of the light as a share of the map, if the scenario gives it in map pixels.
 std::optional<double> footprint_share(const results::Result& run, const RayAxes& axes, const std::string& light,
-                                      const std::string& origin) {
+                                      const std::string& origin) try {
     const nlohmann::json document = nlohmann::json::parse(run.document);
     const nlohmann::json receivers = document.value("receivers", nlohmann::json::object());
     for (const char* bias : {"slope_bias", "normal_bias"})
@@ -86,6 +86,8 @@ std::optional<double> footprint_share(const results::Result& run, const RayAxes&
                     "the run sweeps the resolution, and its footprints are in map pixels: finer maps were asked for "
                     "smaller footprints; give receivers.footprint and run it again");
     return width.value / axes.resolutions.front().first;
+} catch (const nlohmann::json::exception& error) {
+    throw Error(ErrorCode::bad_input, origin, fmt::format("the run holds no valid scenario: {}", error.what()));
 }
 
 // The parameters that differ from the row's defaults.
@@ -144,7 +146,8 @@ Recommendation recommendation_of(const results::Result& run, const std::string& 
     std::vector<const LightResult*> lights;
     for (const results::VariantResult& variant : run.variants) lights.push_back(&variant.lights.at(index));
     const RayAxes axes = ray_axes(lights);
-    Recommendation found{run.name, lights.front()->name, measure, footprint_share(run, axes, lights.front()->name, origin), {}};
+    const std::string& name = lights.front()->name;
+    Recommendation found{run.name, name, measure, footprint_share(run, axes, name, origin), {}};
     found.exploration.end = End::given;
 
     Axis resolutions{"resolution", {}}, samples{"samples_per_pixel", {}};

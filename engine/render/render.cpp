@@ -143,7 +143,7 @@ Rendering describe(const scene::Scenario& scenario, const document::Variant& var
     result.name = scenario.name;
     result.hash = base::hash_text(variant.document->dump());
     result.settings = variant.settings;
-    result.notes = scene::read_notes(scenario.scene);
+    result.notes = scene::notes(scenario);
     result.default_camera = !scenario.receivers.camera;
     result.camera = result.default_camera ? default_camera(scenario.scene) : *scenario.receivers.camera;
     result.size = options.size.value_or(scenario.receivers.resolution);

@@ -84,7 +84,7 @@ void add_faces(const json& from, const Box3d& casters, const Light& light, Scena
 std::vector<std::string> map_names(const json& light, std::size_t index) {
     if (!light.value("casts_shadow", true)) return {};
     const std::string name = light_name(light, index);
-    if (light["type"] != "point") return {name};
+    if (light.at("type") != "point") return {name};
     std::vector<std::string> names;
     for (std::size_t i = 0; i < cube_faces.size(); ++i)
         if (has_face(light, i)) names.push_back(face_name(name, i));
@@ -92,7 +92,7 @@ std::vector<std::string> map_names(const json& light, std::size_t index) {
 }
 
 std::string light_name(const json& from, std::size_t index) {
-    std::string name = fmt::format("{}_{}", from["type"].get<std::string>(), index);
+    std::string name = fmt::format("{}_{}", from.at("type").get<std::string>(), index);
     read(from, "name", name);
     return name;
 }

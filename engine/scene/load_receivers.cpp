@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -28,13 +29,12 @@ Camera load_camera(const json& from) {
 }  // namespace
 
 FilterWidth footprint_width(const json& from) {
-    const auto given = from.begin();  // the schema asks for exactly one
-    const std::string& unit = given.key();
-    return {unit == "share"             ? WidthUnit::share
-            : unit == "length"          ? WidthUnit::length
-            : unit == "receiver_pixels" ? WidthUnit::receiver_pixels
-                                        : WidthUnit::map_pixels,
-            given->get<double>()};
+    const auto [name, unit] = from.contains("share")    ? std::pair("share", WidthUnit::share)
+                              : from.contains("length") ? std::pair("length", WidthUnit::length)
+                              : from.contains("receiver_pixels")
+                                  ? std::pair("receiver_pixels", WidthUnit::receiver_pixels)
+                                  : std::pair("map_pixels", WidthUnit::map_pixels);
+    return {unit, from.at(name).get<double>()};
 }
 
 FilterWidth load_filter_width(const json& from) {
@@ -43,7 +43,7 @@ FilterWidth load_filter_width(const json& from) {
     if (!from.contains("footprint")) return width;
     if (from.contains("filter_width"))
         refuse("/receivers/filter_width", "the footprint is given twice: leave out filter_width or footprint");
-    width = footprint_width(from["footprint"]);
+    width = footprint_width(from.at("footprint"));
     if (width.unit == WidthUnit::receiver_pixels && from.value("type", "probes") != "camera")
         refuse("/receivers/footprint/receiver_pixels",
                "only receivers of a camera have pixels: give the footprint as a length or a share of the map");

@@ -200,7 +200,7 @@ FilterWidth lookup_width(const json& document, const std::string& light) {
     for (const json& each : section(document, "lights")) {
         const std::vector<std::string> maps = map_names(each, index++);
         if (std::count(maps.begin(), maps.end(), light) > 0 && each.contains("softness"))
-            return footprint_width(each["softness"]);
+            return footprint_width(each.at("softness"));
     }
     return load_filter_width(section(document, "receivers"));
 }

@@ -84,7 +84,9 @@ float sample(const AlphaTexture& texture, float u, float v) {
     return std::lerp(upper, lower, y.fraction);
 }
 
-void place(GridVolume& volume, const base::Matrix4d& to_world) {
+void place(GridVolume& volume, const base::Matrix4d& move) {
+    const base::Matrix4d to_world = volume.frame ? volume.frame->to_world * move : move;
+    volume.frame.reset();
     bool along_axes = true;  // scaled and moved only, so that a box stays one
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) along_axes = along_axes && (i == k ? to_world[i][i] > 0.0 : to_world[i][k] == 0.0);
@@ -175,11 +177,42 @@ std::vector<std::string> read_notes(const Scene& scene) {
     return lines;
 }
 
+namespace {
+
+// What is known before the lookups: widths as lengths or in receiver pixels depend on the receiver.
+std::string border_note(const Scenario& scenario, const Light& face) {
+    const FilterWidth width = face.softness.value_or(scenario.receivers.filter_width);
+    const Vec2i resolution = scenario.rays.resolution;
+    const double pixels = width.unit == WidthUnit::share        ? width.value * resolution.x
+                          : width.unit == WidthUnit::map_pixels ? width.value
+                                                                : 0.0;
+    const double share = pixels / std::min(resolution.x, resolution.y), room = face.border / (1.0 + face.border);
+    if (!(share > room * (1.0 + 1e-9))) return "";
+    constexpr double widest = 10.0 / 11.0;  // that a border of 10, the most, has room for
+    const std::string remedy =
+        share > widest ? "make them narrower"
+                       : fmt::format("give it a border of {} or more", std::ceil(1e3 * share / (1.0 - share)) / 1e3);
+    return fmt::format(
+        "{}: lookups are {:.3g} of a map wide and its border has room for {:.3g}, so at seams a part is cut off: {}",
+        face.where, share, room, remedy);
+}
+
+}  // namespace
+
 std::vector<std::string> notes(const Scenario& scenario) {
     std::vector<std::string> lines = read_notes(scenario.scene);
+    const Light* last = nullptr;
+    for (const Light& light : scenario.lights) {
+        if (light.face && (!last || last->where != light.where))  // one for all faces
+            if (const std::string note = border_note(scenario, light); !note.empty()) lines.push_back(note);
+        last = &light;
+    }
     for (const Light& light : scenario.fills)
-        lines.push_back(base::printable(fmt::format(
-            "{}: \"{}\" casts no shadow, so it has no map: only pictures show it", light.where, light.name)));
+        lines.push_back(base::printable(
+            light.face ? fmt::format("{}: face \"{}\" has no map: only pictures show its light, without shadows",
+                                     light.where, light.name)
+                       : fmt::format("{}: \"{}\" casts no shadow, so it has no map: only pictures show it", light.where,
+                                     light.name)));
     return lines;
 }
 

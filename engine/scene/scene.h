@@ -74,7 +74,7 @@ struct GridVolume {
     ReadNotes notes{};
     std::optional<GridFrame> frame{};  // absent: the box is in the world
 };
-void place(GridVolume& volume, const base::Matrix4d& to_world);  // moves a volume whose box is in the world
+void place(GridVolume& volume, const base::Matrix4d& move);  // moves it in the world
 Box3d world_box(const GridVolume& volume);
 // World lengths: the longest way through the box, and the least distance between neighbouring layers of voxels.
 double longest_way(const GridVolume& volume);
@@ -239,7 +239,7 @@ int channels(const Scene& scene);
 // What the readers of the scene's files passed over, one line each after its place: "/scene/objects/0: ...". Printable.
 std::vector<std::string> read_notes(const Scene& scene);
 
-// The same, and which lights have no map.
+// The same, which lights have no map, and which have a border that is too narrow for their lookups.
 std::vector<std::string> notes(const Scenario& scenario);
 
 // Whether any shadow caster is a medium; whether any moves.

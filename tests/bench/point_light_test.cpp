@@ -137,6 +137,13 @@ TEST(PointLight, SaysWhichFacesHaveReceivers) {
         EXPECT_NE(error.message().find("\"point_0 +y\"; give its light \"faces\": [\"+x\", \"-y\"]"), std::string::npos)
             << error.message();
     }
+    made.receivers.points = {lamp + Vec3d(1e-9, 0, 0)};
+    try {
+        ask(made.lights[0]);
+        FAIL() << "it is before the first depth of the map";
+    } catch (const base::Error& error) {
+        EXPECT_NE(error.message().find("nearer than its \"near\""), std::string::npos) << error.message();
+    }
 }
 
 TEST(PointLight, SpreadsProbesOverTheFaceWithoutItsBorder) {

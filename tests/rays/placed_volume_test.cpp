@@ -127,6 +127,25 @@ TEST(PlacedVolume, SwappedAndMirroredAxesEqualAGridWithMovedVoxels) {
     }
 }
 
+// A reader may turn a grid before the scenario places it; two turns may also cancel out.
+TEST(PlacedVolume, IsPlacedAgainFromWhereItStands) {
+    const Matrix4d& swap = maps()[1];
+    const Matrix4d& shear = maps()[4];
+    scene::GridVolume volume = unit_cube(2.0f), once = volume;
+    scene::place(volume, swap);
+    scene::place(volume, shear);
+    scene::place(once, swap * shear);
+    ASSERT_TRUE(volume.frame);
+    EXPECT_TRUE(volume.frame->to_world.equalWithAbsError(once.frame->to_world, 1e-15));
+    EXPECT_TRUE(volume.frame->to_grid.equalWithAbsError(once.frame->to_grid, 1e-15));
+    scene::GridVolume back = unit_cube(2.0f);
+    scene::place(back, maps()[2]);
+    scene::place(back, maps()[2].inverse() * maps()[0]);
+    EXPECT_FALSE(back.frame);
+    EXPECT_EQ(back.lower, Vec3d(1, -2, 0.5));
+    EXPECT_EQ(back.upper, Vec3d(3, -1.5, 3.5));
+}
+
 // A turned slab that moves is at each time where the motion, in the world, has brought it.
 TEST(PlacedVolume, MovesInTheWorld) {
     scene::Object object;

@@ -138,6 +138,10 @@ TEST(RecommendationOfARun, RefusesRowsThatDoNotAnswerOneQuestion) {
             made.document = R"({"receivers": {"type": "camera", "footprint": {"share": 0.1}, "slope_bias": 0.5}})";
         },
         Measure::rms, "slope_bias is in map pixels");
+    // Results are read from files, whose scenarios nobody has checked.
+    for (const char* damaged : {R"({"lights": [{}]})", R"({"lights": [{"type": "spot", "name": "sun", "softness": {}}]})",
+                                R"({"lights": [7]})", R"({"receivers": [1]})", R"({"receivers": {"footprint": {}}})"})
+        refused([&](auto& made) { made.document = damaged; }, Measure::rms, "the run holds no valid scenario");
     refused([](auto& made) { made.variants[1].lights[0].cells[0].over_seeds.clear(); }, Measure::rms, "spread_seeds");
     refused([](auto&) {}, Measure::curve, "stored functions");
     refused([](auto& made) { made.variants.clear(); }, Measure::rms, "no rows");

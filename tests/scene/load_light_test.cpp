@@ -114,6 +114,28 @@ TEST(LoadLight, PointLightsBecomeSixFacesThatShareAPlaceInTheFile) {
     EXPECT_FALSE(fill.fills[0].face) << "it lights everything at once";
 }
 
+// A border of 1/8 has room for 1/9 of the map; a width of 0.2 takes a border of 1/4.
+TEST(LoadLight, NotesFacesWithoutMapsAndBordersThatAreTooNarrow) {
+    Scenario scenario = load(R"([{"type": "directional", "direction": [0, -1, 0]},
+        {"type": "point", "name": "a", "position": [1, 2, 3], "softness": {"share": 0.1}},
+        {"type": "point", "name": "b", "position": [1, 2, 3], "softness": {"share": 0.2}},
+        {"type": "point", "name": "c", "position": [1, 2, 3], "faces": ["+x", "-x", "+y", "-y", "+z"]}])");
+    EXPECT_THAT(notes(scenario), testing::ElementsAre(testing::HasSubstr("/lights/2: lookups are 0.2 of a map wide"),
+                                                      testing::HasSubstr("/lights/3: face \"c -z\" has no map")));
+    EXPECT_THAT(notes(scenario)[0], testing::HasSubstr("room for 0.111, so at seams a part is cut off: give it a "
+                                                       "border of 0.25 or more"));
+    scenario.rays.resolution = {64, 16};  // 2 of the 16 pixels that span the face: more than 1/9
+    scenario.receivers.filter_width = {WidthUnit::map_pixels, 2.0};
+    const std::vector<std::string> narrow = notes(scenario);
+    ASSERT_EQ(narrow.size(), 4u);
+    EXPECT_THAT(narrow[0], testing::HasSubstr("/lights/1: lookups are 0.4 of"));
+    EXPECT_THAT(narrow[2], testing::HasSubstr("/lights/3: lookups are 0.125 of"));
+    scenario.receivers.filter_width.value = 1.0;
+    EXPECT_EQ(notes(scenario).size(), 3u);
+    scenario.receivers.filter_width = {WidthUnit::share, 0.5};  // of 64: more than the face
+    EXPECT_THAT(notes(scenario)[2], testing::HasSubstr("make them narrower"));
+}
+
 TEST(LoadLight, RefusesFacesThatAreNone) {
     EXPECT_EQ(place(R"([{"type": "point", "position": [1, 2, 3], "faces": []}])"), "/lights/0/faces");
     EXPECT_EQ(place(R"([{"type": "point", "position": [1, 2, 3], "faces": ["x"]}])"), "/lights/0/faces/0");
