@@ -15,6 +15,7 @@ namespace {
 constexpr double seconds_a_day = 86400.0;
 constexpr std::chrono::milliseconds between_sweeps{1000};
 constexpr std::chrono::seconds longest_between_sweeps{60};
+constexpr int most_new_faults = 5;  // in one sweep
 
 std::size_t ended_runs(const JobTally& tally) {
     std::size_t all = tally.reused;
@@ -22,20 +23,21 @@ std::size_t ended_runs(const JobTally& tally) {
     return all;
 }
 
-// `stuck`: the jobs that could not be removed before. They come last, so that they keep no other one. After a new fault
-// the others wait for the next sweep, since all of the storage may fail.
+// `stuck`: the jobs that could not be removed before. They come last, so that they keep no other one. After some new
+// faults the others wait for the next sweep, since all of the storage may fail.
 void remove_all(const Workplace& place, std::vector<Removable> jobs, std::set<std::string>& stuck,
                 const std::function<void(const std::string& id, const char* reason)>& remove) {
     std::stable_partition(jobs.begin(), jobs.end(), [&](const Removable& job) { return !stuck.contains(job.id); });
+    int new_faults = 0;
     for (const Removable& job : jobs) {
-        if (place.board.stopping()) return;
+        if (place.board.stopping() || new_faults == most_new_faults) return;
         try {
             remove(job.id, job.reason);
             stuck.erase(job.id);
         } catch (const std::exception& fault) {
             if (!stuck.insert(job.id).second) continue;
+            ++new_faults;
             place.news.storage(fmt::format("job {} cannot be removed: {}", job.id, fault.what()));
-            return;
         }
     }
 }
