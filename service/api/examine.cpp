@@ -43,7 +43,11 @@ Examiner::Examiner(StartHelper start, std::vector<std::string> arguments, double
 }
 
 void Examiner::keep(Idle helper) {
-    if (helper.answers >= most_answers) helper = {start_(arguments_), 0};
+    try {
+        if (helper.answers >= most_answers) helper = {start_(arguments_), 0};
+    } catch (const std::exception&) {
+        return;  // the answer is there; whoever asks next gets the fault, if there still is one
+    }
     const std::scoped_lock lock(mutex_);
     if (idle_.size() < checks_at_a_time) idle_.push_back(std::move(helper));
 }

@@ -86,8 +86,13 @@ void add_log(CLI::App& serve, ServeArguments& a) {
 }
 
 // `serve backup` and `serve fsck`.
-void add_state_commands(CLI::App& serve, Commands& commands) {
+void add_state_commands(CLI::App& serve, const std::shared_ptr<ServeArguments>& of_serve, Commands& commands) {
     const auto arguments = std::make_shared<StateArguments>();
+    // --state may also stand before the name of the command.
+    const auto with_state = [arguments, of_serve](const CLI::App* command) {
+        if (command->count("--state") == 0) arguments->state = of_serve->state;
+        return *arguments;
+    };
     const auto add_state = [&](CLI::App& command) {
         command.add_option("--state", arguments->state, "State folder of a server, which may be running")
             ->capture_default_str();
@@ -95,14 +100,14 @@ void add_state_commands(CLI::App& serve, Commands& commands) {
     CLI::App* backup = serve.add_subcommand("backup", "Copy a state folder; the server may be running");
     backup->add_option("DIR", arguments->backup, "New folder, which a server can use with --state")->required();
     add_state(*backup);
-    commands.push_back({backup, [arguments](std::ostream& out, std::ostream&) {
-                            backup_command(*arguments, out);
+    commands.push_back({backup, [with_state, backup](std::ostream& out, std::ostream&) {
+                            backup_command(with_state(backup), out);
                             return 0;
                         }});
     CLI::App* fsck = serve.add_subcommand("fsck", "Check a state folder: database, results, and their checksums");
     add_state(*fsck);
-    commands.push_back({fsck, [arguments](std::ostream& out, std::ostream&) {
-                            fsck_command(*arguments, out);
+    commands.push_back({fsck, [with_state, fsck](std::ostream& out, std::ostream&) {
+                            fsck_command(with_state(fsck), out);
                             return 0;
                         }});
 }
@@ -158,7 +163,7 @@ void add_serve(CLI::App& app, Commands& commands) {
     add_limits(*serve, *arguments);
     add_retention(*serve, *arguments);
     add_log(*serve, *arguments);
-    add_state_commands(*serve, commands);
+    add_state_commands(*serve, arguments, commands);
     commands.push_back({serve, [arguments](std::ostream& out, std::ostream& err) {
                             serve_command(*arguments, out, err);
                             return 0;

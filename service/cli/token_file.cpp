@@ -70,10 +70,12 @@ NamedToken read_line_of_tokens(const std::string& line, const std::string& where
     if (!is_name(read.name))
         throw Error(ErrorCode::bad_input, where,
                     "a name must be at most 64 letters, digits and any of \"-_.\"; a line is NAME TOKEN");
-    for (std::size_t i = 2; i < words.size(); ++i)
+    for (std::size_t i = 2; i < words.size(); ++i)  // a wrong word may be a secret, so that no message has it
         if (!read_limit(words[i], read.limits))
             throw Error(ErrorCode::bad_input, where,
-                        "unknown limit \"" + words[i] + "\"; there are queued=N, running=N and bytes=N, as bytes=2G");
+                        fmt::format("word {} is no limit; a line is NAME TOKEN, then any of queued=N, running=N and bytes=N, "
+                                    "as bytes=2G",
+                                    i + 1));
     return read;
 }
 
@@ -90,7 +92,7 @@ std::vector<NamedToken> read_tokens(const std::string& file) {
     int number = 0;
     for (std::string line; std::getline(stream, line);) {
         ++number;
-        const std::size_t first = line.find_first_not_of(" \t\r");
+        const std::size_t first = line.find_first_not_of(" \t\r\v\f");
         if (first == std::string::npos || line[first] == '#') continue;
         const std::string where = fmt::format("{}:{}", file, number);
         tokens.push_back(read_line_of_tokens(line, where));

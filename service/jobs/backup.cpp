@@ -27,7 +27,12 @@ constexpr std::size_t jobs_a_page = 1000;
     throw Error(ErrorCode::io, place.string(), "the back-up cannot be written: " + why.message());
 }
 
-void check_target(const fs::path& to, const fs::path& partial) {
+void check_target(const fs::path& state, const fs::path& to, const fs::path& partial) {
+    std::error_code ignored;
+    const fs::path inside =
+        fs::weakly_canonical(to, ignored).lexically_relative(fs::weakly_canonical(state, ignored));
+    if (!inside.empty() && *inside.begin() != "..")
+        throw Error(ErrorCode::usage, to.string(), "lies in the state folder; name a folder outside of it");
     const fs::file_type type = type_of(to);
     if (type != fs::file_type::not_found && !(type == fs::file_type::directory && entries_of(to).empty()))
         throw Error(ErrorCode::usage, to.string(), "is there already; name a new or an empty folder");
@@ -46,12 +51,16 @@ void sync_file_system(const fs::path& folder) {
 
 // Returns false for results that were removed meanwhile.
 bool copy_results(const fs::path& from, const fs::path& to) {
+    constexpr int most_tries = 3;  // while jobs are pinned, which replaces a file
     std::error_code failed;
-    fs::copy(from, to, fs::copy_options::recursive, failed);
-    if (!failed) return true;
-    if (type_of(from) != fs::file_type::not_found) fail_backup(to, failed);
-    fs::remove_all(to, failed);
-    return false;
+    for (int i = 1;; ++i) {
+        fs::copy(from, to, fs::copy_options::recursive, failed);
+        if (!failed) return true;
+        const std::error_code why = failed;
+        fs::remove_all(to, failed);
+        if (type_of(from) == fs::file_type::not_found) return false;
+        if (why != std::errc::no_such_file_or_directory || i == most_tries) fail_backup(to, why);
+    }
 }
 
 std::size_t copy_all(const fs::path& state, const fs::path& to) {
@@ -76,10 +85,10 @@ std::size_t copy_all(const fs::path& state, const fs::path& to) {
     }
 }
 
-std::set<std::string> succeeded(const StoreContents& contents) {
+std::set<std::string> ids_of(const StoreContents& contents, const std::set<std::string>& states) {
     std::set<std::string> ids;
     for (const StoredJob& job : contents.jobs)
-        if (job.state == job_states::succeeded) ids.insert(job.id);
+        if (states.contains(job.state)) ids.insert(job.id);
     return ids;
 }
 
@@ -96,7 +105,7 @@ std::size_t back_up(const fs::path& state, const fs::path& to) {
     fs::path whole = fs::absolute(to).lexically_normal();
     if (!whole.has_filename()) whole = whole.parent_path();
     const fs::path partial = whole.string() + ".partial";
-    check_target(whole, partial);
+    check_target(state, whole, partial);
     std::size_t copied = 0;
     try {
         copied = copy_all(state, partial);
@@ -117,19 +126,26 @@ std::size_t back_up(const fs::path& state, const fs::path& to) {
 }
 
 std::vector<std::string> check_state(const fs::path& state) {
+    // A server may add and remove jobs meanwhile. So the folders are listed before the database is read, and the
+    // database is read once more at the end.
+    std::vector<fs::path> folders;
+    if (type_of(state / "jobs") == fs::file_type::directory) folders = entries_of(state / "jobs");
     const StoreContents contents = check_store(state / "jobs.db");
+    const std::set<std::string> then = ids_of(contents, {job_states::succeeded});
     std::map<std::string, std::vector<std::string>> faults;  // by job
-    for (const std::string& id : succeeded(contents))
+    for (const std::string& id : then)
         if (auto found = check_results(state / "jobs" / id, id); !found.empty()) faults[id] = std::move(found);
-    // A server may have added and removed jobs meanwhile.
-    const std::set<std::string> now = succeeded(check_store(state / "jobs.db"));
+    const StoreContents last = check_store(state / "jobs.db");
+    const std::set<std::string> now = ids_of(last, {job_states::succeeded});
+    // The results of a job that runs are there a moment before its row says so.
+    const std::set<std::string> known = ids_of(last, {job_states::succeeded, job_states::running});
     std::vector<std::string> all = contents.faults;
     for (const auto& [id, lines] : faults)
         if (now.contains(id)) all.insert(all.end(), lines.begin(), lines.end());
-    const std::set<std::string> then = succeeded(contents);
-    for (const fs::path& entry : entries_of(state / "jobs"))
-        if (const std::string id = entry.filename().string(); !now.contains(id) && !then.contains(id))
-            all.push_back(entry.string() +
+    for (const fs::path& folder : folders)
+        if (const std::string id = folder.filename().string();
+            !known.contains(id) && !then.contains(id) && type_of(folder) != fs::file_type::not_found)
+            all.push_back(folder.string() +
                           ": the database has no such job that succeeded; a start of the server takes "
                           "it back or moves it to lost+found");
     return all;

@@ -56,7 +56,13 @@ std::string new_id() {
 // Requests with the same idempotency key must have the same hash.
 std::string request_hash(const JobRequest& request) {
     const std::string recommend = request.recommend.empty() ? "" : request.recommend + " ";
-    return base::hash_text(fmt::format("{} {} {}{}", request.pictures, request.reuse, recommend, request.scenario));
+    std::string text = fmt::format("{} {} {}{}", request.pictures, request.reuse, recommend, request.scenario);
+    // Only where there is any of these, so that keys of earlier versions stay valid.
+    if (!request.owner.empty() || !request.labels.empty() || request.priority != 0) {
+        text += fmt::format("\n{}\n{}", request.owner, request.priority);
+        for (const std::string& label : request.labels) text += "\n" + label;
+    }
+    return base::hash_text(text);
 }
 
 std::int64_t read_cursor(const std::string& cursor) {

@@ -71,7 +71,8 @@ Jobs::Retry Jobs::retry(const std::string& id) {
     all.presence.check();
     const auto end = JobBoard::Clock::now() + longest_end;
     const auto try_once = [&]() -> std::optional<JobStore::Retried> {
-        const std::scoped_lock lock(all.board.starting);
+        // Retention must not remove the job after it has seen that it had ended.
+        const std::scoped_lock lock(all.pinning, all.board.starting);
         const std::optional<StoredJob> job = all.store.find(id);
         const bool ended = job && (job->state == job_states::failed || job->state == job_states::cancelled);
         if (job && all.board.has_run(id))

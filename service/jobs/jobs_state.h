@@ -44,7 +44,7 @@ struct Jobs::State {
     std::vector<std::thread> workers;
     std::thread sweeper;
     std::mutex joining;
-    std::mutex pinning;  // held while a job is pinned, or removed unless it is pinned
+    std::mutex pinning;  // held while a job is pinned or retried, or removed unless it is
 };
 
 }  // namespace shadowbench::service

@@ -1,5 +1,6 @@
 #include "service/jobs/news.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -39,7 +40,7 @@ void JobNews::started(const StoredJob& job) {
     {
         const std::scoped_lock lock(mutex_);
         ++tally_.runs;
-        if (waited) tally_.waits.add(*waited);
+        if (waited) tally_.waits.add(std::max(*waited, 0.0));  // the clock may have been set back
     }
     LogEvent event = about(LogLevel::info, "started", job.id);
     event.fields.push_back({"attempt", std::int64_t{job.attempts}});

@@ -18,8 +18,8 @@ struct Removable {
 std::vector<Removable> choose_removable(const std::vector<JobStore::Ended>& jobs, const Retention& keep,
                                         const std::string& now);
 
-// Removes jobs whenever one has ended, and at least once a minute, until the board stops. Storage that fails is tried
-// again the next time.
+// Removes jobs whenever one has ended, and at least once a minute, until the board stops. A job that
+// cannot be removed keeps no other one, is reported once, and is tried again the next time.
 void sweep(const Workplace& place, const std::function<void(const std::string& id, const char* reason)>& remove);
 
 }  // namespace shadowbench::service

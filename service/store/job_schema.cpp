@@ -41,6 +41,7 @@ ALTER TABLE jobs ADD COLUMN bytes INTEGER NOT NULL DEFAULT 0;
 ALTER TABLE jobs ADD COLUMN queued TEXT NOT NULL DEFAULT '';
 ALTER TABLE jobs ADD COLUMN checksum TEXT NOT NULL DEFAULT '';
 CREATE INDEX jobs_by_owner ON jobs (state, owner, priority DESC, sequence);
+CREATE INDEX jobs_by_bytes ON jobs (owner, bytes);
 CREATE TABLE turns (owner TEXT PRIMARY KEY, last INTEGER NOT NULL) STRICT, WITHOUT ROWID;
 PRAGMA user_version = 3;
 )";

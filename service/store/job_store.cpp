@@ -90,6 +90,7 @@ std::optional<StoredJob> first_of(Database& database, const std::string& owner) 
 
 JobStore::JobStore(const std::filesystem::path& file) : state_(std::make_unique<State>(file)) {
     state_->reader.emplace(file, Database::Access::read, store_application);
+    state_->counter.emplace(file, Database::Access::read, store_application);
 }
 
 JobStore::~JobStore() = default;

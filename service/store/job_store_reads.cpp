@@ -86,13 +86,13 @@ std::vector<StoredJob> JobStore::list(const StoreFilter& filter, std::size_t lim
 }
 
 std::size_t JobStore::count(const std::string& state) const {
-    const std::scoped_lock lock(state_->read_mutex);
-    return count_in(*state_->reader, state);
+    const std::scoped_lock lock(state_->count_mutex);
+    return count_in(*state_->counter, state);
 }
 
 std::uint64_t JobStore::bytes() const {
-    const std::scoped_lock lock(state_->read_mutex);
-    Rows rows(*state_->reader, "SELECT coalesce(sum(bytes), 0) FROM jobs");
+    const std::scoped_lock lock(state_->count_mutex);
+    Rows rows(*state_->counter, "SELECT coalesce(sum(bytes), 0) FROM jobs");
     rows.next();
     return static_cast<std::uint64_t>(rows.integer(0));
 }

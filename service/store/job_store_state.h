@@ -51,10 +51,11 @@ struct JobStore::State {
         }
     }
 
-    std::mutex write_mutex, read_mutex;
+    std::mutex write_mutex, read_mutex, count_mutex;
     sqlite::Database writer;
-    std::optional<sqlite::Database> reader;  // opened once the file has its tables
-    std::uint64_t last = 0, reserved = 0;    // the last revision used, and the last one reserved in the file
+    // Opened once the file has its tables. Monitors count with one of their own, so that no long list delays them.
+    std::optional<sqlite::Database> reader, counter;
+    std::uint64_t last = 0, reserved = 0;  // the last revision used, and the last one reserved in the file
 };
 
 std::optional<JobStore::Added> find_by_key(sqlite::Database& database, const std::string& key,

@@ -258,5 +258,18 @@ TEST_F(Examinations, RenewTheirProcessAfterManyAnswers) {
     EXPECT_EQ(number_of("200"), 2);
 }
 
+TEST_F(Examinations, GiveAnAnswerThoughNoNewProcessStarts) {
+    int starts = 0;
+    Examiner one{[&](const std::vector<std::string>&) {
+                     if (++starts > 1) throw Error(ErrorCode::io, "helper process", "too many processes");
+                     return std::make_unique<Numbered>(starts, killed);
+                 },
+                 {"examine"},
+                 1.0,
+                 8};
+    for (int i = 0; i < 200; ++i) EXPECT_NO_THROW(one.examine(std::to_string(i))) << i;
+    EXPECT_EQ(code_of([&] { one.examine("200"); }), ErrorCode::io);
+}
+
 }  // namespace
 }  // namespace shadowbench::service

@@ -53,6 +53,17 @@ TEST_F(Backups, AreNeverWrittenOverOtherFiles) {
     EXPECT_EQ(back_up(state(), copy()), 1u) << "an empty folder is taken";
     EXPECT_THROW(back_up(folder.path() / "none", folder.path() / "other"), base::Error);
     EXPECT_FALSE(fs::exists(folder.path() / "other.partial")) << "nothing is left of what failed";
+    for (const char* inside : {"new", "work/new", "../state/jobs/new"})
+        EXPECT_THROW(back_up(state(), state() / inside), base::Error) << "a start would take it for a stray file";
+}
+
+// Its results are published a moment before its row says that it succeeded.
+TEST_F(Backups, ChecksDoNotBlameAJobThatIsAboutToEnd) {
+    start();
+    const std::string runs = submit(endless);
+    wait_for_run(runs);
+    fs::create_directories(state() / "jobs" / runs);
+    EXPECT_THAT(check_state(state()), IsEmpty());
 }
 
 TEST_F(Backups, ChecksFindWhatIsDamagedMissingOrUnknown) {

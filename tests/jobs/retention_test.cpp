@@ -69,6 +69,41 @@ TEST_F(RetentionHost, RemovesJobsWithTheirFilesButNoPinnedOne) {
     EXPECT_EQ(jobs->tally().removed["number"], 1u);
 }
 
+// Else one folder that cannot be removed would let all others grow without limit, and nobody would know.
+TEST_F(RetentionHost, AJobThatCannotBeRemovedKeepsNoOther) {
+    limits.retention.jobs = 1;
+    start();
+    const std::string stuck = ended();
+    std::filesystem::create_directories(state() / "work" / (stuck + "-removed") / "in the way");
+    const std::string second = ended();
+    ended();
+    EXPECT_TRUE(goes(second));
+    EXPECT_TRUE(jobs->find(stuck));
+    ended();
+    jobs->stop();
+    const std::string line = "job " + stuck + " cannot be removed: ";
+    EXPECT_THAT(said(), ::testing::HasSubstr(line));
+    EXPECT_EQ(said().find(line), said().rfind(line)) << "said once";
+}
+
+// Else one client would get the job of another, and labels would be lost without a word.
+TEST_F(RetentionHost, AKeyIsOfOneOwnerAndItsLabels) {
+    start();
+    JobRequest request = request_of(success);
+    request.idempotency_key = "key";
+    request.owner = "ann";
+    request.labels = {"a"};
+    const Submitted first = jobs->submit(request);
+    EXPECT_EQ(first.outcome, Submitted::Outcome::created);
+    EXPECT_EQ(jobs->submit(request).job.id, first.job.id);
+    for (auto* const change : {+[](JobRequest& r) { r.owner = "bo"; }, +[](JobRequest& r) { r.labels = {"b"}; },
+                               +[](JobRequest& r) { r.priority = 1; }}) {
+        JobRequest other = request;
+        change(other);
+        EXPECT_EQ(jobs->submit(other).outcome, Submitted::Outcome::conflict);
+    }
+}
+
 // Else the next start would forget who wanted to keep a result, and remove it.
 TEST_F(RetentionHost, PinsOwnersAndLabelsOutliveTheDatabase) {
     start();

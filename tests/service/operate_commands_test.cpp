@@ -71,6 +71,18 @@ TEST_F(Operate, FaultsOfTokensHaveTheirLine) {
                               "bytes=99999999999999999999", "bytes=99999999999999T", "0123456789abcdef"})
         EXPECT_EQ(fault_of("a 0123456789abcdef " + std::string(limit) + "\n"), ":1") << limit;
     EXPECT_EQ(fault_of("a/b 0123456789abcdef\n"), ":1");
+    EXPECT_EQ(fault_of("\v\f\na 0123456789abcdef\n"), "none") << "an empty line";
+}
+
+// A name of two words makes the token the third one: it must not come to the terminal or a log.
+TEST_F(Operate, FaultsOfTokensDoNotShowThem) {
+    try {
+        read_tokens(write("tokens", "ann from-next-door-here s3cret-s3cret-s3cret\n"));
+        ADD_FAILURE();
+    } catch (const base::Error& error) {
+        EXPECT_EQ(std::string(error.what()).find("s3cret"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("word 3"), std::string::npos) << error.what();
+    }
 }
 
 TEST_F(Operate, BackUpAndCheckAreCommands) {
@@ -82,6 +94,7 @@ TEST_F(Operate, BackUpAndCheckAreCommands) {
     EXPECT_EQ(backup.out, copy + ": 0 jobs\n");
     EXPECT_EQ(cli({"serve", "backup", copy, "--state", state}).code, 64) << "it is there already";
     EXPECT_EQ(cli({"serve", "fsck", "--state", copy}).out, copy + ": no faults\n");
+    EXPECT_EQ(cli({"serve", "--state", copy, "fsck"}).out, copy + ": no faults\n") << "not those of another folder";
     fs::create_directories(fs::path(copy) / "jobs" / "mine");
     const Outcome found = cli({"serve", "fsck", "--state", copy});
     EXPECT_EQ(found.code, 65);
