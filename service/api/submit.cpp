@@ -1,6 +1,7 @@
 #include "service/api/submit.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t most_labels = 16, longest_label = 64;
-constexpr int most_priority = 100;
+constexpr std::int64_t most_priority = 100;
 
 bool is_label(const json& value) {
     if (!value.is_string()) return false;
@@ -37,7 +38,8 @@ std::string read_option(const std::string& key, const json& value, bool pictures
                                longest_label);
         posted.labels = value.get<std::vector<std::string>>();
     } else if (key == "priority") {
-        if (!value.is_number_integer() || value < -most_priority || value > most_priority)
+        const bool is_huge = value.is_number_unsigned() && value.get<std::uint64_t>() > std::uint64_t{most_priority};
+        if (!value.is_number_integer() || is_huge || value < -most_priority || value > most_priority)
             return fmt::format("must be a whole number from {} to {}", -most_priority, most_priority);
         posted.priority = value.get<int>();
     } else {

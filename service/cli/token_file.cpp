@@ -72,10 +72,11 @@ NamedToken read_line_of_tokens(const std::string& line, const std::string& where
                     "a name must be at most 64 letters, digits and any of \"-_.\"; a line is NAME TOKEN");
     for (std::size_t i = 2; i < words.size(); ++i)  // a wrong word may be a secret, so that no message has it
         if (!read_limit(words[i], read.limits))
-            throw Error(ErrorCode::bad_input, where,
-                        fmt::format("word {} is no limit; a line is NAME TOKEN, then any of queued=N, running=N and bytes=N, "
-                                    "as bytes=2G",
-                                    i + 1));
+            throw Error(
+                ErrorCode::bad_input, where,
+                fmt::format("word {} is no limit; a line is NAME TOKEN, then any of queued=N, running=N and bytes=N, "
+                            "as bytes=2G",
+                            i + 1));
     return read;
 }
 

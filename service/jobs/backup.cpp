@@ -29,8 +29,7 @@ constexpr std::size_t jobs_a_page = 1000;
 
 void check_target(const fs::path& state, const fs::path& to, const fs::path& partial) {
     std::error_code ignored;
-    const fs::path inside =
-        fs::weakly_canonical(to, ignored).lexically_relative(fs::weakly_canonical(state, ignored));
+    const fs::path inside = fs::weakly_canonical(to, ignored).lexically_relative(fs::weakly_canonical(state, ignored));
     if (!inside.empty() && *inside.begin() != "..")
         throw Error(ErrorCode::usage, to.string(), "lies in the state folder; name a folder outside of it");
     const fs::file_type type = type_of(to);

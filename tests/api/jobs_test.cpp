@@ -352,7 +352,8 @@ TEST_F(JobsApi, TakeLabelsAndAPriorityAndGiveThemBack) {
          {nlohmann::json("a"), nlohmann::json{1}, nlohmann::json{""}, nlohmann::json{"a\nb"},
           nlohmann::json{std::string(65, 'x')}, nlohmann::json(std::vector<std::string>(17, "a"))})
         EXPECT_EQ(refused(with({{"labels", labels}}), 422, "texts")["errors"][0]["pointer"], "/options/labels");
-    for (const nlohmann::json& priority : {nlohmann::json(101), nlohmann::json(1.5), nlohmann::json("1")})
+    for (const nlohmann::json& priority :
+         {nlohmann::json(101), nlohmann::json(UINT64_MAX), nlohmann::json(1.5), nlohmann::json("1")})
         EXPECT_EQ(refused(with({{"priority", priority}}), 422, "whole number")["errors"][0]["pointer"],
                   "/options/priority");
 }
