@@ -243,7 +243,7 @@ TEST(ReadGltfAlpha, ScenariosTakeItAndInspectTellsIt) {
                 HasSubstr("3 vertices, 1 triangle\n  the materials as one alpha texture: 3 x 3 "
                           "pixels, alpha 0.5\n"));
     EXPECT_FALSE(is_opaque(files));
-    EXPECT_EQ(scene_object(files[0], "a.glb").dump(), R"({"type":"mesh","name":"a","file":"a.glb"})");
+    EXPECT_EQ(scene_objects(files[0], "a.glb").at(0).dump(), R"({"type":"mesh","name":"a","file":"a.glb"})");
 
     json document = json::parse(R"({"name": "alpha", "techniques": [{"type": "deep"}],
         "lights": [{"type": "directional", "direction": [0, -1, 0]}]})");
