@@ -5,6 +5,7 @@
 #include "base/hash_text.h"
 #include "base/shell_word.h"
 #include "results/program.h"
+#include "service/cli/libraries.h"
 
 namespace shadowbench::service {
 
@@ -35,7 +36,9 @@ std::string part_text(const SweepPlan& plan, const std::string& part) {
 }
 
 std::string merge_line(const SweepPlan& plan) {
-    return line_of({plan.program, "merge", plan.folder.string(), "--out", result_folder(plan).string()});
+    std::vector<std::string> words{plan.program, "merge", plan.folder.string(), "--out", result_folder(plan).string()};
+    for (const std::string& word : library_arguments(plan.libraries)) words.push_back(word);
+    return line_of(words);
 }
 
 // sbatch replaces % and a letter in names of logs.

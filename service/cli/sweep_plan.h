@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "service/cli/commands.h"
+
 namespace shadowbench::service {
 
 // Beside the cells, DIR has for each part
@@ -15,6 +17,7 @@ namespace shadowbench::service {
 struct SweepPlan {
     std::string program;                 // a file that all machines see
     std::vector<std::string> arguments;  // of run: scenarios and options
+    LibraryArguments libraries;          // of merge; the arguments of run have them too
     std::filesystem::path folder;        // DIR, absolute
     std::size_t parts = 1;
     std::string partition;         // of Slurm; empty: the default one
