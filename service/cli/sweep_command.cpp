@@ -37,6 +37,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds first_pause{250}, longest_pause{5000};  // between two looks at the queue
 constexpr std::chrono::minutes longest_silence{10};                         // of the scheduler
+// Seconds. Its jobs are in groups of their own: only GNU parallel itself, asked by SIGTERM, ends them, in less.
+constexpr double parallel_farewell = 1.0;
 constexpr std::chrono::seconds late_file{1};  // that a common disk may take to show a file of another machine
 
 void refuse_mixed(const SweepArguments& arguments) {
@@ -227,6 +229,7 @@ void run_parallel(const SweepPlan& plan, const std::vector<PlannedCell>& cells, 
     ProgressBar bar(err);
     ChildLimits limits;
     limits.seconds = 1e9;
+    limits.farewell = parallel_farewell;
     int signal = 0;
     auto next = Clock::now();
     const ChildReport report = run_child(
