@@ -119,8 +119,8 @@ std::vector<std::string> parallel_words(const SweepPlan& plan) {
 
 fs::path joblog(const SweepPlan& plan) {
     const results::Program own = results::this_program();
-    return batch_folder(plan) /
-           ("joblog-" + base::hash_text(fmt::format("{} {} {}", own.version, own.commit, part_text(plan, "i"))));
+    return batch_folder(plan) / ("joblog-" + base::hash_text(fmt::format("{} {} {} {}", own.version, own.commit,
+                                                                         hash_of_libraries(), part_text(plan, "i"))));
 }
 
 std::string parallel_input(const SweepPlan& plan) {

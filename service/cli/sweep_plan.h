@@ -38,7 +38,7 @@ std::vector<std::string> parts_words(const SweepPlan& plan);
 std::vector<std::string> merge_words(const SweepPlan& plan, const std::string& after);
 
 // The arguments of GNU parallel, which reads the commands of all parts, a zero byte after each. `joblog`: what earlier
-// runs of these commands by this program finished; such parts are not run again.
+// runs of these commands by this program, with these libraries, finished; such parts are not run again.
 std::vector<std::string> parallel_words(const SweepPlan& plan);
 std::filesystem::path joblog(const SweepPlan& plan);
 std::string parallel_input(const SweepPlan& plan);
