@@ -25,6 +25,13 @@ std::size_t visible_size(const std::string& text) {
     return size;
 }
 
+// Where to break a word: before the character of UTF-8 that holds this byte.
+std::size_t within_word(const std::string& line, std::size_t at) {
+    std::size_t cut = at;
+    while (cut > at - 3 && (static_cast<unsigned char>(line[cut]) & 0xc0) == 0x80) --cut;
+    return cut;
+}
+
 }  // namespace
 
 Table::Table(std::vector<std::string> header) {
@@ -62,7 +69,7 @@ std::string wrapped(const std::string& text, std::size_t width) {
         const std::string indent(std::min(first + 2, width / 2), ' ');
         while (line.size() > width) {
             std::size_t cut = line.rfind(' ', width);
-            if (cut == std::string::npos || line.find_first_not_of(' ') >= cut) cut = width;
+            if (cut == std::string::npos || line.find_first_not_of(' ') >= cut) cut = within_word(line, width);
             result += line.substr(0, cut) + "\n";
             const std::size_t rest = line.find_first_not_of(' ', cut);
             line = rest == std::string::npos ? "" : indent + line.substr(rest);

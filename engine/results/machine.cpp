@@ -1,5 +1,6 @@
 #include "results/machine.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -17,11 +18,19 @@ namespace {
 
 constexpr std::size_t longest_word = 200;
 
+// What a result can hold of any bytes.
+std::string plain(std::string text) {
+    text.resize(std::min(text.size(), longest_word));
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text;
+}
+
 std::string first_line(const fs::path& file) {
     std::ifstream stream(file);
     std::string line;
     std::getline(stream, line);
-    return line.substr(0, longest_word);
+    return plain(line);
 }
 
 // The value of the first line "key<spaces>: value" of a file.
@@ -32,7 +41,7 @@ std::string value_in(const fs::path& file, const std::string& key) {
         if (line.rfind(key, 0) != 0 || colon == std::string::npos) continue;
         if (line.find_first_not_of(" \t", key.size()) != colon) continue;
         const std::size_t start = line.find_first_not_of(" \t", colon + 1);
-        return start == std::string::npos ? "" : line.substr(start, longest_word);
+        return start == std::string::npos ? "" : plain(line.substr(start));
     }
     return "";
 }
@@ -60,7 +69,7 @@ std::string governors(const fs::path& cpus) {
 
 std::string environment(const char* name) {
     const char* const value = std::getenv(name);
-    return value ? std::string(value).substr(0, longest_word) : "";
+    return value ? plain(value) : "";
 }
 
 std::string container_of(const fs::path& root) {

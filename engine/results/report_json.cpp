@@ -192,7 +192,6 @@ json to_json(const LightResult& light) {
     return out;
 }
 
-// Whether the times are settled, and for which lights they are not.
 // Keys that the machine does not say are left out.
 json to_json(const Machine& machine) {
     json out = {{"cpu", machine.cpu}, {"logical_cores", machine.logical_cores}};
@@ -209,6 +208,7 @@ json to_json(const Machine& machine) {
     return out;
 }
 
+// Whether the times are settled, and for which lights they are not.
 json to_json(const RunTimes& times, const Result& result) {
     json unsettled = json::array();
     for (std::size_t v = 0; v < result.variants.size(); ++v)

@@ -32,9 +32,9 @@ constexpr const char* program_notes = R"(Examples:
 shadowbench COMMAND --help describes a command and its options.
 A SCENARIO is a file, or the name of one in ./scenarios, in the folders of $SHADOWBENCH_SCENARIOS, or among the
 scenarios that were installed with the program. Results go to results/ in the current folder, unless --out is given.
-Exit codes: 0 success; 1 slower (compare, ab); 2 a technique broke a promise (run, merge, render, baseline, submit), a
-cell is missing (merge), nothing reaches the error (recommend, submit), a kernel answered wrongly (instructions,
-baseline), or a measure is larger, less accurate or missing (compare, ab); 64 wrong usage; 65 bad input; 66 no such
+Exit codes: 0 success; 1 slower (compare, ab); 2 a technique broke a promise (run, sweep, merge, render, baseline,
+submit), a cell is missing (sweep, merge), nothing reaches the error (recommend, submit), a kernel answered wrongly
+(instructions, baseline), or a measure is larger, less accurate or missing (compare, ab); 64 wrong usage; 65 bad input; 66 no such
 file; 70 internal fault; 74 input or output failed.)";
 
 // The parser with all commands.

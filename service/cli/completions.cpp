@@ -7,8 +7,10 @@
 namespace shadowbench::service {
 namespace {
 
-// The first line of each entry of `list scenarios` begins with the name.
-constexpr const char* scenario_names = "shadowbench list scenarios 2>/dev/null | sed -n 's/^\\([^ ][^ ]*\\)  .*/\\1/p'";
+// The first line of each entry of `list scenarios` begins with the name. bash would run a command that is in one, so
+// names with other characters than these are left out.
+constexpr const char* scenario_names =
+    "shadowbench list scenarios 2>/dev/null | sed -n 's/^\\([A-Za-z0-9_][A-Za-z0-9_./+-]*\\)  .*/\\1/p'";
 
 std::string joined(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, " "));
@@ -134,8 +136,9 @@ HelpFile zsh_completion(const HelpModel& model) {
     text += "    compadd -a names\n    _files\n}\n_shadowbench() {\n    local -a commands\n    commands=(\n";
     for (const HelpCommand& command : model.commands)
         text += "        " + quoted_for_shell(command.name + ":" + first_sentence(command.text)) + "\n";
-    text += "    )\n    if ((CURRENT == 2)) && [[ $words[2] != -* ]]; then\n        _describe command commands\n"
-            "        return\n    fi\n    if ((CURRENT == 2)); then\n        _arguments";
+    text +=
+        "    )\n    if ((CURRENT == 2)) && [[ $words[2] != -* ]]; then\n        _describe command commands\n"
+        "        return\n    fi\n    if ((CURRENT == 2)); then\n        _arguments";
     for (const HelpOption& option : model.program.options)
         for (const std::string& name : option.names) text += " " + zsh_option(option, name);
     text += "\n        return\n    fi\n    shift words\n    ((CURRENT--))\n    case $words[1] in\n";

@@ -40,13 +40,21 @@ nlohmann::json read_result(const fs::path& file) {
     return result;
 }
 
+// "2026-11-30.json".
+bool is_of_a_day(const fs::path& file) {
+    std::string form = file.filename().string();
+    std::replace_if(
+        form.begin(), form.end(), [](char c) { return c >= '0' && c <= '9'; }, '0');
+    return form == "0000-00-00.json";
+}
+
 // The results that lie in the folders of this folder, as results/machines has them, by path; empty if there are none.
 std::vector<fs::path> results_of_machines(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code ignored;
     for (const auto& machine : fs::directory_iterator(folder, ignored))
         for (const auto& entry : fs::directory_iterator(machine.path(), ignored))
-            if (entry.is_regular_file(ignored) && entry.path().extension() == ".json") files.push_back(entry.path());
+            if (entry.is_regular_file(ignored) && is_of_a_day(entry.path())) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }

@@ -75,6 +75,8 @@ private:
 // Its first word must be a program, unless a shell has more to do there.
 void check_launcher(const std::string& launcher) {
     const std::string first = launcher.substr(0, launcher.find(' '));
+    if (first.find('=') < first.find('/'))  // exec would take it for the program
+        throw Error(ErrorCode::usage, "--launcher " + first, "begin with a command, as in 'env " + first + " srun'");
     if (first.find_first_of("/'\"\\$`(){};=~") == std::string::npos)
         find_program(first, "name a command that starts others, as in --launcher 'srun --exclusive -N1 -n1'");
 }
@@ -197,8 +199,8 @@ void guard_command(const GuardArguments& arguments, std::ostream& out, std::ostr
     ChildLimits limits;
     limits.seconds = arguments.seconds;
     limits.memory = arguments.memory;
-    guard_job(arguments.words.front(), {arguments.words.begin() + 1, arguments.words.end()}, limits,
-              arguments.silence, out, err);
+    guard_job(arguments.words.front(), {arguments.words.begin() + 1, arguments.words.end()}, limits, arguments.silence,
+              out, err);
 }
 
 void examine_command(const HelperArguments& arguments, std::ostream& out) {

@@ -37,6 +37,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds first_pause{250}, longest_pause{5000};  // between two looks at the queue
 constexpr std::chrono::minutes longest_silence{10};                         // of the scheduler
+// Seconds. Its jobs are in groups of their own: only GNU parallel itself, asked by SIGTERM, ends them, in less.
+constexpr double parallel_farewell = 1.0;
 constexpr std::chrono::seconds late_file{1};  // that a common disk may take to show a file of another machine
 
 void refuse_mixed(const SweepArguments& arguments) {
@@ -51,6 +53,7 @@ SweepPlan plan_of(const SweepArguments& arguments, std::size_t cells) {
     SweepPlan plan;
     plan.program = this_program();
     plan.arguments = arguments_again(arguments);
+    plan.libraries = arguments.libraries;
     // As one name for the same folder.
     plan.folder = fs::weakly_canonical(fs::absolute(arguments.out));
     plan.partition = arguments.partition;
@@ -96,8 +99,12 @@ int whole_code(int merge, int parts) {
     return merge == promise_broken && parts != 0 ? parts : merge;
 }
 
-int merge_here(const SweepPlan& plan, std::ostream& out) {
-    return merge_command({{plan.folder.string()}, result_folder(plan).string()}, out) ? 0 : promise_broken;
+int merge_here(const SweepPlan& plan, std::ostream& out, std::ostream& err) {
+    MergeArguments merge;
+    merge.folders = {plan.folder.string()};
+    merge.out = result_folder(plan).string();
+    merge.libraries = plan.libraries;
+    return merge_command(merge, out, err) ? 0 : promise_broken;
 }
 
 std::size_t cells_there(const SweepPlan& plan, const std::vector<PlannedCell>& cells) {
@@ -154,7 +161,7 @@ void follow(const SweepPlan& plan, const std::vector<PlannedCell>& cells, std::o
 
 // Once all jobs have ended: prints what the merge printed, and what failed. Merges here if Slurm did not: its
 // controller forgets jobs of the last seconds if it is killed, and a merge can be cancelled.
-int report_slurm(const SweepPlan& plan, std::ostream& out) {
+int report_slurm(const SweepPlan& plan, std::ostream& out, std::ostream& err) {
     std::optional<int> merge;
     for (const auto end = Clock::now() + late_file; !(merge = exit_code(plan, "merge")) && Clock::now() < end;)
         std::this_thread::sleep_for(first_pause);
@@ -162,7 +169,7 @@ int report_slurm(const SweepPlan& plan, std::ostream& out) {
         out << base::read_text(batch_folder(plan) / "merge.log");
     } else {
         out << "Slurm did not merge the parts; merged here.\n" << std::flush;
-        merge = merge_here(plan, out);
+        merge = merge_here(plan, out, err);
     }
     return whole_code(*merge, report_parts(plan, out));
 }
@@ -207,7 +214,7 @@ int with_slurm(const SweepPlan& plan, const std::vector<PlannedCell>& cells, boo
         return 0;
     }
     follow(plan, cells, err);
-    return report_slurm(plan, out);
+    return report_slurm(plan, out, err);
 }
 
 // Runs GNU parallel to its end. Throws Error{io} if it could not run the parts.
@@ -222,6 +229,7 @@ void run_parallel(const SweepPlan& plan, const std::vector<PlannedCell>& cells, 
     ProgressBar bar(err);
     ChildLimits limits;
     limits.seconds = 1e9;
+    limits.farewell = parallel_farewell;
     int signal = 0;
     auto next = Clock::now();
     const ChildReport report = run_child(
@@ -253,7 +261,7 @@ int with_parallel(const SweepPlan& plan, const std::vector<PlannedCell>& cells, 
         fs::remove(joblog(plan));
         run_parallel(plan, cells, program, err);
     }
-    const int merge = merge_here(plan, out);
+    const int merge = merge_here(plan, out, err);
     return whole_code(merge, report_parts(plan, out));
 }
 

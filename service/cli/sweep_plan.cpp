@@ -5,6 +5,7 @@
 #include "base/hash_text.h"
 #include "base/shell_word.h"
 #include "results/program.h"
+#include "service/cli/libraries.h"
 
 namespace shadowbench::service {
 
@@ -35,7 +36,9 @@ std::string part_text(const SweepPlan& plan, const std::string& part) {
 }
 
 std::string merge_line(const SweepPlan& plan) {
-    return line_of({plan.program, "merge", plan.folder.string(), "--out", result_folder(plan).string()});
+    std::vector<std::string> words{plan.program, "merge", plan.folder.string(), "--out", result_folder(plan).string()};
+    for (const std::string& word : library_arguments(plan.libraries)) words.push_back(word);
+    return line_of(words);
 }
 
 // sbatch replaces % and a letter in names of logs.
@@ -116,8 +119,8 @@ std::vector<std::string> parallel_words(const SweepPlan& plan) {
 
 fs::path joblog(const SweepPlan& plan) {
     const results::Program own = results::this_program();
-    return batch_folder(plan) /
-           ("joblog-" + base::hash_text(fmt::format("{} {} {}", own.version, own.commit, part_text(plan, "i"))));
+    return batch_folder(plan) / ("joblog-" + base::hash_text(fmt::format("{} {} {} {}", own.version, own.commit,
+                                                                         hash_of_libraries(), part_text(plan, "i"))));
 }
 
 std::string parallel_input(const SweepPlan& plan) {

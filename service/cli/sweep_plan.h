@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "service/cli/commands.h"
+
 namespace shadowbench::service {
 
 // Beside the cells, DIR has for each part
@@ -15,6 +17,7 @@ namespace shadowbench::service {
 struct SweepPlan {
     std::string program;                 // a file that all machines see
     std::vector<std::string> arguments;  // of run: scenarios and options
+    LibraryArguments libraries;          // of merge; the arguments of run have them too
     std::filesystem::path folder;        // DIR, absolute
     std::size_t parts = 1;
     std::string partition;         // of Slurm; empty: the default one
@@ -35,7 +38,7 @@ std::vector<std::string> parts_words(const SweepPlan& plan);
 std::vector<std::string> merge_words(const SweepPlan& plan, const std::string& after);
 
 // The arguments of GNU parallel, which reads the commands of all parts, a zero byte after each. `joblog`: what earlier
-// runs of these commands by this program finished; such parts are not run again.
+// runs of these commands by this program, with these libraries, finished; such parts are not run again.
 std::vector<std::string> parallel_words(const SweepPlan& plan);
 std::filesystem::path joblog(const SweepPlan& plan);
 std::string parallel_input(const SweepPlan& plan);

@@ -23,12 +23,13 @@ TEST(Table, gives_colours_no_space) {
 
 TEST(Wrapped, breaks_lines_at_spaces_and_indents_what_goes_on) {
     EXPECT_EQ(wrapped("a short line\n", 20), "a short line\n");
-    EXPECT_EQ(wrapped("  twenty letters and more of them\nnext", 20),
-              "  twenty letters and\n    more of them\nnext\n");
+    EXPECT_EQ(wrapped("  twenty letters and more of them\nnext", 20), "  twenty letters and\n    more of them\nnext\n");
     EXPECT_EQ(wrapped("exactly twenty chars", 20), "exactly twenty chars\n");
     EXPECT_EQ(wrapped(" " + std::string(45, 'x') + " y", 20),
               " " + std::string(19, 'x') + "\n   " + std::string(17, 'x') + "\n   " + std::string(9, 'x') + " y\n")
         << "a word longer than a line";
+    EXPECT_EQ(wrapped(std::string(19, 'x') + "\u00e9\u00e9", 20), std::string(19, 'x') + "\n  \u00e9\u00e9\n")
+        << "no character is broken";
     EXPECT_EQ(wrapped(std::string(15, ' ') + "word another\n", 20),
               std::string(15, ' ') + "word\n" + std::string(10, ' ') + "another\n")
         << "a deep indentation leaves half of the line";

@@ -64,6 +64,8 @@ TEST_F(MachineFiles, SayWhatTheMachineIs) {
     EXPECT_EQ(machine.container, "docker");
     write("run/systemd/container", "lxc\n");
     EXPECT_EQ(this_machine(root).container, "lxc");
+    write("run/systemd/container", "l\xff" + std::string(300, 'x') + "\n");
+    EXPECT_EQ(this_machine(root).container, "l?" + std::string(198, 'x')) << "else the result could not be written";
 }
 
 TEST_F(MachineFiles, AreWrittenAndReadAndMayBeMissing) {

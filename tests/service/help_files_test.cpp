@@ -51,7 +51,8 @@ protected:
     // What bash proposes for the last of these words.
     static std::set<std::string> completed(const std::vector<std::string>& words) {
         std::string script = ". '" + (share() / "bash-completion/completions/shadowbench").string() +
-                             "'\nshadowbench() { printf 'tiny  A ball.\\n      tiny.json\\n'; }\nCOMP_WORDS=(";
+                             "'\nshadowbench() { printf 'tiny  A ball.\\n      tiny.json\\ntwo$(echo ran >&2)  Hostile.\\n'; }\n"
+                             "COMP_WORDS=(";
         for (const std::string& word : words) script += "'" + word + "' ";
         script += ")\nCOMP_CWORD=" + std::to_string(words.size() - 1) + "\n_shadowbench\necho \"${COMPREPLY[@]}\"\n";
         std::ofstream(share().parent_path() / "script") << script;
@@ -102,7 +103,8 @@ TEST_F(HelpFiles, complete_commands_options_and_values_in_bash) {
                 testing::UnorderedElementsAre("rms", "max", "p99", "curve"));
     EXPECT_THAT(completed({"shadowbench", "recommend", "--measure", "=", "c"}), testing::UnorderedElementsAre("curve"));
     EXPECT_THAT(completed({"shadowbench", "list", ""}), testing::UnorderedElementsAre("techniques", "scenarios"));
-    EXPECT_THAT(completed({"shadowbench", "run", "t"}), testing::UnorderedElementsAre("tiny")) << "names of scenarios";
+    EXPECT_THAT(completed({"shadowbench", "run", "t"}), testing::UnorderedElementsAre("tiny"))
+        << "names of scenarios, of which none runs as a command";
     EXPECT_THAT(completed({"shadowbench", "run", "--out", ""}), testing::IsEmpty()) << "files, which bash knows";
     EXPECT_THAT(completed({"shadowbench", "help"}), testing::IsEmpty()) << "what --help hides";
 }

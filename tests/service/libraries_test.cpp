@@ -75,6 +75,17 @@ TEST_F(Libraries, AreListedValidatedRunAndNamedInTheResult) {
     EXPECT_GT(measured[1]["times"]["lookup_random_order"]["ratio_to_floor"]["median"].get<double>(), 0.0);
 }
 
+// A merge without them would refuse the scenario, after hours of measurements.
+TEST_F(Libraries, GoToTheMergeOfASweepToo) {
+    const std::string file = scenario({{{"type", "stairs"}}});
+    EXPECT_EQ(run({"sweep", file, "--technique-library", SHADOWBENCH_STAIRS, "--isolate", "--call-seconds", "7",
+                   "--out", temporary_.path("sweep"), "--engine", "parallel", "--print"}),
+              0)
+        << out_;
+    EXPECT_THAT(out_,
+                HasSubstr("/sweep/result --technique-library " SHADOWBENCH_STAIRS " --isolate --call-seconds 7\n"));
+}
+
 // Each of these would end the run, or pass as an answer, if a fault were not that of its row.
 TEST_F(Libraries, FailOnlyTheirOwnRows) {
     json techniques = {{{"type", "deep"}}};

@@ -61,9 +61,16 @@ TEST_F(ReportCommand, MakesOnePageOfTheResultsOfMachines) {
     EXPECT_THAT(page, HasSubstr("~ one, AMD EPYC, ")) << "of a machine that was not quiet";
     EXPECT_THAT(page, HasSubstr("two&lt;b&gt;"));
     EXPECT_THAT(page, testing::Not(HasSubstr("<b>"))) << "names are no HTML";
-    write("one/broken.json", "{}");
+    write("one/2026-12-01.json", "{}");
     EXPECT_EQ(report({folder_.string()}), 65);
-    EXPECT_THAT(err_.str(), HasSubstr("broken.json"));
+    EXPECT_THAT(err_.str(), HasSubstr("2026-12-01.json"));
+}
+
+// Else the message would be about a file that is no result.
+TEST_F(ReportCommand, TakesNoPicturesForResultsOfMachines) {
+    write("images/images.json", "{}");
+    EXPECT_EQ(report({folder_.string()}), 66);
+    EXPECT_THAT(err_.str(), HasSubstr("result.json"));
 }
 
 TEST_F(ReportCommand, TakesPicturesFromItsFolderOrAnother) {

@@ -108,8 +108,8 @@ std::string words_of(const std::string& table) {
     bool capture = false;  // whose lines go on
     for (std::string line; std::getline(lines, line) && line.rfind("light ", 0) != 0;) {
         capture = line.rfind("    capture:", 0) == 0 || (capture && line.rfind("    truth:", 0) != 0);
-        const bool row = line.rfind("  technique", 0) == 0 || line.rfind("  deep", 0) == 0 ||
-                         line.rfind("  uncomp", 0) == 0;
+        const bool row =
+            line.rfind("  technique", 0) == 0 || line.rfind("  deep", 0) == 0 || line.rfind("  uncomp", 0) == 0;
         if (!capture && !row) words += line + "\n";
     }
     return words;
@@ -124,6 +124,16 @@ TEST_F(ServerCommands, SubmitPrintsTheTableThatRunPrints) {
     EXPECT_NE(submitted.out.find("  uncompressed "), std::string::npos) << submitted.out;
     EXPECT_NE(submitted.out.find("result: " + url_ + "/v1/jobs/j-"), std::string::npos) << submitted.out;
     EXPECT_EQ(stop(), 0);
+}
+
+TEST_F(ServerCommands, JobsStartThroughTheLauncher) {
+    const std::string launcher = write("launcher", "#!/bin/sh\necho \"$*\" >" + path("asked") + "\nexec \"$@\"\n");
+    fs::permissions(launcher, fs::perms::owner_all);
+    serve({"--launcher", launcher});
+    const Outcome submitted = cli({"submit", path("tiny.json"), "--server", url_, "--wait", "--no-pictures"});
+    EXPECT_EQ(submitted.code, 0) << submitted.err;
+    EXPECT_EQ(read(path("asked")).rfind(fs::canonical(SHADOWBENCH_PROGRAM).string() + " guard --seconds 3600 ", 0), 0u)
+        << "no file that only this machine sees: " << read(path("asked"));
 }
 
 TEST_F(ServerCommands, JobsAndHelpersAreRunByTheProgramThatServes) {
@@ -267,6 +277,10 @@ TEST_F(ServerCommands, ServeRefusesWhatItCannotDo) {
     EXPECT_EQ(cli({"serve", "--data", path("none"), "--port", "0", "--state", path("state")}).code, 66);
     EXPECT_EQ(cli({"serve", "--port", "70000"}).code, 64);
     EXPECT_EQ(cli({"serve", "--token-file", path("none"), "--state", path("state")}).code, 66);
+    EXPECT_EQ(cli({"serve", "--launcher", "no-such-launcher -N1", "--state", path("state")}).code, 66);
+    const Outcome assigned = cli({"serve", "--launcher", "A=1 srun", "--state", path("state")});
+    EXPECT_EQ(assigned.code, 64) << "every job would fail";
+    EXPECT_NE(assigned.err.find("begin with a command, as in 'env A=1 srun'"), std::string::npos) << assigned.err;
 }
 
 TEST_F(ServerCommands, ServeLeavesTheFoldersOfOthersAlone) {

@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 
+#include "processes.h"
 #include "sweep/swept.h"
 
 namespace shadowbench {
@@ -53,6 +55,18 @@ TEST_F(WithParallel, PassesOnTheExitCodeOfAPartThatFails) {
     EXPECT_THAT(text("sweep.log"), HasSubstr("swept.json: /receivers: none of"));
     EXPECT_THAT(text("sweep.log"), HasSubstr("1 of 2 cells are missing"));
     EXPECT_EQ(cells(), 1u) << "the other part was measured";
+}
+
+// GNU parallel puts each part into a group of its own, so a signal to its group would leave the parts measuring, beside
+// those of the next call.
+TEST_F(WithParallel, InterruptedLeavesNoPartBehind) {
+    const std::string slow =
+        "--set timing.repetitions=10000 --set timing.lookups=100000 --set receivers.count=100000 --threads 1";
+    const std::string script = "(" + program("sweep swept.json --out sweep --engine parallel " + slow, "sweep.log") +
+                               ") & until grep -q measuring: " + path("sweep/batch/part-0.log") +
+                               " 2>/dev/null; do kill -0 $! || exit 99; sleep 0.02; done; kill -TERM $!; wait $!";
+    EXPECT_EQ(shell(script), 128 + SIGTERM) << text("sweep.log");
+    EXPECT_TRUE(soon([&] { return tasks().empty(); }));
 }
 
 // What is printed does the same, in any POSIX shell, whatever quotes the names and values need.

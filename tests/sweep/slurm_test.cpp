@@ -3,13 +3,10 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <future>
 #include <iostream>
-#include <iterator>
 #include <string>
-#include <vector>
 
 #include "processes.h"
 #include "sweep/swept.h"
@@ -44,22 +41,6 @@ protected:
                      " " + of + " >>" + path("cluster.log") + " 2>&1");
     }
 
-    // The processes that measure a part, or all parts.
-    std::vector<pid_t> tasks(const std::string& part = "") const {
-        std::vector<pid_t> found;
-        for (const auto& entry : fs::directory_iterator("/proc")) {
-            const std::string name = entry.path().filename().string();
-            if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-            std::ifstream file(entry.path() / "cmdline");
-            const std::string words{std::istreambuf_iterator<char>(file), {}};
-            const std::string own = std::string("/4") + '\0' + "--out" + '\0' + path("sweep");
-            if (words.starts_with(SHADOWBENCH_PROGRAM) && words.find('\0' + part + own) != std::string::npos)
-                found.push_back(std::stoi(name));
-            else if (part.empty() && words.starts_with(SHADOWBENCH_PROGRAM) && words.find(own) != std::string::npos)
-                found.push_back(std::stoi(name));
-        }
-        return found;
-    }
     void send(int signal) const {
         for (const pid_t task : tasks()) ::kill(task, signal);
     }
@@ -85,7 +66,7 @@ TEST_F(OnSlurm, KillsLoseNoCellAndDoubleNone) {
         std::launch::async, [&] { return shell(program("sweep swept.json --out sweep --wait", "sweep.log")); });
     int killed_tasks = 0;
     at_cells(4, [&] {
-        for (const pid_t task : tasks("0")) killed_tasks += ::kill(task, SIGKILL) == 0 ? 1 : 0;
+        for (const pid_t task : tasks("0/4")) killed_tasks += ::kill(task, SIGKILL) == 0 ? 1 : 0;
         EXPECT_EQ(killed_tasks, 1);
         // It saves new jobs within seconds.
         EXPECT_TRUE(soon([&] { return text("cluster/state/job_state").find("merge-") != std::string::npos; }));

@@ -6,9 +6,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <string>
+#include <vector>
 
+#include <sys/types.h>
 #include <sys/wait.h>
 
 #include <nlohmann/json.hpp>
@@ -61,6 +64,22 @@ protected:
         for (const auto& entry : fs::directory_iterator(path("sweep/cells"), failed))
             count += entry.path().filename().string().front() != '.' ? 1 : 0;  // a dot: what a killed task left
         return count;
+    }
+
+    // The processes that measure a part of the sweep, such as "0/4", or all parts.
+    std::vector<pid_t> tasks(const std::string& part = "") const {
+        const std::string out = std::string("--out") + '\0' + path("sweep") + '\0',
+                          shard = std::string("--shard") + '\0';
+        std::vector<pid_t> found;
+        for (const auto& entry : fs::directory_iterator("/proc")) {
+            const std::string name = entry.path().filename().string();
+            if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+            std::ifstream file(entry.path() / "cmdline");
+            const std::string words{std::istreambuf_iterator<char>(file), {}};
+            const bool measures = words.starts_with(SHADOWBENCH_PROGRAM) && words.find(out) != std::string::npos;
+            if (measures && words.find(shard + part) != std::string::npos) found.push_back(std::stoi(name));
+        }
+        return found;
     }
 
     // How often the logs of all parts have each line that begins so.
