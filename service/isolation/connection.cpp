@@ -40,7 +40,7 @@ Connection::Connection(const std::string& program, const std::string& library, d
 
 MessageReader Connection::ask(Request request, const char* function, const MessageWriter& body) {
     const std::lock_guard lock(mutex_);
-    if (dead_) throw Error(ErrorCode::internal, library_, "the process of the technique has ended");
+    if (dead_) throw Error(ErrorCode::internal, library_, why_);
     const double seconds = call_seconds_ + (started_ ? 0.0 : starting_seconds);
     started_ = true;
     until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -93,19 +93,22 @@ void Connection::wait(short events, const char* function) {
 }
 
 void Connection::end(const std::string& why) {
-    dead_ = true;
     child_.end();
-    throw Error(ErrorCode::internal, library_, why);
+    fail(why);
 }
 
 void Connection::end_lost(const char* function) {
-    dead_ = true;
     const ChildExit exit = child_.end();
     const char* name = exit.by_signal ? ::sigdescr_np(exit.code) : nullptr;
-    throw Error(ErrorCode::internal, library_,
-                exit.by_signal
-                    ? fmt::format("{}() ended its process by signal {} ({})", function, exit.code, name ? name : "?")
-                    : fmt::format("{}() ended its process with exit code {}", function, exit.code));
+    fail(exit.by_signal
+             ? fmt::format("{}() ended its process by signal {} ({})", function, exit.code, name ? name : "?")
+             : fmt::format("{}() ended its process with exit code {}", function, exit.code));
+}
+
+void Connection::fail(const std::string& why) {
+    why_ = why;
+    dead_ = true;
+    throw Error(ErrorCode::internal, library_, why);
 }
 
 }  // namespace shadowbench::service

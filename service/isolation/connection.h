@@ -26,9 +26,9 @@ public:
     bool alive() const { return !dead_; }
 
     // One request at a time; others wait. The first one may take half a minute more: the process starts meanwhile.
-    // `function` names it in messages. Throws Error{internal}, place: the library, if
-    // the process answers that it failed; if it ends, does not answer in time, or answers what makes no sense, which
-    // all end it.
+    // `function` names it in messages. Throws Error{internal}, place: the library, if the process answers that it
+    // failed; if it ends, does not answer in time, or answers what makes no sense, which all end it: then all later
+    // requests, and those that waited, fail with the same reason.
     MessageReader ask(Request request, const char* function, const MessageWriter& body);
 
 private:
@@ -39,6 +39,7 @@ private:
     void wait(short events, const char* function);
     [[noreturn]] void end(const std::string& why);
     [[noreturn]] void end_lost(const char* function);
+    [[noreturn]] void fail(const std::string& why);
 
     std::string library_;
     double call_seconds_;
@@ -46,6 +47,7 @@ private:
     ChildProcess child_;
     std::mutex mutex_;
     std::atomic<bool> dead_ = false;
+    std::string why_;  // it is dead
     bool started_ = false;
     Clock::time_point until_;  // of the request that is asked
 };

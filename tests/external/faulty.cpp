@@ -14,7 +14,7 @@ namespace {
 
 const char* const words[] = {"none",       "create", "no_map",   "add",     "finish",   "lookup", "throw", "nan",
                              "few",        "rises",  "vertices", "endless", "unsorted", "nodes",  "bytes", "least",
-                             "null_lines", "bound",  "second",   "crash",   "loop",     "print"};
+                             "null_lines", "bound",  "second",   "crash",   "loop",     "print",  "heavy", "immense"};
 
 struct Map {
     std::string fault;
@@ -57,8 +57,8 @@ const char* lookup(const void* map, const shadowbench_query*, const shadowbench_
     return fails(map, "lookup");
 }
 const char* bytes(const void* map, uint64_t* held, uint64_t* working) {
-    *held = 8;
-    *working = has(map, "bytes") ? 4 : 8;
+    *held = has(map, "heavy") ? uint64_t{1} << 63 : 8;
+    *working = has(map, "bytes") ? 4 : *held;
     return nullptr;
 }
 uint32_t nodes(const void* map, int32_t, int32_t) {
@@ -82,6 +82,7 @@ double error_bound(const shadowbench_value* values, size_t, const shadowbench_la
     return std::strcmp(values[0].word, "bound") == 0 ? -1.0 : std::numeric_limits<double>::infinity();
 }
 uint64_t least_bytes(const shadowbench_value* values, size_t, const shadowbench_layout*) {
+    if (std::strcmp(values[0].word, "immense") == 0) return uint64_t{1} << 60;
     return std::strcmp(values[0].word, "least") == 0 ? 16 : 0;
 }
 

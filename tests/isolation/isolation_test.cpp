@@ -69,6 +69,9 @@ TEST(Isolated, ACrashFailsItsMapAndNoOther) {
     const HandMap sound = map_of(row, {{"fault", "none"}}), crashing = map_of(row, {{"fault", "crash"}});
     EXPECT_TRUE(std::isnan(crashing(behind)));
     EXPECT_THAT(crashing.map->fault(), HasSubstr("lookup() ended its process"));
+    const std::string fault = crashing.map->fault();
+    EXPECT_EQ(test::error_of([&] { crashing.map->finish(); }, base::ErrorCode::internal, SHADOWBENCH_FAULTY), fault)
+        << "calls that waited for the crashed one must not hide its reason";
     EXPECT_EQ(sound(behind), 1.0f);
     EXPECT_EQ(sound.map->fault(), "");
     EXPECT_EQ(map_of(row, {{"fault", "none"}})(behind), 1.0f) << "and none that comes later";

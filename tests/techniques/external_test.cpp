@@ -11,6 +11,7 @@
 
 #include "errors.h"
 #include "techniques/external/load.h"
+#include "techniques/external/shadowbench_technique.hpp"
 #include "techniques/hand_rays.h"
 #include "temporary_folder.h"
 
@@ -121,6 +122,10 @@ TEST(ExternalTechnique, OfAFaultyLibraryFailsWithTheReason) {
     EXPECT_THAT(fault_of("nodes"), HasSubstr("nodes() of cell (0, 0) returned 4000000000"));
     EXPECT_THAT(fault_of("bytes"), HasSubstr("holds 8 bytes, and that building it never held more than 4"));
     EXPECT_THAT(fault_of("least"), HasSubstr("holds 8 bytes, and least_bytes() says at least 16"));
+    EXPECT_THAT(fault_of("heavy"), HasSubstr("bytes() returned 9223372036854775808 and 9223372036854775808; at most"));
+    EXPECT_THAT(fault_of("immense"), HasSubstr("least_bytes() returned 1152921504606846976; at most"));
+    EXPECT_EQ(row.least_bytes(read_parameters(row.parameters, {{"fault", "immense"}}, ""), {}), 0u)
+        << "the whole scenario would be refused for lack of memory";
     EXPECT_THAT(fault_of("null_lines"), HasSubstr("touched() gave a null pointer"));
     EXPECT_THAT(fault_of("bound"), HasSubstr("error_bound() returned -1"));
     EXPECT_TRUE(std::isinf(row.error_bound(read_parameters(row.parameters, {{"fault", "bound"}}, ""), {})))
@@ -135,6 +140,24 @@ TEST(ExternalTechnique, ThatAnswersTooFewLeavesNoOldAnswer) {
     built.map->lookup(queries, visibility);
     EXPECT_EQ(visibility[1], 1.0f);
     EXPECT_TRUE(std::isnan(visibility[2]));
+}
+
+Curve level_of_word(const CellRays&, const Values& values) {
+    return {{0.0f, values[0].word[0] == 'h' ? 0.5f : 0.25f}};
+}
+
+// Words are gone once a map is made, and the function runs later.
+TEST(ExternalHelper, KeepsTheWordsForItsFunction) {
+    static constexpr const char* words[] = {"half", "less"};
+    const shadowbench_parameter parameter = choice("level", "how bright", "half", words);
+    EXPECT_EQ(parameter.word_count, 2u);
+    std::string word = parameter.standard_word;
+    FunctionMap<level_of_word, SHADOWBENCH_CELL_PIXEL> map(Values{{0.0, word.c_str()}}, {1, 1, 1, 1, 1, 1, 0, 0, 1});
+    word = "less";
+    const std::uint32_t begin[] = {0, 0};
+    map.add({0, 0, 1, 1, 1, begin, nullptr, nullptr, nullptr});
+    map.finish();
+    EXPECT_EQ(map.stored(0, 0, nullptr, 0).at(0).value, 0.5f);
 }
 
 TEST(ExternalLibrary, IsRefusedWithTheReason) {

@@ -1,5 +1,6 @@
 #include "techniques/external/direct_calls.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -30,6 +31,7 @@ static_assert(sizeof(curves::Vertex) == sizeof(shadowbench_vertex) &&
 
 constexpr std::size_t most_vertices = std::size_t{1} << 22, most_lines = std::size_t{1} << 22;
 constexpr std::uint32_t most_nodes = std::uint32_t{1} << 22;
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 48;  // sums of a few maps must not overflow
 constexpr std::size_t longest_message = 400;
 
 // The faults of one technique.
@@ -167,6 +169,9 @@ public:
     Bytes bytes() const override {
         Bytes bytes;
         faults().check("bytes", [&] { return functions().bytes(map_, &bytes.held, &bytes.working); });
+        if (std::max(bytes.held, bytes.working) > most_bytes)
+            faults().report(fmt::format("bytes() returned {} and {}; at most {} are believed", bytes.held,
+                                        bytes.working, most_bytes));
         if (bytes.held > bytes.working)
             faults().report(
                 fmt::format("bytes() says that the map holds {} bytes, and that building it never held more "
@@ -233,7 +238,11 @@ public:
     }
     std::uint64_t least_bytes(const ParameterValues& values, const rays::MapLayout& layout) override {
         if (!declared_->functions.least_bytes) return 0;
-        return ask(*declared_, "least_bytes", declared_->functions.least_bytes, values, layout);
+        const std::uint64_t least = ask(*declared_, "least_bytes", declared_->functions.least_bytes, values, layout);
+        if (least > most_bytes)  // else the whole scenario would be refused for lack of memory
+            declared_->faults.report(
+                fmt::format("least_bytes() returned {}; at most {} are believed", least, most_bytes));
+        return least;
     }
 
 private:

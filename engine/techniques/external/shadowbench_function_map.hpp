@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,8 @@ using Query = shadowbench_query;
 using Footprint = shadowbench_footprint;
 using Layout = shadowbench_layout;
 
-// The values of the parameters, in the order of their declaration. Their words are gone when a map is made.
+// The values of the parameters, in the order of their declaration. The function of of_function may read their words
+// whenever it is called; a class of its own must copy them in its constructor, since they are gone afterwards.
 using Values = std::vector<shadowbench_value>;
 
 // The segments of one ray, sorted by front.
@@ -73,6 +75,9 @@ class FunctionMap {
 public:
     FunctionMap(const Values& values, const Layout& layout) : values_(values), layout_(layout) {
         const bool samples = kind == SHADOWBENCH_CELL_SAMPLE;
+        words_.reserve(values_.size());  // so that they stay where they are
+        for (shadowbench_value& value : values_)
+            if (value.word) value.word = words_.emplace_back(value.word).c_str();
         per_x_ = samples ? layout.samples_x : 1;
         per_y_ = samples ? layout.samples_y : 1;
         width_ = layout.width * per_x_;
@@ -168,6 +173,7 @@ private:
         return static_cast<float>(sum / weights);
     }
 
+    std::vector<std::string> words_;  // of values_
     Values values_;
     Layout layout_;
     int per_x_ = 1, per_y_ = 1, width_ = 1, height_ = 1;

@@ -52,6 +52,13 @@ inline shadowbench_parameter integer(const char* name, const char* doc, double s
     return {name, doc, SHADOWBENCH_INTEGER, standard, min, max, nullptr, nullptr, 0};
 }
 
+// One of these words, which are static: static constexpr const char* words[] = {"few", "many"};
+template <std::size_t count>
+shadowbench_parameter choice(const char* name, const char* doc, const char* standard,
+                             const char* const (&words)[count]) {
+    return {name, doc, SHADOWBENCH_CHOICE, 0.0, 0.0, 0.0, standard, words, count};
+}
+
 // A technique with its functions; what it says of itself is filled in last, by `list`.
 struct Technique {
     About about;
