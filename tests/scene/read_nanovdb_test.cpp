@@ -260,6 +260,8 @@ TEST(ReadNanoVdb, RefusesNodesThatLeadOutOrHaveSeveralParents) {
     std::string doubled = bytes;
     doubled.replace(tiles_at + tile, 8, bytes.substr(tiles_at, 8));
     EXPECT_THAT(message(test::write_file("doubled.nvdb", doubled)), HasSubstr("two nodes at one place"));
+    doubled[tiles_at + tile + 2] = 0x10;  // a bit of the key between those of z and of y
+    EXPECT_THAT(message(test::write_file("doubled.nvdb", doubled)), HasSubstr("a node at no place"));
 }
 
 }  // namespace

@@ -263,6 +263,43 @@ TEST(ReadPbrt, RefusesFilesThatLeadOutAndEndlessOnes) {
     EXPECT_THAT(refused(grid(""), voxels), HasSubstr("6 voxels; the limit"));
 }
 
+// Small files that include others many times, or save what they state many times, would otherwise fill the memory.
+TEST(ReadPbrt, BoundsWhatASceneHolds) {
+    const std::string fog = "MakeNamedMedium \"f\" \"string type\" \"homogeneous\" MediumInterface \"f\" ";
+    const std::string sphere = "Shape \"sphere\" ";
+    PbrtLimits two;
+    two.elements = 2;
+    EXPECT_THAT(refused(fog + sphere + sphere + sphere, two), HasSubstr("over 2 spheres of media"));
+    const std::string box =
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1] \"integer indices\" "
+        "[0 1 3 0 3 2 4 5 7 4 7 6 0 1 5 0 5 4 2 3 7 2 7 6 0 2 6 0 6 4 1 3 7 1 7 5]\n";
+    std::string boxes = fog + "Material \"interface\" ";
+    for (int i = 0; i < 1000; ++i) boxes += box;
+    EXPECT_EQ(read(boxes).media.size(), 1000u);
+    EXPECT_THAT(refused(boxes + box), HasSubstr("over 1000 boxes of media"));
+    // Boxes take no voxels from the grids that follow.
+    PbrtLimits voxels;
+    voxels.voxels = 6;
+    EXPECT_THAT(refused(fog + box + grid("") + "MakeNamedMedium \"n\" \"string type\" \"uniformgrid\" "
+                                               "\"float density\" 1",
+                        voxels),
+                HasSubstr("1 voxels; the limit"));
+    EXPECT_THAT(refused("MediumInterface \"" + std::string(257, 'm') + "\""), HasSubstr("over 256 bytes"));
+    PbrtLimits objects;
+    objects.elements = 3;
+    const std::string two_objects =
+        "ObjectBegin \"o\" " + triangle + "ObjectEnd ObjectBegin \"p\" " + triangle + "ObjectEnd ";
+    EXPECT_TRUE(read(two_objects, objects).mesh.positions.empty());
+    const std::string third = "ObjectBegin \"q\" " + triangle;
+    EXPECT_THAT(refused(two_objects + third + "ObjectEnd", objects), HasSubstr("over 9 vertices"));
+    EXPECT_THAT(error_of([&] { read(two_objects + third); }).message(), HasSubstr("inside the object \"q\""));
+}
+
+// A transform of the shutter's end would go on after the block that states it.
+TEST(ReadPbrt, ABlockOfTransformsAlsoEndsWhichOnesHold) {
+    EXPECT_EQ(placed("TransformBegin ActiveTransform EndTime TransformEnd Translate 5 0 0 ")[0], Vec3f(6, 0, 0));
+}
+
 TEST(ReadPbrt, NamesTheLineOfAFault) {
     const base::Error error = error_of([] { read("WorldBegin # of \"it\nTranslate 1 2\nScale 1 1 1\n"); });
     EXPECT_THAT(error.where(), HasSubstr("scene.pbrt:3"));

@@ -178,7 +178,7 @@ void add_pbrt_curve(const PbrtStatement& shape, const Matrix& place, std::uint64
 }
 
 std::optional<Box3d> box_of(const Mesh& mesh) {
-    if (mesh.triangles.size() != 12) return std::nullopt;
+    if (mesh.triangles.size() != box_triangles) return std::nullopt;
     Box3d box;
     for (const Vec3f& position : mesh.positions) box.extendBy(Vec3d(position));
     for (int axis = 0; axis < 3; ++axis)

@@ -1,6 +1,7 @@
 // The shapes of a pbrt scene, at the place that a matrix gives them. A fault throws Error{bad_input} at the statement.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -22,7 +23,9 @@ void add_placed(const Hair& hair, const Matrix& place, const PbrtStatement& stat
 // ended. More than `most_points` of all strands are a fault.
 void add_pbrt_curve(const PbrtStatement& shape, const Matrix& place, std::uint64_t most_points, Strands& to);
 
-// The box whose faces twelve triangles cover once, along the axes.
+inline constexpr std::size_t box_triangles = 12;
+
+// The box whose faces that many triangles cover once, along the axes.
 std::optional<Box3d> box_of(const Mesh& mesh);
 
 }  // namespace shadowbench::scene

@@ -69,10 +69,12 @@ void PbrtState::restore(const PbrtStatement& s) {
     const std::string_view by = s.word.substr(0, s.word.size() - 3);
     if (saved_.empty() || saved_.back().by != by) s.fail(fmt::format("{} ends no {}Begin", s.word, by));
     const PbrtAttributes& before = saved_.back().attributes;
-    if (by == "Transform")
+    if (by == "Transform") {
         now.place = before.place;
-    else
+        now.at_begin = before.at_begin;
+    } else {
         now = before;
+    }
     saved_.pop_back();
 }
 

@@ -84,6 +84,10 @@ Vec3i entry_corner(const Vec3i& corner, std::uint32_t n, unsigned log2, std::int
                                  static_cast<int>(n & last));
 }
 
+// The bits of a key that give a place: 20 for each axis.
+constexpr std::uint64_t key_bits =
+    std::uint64_t{0xfffff} | std::uint64_t{0xfffff} << 21 | std::uint64_t{0xfffff} << 42;
+
 Vec3i root_corner(std::uint64_t key) {
     const auto along = [&](unsigned shift) {
         return static_cast<std::int32_t>(static_cast<std::uint32_t>(key >> shift & 0x1fffff) << 12);
@@ -117,8 +121,9 @@ public:
         std::vector<std::uint64_t> keys;
         for (std::uint32_t n = 0; n < root_.mTableSize; ++n) keys.push_back(tile(n).key);
         std::sort(keys.begin(), keys.end());
-        const bool once = std::adjacent_find(keys.begin(), keys.end()) == keys.end();
-        if (!once || (!keys.empty() && keys.back() >> 63 != 0)) places_.damaged("two nodes at one place");
+        if (std::adjacent_find(keys.begin(), keys.end()) != keys.end()) places_.damaged("two nodes at one place");
+        for (const std::uint64_t key : keys)
+            if ((key & ~key_bits) != 0) places_.damaged("a node at no place");
         for (std::uint32_t n = 0; n < root_.mTableSize; ++n) {
             const Tile& one = tile(n);
             const Vec3i corner = root_corner(one.key);
@@ -207,7 +212,7 @@ struct Wanted {
 };
 
 template <class Build>
-GridVolume convert(const FileReader& file, const NanoVdbGrid& grid, const Wanted& wanted, VdbFacts& facts) {
+GridVolume convert(const FileReader& file, NanoVdbGrid& grid, const Wanted& wanted, VdbFacts& facts) {
     const Places places(file, grid);
     const auto& data = places.at<nanovdb::GridData>(0);
     constexpr std::uint64_t tree_at = sizeof(nanovdb::GridData);
@@ -238,13 +243,15 @@ GridVolume convert(const FileReader& file, const NanoVdbGrid& grid, const Wanted
     volume.density.assign(static_cast<std::size_t>(box.voxels()), walk.background());
     BoxFilling filling{box, turned_steps(size, axes), volume.density};
     walk.run(filling);
+    grid.blocks = std::vector<NanoVdbGrid::Block>();  // their memory may be needed for what follows
     check_densities(volume, wanted.negative, wanted.file);
     if (const std::optional<std::string> fault = place_grid(volume, found, place, wanted.most_voxels))
         file.fail(grid.begin, *fault + ": mend its transform");
     return volume;
 }
 
-GridVolume convert_any(const FileReader& file, const NanoVdbGrid& grid, const Wanted& wanted, VdbFacts& facts) {
+// Gives the grid's bytes back when it has read them.
+GridVolume convert_any(const FileReader& file, NanoVdbGrid& grid, const Wanted& wanted, VdbFacts& facts) {
     const Places places(file, grid);
     const auto& data = places.at<nanovdb::GridData>(0);
     if (std::find(std::begin(grid_magics), std::end(grid_magics), data.mMagic) == std::end(grid_magics))
@@ -283,7 +290,7 @@ GridVolume read_nanovdb(const std::filesystem::path& file, const GridChoice& gri
     constexpr std::uint64_t bytes_a_voxel = 8, bytes_of_nodes = std::uint64_t{1} << 26;
     FileReader reader(file);
     try {
-        const NanoVdbGrid chosen = read_nanovdb_grid(reader, file, grid, bytes_a_voxel * most_voxels + bytes_of_nodes);
+        NanoVdbGrid chosen = read_nanovdb_grid(reader, file, grid, bytes_a_voxel * most_voxels + bytes_of_nodes);
         return convert_any(reader, chosen, {file, negative, most_voxels}, facts);
     } catch (const std::bad_alloc&) {
         reader.fail(0, "the file is damaged or too large: there is not enough memory for what it says it holds");

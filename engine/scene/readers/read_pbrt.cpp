@@ -32,6 +32,7 @@ using Statement = PbrtStatement;
 
 constexpr int most_nested_files = 32;
 constexpr std::size_t most_media = 1000;
+constexpr std::size_t longest_name = 256;  // of a medium, which is that of a grid in a scenario
 
 // The shapes of an object that instances repeat.
 struct Repeated {
@@ -45,6 +46,10 @@ public:
 
     PbrtFile read() {
         if (const std::optional<Statement> last = run(scene_file_)) act(*last);
+        if (object_)
+            throw Error(ErrorCode::bad_input, scene_file_.string(),
+                        fmt::format("the file ends inside the object \"{}\": ObjectEnd is missing",
+                                    object_name_.substr(0, 40)));
         file_.mesh = std::move(shapes_.mesh);
         file_.hair = std::move(shapes_.strands).finish();
         for (PbrtMediumSource& medium : media_) take_medium(medium);
@@ -132,7 +137,6 @@ private:
     }
 
     void make_medium(const Statement& s) {
-        constexpr std::size_t longest_name = 256;  // of a grid in a scenario
         if (s.texts[0].empty() || s.texts[0].size() > longest_name || !base::is_utf8(s.texts[0]))
             s.fail(fmt::format("a medium's name has 1 to {} bytes of UTF-8", longest_name));
         if (media_.size() >= most_media) s.fail(fmt::format("over {} media", most_media));
@@ -143,6 +147,8 @@ private:
     }
 
     void medium_interface(const Statement& s) {
+        // Each saved state holds the name.
+        if (s.texts[0].size() > longest_name) s.fail(fmt::format("a medium's name of over {} bytes", longest_name));
         state_.now.inside = s.texts[0];
         if (s.texts.size() > 1 && !s.texts[1].empty()) pass("media outside of shapes");
     }
@@ -165,6 +171,8 @@ private:
             const Vec3d centre = transform_point(state_.now.place, Vec3d(0, 0, 0));
             const double reach = std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z), radius});
             if (!(radius >= min_length) || !(reach <= max_coordinate)) s.fail("the sphere is too small or too large");
+            if (file_.particles.centres.size() >= limits_.elements)
+                s.fail(fmt::format("over {} spheres of media", limits_.elements));
             file_.particles.centres.emplace_back(centre);
             file_.particles.radii.push_back(static_cast<float>(radius));
             file_.particles.density.push_back(density);
@@ -175,7 +183,7 @@ private:
         volume.density = {density};
         volume.lower = box->min;
         volume.upper = box->max;
-        ++voxels_;
+        if (file_.media.size() >= most_media) s.fail(fmt::format("over {} boxes of media", most_media));
         file_.media.push_back({inside->name, std::move(volume)});
     }
 
@@ -202,12 +210,13 @@ private:
     }
 
     void add_triangles(const Statement& s, const Mesh& mesh) {
-        Mesh placed;
-        add_placed(mesh, state_.now.place, s, placed);
+        Mesh placed;  // if it may be a box
+        if (!state_.now.inside.empty() && mesh.triangles.size() == box_triangles)
+            add_placed(mesh, state_.now.place, s, placed);
         fill(s, box_of(placed), false);
         if (!state_.now.is_surface) return;
         check_elements(s, mesh.positions.size(), mesh.triangles.size(), 0);
-        add_placed(placed, Matrix(), s, shapes().mesh);
+        add_placed(mesh, state_.now.place, s, shapes().mesh);
     }
 
     void add_ply(const Statement& s) {
@@ -255,6 +264,10 @@ private:
         state_.restore(s);
         object_ = false;
         Repeated made{std::move(object_shapes_.mesh), std::move(object_shapes_.strands).finish()};
+        repeated_ += made.mesh.positions.size() + made.mesh.triangles.size() + made.hair.points.size();
+        const std::uint64_t most = 3 * limits_.elements;
+        if (repeated_ > most)
+            s.fail(fmt::format("over {} vertices, triangles and points of hair in all objects", most));
         if (!objects_.emplace(object_name_, std::move(made)).second)
             s.fail(fmt::format("a second object \"{}\"", object_name_.substr(0, 40)));
     }
@@ -278,6 +291,7 @@ private:
     const fs::path& scene_file_;
     const PbrtLimits limits_;
     std::uint64_t bytes_ = 0, files_ = 0, voxels_ = 0;
+    std::uint64_t repeated_ = 0;  // elements of all objects
     int nested_ = 0;
     PbrtStatements* reading_ = nullptr;  // the innermost file
     std::deque<std::string> names_;      // of all files, for messages
