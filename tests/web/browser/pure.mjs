@@ -1,7 +1,7 @@
 // What the page reckons without a browser: places in JSON, fronts, axes, numbers, commands.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {changed, numbersOf, pathOf} from '../../../service/web/page/address.js';
+import {address, changed, numbersOf, pathOf} from '../../../service/web/page/address.js';
 import {keepsDigits, lightPlace, typesOf, withLight, withRays, withTypes} from '../../../service/web/page/choices.js';
 import {bytes, csvOf, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
 import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
@@ -161,8 +161,28 @@ test('an address keeps what is shown, and is read with care', () => {
   assert.equal(changed('#/jobs/j-1?a=1', {a: null}), '#/jobs/j-1');
   assert.equal(changed('', {a: 1}), '#?a=1', 'a report has no path');
   assert.equal(pathOf('#/jobs/j-1?a=1'), '#/jobs/j-1');
+  assert.equal(pathOf(''), pathOf('#?a=1'), 'Back to the start of a report stays in it');
   assert.deepEqual(numbersOf('4,-0.5', 2), [4, -0.5]);
   for (const bad of ['4', '4,', 'a,b', '1,2,3', '', null, undefined, '1,Infinity']) assert.equal(numbersOf(bad, 2), null, String(bad));
+});
+
+test('an address that changes all the time is written now and then, and never that of another page', (t) => {
+  t.mock.timers.enable({apis: ['setTimeout', 'Date'], now: 1e6});
+  const written = [];
+  globalThis.location = {hash: '#/jobs/j-1'};
+  globalThis.history = Object.fromEntries(['pushState', 'replaceState'].map((how) => [how, (_, __, next) => { written.push([how, next]); location.hash = next; }]));
+  for (let i = 1; i <= 40; ++i) address.keep({zoom: i});
+  assert.deepEqual(written, [['replaceState', '#/jobs/j-1?zoom=1']], 'browsers refuse a hundred');
+  t.mock.timers.tick(300);
+  assert.deepEqual(written.slice(1), [['replaceState', '#/jobs/j-1?zoom=40']], 'the last is not lost');
+  address.keep({zoom: 41});
+  address.go({pixel: '1,2'});
+  assert.deepEqual(written.slice(2), [['replaceState', '#/jobs/j-1?zoom=41'], ['pushState', '#/jobs/j-1?zoom=41&pixel=1,2']], 'a step comes after what waits');
+  address.keep({zoom: 42});
+  location.hash = '#/jobs';
+  t.mock.timers.tick(1000);
+  assert.equal(written.length, 4);
+  assert.equal(address.get('zoom'), null);
 });
 
 test('the difference of functions has the steps of both', () => {

@@ -146,9 +146,9 @@ export function curvesView({source, result, images, group, series, signal}) {
     });
   }
   // A pixel that stays.
-  function choose(x, y) {
+  function choose(x, y, moves = false) {
     chosen = [x, y];
-    address.go({pixel: `${x},${y}`});
+    address[moves ? 'keep' : 'go']({pixel: `${x},${y}`});
     show(x, y, true);
   }
   const worst = (cell) => {
