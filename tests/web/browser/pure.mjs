@@ -145,6 +145,8 @@ test('the answer at an error counts intervals, and no technique without a map', 
   assert.deepEqual(ask(0.022), {fastest: 'small', smallest: 'small', traced: 'traced', closest: null, rivals: [], certain: true});
   assert.deepEqual(ask(0.021), {fastest: 'small', smallest: 'small', traced: 'traced', closest: null, rivals: [], certain: false}, 'its value, not its interval');
   assert.deepEqual(ask(0.005), {fastest: null, smallest: null, traced: null, closest: 'small', rivals: [], certain: false});
+  const untimed = answersAt([measured('big', 0.01, null, NaN, 9), measured('small', 0.01, null, NaN, 4)].map((cell) => ({...cell, times: null})), {error: errors[0], speed: speeds[0], budget: 1});
+  assert.deepEqual([untimed.fastest, untimed.smallest.technique], [null, 'small'], 'nothing is the fastest without times');
   assert.equal(firstBudget(cells, errors[0]), 0.03, '1.1 times 0.022, rounded up');
   assert.equal(firstBudget([], errors[0]), 0.05);
 });

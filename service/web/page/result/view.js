@@ -69,8 +69,8 @@ function groupView({source, result, images, imagesFault, group, series, signal})
   const allowed = address.numbers('budget', 1)?.[0];
   let budget = allowed > 0 ? allowed : firstBudget(cells, error);
   const first = () => {
-    const {fastest, closest} = answersAt(cells, {error, speed, budget});
-    return Math.max(0, cells.indexOf(fastest ?? closest));
+    const {fastest, smallest, closest} = answersAt(cells, {error, speed, budget});
+    return Math.max(0, cells.indexOf(fastest ?? smallest ?? closest));
   };
   const asked = Number(address.get('technique')) - 1;
   let chosen = Number.isInteger(asked) && asked >= 0 && asked < cells.length ? asked : first();
