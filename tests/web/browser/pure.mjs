@@ -208,7 +208,7 @@ test('a form changes what it shows, and nothing else', () => {
   const lying = {lights: [{type: 'directional', direction: [0.35, -0.5, -1]}], receivers: {type: 'camera', up: [0, 0, 1]}, sweeps: {'/lights/0/direction': [[0, 0, -1]]}};
   assert.deepEqual(lightPlace(lying), lightPlace({lights: [{direction: [-0.5, -1, 0.35]}]}), 'z is up');
   assert.deepEqual(withLight(lying, {around: 0, height: 90}).sweeps, {}, 'a sweep would set it again');
-  assert.deepEqual(withLight(lying, {around: 0, height: 30}).lights[0].direction.map((v) => Number(v.toFixed(3))), [0, -1.018, -0.588]);
+  assert.deepEqual(withLight(lying, {around: 0, height: 30}).lights[0].direction.map((v) => Number(v.toFixed(3))), [0, -1.015, -0.586]);
   assert.deepEqual(withRays(scenario, 'resolution', 128), {...scenario, rays: {resolution: 128, seed: 3}, sweeps: {'/techniques/1/nodes': [4, 8], '/techniques/2/tolerance': [0.3]}});
   const all = ['deep', 'avsm', 'pcf'];
   const fewer = withTypes(scenario, new Set(['avsm', 'pcf']), all);
