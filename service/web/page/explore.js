@@ -5,7 +5,7 @@ import {choice, h, setText} from './dom.js';
 import {moment, plural} from './format.js';
 import {linearAxis, logAxis, logPlace, write} from './plots/axes.js';
 import {placeLabels} from './plots/labels.js';
-import {lookOf} from './plots/palette.js';
+import {lookOf, onThemeChange} from './plots/palette.js';
 import {labelWidth, plot} from './plots/plot.js';
 import {saveButtons} from './plots/save.js';
 import {errors, size, speeds} from './result/model.js';
@@ -99,7 +99,8 @@ export function exploreView({signal}) {
     }}), `${job.name}, ${moment(job.created)}`)));
     draw();
   }, (error) => { if (!signal.aborted) setText(problem, error.message); });
-  addEventListener('hashchange', () => draw(), {signal});
+  addEventListener('hashchange', draw, {signal});
+  onThemeChange(draw, signal);
   return h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Explore results')),
     h('section', {class: 'panel', 'aria-label': 'Results'}, list), problem, place);
 }

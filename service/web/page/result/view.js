@@ -158,7 +158,7 @@ export function resultView({source, result, images, imagesFault, signal}) {
     return lights.find((g) => g.lightIndex === Number(address.get('light') ?? -1)) ?? lights[0] ?? groups[0];
   }
   function go(group) {
-    address.go({variant: group.variant, light: group.lightIndex, technique: null, pixel: null, budget: null, depth: null});
+    address.go({variant: group.variant, light: group.lightIndex, technique: null, pixel: null, budget: null, depth: null, channel: null});
     show();
   }
   function show() {
