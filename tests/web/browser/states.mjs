@@ -214,8 +214,12 @@ states['several results in one plot, and over time'] = async ({page, url, mock})
   assert.equal(await page.locator('.trend').count(), cells, 'each over time');
   await page.selectOption('.panel:has(#time-title) select', 'bytes');
   await page.waitForFunction(() => document.querySelector('.trend .plot').getAttribute('aria-label').includes('bytes of the map'));
+  assert.ok(await page.evaluate(() => document.activeElement.matches('[data-part="over"] select')), 'the focus stays');
+  // A job that was removed does not hide the others.
+  await page.goto(page.url().replace('jobs=', 'jobs=j-gone,'));
   await page.reload();
   await page.waitForFunction(() => document.querySelector('.trend .plot')?.getAttribute('aria-label').includes('bytes of the map'));
+  assert.equal(await text(page, '.problem'), 'j-gone: There is no such job.');
 };
 
 states['a file that is not a result'] = async ({page, url, mock}) => {
