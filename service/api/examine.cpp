@@ -107,9 +107,7 @@ std::variant<nlohmann::json, std::vector<base::Error>> Examiner::examine(const s
 
 std::string Examiner::arrange(const std::string& request) {
     const Slots::Slot slot = slots_.take(seconds_);
-    std::string line = start_(arguments_)->ask(std::string(files_mark) + request, seconds_);
-    take_answer(line);  // throws the fault that it may be
-    return line;
+    return ask(std::string(files_mark) + request);
 }
 
 }  // namespace shadowbench::service

@@ -239,6 +239,13 @@ TEST_F(Examinations, KeepTheirProcess) {
     EXPECT_EQ(started, 1);
 }
 
+// Nor would each scenario around files.
+TEST_F(Examinations, AndScenariosAroundFilesShareTheirProcess) {
+    for (const char* request : {"{}", "[]"}) EXPECT_EQ(examiner.arrange(request), R"({"number":1})");
+    EXPECT_EQ(number_of("a"), 1);
+    EXPECT_EQ(started, 1);
+}
+
 TEST_F(Examinations, StartAProcessAfterAFault) {
     for (const char* fault : {"die", "complain"})
         EXPECT_EQ(code_of([&] { number_of(fault); }), ErrorCode::bad_input) << "a new process says so too";

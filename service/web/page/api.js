@@ -16,7 +16,9 @@ export function hasToken() {
 // A problem of RFC 9457. `status` 0: the server did not answer.
 export class Problem extends Error {
   constructor(status, body, retryAfter) {
-    super(body.detail || body.title || `The server answered ${status}.`);
+    // Whoever runs the server finds a fault of its own by this.
+    const id = status >= 500 && body.request_id ? ` Request ${body.request_id}.` : '';
+    super(`${body.detail || body.title || `The server answered ${status}.`}${id}`);
     this.status = status;
     this.errors = body.errors ?? [];
     this.retryAfter = retryAfter;

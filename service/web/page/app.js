@@ -47,8 +47,9 @@ function show(event) {
     : page === 'jobs' ? jobsView({signal}) : page === 'compare' ? comparisonView({ids, signal}) : page === 'explore' ? exploreView({signal}) : submitView({draft, signal, go});
   draft = null;
   main.replaceChildren(view);
+  const here = ['jobs', 'compare', 'explore'].includes(page) ? `#/${page}` : '#/';
   for (const link of document.querySelectorAll('nav a'))
-    link.toggleAttribute('aria-current', link.getAttribute('href') === (['jobs', 'compare', 'explore'].includes(page) ? `#/${page}` : '#/'));
+    link.getAttribute('href') === here ? link.setAttribute('aria-current', 'page') : link.removeAttribute('aria-current');
   if (event) {  // not for the first page
     scrollTo(0, 0);
     view.querySelector('h1')?.focus();

@@ -11,23 +11,31 @@ function towards(light) {
   return isPoint(light?.position) && isPoint(light.target) ? light.position.map((v, i) => v - light.target[i]) : null;
 }
 
-// Where the first light stands as seen from what it shines on, in degrees: {around, height}. y is up.
+// Where [across, up, deep] of a direction stand in it: y is up, or z if the camera says so.
+function axesOf(scenario) {
+  const up = scenario.receivers?.up;
+  return isPoint(up) && Math.abs(up[2]) > Math.abs(up[1]) ? [1, 2, 0] : [0, 1, 2];
+}
+
+// Where the first light stands as seen from what it shines on, in degrees: {around, height}.
 export function lightPlace(scenario) {
   const arrow = towards(scenario?.lights?.[0]);
   const length = arrow && Math.hypot(...arrow);
   if (!length) return null;
-  const [x, y, z] = arrow;
+  const [x, y, z] = axesOf(scenario).map((axis) => arrow[axis]);
   return {around: Math.round((Math.atan2(z, x) / radians + 360) % 360), height: Math.round(Math.asin(y / length) / radians)};
 }
 
 // The light keeps its distance.
 export function withLight(scenario, {around, height}) {
   const [light, ...others] = scenario.lights, length = Math.hypot(...towards(light));
-  const flat = length * Math.cos(height * radians);
-  const arrow = [flat * Math.cos(around * radians), length * Math.sin(height * radians), flat * Math.sin(around * radians)];
+  const flat = length * Math.cos(height * radians), arrow = [];
+  const parts = [flat * Math.cos(around * radians), length * Math.sin(height * radians), flat * Math.sin(around * radians)];
+  axesOf(scenario).forEach((axis, i) => { arrow[axis] = parts[i]; });
   const moved = isPoint(light.direction) ? {...light, direction: arrow.map((v) => round(-v))}
     : {...light, position: arrow.map((v, i) => round(light.target[i] + v))};
-  return {...scenario, lights: [moved, ...others]};
+  const sweeps = Object.fromEntries(Object.entries(scenario.sweeps ?? {}).filter(([pointer]) => !/^\/lights\/0\/(direction|position|target)(\/|$)/.test(pointer)));
+  return {...scenario, lights: [moved, ...others], ...(scenario.sweeps && {sweeps})};  // such a sweep would set it again
 }
 
 export function withRays(scenario, name, value) {

@@ -5,7 +5,7 @@ import {choice, h, setText} from './dom.js';
 import {moment, plural} from './format.js';
 import {linearAxis, logAxis, logPlace, write} from './plots/axes.js';
 import {placeLabels} from './plots/labels.js';
-import {lookOf} from './plots/palette.js';
+import {lookOf, onThemeChange} from './plots/palette.js';
 import {labelWidth, plot} from './plots/plot.js';
 import {saveButtons} from './plots/save.js';
 import {errors, size, speeds} from './result/model.js';
@@ -71,25 +71,32 @@ export function exploreView({signal}) {
     }
     shown.abort();
     shown = new AbortController();
+    setText(problem, '');
     if (!ids.length) return place.replaceChildren(h('p', {class: 'empty'}, 'Choose results of the same scenario, from several versions of the program or with other settings.'));
-    try {
-      const results = (await Promise.all(ids.map(async (id) => ({id, result: await fetchOne(id)}))))
-        .sort((a, b) => new Date(a.result.times?.started) - new Date(b.result.times?.started));
-      if (mine !== turn) return;
-      setText(problem, '');
-      const error = word('error', errors), cost = word('cost', measures), which = [...measures, ...errors], over = word('over', which);
-      const pick = (name, label, all, now) => choice(label, all.map((m) => ({value: m.id, text: m.text})), now.id, (id) => { address.go({[name]: id}); draw(); });
-      const trends = results.length > 1 ? overTime(results.map((r) => r.result), over) : [];
-      place.replaceChildren(...[
-        h('ol', {class: 'results'}, results.map((r, i) => h('li', {}, h('a', {href: `#/jobs/${r.id}`}, `#${i + 1} ${r.result.name}`),
-          ` ${moment(r.result.times?.started)}, ${r.result.program?.version ?? '?'} (${commitOf(r.result)})`))),
-        h('div', {class: 'choices'}, pick('error', 'Error', errors, error), pick('cost', 'Cost', measures, cost)), overlay(results, error, cost),
-        results.length > 1 && h('section', {class: 'panel', 'aria-labelledby': 'time-title'}, h('div', {class: 'panel-head'}, h('h2', {id: 'time-title'}, 'Over time'), pick('over', 'Measure', which, over)),
-          trends.length ? h('div', {class: 'trends'}, trends.map((t) => trendOf(t, over, results, shown.signal))) : h('p', {class: 'note'}, 'No cell of one has this measure in another.')),
-      ].filter(Boolean));
-    } catch (error) {
-      if (!signal.aborted && mine === turn) setText(problem, error.message);
-    }
+    const answers = await Promise.allSettled(ids.map(async (id) => ({id, result: await fetchOne(id)})));
+    if (signal.aborted || mine !== turn) return;
+    setText(problem, answers.flatMap(({reason}, i) => (reason ? [`${ids[i]}: ${reason.message}`] : [])).join(' '));
+    const results = answers.flatMap(({value}) => value ?? []).sort((a, b) => new Date(a.result.times?.started) - new Date(b.result.times?.started));
+    const focused = document.activeElement?.closest('[data-part]')?.dataset.part;
+    place.replaceChildren(...(results.length ? partsOf(results) : []));
+    if (focused) place.querySelector(`[data-part="${focused}"] select`)?.focus();
+  }
+
+  function partsOf(results) {
+    const error = word('error', errors), cost = word('cost', measures), which = [...measures, ...errors], over = word('over', which);
+    const pick = (name, label, all, now) => {
+      const picker = choice(label, all.map((m) => ({value: m.id, text: m.text})), now.id, (id) => { address.go({[name]: id}); draw(); });
+      picker.dataset.part = name;
+      return picker;
+    };
+    const trends = results.length > 1 ? overTime(results.map((r) => r.result), over) : [];
+    return [
+      h('ol', {class: 'results'}, results.map((r, i) => h('li', {}, h('a', {href: `#/jobs/${r.id}`}, `#${i + 1} ${r.result.name}`),
+        ` ${moment(r.result.times?.started)}, ${r.result.program?.version ?? '?'} (${commitOf(r.result)})`))),
+      h('div', {class: 'choices'}, pick('error', 'Error', errors, error), pick('cost', 'Cost', measures, cost)), overlay(results, error, cost),
+      results.length > 1 && h('section', {class: 'panel', 'aria-labelledby': 'time-title'}, h('div', {class: 'panel-head'}, h('h2', {id: 'time-title'}, 'Over time'), pick('over', 'Measure', which, over)),
+        trends.length ? h('div', {class: 'trends'}, trends.map((t) => trendOf(t, over, results, shown.signal))) : h('p', {class: 'note'}, 'No cell of one has this measure in another.')),
+    ].filter(Boolean);
   }
   get('/v1/jobs?state=succeeded&limit=100', signal).then(({jobs}) => {
     list.replaceChildren(...jobs.filter((job) => job.kind !== 'recommendation').map((job) => h('label', {class: 'check'}, h('input', {type: 'checkbox', value: job.id, onchange: (event) => {
@@ -99,7 +106,8 @@ export function exploreView({signal}) {
     }}), `${job.name}, ${moment(job.created)}`)));
     draw();
   }, (error) => { if (!signal.aborted) setText(problem, error.message); });
-  addEventListener('hashchange', () => draw(), {signal});
+  addEventListener('hashchange', draw, {signal});
+  onThemeChange(draw, signal);
   return h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Explore results')),
     h('section', {class: 'panel', 'aria-label': 'Results'}, list), problem, place);
 }

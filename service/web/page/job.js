@@ -96,7 +96,7 @@ export function jobView({id, signal, edit}) {
   function update(job) {
     setText(title, job.name || 'unnamed');
     document.title = `${job.name} · shadowbench`;
-    setText(facts, [job.id, `sent ${moment(job.created)}`, `seed ${job.seed}`, job.cached && 'answered from an earlier result'].filter(Boolean).join(' · '));
+    setText(facts, [job.id, `sent ${moment(job.created)}${job.owner ? ` by ${job.owner}` : ''}`, ...(job.labels ?? []), `seed ${job.seed}`, job.cached && 'answered from an earlier result'].filter(Boolean).join(' · '));
     if (shown !== job.state) {
       state.replaceChildren(stateMark(job));
       if (!ended(job)) { if (!progress.element.isConnected) place.replaceChildren(progress.element); links.replaceChildren(again); }

@@ -150,6 +150,7 @@ async function variants(page, mock) {
     const red = await path();
     await page.selectOption('#curves .choice:has-text("Channel") select', '1');
     await page.waitForFunction((before) => document.querySelector('#curves .mark-line path').getAttribute('d') !== before, red);
+    assert.match(page.url(), /channel=green/);
   }
   await select.selectOption({label: 'rays.samples_per_pixel = 16'});
   await page.waitForFunction(() => document.querySelector('main').textContent.includes('The pictures show another variant'));

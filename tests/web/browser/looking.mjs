@@ -7,6 +7,9 @@ export const looking = {};
 const text = (page, selector) => page.locator(selector).first().innerText();
 const stateOf = (page) => page.evaluate(() => Object.fromEntries(new URLSearchParams(location.hash.split('?')[1] ?? '')));
 
+// Waits until the address says so.
+const holds = (page, name, value) => page.waitForFunction(([n, v]) => (new URLSearchParams(location.hash.split('?')[1] ?? '').get(n) ?? '') === v, [name, value]);
+
 async function open({page, url, mock}, query = '') {
   const job = mock.job('succeeded');
   await page.goto(`${url}#/jobs/${job.id}${query}`);
@@ -34,7 +37,7 @@ looking['the answer first, at an error that is dragged'] = async (given) => {
   const after = Number(await line.getAttribute('aria-valuenow'));
   assert.ok(after < before, `${after} is less than ${before}`);
   assert.match(await text(page, '.answers'), /No map reaches it\. The closest/);
-  assert.equal(Number((await stateOf(page)).budget), after);
+  await holds(page, 'budget', String(after));
   assert.equal(Number(await page.locator('#budget').inputValue()), after);
   assert.equal(await page.locator('.budget-line').nth(1).getAttribute('aria-valuenow'), String(after), 'the lines of both plots move');
   // From the keyboard, and as a number.
@@ -44,7 +47,7 @@ looking['the answer first, at an error that is dragged'] = async (given) => {
   assert.ok(Number(await line.getAttribute('aria-valuenow')) > after);
   await page.fill('#budget', '0.5');
   await page.keyboard.press('Enter');
-  await page.waitForFunction(() => new URLSearchParams(location.hash.split('?')[1]).get('budget') === '0.5');
+  await holds(page, 'budget', '0.5');
 };
 
 looking['labels, lines and a plot without what has no map'] = async (given) => {
@@ -103,6 +106,7 @@ looking['the address holds what is shown'] = async (given) => {
   await page.click('#curves .pixel-entry button');
   await page.waitForFunction(() => document.querySelector('#curves .curve-title').textContent.includes('5, 6'));
   await page.click('button[aria-label="Show fewer depths"]');
+  await page.waitForFunction(() => location.hash.includes('depth='));
   const state = await stateOf(page);
   assert.deepEqual([state.technique, state.error, state.picture, state.split, state.pixel], ['5', 'curve.max', 'shadow', '30', '5,6']);
   const seen = () => page.evaluate(() => ({
@@ -140,7 +144,7 @@ looking['pictures: pixels, shadows alone, and all errors on one scale'] = async 
   assert.ok((await wide()).every((w) => Math.abs(w - 96) < 0.5), `a pixel of the picture is one of the screen: ${await wide()}`);
   assert.equal(await text(page, '#compare output'), '1 : 1');
   await page.click('#compare button:has-text("Whole")');
-  assert.equal((await stateOf(page)).zoom, undefined);
+  await holds(page, 'zoom', '');
   assert.deepEqual(await page.locator('#compare figcaption').allInnerTexts().then((all) => all.filter((t) => t.startsWith('the shadow alone')).length), 2);
   const errors = (await page.locator('.ranked small').allInnerTexts()).map((t) => Number(t.replace('RMS ', '')));
   assert.ok(errors.length >= 5);
@@ -174,8 +178,14 @@ looking['functions: the worst pixel, depths and errors'] = async (given) => {
   await page.click('button[aria-label="Show fewer depths"]');
   await page.click('button[aria-label="Further depths"]');
   await page.waitForFunction((was) => document.querySelector('.depth output').textContent !== was, whole);
-  assert.ok((await stateOf(page)).depth);
+  await page.waitForFunction(() => location.hash.includes('depth='));
   assert.ok((await tick('Visibility against depth')).length > 2 && (await tick('Stored minus exact')).length > 2);
   await page.click('button[aria-label="Show all depths"]');
-  assert.equal((await stateOf(page)).depth, undefined);
+  await holds(page, 'depth', '');
+  // Keys move from pixel to pixel in one step of the history.
+  const steps = await page.evaluate(() => history.length);
+  await grid.focus();
+  for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowUp']) await page.keyboard.press(key);
+  await page.waitForFunction((was) => new URLSearchParams(location.hash.split('?')[1]).get('pixel') !== was, `${x},${y}`);
+  assert.equal(await page.evaluate(() => history.length), steps);
 };

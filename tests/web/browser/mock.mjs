@@ -82,7 +82,7 @@ export class Mock {
       id, state, name: 'small', scenario_hash: '9e9d87140e16f0a5', seed: 1, created: now, started: state === 'queued' ? null : now,
       ended: ['queued', 'running'].includes(state) ? null : '2026-11-25T02:03:09.500Z', attempts: 1, position: state === 'queued' ? 0 : null,
       progress: state === 'running' ? {stage: 'build', place: '1/2 key', done: 3, total: 16, fraction: 0.42} : null,
-      kind: 'run', recommend: null, reached: null, cached: false, promises_kept: state === 'succeeded' ? true : null, error: null, artifacts: [], ...more,
+      kind: 'run', recommend: null, reached: null, cached: false, promises_kept: state === 'succeeded' ? true : null, error: null, owner: null, labels: [], priority: 0, pinned: false, bytes: state === 'succeeded' ? 3 << 19 : 0, artifacts: [], ...more,
     };
     if (job.state === 'succeeded') this.finish(job);
     this.jobs.unshift(job);
@@ -172,7 +172,8 @@ export class Mock {
   allJobs({request, response, url, text, body}) {
     if (request.method === 'GET') {
       const state = url.searchParams.get('state'), limit = Number(url.searchParams.get('limit') ?? 50), from = Number(url.searchParams.get('cursor') ?? 0);
-      const fitting = this.jobs.filter((job) => !state || job.state === state);
+      const words = url.searchParams.get('text') ?? '';
+      const fitting = this.jobs.filter((job) => (!state || job.state === state) && [job.id, job.name, job.owner ?? '', ...job.labels].some((each) => each.includes(words)));
       return this.json(response, 200, {jobs: fitting.slice(from, from + limit), next: from + limit < fitting.length ? String(from + limit) : null});
     }
     this.keys.push(request.headers['idempotency-key']);
@@ -211,6 +212,7 @@ export class Mock {
       Object.assign(job, {state: 'queued', position: 0, error: null, ended: null});
       return this.json(response, 202, job);
     }
+    if (part === 'pin' || part === 'unpin') return this.json(response, 200, Object.assign(job, {pinned: part === 'pin'}));
     if (part === 'events') return this.events(request, response, job);
     if (part === 'scenario') return this.json(response, 200, job.scenario ?? this.scenarios[0].document);
     if (part === 'result' && this.results) return this.json(response, 200, this.results);

@@ -117,6 +117,13 @@ async function numbers(options, folder) {
   await page.waitForFunction(() => document.querySelector('#cell-title')?.textContent.includes('fourier'));
   await page.goBack();
   await page.waitForFunction(() => !document.querySelector('#cell-title').textContent.includes('fourier'));
+  // Back from what is chosen first in a report whose address says nothing yet.
+  await page.goto('about:blank');
+  await page.goto(address);
+  const first = await page.locator('#cell-title').innerText();
+  await page.locator('.cell-name', {hasText: 'fourier'}).click();
+  await page.goBack();
+  await page.waitForFunction((title) => document.querySelector('#cell-title').innerText === title, first);
   await close();
 }
 

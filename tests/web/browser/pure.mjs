@@ -1,7 +1,7 @@
 // What the page reckons without a browser: places in JSON, fronts, axes, numbers, commands.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
-import {changed, numbersOf, pathOf} from '../../../service/web/page/address.js';
+import {address, changed, numbersOf, pathOf} from '../../../service/web/page/address.js';
 import {keepsDigits, lightPlace, typesOf, withLight, withRays, withTypes} from '../../../service/web/page/choices.js';
 import {bytes, csvOf, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
 import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
@@ -145,6 +145,8 @@ test('the answer at an error counts intervals, and no technique without a map', 
   assert.deepEqual(ask(0.022), {fastest: 'small', smallest: 'small', traced: 'traced', closest: null, rivals: [], certain: true});
   assert.deepEqual(ask(0.021), {fastest: 'small', smallest: 'small', traced: 'traced', closest: null, rivals: [], certain: false}, 'its value, not its interval');
   assert.deepEqual(ask(0.005), {fastest: null, smallest: null, traced: null, closest: 'small', rivals: [], certain: false});
+  const untimed = answersAt([measured('big', 0.01, null, NaN, 9), measured('small', 0.01, null, NaN, 4)].map((cell) => ({...cell, times: null})), {error: errors[0], speed: speeds[0], budget: 1});
+  assert.deepEqual([untimed.fastest, untimed.smallest.technique], [null, 'small'], 'nothing is the fastest without times');
   assert.equal(firstBudget(cells, errors[0]), 0.03, '1.1 times 0.022, rounded up');
   assert.equal(firstBudget([], errors[0]), 0.05);
 });
@@ -161,8 +163,28 @@ test('an address keeps what is shown, and is read with care', () => {
   assert.equal(changed('#/jobs/j-1?a=1', {a: null}), '#/jobs/j-1');
   assert.equal(changed('', {a: 1}), '#?a=1', 'a report has no path');
   assert.equal(pathOf('#/jobs/j-1?a=1'), '#/jobs/j-1');
+  assert.equal(pathOf(''), pathOf('#?a=1'), 'Back to the start of a report stays in it');
   assert.deepEqual(numbersOf('4,-0.5', 2), [4, -0.5]);
   for (const bad of ['4', '4,', 'a,b', '1,2,3', '', null, undefined, '1,Infinity']) assert.equal(numbersOf(bad, 2), null, String(bad));
+});
+
+test('an address that changes all the time is written now and then, and never that of another page', (t) => {
+  t.mock.timers.enable({apis: ['setTimeout', 'Date'], now: 1e6});
+  const written = [];
+  globalThis.location = {hash: '#/jobs/j-1'};
+  globalThis.history = Object.fromEntries(['pushState', 'replaceState'].map((how) => [how, (_, __, next) => { written.push([how, next]); location.hash = next; }]));
+  for (let i = 1; i <= 40; ++i) address.keep({zoom: i});
+  assert.deepEqual(written, [['replaceState', '#/jobs/j-1?zoom=1']], 'browsers refuse a hundred');
+  t.mock.timers.tick(300);
+  assert.deepEqual(written.slice(1), [['replaceState', '#/jobs/j-1?zoom=40']], 'the last is not lost');
+  address.keep({zoom: 41});
+  address.go({pixel: '1,2'});
+  assert.deepEqual(written.slice(2), [['replaceState', '#/jobs/j-1?zoom=41'], ['pushState', '#/jobs/j-1?zoom=41&pixel=1,2']], 'a step comes after what waits');
+  address.keep({zoom: 42});
+  location.hash = '#/jobs';
+  t.mock.timers.tick(1000);
+  assert.equal(written.length, 4);
+  assert.equal(address.get('zoom'), null);
 });
 
 test('the difference of functions has the steps of both', () => {
@@ -183,6 +205,10 @@ test('a form changes what it shows, and nothing else', () => {
   assert.equal(lightPlace({}), null);
   const sun = withLight({lights: [{type: 'directional', direction: [0, -2, 0]}]}, {around: 0, height: 30}).lights[0].direction;
   assert.deepEqual(sun.map((v) => Number(v.toFixed(3))), [-1.732, -1, 0]);
+  const lying = {lights: [{type: 'directional', direction: [0.35, -0.5, -1]}], receivers: {type: 'camera', up: [0, 0, 1]}, sweeps: {'/lights/0/direction': [[0, 0, -1]]}};
+  assert.deepEqual(lightPlace(lying), lightPlace({lights: [{direction: [-0.5, -1, 0.35]}]}), 'z is up');
+  assert.deepEqual(withLight(lying, {around: 0, height: 90}).sweeps, {}, 'a sweep would set it again');
+  assert.deepEqual(withLight(lying, {around: 0, height: 30}).lights[0].direction.map((v) => Number(v.toFixed(3))), [0, -1.015, -0.586]);
   assert.deepEqual(withRays(scenario, 'resolution', 128), {...scenario, rays: {resolution: 128, seed: 3}, sweeps: {'/techniques/1/nodes': [4, 8], '/techniques/2/tolerance': [0.3]}});
   const all = ['deep', 'avsm', 'pcf'];
   const fewer = withTypes(scenario, new Set(['avsm', 'pcf']), all);

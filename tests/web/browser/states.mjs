@@ -65,7 +65,9 @@ states['a recommendation'] = async ({page, url, mock}) => {
   assert.equal(await marks.count(), 3);
   assert.match(await marks.nth(1).getAttribute('aria-label'), /deep, resolution=64\s+one lookup: 20 ns\s+error: 0\.019, 95 %: 0\.018 to 0\.02/);
   await page.selectOption('#explored select', 'bytes');
-  await page.waitForFunction(() => document.querySelectorAll('#explored .mark-symbol path').length === 2, null);
+  await page.waitForFunction(() => document.querySelectorAll('#explored .mark-symbol path').length === 2);
+  await page.goBack();
+  await page.waitForFunction(() => document.querySelectorAll('#explored .mark-symbol path').length === 3);
   assert.equal(await page.locator('#curves').count(), 0, 'its points are not those of the scenario');
   await assertAccessible(page);
 };
@@ -94,6 +96,32 @@ states['older jobs and a state'] = async ({page, url, mock}) => {
   await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 60);
   await page.selectOption('.page-head select', 'failed');
   await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 30);
+};
+
+states['jobs of others, found and pinned'] = async ({page, url, mock}) => {
+  const kept = mock.job('succeeded', {name: 'hair', owner: 'alice', labels: ['nightly', '<b>bold</b>']});
+  mock.job('failed', {owner: 'bob'});
+  mock.job('failed', {owner: 'bob', labels: ['nightly']});
+  await page.goto(`${url}#/jobs`);
+  await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 3);
+  const row = page.locator('.jobs tr', {hasText: 'alice'});
+  assert.equal(await row.locator('.id').innerText(), `${kept.id}, alice, nightly, <b>bold</b>, 1.5 MiB`);
+  await row.locator('button:has-text("Pin")').click();
+  await row.locator('button:has-text("Unpin")').waitFor();
+  assert.match(await row.locator('.id').innerText(), /, pinned$/);
+  assert.ok(kept.pinned);
+  await page.fill('input[type="search"]', 'nightly');
+  await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 2);
+  await page.selectOption('.page-head select', 'failed');
+  await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 1);
+  assert.match(page.url(), /#\/jobs\?text=nightly&state=failed$/);
+  await page.reload();
+  await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 1);
+  assert.deepEqual([await page.locator('input[type="search"]').inputValue(), await page.locator('.page-head select').inputValue()], ['nightly', 'failed']);
+  await page.goBack();
+  await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 2);
+  await page.click('nav a[href="#/jobs"]');
+  await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 3);
 };
 
 states['a job that failed'] = async ({page, url, mock}) => {
@@ -186,8 +214,12 @@ states['several results in one plot, and over time'] = async ({page, url, mock})
   assert.equal(await page.locator('.trend').count(), cells, 'each over time');
   await page.selectOption('.panel:has(#time-title) select', 'bytes');
   await page.waitForFunction(() => document.querySelector('.trend .plot').getAttribute('aria-label').includes('bytes of the map'));
+  assert.ok(await page.evaluate(() => document.activeElement.matches('[data-part="over"] select')), 'the focus stays');
+  // A job that was removed does not hide the others.
+  await page.goto(page.url().replace('jobs=', 'jobs=j-gone,'));
   await page.reload();
   await page.waitForFunction(() => document.querySelector('.trend .plot')?.getAttribute('aria-label').includes('bytes of the map'));
+  assert.equal(await text(page, '.problem'), 'j-gone: There is no such job.');
 };
 
 states['a file that is not a result'] = async ({page, url, mock}) => {

@@ -18,17 +18,15 @@ export function answerView({pick, allow}) {
   function update({cells, series, error, speed, budget}) {
     const found = answersAt(cells, {error, speed, budget});
     const name = (cell) => h('button', {type: 'button', class: 'link', onclick: () => pick(cells.indexOf(cell))}, titleOf(cell));
-    const costs = (cell, more = '') => h('span', {}, ' ', joined([speed.of(cell) && write(speed.kind, speed.of(cell).value), size.of(cell) && write('bytes', size.of(cell).value), `error ${significant(error.of(cell).value, 2)}`]), more);
+    const costs = (cell, more = '') => h('span', {}, ' ', joined([speed.of(cell) && `${write(speed.kind, speed.of(cell).value)}${speed.kind === 'ratio' ? ' the floor' : ''}`, size.of(cell) && write('bytes', size.of(cell).value), `error ${significant(error.of(cell).value, 2)}`]), more);
     const row = (term, cell, more, rest) => h('div', {}, h('dt', {}, term), h('dd', {}, glyph(series.get(cell.technique)), ' ', name(cell), costs(cell, more), rest));
-    const {fastest, smallest, rivals, traced, closest} = found, rows = [];
-    if (fastest) {
+    const {fastest, smallest, rivals, traced, closest} = found, rows = [], first = speed.id === 'build' ? 'Fastest build' : 'Fastest';
+    if (smallest) {
       const same = fastest === smallest;
       const tie = rivals.length > 0 && h('small', {class: 'tie'}, ' Perhaps as fast: ', rivals.map((cell, i) => [i > 0 && ', ', name(cell)]), '.');
-      rows.push(row(same ? 'Fastest and smallest' : 'Fastest', fastest, '', tie));
-      if (!same && smallest) {
-        const share = size.of(smallest).value / size.of(fastest).value, slower = speed.of(smallest) && speed.of(fastest) && speed.of(smallest).value / speed.of(fastest).value;
-        rows.push(row('Smallest', smallest, `; ${significant(share, 2)} × the bytes${slower ? `, ${significant(slower, 2)} × the time` : ''}`));
-      }
+      if (fastest) rows.push(row(same ? `${first} and smallest` : first, fastest, '', tie));
+      const share = fastest && size.of(smallest).value / size.of(fastest).value, slower = fastest && speed.of(smallest) && speed.of(smallest).value / speed.of(fastest).value;
+      if (!same) rows.push(row('Smallest', smallest, joined([share && `; ${significant(share, 2)} × the bytes`, slower && `${significant(slower, 2)} × the time`])));
       if (!found.certain) rows.push(h('div', {}, h('dt', {}, 'Perhaps'), h('dd', {}, 'The intervals of these errors reach beyond it.')));
     } else if (closest) rows.push(row('No map reaches it. The closest', closest, ''));
     else rows.push(h('div', {}, h('dt', {}, 'Nothing'), h('dd', {}, 'No map has this error.')));

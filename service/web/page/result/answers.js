@@ -22,7 +22,7 @@ function rivals(cells, best, measure) {
 
 const soundOf = (cells, error) => cells.filter((cell) => cell.status === 'ok' && cell.verdict !== 'failed' && error.of(cell));
 
-// {fastest, smallest, rivals, traced, closest, certain}: cells, or nothing. Counted are those that work, have a map, and
+// {fastest, smallest, rivals, traced, closest, certain}: cells, or nothing: `fastest` too, where no time was measured. Counted are those that work, have a map, and
 // whose error is at most `budget`, with its interval; without such, those whose value is (`certain` is false then).
 // `traced`: the fastest without a map. `closest`: the least error of a map, if none reaches the budget.
 export function answersAt(cells, {error, speed, budget}) {
@@ -30,10 +30,10 @@ export function answersAt(cells, {error, speed, budget}) {
   const maps = sound.filter((cell) => !withoutMap(cell));
   const surely = (cell) => highest(error.of(cell)) <= budget, measured = (cell) => error.of(cell).value <= budget;
   const certain = maps.some(surely), fitting = maps.filter(certain ? surely : measured);
-  const fastest = least(fitting, speed) ?? fitting[0] ?? null;
+  const fastest = least(fitting, speed);
   return {
     certain, fitting: fitting.length, fastest, smallest: least(fitting, size),
-    rivals: fastest && speed.of(fastest) ? rivals(fitting, fastest, speed) : [],
+    rivals: fastest ? rivals(fitting, fastest, speed) : [],
     traced: least(sound.filter((cell) => withoutMap(cell) && measured(cell)), speed),
     closest: fitting.length ? null : least(maps, error),
   };

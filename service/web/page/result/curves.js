@@ -12,6 +12,7 @@ import {throughLegend} from './legend.js';
 import {lightMapOf, titleOf, worstPixelOf} from './model.js';
 import {pixelGrid} from './pixels.js';
 
+const colours = ['red', 'green', 'blue'];
 const surveySide = 24;  // pixels per side that a survey requests
 
 // The transmittance of the whole pixel, one value per channel.
@@ -85,7 +86,7 @@ export function curvesView({source, result, images, group, series, signal}) {
   const problem = h('p', {class: 'note problem', role: 'alert'});
   const asked = questions(source, group, signal);
   const hidden = new Set();
-  let shown = null, surveying = false, channel = 0, chosen = null, waiting = 0;
+  let shown = null, surveying = false, channel = Math.max(0, colours.indexOf(address.get('channel'))), chosen = null, waiting = 0;
 
   function draw() {
     waiting = 0;
@@ -146,9 +147,9 @@ export function curvesView({source, result, images, group, series, signal}) {
     });
   }
   // A pixel that stays.
-  function choose(x, y) {
+  function choose(x, y, moves = false) {
     chosen = [x, y];
-    address.go({pixel: `${x},${y}`});
+    address[moves ? 'keep' : 'go']({pixel: `${x},${y}`});
     show(x, y, true);
   }
   const worst = (cell) => {
@@ -156,7 +157,7 @@ export function curvesView({source, result, images, group, series, signal}) {
     element.scrollIntoView({block: 'nearest', behavior: 'smooth'});
   };
 
-  const channels = choice('Channel', ['red', 'green', 'blue'].map((text, value) => ({value, text})), 0, (v) => { channel = Number(v); draw(); });
+  const channels = choice('Channel', colours.map((text, value) => ({value, text})), channel, (v) => { channel = Number(v); address.go({channel: colours[channel]}); draw(); });
   channels.hidden = true;
   const depth = depthRange({places: [drawing.element, errors.element], nearest, furthest, start: address.numbers('depth', 2),
     moved(range) { address.keep({depth: range && range.map((v) => Number(v.toPrecision(5))).join(',')}); redraw(); }});

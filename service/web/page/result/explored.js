@@ -1,9 +1,10 @@
 // A plot of what a recommendation measured.
+import {address} from '../address.js';
 import {choice, h, setText} from '../dom.js';
 import {significant} from '../format.js';
 import {logAxis, logPlace, write} from '../plots/axes.js';
 import {placeLabels} from '../plots/labels.js';
-import {levelSample, lookOf} from '../plots/palette.js';
+import {levelSample, lookOf, onThemeChange} from '../plots/palette.js';
 import {labelWidth, plot} from '../plots/plot.js';
 import {saveButtons} from '../plots/save.js';
 import {frontOf} from './model.js';
@@ -15,8 +16,10 @@ export function exploredView({recommendation, name, signal}) {
   const drawing = plot('trade', {label: 'Settings that were measured', signal,
     theme: () => ({ink: drawing.colour('ink'), muted: drawing.colour('muted'), paper: drawing.colour('panel'), shade: drawing.colour('grid')})});
   const place = h('div', {class: 'plot-place'}, drawing.element), up = h('p', {class: 'axis-title'}), across = h('p', {class: 'axis-title across'});
-  let cost = costs[0];
+  const picker = choice('Cost', costs.map((c) => ({value: c.id, text: c.text})), '', (id) => { address.go({cost: id}); draw(); });
   function draw() {
+    const cost = costs.find((c) => c.id === address.get('cost')) ?? costs[0];
+    picker.querySelector('select').value = cost.id;
     const points = pointsAt(settings, cost);
     const x = logAxis('x', points.flatMap((p) => [p.x, p.xLow, p.xHigh]), cost.kind).signals, y = logAxis('y', [...points.flatMap((p) => [p.y, p.low, p.high]), goal].filter((v) => v > 0), 'error').signals;
     const firsts = new Set(techniques.map((t) => frontOf(points.filter((p) => p.technique === t)).at(-1)));
@@ -43,10 +46,11 @@ export function exploredView({recommendation, name, signal}) {
     });
   }
   draw();
+  onThemeChange(draw, signal);
+  addEventListener('hashchange', draw, {signal});
   return h('section', {class: 'panel', id: 'explored', 'aria-labelledby': 'explored-title'},
     h('div', {class: 'panel-head'}, h('h2', {id: 'explored-title'}, 'What was measured'),
-      h('div', {class: 'choices'}, choice('Cost', costs.map((c) => ({value: c.id, text: c.text})), cost.id, (id) => { cost = costs.find((c) => c.id === id); draw(); }),
-        saveButtons(place, () => `${name}.explored`, () => ({title: `${name}: settings measured`, up: up.textContent, across: across.textContent})))),
+      h('div', {class: 'choices'}, picker, saveButtons(place, () => `${name}.explored`, () => ({title: `${name}: settings measured`, up: up.textContent, across: across.textContent})))),
     up, place, across,
     h('p', {class: 'levels'}, levelSample([6, 3]), ` the error asked for: ${significant(goal)}`),
     h('p', {class: 'note'}, 'Full marks are confirmed, with 95 % intervals; open ones were measured once. Lines join the settings of a technique that no other of its own beats.'));

@@ -16,8 +16,8 @@ function moveOf(event, up) {
   return {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -down], ArrowDown: [0, down]}[event.key];
 }
 
-// up: y grows upwards, as the light sees it. ask(x, y) is called for the pixel under the pointer, leave() when it leaves, choose(x, y) for the chosen
-// pixel.
+// up: y grows upwards, as the light sees it. ask(x, y) is called for the pixel under the pointer, leave() when it leaves, choose(x, y, moves) for the
+// chosen pixel; `moves`: by a key, of which many may follow.
 export function pixelGrid({name, width, height, up, ask, leave, choose}) {
   const scale = Math.min(1, largestCanvas / Math.max(width, height));
   const canvas = h('canvas', {width: Math.ceil(scale * width), height: Math.ceil(scale * height), 'aria-hidden': 'true'});
@@ -42,7 +42,7 @@ export function pixelGrid({name, width, height, up, ask, leave, choose}) {
     const move = moveOf(event, up);
     if (!move) return;
     event.preventDefault();
-    choose(Math.max(0, Math.min(width - 1, at[0] + move[0])), Math.max(0, Math.min(height - 1, at[1] + move[1])));
+    choose(Math.max(0, Math.min(width - 1, at[0] + move[0])), Math.max(0, Math.min(height - 1, at[1] + move[1])), true);
   });
   const stand = (x, y) => {
     at = [x, y];

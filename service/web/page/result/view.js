@@ -69,8 +69,8 @@ function groupView({source, result, images, imagesFault, group, series, signal})
   const allowed = address.numbers('budget', 1)?.[0];
   let budget = allowed > 0 ? allowed : firstBudget(cells, error);
   const first = () => {
-    const {fastest, closest} = answersAt(cells, {error, speed, budget});
-    return Math.max(0, cells.indexOf(fastest ?? closest));
+    const {fastest, smallest, closest} = answersAt(cells, {error, speed, budget});
+    return Math.max(0, cells.indexOf(fastest ?? smallest ?? closest));
   };
   const asked = Number(address.get('technique')) - 1;
   let chosen = Number.isInteger(asked) && asked >= 0 && asked < cells.length ? asked : first();
@@ -158,7 +158,7 @@ export function resultView({source, result, images, imagesFault, signal}) {
     return lights.find((g) => g.lightIndex === Number(address.get('light') ?? -1)) ?? lights[0] ?? groups[0];
   }
   function go(group) {
-    address.go({variant: group.variant, light: group.lightIndex, technique: null, pixel: null, budget: null, depth: null});
+    address.go({variant: group.variant, light: group.lightIndex, technique: null, pixel: null, budget: null, depth: null, channel: null});
     show();
   }
   function show() {
