@@ -1,17 +1,10 @@
-// What the page reckons without a browser: places in JSON, fronts, axes, numbers, commands.
+// What the page reckons without a browser: places in JSON, its address, the form, axes, numbers.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {address, changed, numbersOf, pathOf} from '../../../service/web/page/address.js';
 import {keepsDigits, lightPlace, typesOf, withLight, withRays, withTypes} from '../../../service/web/page/choices.js';
 import {bytes, csvOf, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
 import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
-import {answersAt, firstBudget} from '../../../service/web/page/result/answers.js';
-import {around, differenceOf} from '../../../service/web/page/result/functions.js';
-import {named} from '../../../service/web/page/result/names.js';
-import {ownFronts, pointsAt, settingsOf} from '../../../service/web/page/result/settings.js';
-import {overTime, pointsOfAll} from '../../../service/web/page/result/several.js';
-import {undecided} from '../../../service/web/page/result/points.js';
-import {errors, frontOf, fronts, lightMapOf, marked, originOf, quoted, rerunOf, rmsInterval, speeds, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
 import {linearAxis, logAxis, logPlace} from '../../../service/web/page/plots/axes.js';
 import {placeLabels} from '../../../service/web/page/plots/labels.js';
 
@@ -54,53 +47,6 @@ test('random changes of a scenario are judged as JSON.parse does', () => {
   }
 });
 
-test('a group whose floors drifted says why, and no other does', () => {
-  const result = {times: {settled: false, unsettled: [{variant: 1, light: 'key', why: '3 of 14 floors spread'}]}};
-  const group = (variant, light) => ({variant, light: {light}});
-  assert.equal(unsettledOf(result, group(1, 'key')), '3 of 14 floors spread');
-  assert.equal(unsettledOf(result, group(0, 'key')), null);
-  assert.equal(unsettledOf(result, group(1, 'fill')), null);
-  assert.equal(unsettledOf({times: {started: ''}}, group(1, 'key')), null, 'older results do not tell');
-});
-
-test('a group of a merged result names where it was measured, and no other does', () => {
-  const cells = [{variant: 0, light: 1, node: 'n1'}, {variant: 1, light: 0, node: 'n2'}];
-  assert.equal(originOf({times: {cells}}, {variant: 1, lightIndex: 0}).node, 'n2');
-  assert.equal(originOf({times: {cells}}, {variant: 1, lightIndex: 1}), null);
-  assert.equal(originOf({times: {started: ''}}, {variant: 0, lightIndex: 0}), null);
-});
-
-test('a time whose interval is wider than the goal is marked', () => {
-  const cell = {times: {settled: {build: true, lookup_image_order: false, lookup_random_order: null}}};
-  assert.equal(marked(cell, 'build', '1.5'), '1.5');
-  assert.equal(marked(cell, 'lookup_image_order', '1.5'), '~1.5');
-  assert.equal(marked(cell, 'lookup_random_order', '1.5'), '1.5', 'too few repetitions to judge');
-  assert.equal(marked({times: {}}, 'build', '1.5'), '1.5', 'older results do not tell');
-  assert.equal(marked({times: null}, 'build', '–'), '–');
-});
-
-test('the front holds what nothing beats in both', () => {
-  const p = (x, y) => ({x, y});
-  assert.deepEqual(frontOf([p(3, 1), p(1, 3), p(2, 2), p(2, 3), p(4, 1), p(1, 4)]), [p(1, 3), p(2, 2), p(3, 1)]);
-  assert.deepEqual(frontOf([p(1, 1), p(1, 1)]).length, 2);
-  assert.deepEqual(frontOf([]), []);
-});
-
-test('the marks of the fronts are words, and those of older results are not certain', () => {
-  const marks = (cell) => fronts.map((front) => front.of(cell));
-  assert.deepEqual(marks({times: {on_time_error_front: 'certainly'}, on_bytes_error_front: 'perhaps'}), ['certainly', 'perhaps']);
-  assert.deepEqual(marks({times: {on_time_error_front: true}, on_bytes_error_front: false}), ['perhaps', 'no']);
-  assert.deepEqual(marks({times: null}), ['no', 'no']);
-});
-
-test('the interval of the RMS says what it covers', () => {
-  const cell = (covers) => ({lookup_error: {rms: 0.1, rms_interval95: [0.09, 0.1234], rms_interval_covers: covers}});
-  assert.equal(rmsInterval(cell('truth and rays')), 'expected over seeds (95 %): 0.09 to 0.123');
-  assert.match(rmsInterval(cell('truth')), /truth only/);
-  assert.equal(rmsInterval({lookup_error: {rms: 0.1}}), null);
-  assert.equal(rmsInterval({lookup_error: null}), null);
-});
-
 test('labels of close points cover neither points nor each other', () => {
   const [width, height, radius] = [300, 200, 8];
   const points = [[150, 100], [158, 104], [150, 112], [2, 2], [299, 199], [298, 100]].map(([x, y], i) => ({x, y, radius, texts: ['a name that is far too long for this small plot', String(i + 1)]}));
@@ -119,42 +65,6 @@ test('what is first gets the name, where there is room for one', () => {
   const texts = (points) => placeLabels({points, lines: [], width: 165, height: 34}).map((p) => p.text);
   assert.deepEqual(texts([point(10, false), point(24, true)]), ['n', 'twelve chars']);
   assert.deepEqual(texts([point(17, false)]), ['twelve chars']);
-});
-
-test('cells are named by what differs among those of a technique, defaults too', () => {
-  const cell = (technique, label, parameters) => ({technique, label, parameters});
-  const cells = named([cell('deep', '', {tolerance: 'noise', kernel: 'box', slots: 64}), cell('deep', 'tolerance=0.02 slots=8', {tolerance: 0.02, kernel: 'box', slots: 8}),
-    cell('avsm', 'nodes=4', {nodes: 4}), cell('ray_traced', undefined, undefined)]);
-  assert.deepEqual(cells.map((c) => c.title), ['deep tolerance=noise slots=64', 'deep tolerance=0.02 slots=8', 'avsm nodes=4', 'ray_traced']);
-  const [first, second] = named([cell('deep', 'kernel=tent', {kernel: 'tent', nodes: 8}), cell('deep', 'kernel=tent nodes=4', {kernel: 'tent', nodes: 4})]);
-  assert.deepEqual([first.title, first.short, second.short], ['deep kernel=tent nodes=8', 'deep nodes=8', 'deep nodes=4']);
-});
-
-const measured = (technique, rms, interval, ns, bytes, more) => ({technique, status: 'ok', verdict: 'kept', bytes, nodes: {cells: bytes}, lookup_error: {rms, rms_interval95: interval},
-  times: {lookup_random_order: {ns: {median: ns, interval95: [0.9 * ns, 1.1 * ns]}}}, ...more});
-
-test('the answer at an error counts intervals, and no technique without a map', () => {
-  const cells = [measured('fast', 0.03, [0.028, 0.033], 10, 4000), measured('small', 0.02, [0.018, 0.022], 30, 1000), measured('near', 0.025, [0.024, 0.026], 10.5, 9000),
-    measured('edge', 0.039, [0.037, 0.045], 1, 10), measured('broken', 0.001, [0.001, 0.001], 1, 1, {verdict: 'failed'}), measured('traced', 0.01, [0.01, 0.01], 5, 0, {nodes: {cells: 0}}),
-    {technique: 'none', status: 'failed'}];
-  const ask = (budget) => {
-    const a = answersAt(cells, {error: errors[0], speed: speeds[0], budget});
-    return {...Object.fromEntries(['fastest', 'smallest', 'traced', 'closest'].map((k) => [k, a[k]?.technique ?? null])), rivals: a.rivals.map((c) => c.technique), certain: a.certain};
-  };
-  assert.deepEqual(ask(0.04), {fastest: 'fast', smallest: 'small', traced: 'traced', closest: null, rivals: ['near'], certain: true}, 'the interval of "edge" reaches beyond it');
-  assert.deepEqual(ask(0.022), {fastest: 'small', smallest: 'small', traced: 'traced', closest: null, rivals: [], certain: true});
-  assert.deepEqual(ask(0.021), {fastest: 'small', smallest: 'small', traced: 'traced', closest: null, rivals: [], certain: false}, 'its value, not its interval');
-  assert.deepEqual(ask(0.005), {fastest: null, smallest: null, traced: null, closest: 'small', rivals: [], certain: false});
-  const untimed = answersAt([measured('big', 0.01, null, NaN, 9), measured('small', 0.01, null, NaN, 4)].map((cell) => ({...cell, times: null})), {error: errors[0], speed: speeds[0], budget: 1});
-  assert.deepEqual([untimed.fastest, untimed.smallest.technique], [null, 'small'], 'nothing is the fastest without times');
-  assert.equal(firstBudget(cells, errors[0]), 0.03, '1.1 times 0.022, rounded up');
-  assert.equal(firstBudget([], errors[0]), 0.05);
-});
-
-test('the band of the front lies between the good and the bad ends of the intervals', () => {
-  const p = (low, high, yLow, yHigh) => ({low, high, yLow, yHigh});
-  assert.deepEqual(undecided([p(1, 2, 5, 6), p(4, 4, 1, 2)], 10, 9), [{x: 1, y: 5, y2: 9}, {x: 2, y: 5, y2: 6}, {x: 4, y: 1, y2: 2}, {x: 10, y: 1, y2: 2}]);
-  assert.deepEqual(undecided([p(1, 1, 5, 5)], 10, 9), [], 'nothing is undecided');
 });
 
 test('an address keeps what is shown, and is read with care', () => {
@@ -187,13 +97,6 @@ test('an address that changes all the time is written now and then, and never th
   assert.equal(address.get('zoom'), null);
 });
 
-test('the difference of functions has the steps of both', () => {
-  const a = {z: [1, 2, 2, 3], v: [1, 1, 0.5, 0.5]}, b = {z: [1, 3], v: [1, 0]};
-  assert.deepEqual(differenceOf(a, b, 0, 4), [[0, 0], [1, 0], [2, 0.5], [2, 0], [3, 0.5], [4, 0.5]]);
-  assert.deepEqual(differenceOf({z: [], v: []}, {z: [2, 2], v: [1, 0.25]}, 0, 4), [[0, 0], [2, 0], [2, 0.75], [4, 0.75]], 'an empty function lets all through');
-  assert.deepEqual(around({z: [2, 2, 2], v: [1, 0.5, 0.25]}, 2), [1, 0.25]);
-});
-
 test('a form changes what it shows, and nothing else', () => {
   const scenario = {lights: [{type: 'spot', position: [3, 4, 0], target: [0, 0, 0], angle: 40}, {type: 'directional', direction: [0, -1, 0]}], rays: {resolution: 64, seed: 3},
     techniques: [{type: 'deep', tolerance: 0.1}, {type: 'avsm'}, {type: 'deep', tolerance: 0.2}], sweeps: {'/techniques/1/nodes': [4, 8], '/techniques/2/tolerance': [0.3], '/rays/resolution': [32, 64]}};
@@ -220,45 +123,8 @@ test('a form changes what it shows, and nothing else', () => {
   assert.ok(!keepsDigits('{"a": 12345678901234567890}'));
 });
 
-test('a recommendation draws what worked, and no bytes of what has no map', () => {
-  const axes = [{name: 'resolution', values: ['16', '32']}, {name: 'samples', values: ['4']}];
-  const at = (family, step, error, failed = '') => ({family, step: [step, 0], failed, error, lookup_ns: 10 + step, bytes: 100 * family, build_ms: 1});
-  const sure = {median: 5, interval95: [4, 6]};
-  const settings = settingsOf({families: [{technique: 'traced', name: 'traced', axes, mapless: true}, {technique: 'deep', name: 'deep kernel=box', axes, mapless: false}],
-    measured: [at(0, 0, 0.1), at(1, 0, 0.2), at(1, 1, 0.1), at(1, 1, null), at(0, 1, 0.1, 'rises')],
-    confirmed: [{family: 1, step: [0, 0], failed: '', error: {mean: 0.21, interval95: [0.2, 0.22]}, lookup_ns: sure, bytes: sure, build_ms: sure}]});
-  assert.deepEqual(settings.map((s) => [s.name, s.error, s.confirmed]), [['traced, resolution=16', 0.1, false], ['deep kernel=box, resolution=16', 0.21, true], ['deep kernel=box, resolution=32', 0.1, false]]);
-  assert.deepEqual(pointsAt(settings, {id: 'lookup_ns'}).map((p) => [p.x, p.xLow, p.low]), [[10, 10, 0.1], [5, 4, 0.2], [11, 11, 0.1]]);
-  assert.deepEqual(pointsAt(settings, {id: 'bytes'}).map((p) => p.technique), ['deep', 'deep']);
-  assert.deepEqual(ownFronts(pointsAt(settings, {id: 'lookup_ns'})), [{technique: 'deep', x: 5, y: 0.21, order: 0}, {technique: 'deep', x: 11, y: 0.1, order: 1}]);
-});
-
-test('results side by side join the cells that both have', () => {
-  const result = (cells) => ({variants: [{lights: [{light: 'key', cells}]}]});
-  const results = [result([measured('deep', 0.1, null, 10, 100), measured('old', 0.1, null, 10, 100)]), result([measured('deep', 0.2, null, 20, 100), {technique: 'avsm', status: 'failed'}])];
-  const {points, lines} = pointsOfAll(results, errors[0], speeds[0]);
-  assert.deepEqual(points.map((p) => [p.of, p.title, p.x, p.y]), [[0, 'deep', 10, 0.1], [0, 'old', 10, 0.1], [1, 'deep', 20, 0.2]]);
-  assert.deepEqual(lines.map((l) => [l.technique, l.x, l.y, l.order]), [['deep', 10, 0.1, 0], ['deep', 20, 0.2, 1]]);
-  assert.deepEqual(overTime(results, speeds[0]), [{title: 'deep', points: [{i: 0, value: 10, low: 9, high: 11}, {i: 1, value: 20, low: 18, high: 22}]}]);
-});
-
 test('CSV quotes what would break it', () => {
   assert.equal(csvOf([['a', 'b,c', 'say "x"'], [1.5, null, undefined]]), 'a,"b,c","say ""x"""\r\n1.5,,\r\n');
-});
-
-test('the worst cell of a function a sample lies in a pixel', () => {
-  const map = {width: 32, height: 32, samples_per_pixel: 4, samples_x: 2, samples_y: 2};
-  assert.deepEqual(worstPixelOf({curve_error: {worst_cell: [21, 6]}, nodes: {cells: 4096}}, map), [10, 3]);
-  assert.deepEqual(worstPixelOf({curve_error: {worst_cell: [21, 6]}, nodes: {cells: 1024}}, map), [21, 6]);
-  assert.equal(worstPixelOf({curve_error: null}, map), null);
-});
-
-test('the picture of a map is that of its light', () => {
-  const images = {lights: [{light: 'key', files: ['light_0.through.exr', 'light_0.through.png']}]};
-  assert.equal(lightMapOf(images, {lightIndex: 0, light: {light: 'key'}}), 'light_0.through.png');
-  assert.equal(lightMapOf(images, {lightIndex: 0, light: {light: 'other'}}), null);
-  assert.equal(lightMapOf({}, {lightIndex: 0, light: {light: 'key'}}), null);
-  assert.equal(lightMapOf(null, {lightIndex: 0, light: {light: 'key'}}), null);
 });
 
 test('a log axis has a place for each value', () => {
@@ -312,19 +178,4 @@ test('a scenario is written with what fits a line on one', () => {
   assert.match(text, /\n  "corner": \[1, 2, 3\],\n/);
   assert.match(text, /\n    \{"type": "deep", "t": 0.1\},\n/);
   assert.deepEqual(JSON.parse(written({a: 'two  [ spaces ]\n'})), {a: 'two  [ spaces ]\n'});
-});
-
-test('the command of a cell says what was swept, in quotes that a shell takes', () => {
-  const result = {name: "it's", scenario: {techniques: [{type: 'deep'}, {type: 'avsm', compression: 'area'}],
-    sweeps: {'/techniques/1/nodes': [4, 8], '/rays/samples_per_pixel': [4]}}};
-  const cell = {technique: 'avsm', where: '/techniques/1', parameters: {nodes: 8, compression: 'area', other: 1}};
-  assert.equal(rerunOf(result, {settings: [['/rays/samples_per_pixel', 4]]}, cell),
-    "shadowbench run 'it'\\''s.json' --set 'sweeps={}' --set 'techniques=[{\"type\":\"avsm\",\"compression\":\"area\",\"nodes\":8}]' --set /rays/samples_per_pixel=4");
-  assert.equal(quoted('a b'), "'a b'");
-});
-
-test('the command of a cell that "*" stands for names its technique', () => {
-  const result = {name: 'all', scenario: {techniques: [{type: '*'}]}};
-  const cell = {technique: 'avsm', where: '/techniques/0', parameters: {nodes: 8}};
-  assert.equal(rerunOf(result, {settings: []}, cell), `shadowbench run all.json --set 'techniques=[{"type":"avsm"}]'`);
 });

@@ -1,0 +1,122 @@
+// Pages of results: recommendations, pictures that are missing, results side by side.
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import {join} from 'node:path';
+
+export const ofResults = {};
+const text = (page, selector) => page.locator(selector).innerText();
+
+ofResults['a recommendation'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  Object.assign(job, {kind: 'recommendation', recommend: {error: 0.02}, promises_kept: null, reached: false,
+    artifacts: ['result.json', 'result.csv', 'table.txt']});
+  mock.files['table.txt'] = 'rms error at most 0.02 with 95 % confidence';
+  const result = JSON.parse(readFileSync(join(mock.fixture, 'result.json'), 'utf8'));
+  const axes = [{name: 'resolution', values: ['32', '64'], stride: 1}, {name: 'samples_per_pixel', values: ['4'], stride: 1}];
+  const at = (family, step, error, ns, size) => ({family, step: [step, 0], failed: '', error, lookup_ns: ns, bytes: size, build_ms: 2});
+  const sample = (v) => ({median: v, interval95: [0.9 * v, 1.1 * v]});
+  result.recommendation = {light: 'key', measure: 'rms', goal: {error: 0.02, cheapest: ['bytes'], at_most: {}, budget_seconds: 9}, end: 'complete', steal: null, scout: null,
+    families: [{technique: 'deep', name: 'deep', axes, mapless: false}, {technique: 'ray_traced', name: 'ray_traced', axes, mapless: true}],
+    measured: [at(0, 0, 0.05, 10, 1000), at(0, 1, 0.019, 20, 4000), at(1, 0, 0.01, 900, 0)],
+    confirmed: [{family: 0, step: [1, 0], failed: '', cut: false, error: {mean: 0.019, interval95: [0.018, 0.02]}, lookup_ns: sample(20), bytes: sample(4000), build_ms: sample(2)}]};
+  mock.results = result;
+  await page.goto(`${url}#/jobs`);
+  await page.waitForSelector('.jobs tbody tr');
+  for (const words of ['recommendation', 'error not reached']) assert.ok((await text(page, '.jobs')).includes(words), words);
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('.cells tbody tr');
+  assert.match(await text(page, 'pre.answer'), /at most 0\.02/);
+  const marks = page.locator('#explored .mark-symbol path');
+  await marks.first().waitFor();
+  assert.equal(await marks.count(), 3);
+  assert.match(await marks.nth(1).getAttribute('aria-label'), /deep, resolution=64\s+one lookup: 20 ns\s+error: 0\.019, 95 %: 0\.018 to 0\.02/);
+  await page.selectOption('#explored select', 'bytes');
+  await page.waitForFunction(() => document.querySelectorAll('#explored .mark-symbol path').length === 2);
+  await page.goBack();
+  await page.waitForFunction(() => document.querySelectorAll('#explored .mark-symbol path').length === 3);
+  assert.equal(await page.locator('#curves').count(), 0, 'its points are not those of the scenario');
+};
+
+ofResults['pictures that could not be made'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  job.artifacts = ['result.json', 'images/error.json'];
+  mock.files['images/error.json'] = {error: {code: 65, where: '/receivers', message: 'the camera sees no <b>surface</b>'}};
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('#curves .curve-legend');
+  assert.match(await text(page, 'main'), /Pictures could not be made: \/receivers the camera sees no <b>surface<\/b>\./);
+};
+
+ofResults['legends of the scale that was stored'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  const images = JSON.parse(readFileSync(join(mock.fixture, 'images', 'images.json'), 'utf8'));
+  mock.files['images/images.json'] = {...images, heat_top: 0.02, difference_factor: 8};
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('#compare .ramp-heat');
+  const legends = () => page.locator('.legend').evaluateAll((all) => all.map((e) => e.innerText.split(/\n+/).join(' ')));
+  const heat = '0 0.01 ≥ 0.02 |visibility − reference|, mean of the channels; 1 is all of the light', through = '0 0.5 1 share of the light that gets past all that casts shadows';
+  const difference = '0 0.0625 ≥ 0.125 |radiance − reference| a channel; 1 is white';
+  assert.deepEqual(await legends(), [difference, heat, heat, through]);
+  assert.match(await text(page, '#cell .strip'), /Difference to the reference, × 8/);
+  await page.selectOption('#compare select >> nth=2', 'difference');
+  assert.deepEqual(await legends(), [difference, heat, difference, through]);
+};
+
+ofResults['two results that differ'] = async ({page, url, mock}) => {
+  const [a, b] = [mock.job('succeeded'), mock.job('succeeded', {name: 'other'})];
+  await page.goto(`${url}#/jobs`);
+  await page.click('.page-head a:has-text("Compare two results")');
+  await page.waitForFunction(() => document.querySelector('main').textContent.includes('Choose two results'));
+  await page.locator('.side select').nth(0).selectOption(a.id);
+  await page.locator('.side select').nth(1).selectOption(b.id);
+  await page.waitForSelector('.outcome.bad-title');
+  assert.deepEqual(mock.compared, {baseline: {job: a.id}, current: {job: b.id}});
+  assert.ok(page.url().endsWith(`#/compare/${a.id}/${b.id}`), 'the address names them');
+  const table = await text(page, '.lines');
+  for (const words of ['✕ less accurate', '✕ larger', '+8400 (+21 %)', '<b>not</b> in the current side', '× 1.22, 95 %: 1.17 to 1.29', '✓ smaller', '△ not comparable']) assert.ok(table.includes(words), words);
+  assert.doesNotMatch(table, /inconclusive/);
+  await page.click('nav a[href="#/compare"]');
+  await page.waitForFunction(() => document.querySelector('main').textContent.includes('Choose two results'));
+  await page.goBack();
+  await page.waitForSelector('.outcome.bad-title');
+  assert.match(await text(page, '.fronts'), /avsm nodes=4 left the front/);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('button[aria-label="Save the verdicts as CSV"]')]);
+  const rows = readFileSync(await download.path(), 'utf8').split('\r\n');
+  assert.equal(rows[1], 'small / key / avsm nodes=4,lookup_error.rms,less_accurate,0.0721,0.0854,,+0.0133 (+18.4 %)');
+};
+
+ofResults['several results in one plot, and over time'] = async ({page, url, mock}) => {
+  const jobs = [mock.job('succeeded'), mock.job('succeeded'), mock.job('succeeded', {kind: 'recommendation'})];
+  await page.goto(`${url}#/explore`);
+  await page.waitForSelector('.boxes input');
+  assert.equal(await page.locator('.boxes input').count(), 2, 'a recommendation has points of its own');
+  assert.match(await text(page, '.empty'), /Choose results/);
+  for (const box of [0, 1]) await page.locator('.boxes input').nth(box).check();
+  await page.waitForSelector('.trend .mark-symbol path');
+  assert.match(decodeURIComponent(page.url()), new RegExp(`jobs=${jobs[1].id},${jobs[0].id}$`));
+  assert.deepEqual(await page.locator('.results li a').allInnerTexts(), ['#1 small', '#2 small']);
+  const cells = 2 * 2 * 6, drawn = await page.locator('.panel:has(#overlay-title) .mark-symbol path').count();
+  assert.equal(drawn, 2 * cells, 'the cells of both');
+  assert.equal(await page.locator('.trend').count(), cells, 'each over time');
+  await page.selectOption('.panel:has(#time-title) select', 'bytes');
+  await page.waitForFunction(() => document.querySelector('.trend .plot').getAttribute('aria-label').includes('bytes of the map'));
+  assert.ok(await page.evaluate(() => document.activeElement.matches('[data-part="over"] select')), 'the focus stays');
+  // A job that was removed does not hide the others.
+  await page.goto(page.url().replace('jobs=', 'jobs=j-gone,'));
+  await page.reload();
+  await page.waitForFunction(() => document.querySelector('.trend .plot')?.getAttribute('aria-label').includes('bytes of the map'));
+  assert.equal(await text(page, '.problem'), 'j-gone: There is no such job.');
+};
+
+ofResults['a file that is not a result'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  await page.goto(`${url}#/compare/${job.id}`);
+  await page.waitForSelector('.side select');
+  // Dropped, with all its digits.
+  await page.locator('.side').nth(1).evaluate((side) => {
+    const data = new DataTransfer();
+    data.items.add(new File(['{"seed": 12345678901234567891}'], 'mine.json'));
+    side.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
+  });
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === '/current: not a result of run');
+  assert.equal(mock.comparedText, `{"baseline": {"job":"${job.id}"}, "current": {"result": {"seed": 12345678901234567891}}}`);
+};
