@@ -9,16 +9,6 @@ namespace {
 
 using nlohmann::json;
 
-TEST(Closest, FindsSlipsAndNothingElse) {
-    const std::vector<std::string> names{"shadow_map", "deep", "avsm", "colour"};
-    EXPECT_EQ(closest("shadowmap", names), "shadow_map");
-    EXPECT_EQ(closest("color", names), "colour");
-    EXPECT_EQ(closest("dep", names), "deep");
-    EXPECT_EQ(closest("fourier", names), "");
-    EXPECT_EQ(closest("x", {}), "");
-    EXPECT_EQ(closest(std::string(100000, 'a'), names), "");
-}
-
 TEST(Describe, PutsSchemasInWords) {
     EXPECT_EQ(describe(json::parse(R"({"type": "number", "exclusiveMinimum": 0, "maximum": 1})")), "number in (0, 1]");
     EXPECT_EQ(describe(json::parse(R"({"type": "integer", "minimum": 2})")), "integer of at least 2");
