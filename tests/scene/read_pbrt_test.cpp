@@ -280,8 +280,9 @@ TEST(ReadPbrt, BoundsWhatASceneHolds) {
     // Boxes take no voxels from the grids that follow.
     PbrtLimits voxels;
     voxels.voxels = 6;
-    EXPECT_THAT(refused(fog + box + grid("") + "MakeNamedMedium \"n\" \"string type\" \"uniformgrid\" "
-                                               "\"float density\" 1",
+    EXPECT_THAT(refused(fog + box + grid("") +
+                            "MakeNamedMedium \"n\" \"string type\" \"uniformgrid\" "
+                            "\"float density\" 1",
                         voxels),
                 HasSubstr("1 voxels; the limit"));
     EXPECT_THAT(refused("MediumInterface \"" + std::string(257, 'm') + "\""), HasSubstr("over 256 bytes"));

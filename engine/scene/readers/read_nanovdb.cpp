@@ -85,8 +85,7 @@ Vec3i entry_corner(const Vec3i& corner, std::uint32_t n, unsigned log2, std::int
 }
 
 // The bits of a key that give a place: 20 for each axis.
-constexpr std::uint64_t key_bits =
-    std::uint64_t{0xfffff} | std::uint64_t{0xfffff} << 21 | std::uint64_t{0xfffff} << 42;
+constexpr std::uint64_t key_bits = std::uint64_t{0xfffff} | std::uint64_t{0xfffff} << 21 | std::uint64_t{0xfffff} << 42;
 
 Vec3i root_corner(std::uint64_t key) {
     const auto along = [&](unsigned shift) {

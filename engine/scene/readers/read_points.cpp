@@ -64,6 +64,9 @@ void read_points_of(PlySource& source, const PlyElement& element, float radius, 
         return row[at];
     };
     Particles& points = file.points;
+    points.centres.reserve(static_cast<std::size_t>(element.count));
+    points.radii.reserve(static_cast<std::size_t>(element.count));
+    points.density.reserve(static_cast<std::size_t>(element.count));
     std::uint64_t without_radius = 0;
     for (std::uint64_t i = 0; i < element.count; ++i) {
         read_row(source, element, row);
