@@ -59,11 +59,21 @@ async function assertAxe(page) {
   assert.deepEqual(found, []);
 }
 
+// Plots are drawn again after a change of the window or the colours. What never fits is found by the assertion that follows.
+async function drawn(page) {
+  await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
+  await page.waitForFunction(() => [...document.querySelectorAll('.plot svg')].every((svg) => {
+    const a = svg.getBoundingClientRect(), b = svg.closest('.plot').getBoundingClientRect();
+    return a.left >= b.left - 1 && a.right <= b.right + 1 && a.top >= b.top - 1 && a.bottom <= b.bottom + 1;
+  }), null, {timeout: 10_000}).catch(() => {});
+}
+
 // Every control has a name and shows when it has the focus, every picture and plot a text, ids are there once, plots stand
 // where they belong, their labels cover neither marks nor each other, and the page does not scroll sideways.
 // `axe`: with axe-core's rules and the focus of each control, which take the longest and are needed once a state, as colours
 // do not change them.
 export async function assertAccessible(page, {axe: rules = true} = {}) {
+  await drawn(page);
   const faults = await page.evaluate((focus) => {
     const found = [];
     const seen = new Set();
