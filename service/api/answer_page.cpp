@@ -1,5 +1,7 @@
 // GET / and /assets: the page and its files, which the program holds.
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "base/hash_text.h"
 #include "service/api/accept.h"
@@ -18,13 +20,12 @@ constexpr const char* page_policy =
 // The page and its scripts name their files and the API from the root of the host. Behind a proxy these paths begin
 // with its prefix.
 std::string relocated(std::string text, const std::string& prefix) {
-    for (const char quote : {'"', '\'', '`'})
-        for (const char* top : {"/assets/", "/v1/"}) {
-            const std::string path = quote + std::string(top);
-            for (std::size_t at = text.find(path); at != std::string::npos;
-                 at = text.find(path, at + prefix.size() + 1))
-                text.insert(at + 1, prefix);
-        }
+    for (std::size_t at = 0; (at = text.find_first_of("\"'`", at)) != std::string::npos; ++at) {
+        const std::string_view path = std::string_view(text).substr(at + 1);
+        if (!path.starts_with("/assets/") && !path.starts_with("/v1/")) continue;
+        text.insert(at + 1, prefix);
+        at += prefix.size();
+    }
     return text;
 }
 

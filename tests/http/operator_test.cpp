@@ -123,6 +123,8 @@ TEST_F(Operator, LinksHaveThePrefixOfAProxy) {
     const std::string page = ask(get("/", through)).body;
     EXPECT_NE(page.find("\"/tools/lab/assets/"), std::string::npos);
     EXPECT_EQ(page.find("\"/assets/"), std::string::npos);
+    const std::string odd = ask(get("/", "X-Forwarded-Prefix: /v1/lab\r\n")).body;
+    EXPECT_NE(odd.find("\"/v1/lab/assets/"), std::string::npos) << "a prefix is no path of the page itself";
     const std::string script = ask(get("/assets/app.js", through)).body;
     EXPECT_NE(script.find("/tools/lab/v1/jobs"), std::string::npos);
     for (const char* evil : {"//evil.example", "/a/../b", "lab", "/a\"b", "/a/", "https://evil.example"})

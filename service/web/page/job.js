@@ -90,7 +90,7 @@ export function jobView({id, signal, edit}) {
     place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
       ...(text ? [h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer', tabindex: '0'}, text))] : []),
       ...(result.recommendation ? [exploredView({recommendation: result.recommendation, name: job.name, signal})] : []),
-      h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)), resultView({source, result, images, imagesFault: fault?.error, signal}));
+      resultView({source, result, images, imagesFault: fault?.error, signal}), h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)));
     announce(`${job.name}: the result is shown`);
   }
   function update(job) {

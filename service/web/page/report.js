@@ -12,5 +12,5 @@ const source = {
 document.getElementById('main').append(h('div', {class: 'stack'},
   h('div', {class: 'page-head'}, h('h1', {}, result.name ?? 'unnamed')),
   h('p', {class: 'purpose'}, result.purpose ?? ''),
-  h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)),
-  resultView({source, result, images, signal: new AbortController().signal})));
+  resultView({source, result, images, signal: new AbortController().signal}),
+  h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result))));

@@ -59,11 +59,22 @@ async function assertAxe(page) {
   assert.deepEqual(found, []);
 }
 
+// Plots are drawn again after a change of the window or the colours. What never fits is found by the assertion that follows.
+async function drawn(page) {
+  await page.evaluate(() => new Promise((resolve) => { requestAnimationFrame(() => requestAnimationFrame(resolve)); }));
+  await page.waitForFunction(() => [...document.querySelectorAll('.plot svg')].every((svg) => {
+    const a = svg.getBoundingClientRect(), b = svg.closest('.plot').getBoundingClientRect();
+    return a.left >= b.left - 1 && a.right <= b.right + 1 && a.top >= b.top - 1 && a.bottom <= b.bottom + 1;
+  }), null, {timeout: 10_000}).catch(() => {});
+}
+
 // Every control has a name and shows when it has the focus, every picture and plot a text, ids are there once, plots stand
 // where they belong, their labels cover neither marks nor each other, and the page does not scroll sideways.
-// `axe`: with axe-core's rules, which take the longest; they need it once a state, as they do not look at colours.
+// `axe`: with axe-core's rules and the focus of each control, which take the longest and are needed once a state, as colours
+// do not change them.
 export async function assertAccessible(page, {axe: rules = true} = {}) {
-  const faults = await page.evaluate(() => {
+  await drawn(page);
+  const faults = await page.evaluate((focus) => {
     const found = [];
     const seen = new Set();
     for (const {id} of document.querySelectorAll('[id]')) seen.has(id) ? found.push(`two elements #${id}`) : seen.add(id);
@@ -71,7 +82,7 @@ export async function assertAccessible(page, {axe: rules = true} = {}) {
     for (const e of document.querySelectorAll('button, a[href], input, select, textarea, progress, [role="slider"], [role="img"], [tabindex="0"]'))
       if (e.checkVisibility() && !named(e)) found.push(`no name: ${e.outerHTML.slice(0, 90)}`);
     const before = document.activeElement;
-    for (const e of document.querySelectorAll('button:enabled, a[href], input:enabled, select:enabled, [tabindex="0"]')) {
+    for (const e of focus ? document.querySelectorAll('button:enabled, a[href], input:enabled, select:enabled, [tabindex="0"]') : []) {
       if (!e.checkVisibility()) continue;
       e.focus({focusVisible: true, preventScroll: true});
       if (document.activeElement !== e || getComputedStyle(e).outlineStyle === 'none') found.push(`no focus to see: ${e.outerHTML.slice(0, 90)}`);
@@ -96,7 +107,7 @@ export async function assertAccessible(page, {axe: rules = true} = {}) {
     const {scrollWidth} = document.scrollingElement;
     if (scrollWidth > innerWidth) found.push(`wider than the window: ${scrollWidth} > ${innerWidth}`);
     return found;
-  });
+  }, rules);
   assert.deepEqual(faults, []);
   if (rules) await assertAxe(page);
 }

@@ -20,8 +20,8 @@ async function each(browser, file, look) {
     }
 }
 
-async function report(options) {
-  const folder = makeFixture(options);
+// Changes the result that the folder holds.
+async function report(options, folder) {
   const result = JSON.parse(readFileSync(join(folder, 'result.json'), 'utf8'));
   result.name = '</script><script>hacked = 1</script><img src=x onerror="hacked = 1">';
   result.variants[0].lights[0].cells[1].label = '<img src=x onerror="hacked = 1">';
@@ -128,8 +128,8 @@ async function numbers(options, folder) {
 }
 
 export default async function run(options) {
-  await report(options);
   const folder = makeFixture(options);
   await numbers(options, folder);
   await history(options, folder);
+  await report(options, folder);
 }

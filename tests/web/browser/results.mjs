@@ -97,6 +97,7 @@ ofResults['several results in one plot, and over time'] = async ({page, url, moc
   const cells = 2 * 2 * 6, drawn = await page.locator('.panel:has(#overlay-title) .mark-symbol path').count();
   assert.equal(drawn, 2 * cells, 'the cells of both');
   assert.equal(await page.locator('.trend').count(), cells, 'each over time');
+  await page.focus('.panel:has(#time-title) select');
   await page.selectOption('.panel:has(#time-title) select', 'bytes');
   await page.waitForFunction(() => document.querySelector('.trend .plot').getAttribute('aria-label').includes('bytes of the map'));
   assert.ok(await page.evaluate(() => document.activeElement.matches('[data-part="over"] select')), 'the focus stays');
