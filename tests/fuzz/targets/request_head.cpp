@@ -49,7 +49,7 @@ void request_head(std::string_view bytes) {
     for (const service::Field& field : head.request.headers)
         expect(!field.name.empty() && std::none_of(field.value.begin(), field.value.end(), control),
                "fields have names, and no control characters");
-    service::guard(head.request, {true, "0123456789abcdef"});
+    service::guard(head.request, {true, {{"", "0123456789abcdef"}}});
 }
 
 }  // namespace shadowbench::fuzz
