@@ -27,7 +27,7 @@ nlohmann::json read_document(const fs::path& file) {
 }  // namespace
 
 Job read_job(const JobArguments& arguments, const fs::path& scenario) {
-    load_libraries(arguments.libraries);
+    load_libraries(arguments.libraries, arguments.memory_limit);
     Job job;
     nlohmann::json document = read_document(scenario);
     for (const std::string& assignment : arguments.set) document::set_value(document, assignment);

@@ -137,7 +137,7 @@ std::optional<StorageFault> storage_fault(const Error& error, const std::string&
 
 bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
     const fs::path folder = arguments.folder;
-    load_libraries(arguments.libraries);
+    load_libraries(arguments.libraries, arguments.memory_limit);
     const TemporaryPlace temporary(arguments.folder);
     const nlohmann::json document = scene::parse_json(base::read_text(folder / "scenario.json"), "scenario.json");
     bench::RunOptions options;

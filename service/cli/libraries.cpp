@@ -14,7 +14,9 @@
 
 namespace shadowbench::service {
 
-void load_libraries(const LibraryArguments& libraries) {
+void load_libraries(const LibraryArguments& libraries, double memory_limit) {
+    const double granted = memory_limit > 0.0 ? std::max(memory_limit, 1.0) : 0.0;  // the program itself needs some
+    const auto memory = static_cast<std::size_t>(granted * 1024.0 * 1024.0 * 1024.0);
     for (const std::string& file : libraries.files) {
         if (!libraries.isolate) {
             techniques::load_library(file);
@@ -22,7 +24,7 @@ void load_libraries(const LibraryArguments& libraries) {
         }
         static const HeldProgram program;  // for as long as rows start it
         techniques::load_library(file, [&](const std::filesystem::path& opened) {
-            return open_isolated(opened, {program.path(), libraries.call_seconds});
+            return open_isolated(opened, {program.path(), libraries.call_seconds, memory});
         });
     }
 }

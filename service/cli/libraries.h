@@ -10,8 +10,9 @@
 namespace shadowbench::service {
 
 // Adds their techniques to the registry; one that is there is not read again. A library that cannot be used gets a row
-// that fails with the reason. Throws Error: no_such_file or io; bad_input if not even such a row can be made.
-void load_libraries(const LibraryArguments& libraries);
+// that fails with the reason. `memory_limit`: GiB that a process of its own may reserve, at least 1; 0: no limit beyond
+// that of this process. Throws Error: no_such_file or io; bad_input if not even such a row can be made.
+void load_libraries(const LibraryArguments& libraries, double memory_limit = 0.0);
 
 // The shared libraries of a folder, by name. Throws Error{no_such_file}.
 std::vector<std::string> libraries_in(const std::string& folder);

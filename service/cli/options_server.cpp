@@ -145,8 +145,8 @@ void add_serve(CLI::App& app, Commands& commands) {
     add_data(*serve, arguments->data, "Scenarios may name the files of this folder [no files]");
     serve->add_option(
         "--technique-libraries", arguments->libraries,
-        "Load techniques from the shared libraries (*.so) of this folder, as they are now. Their maps live "
-        "in processes of their own, as with run --isolate [none]");
+        "Load techniques from the shared libraries (*.so) of this folder. Their maps live in processes of their own, "
+        "as with run --isolate. Start the server again after a file has changed [none]");
     serve
         ->add_option("--call-seconds", arguments->call_seconds,
                      "Seconds that one call of a technique from outside may take")
@@ -243,12 +243,13 @@ void add_helpers(CLI::App& app, Commands& commands) {
 
 // Not in --help: --isolate runs it, for each map.
 void add_technique_host(CLI::App& app, Commands& commands) {
-    const auto library = std::make_shared<std::string>();
+    const auto library = std::make_shared<std::string>(), hash = std::make_shared<std::string>();
     CLI::App* host = app.add_subcommand("technique-host", "Serve a library of techniques on standard input, a socket");
     host->group("");
     host->add_option("LIBRARY", *library)->required();
-    commands.push_back({host, [library](std::ostream&, std::ostream&) {
-                            host_techniques(*library);
+    host->add_option("HASH", *hash, "Of the library, which is not opened if it has another one")->required();
+    commands.push_back({host, [library, hash](std::ostream&, std::ostream&) {
+                            host_techniques(*library, *hash);
                             return 0;
                         }});
 }

@@ -30,11 +30,11 @@ SocketPair::SocketPair() {
     other.reset(ends[1]);
 }
 
-Connection::Connection(const std::string& program, const std::string& library, double call_seconds)
+Connection::Connection(const IsolationOptions& options, const std::string& library, const std::string& hash)
     : library_(library),
-      call_seconds_(call_seconds),
-      child_(program, {"technique-host", library},
-             {.in = sockets_.other.number(), .out = sockets_.other.number(), .err = -1}) {
+      call_seconds_(options.call_seconds),
+      child_(options.program, {"technique-host", library, hash},
+             {.in = sockets_.other.number(), .out = sockets_.other.number(), .err = -1}, options.memory) {
     sockets_.other.close();  // so that the end of the process is the end of the connection
 }
 

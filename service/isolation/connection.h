@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include "service/isolation/isolated.h"
 #include "service/isolation/message.h"
 #include "service/process/child_process.h"
 #include "service/process/descriptor.h"
@@ -20,8 +21,8 @@ struct SocketPair {
 
 class Connection {
 public:
-    // Starts `program technique-host library`. Throws as ChildProcess does.
-    Connection(const std::string& program, const std::string& library, double call_seconds);
+    // Starts `program technique-host library hash`. Throws as ChildProcess does.
+    Connection(const IsolationOptions& options, const std::string& library, const std::string& hash);
 
     bool alive() const { return !dead_; }
 

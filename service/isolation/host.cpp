@@ -49,13 +49,13 @@ bool write_all(int line, const void* from, std::size_t size) {
 // The library and its one map.
 class Hosted {
 public:
-    explicit Hosted(std::string file) : file_(std::move(file)) {}
+    Hosted(std::string file, std::string hash) : file_(std::move(file)), hash_(std::move(hash)) {}
 
     MessageWriter answer(Request request, MessageReader& from) {
         MessageWriter to;
         switch (request) {
             case Request::describe:
-                open_.emplace(techniques::open_library(file_));
+                open();
                 to.put(static_cast<std::uint64_t>(open_->techniques.size()));
                 for (const techniques::Outside& technique : open_->techniques) put(to, technique.description);
                 break;
@@ -95,7 +95,7 @@ private:
         return *map_;
     }
     void ask_technique(Request request, MessageReader& from, MessageWriter& to) {
-        if (!open_) open_.emplace(techniques::open_library(file_));
+        if (!open_) open();
         techniques::TechniqueCalls& calls = *open_->techniques.at(from.get<std::uint64_t>()).calls;
         const techniques::ParameterValues values = get_values(from);
         const auto layout = from.get<rays::MapLayout>();
@@ -117,7 +117,13 @@ private:
         to.put_list(std::span<const curves::Vertex>(curve_));
     }
 
-    std::string file_;
+    void open() {
+        if (techniques::identify(file_).hash != hash_)
+            throw Error(ErrorCode::bad_input, file_, "the file of the library has changed since it was loaded");
+        open_.emplace(techniques::open_library(file_));
+    }
+
+    std::string file_, hash_;
     std::optional<techniques::OpenLibrary> open_;
     std::unique_ptr<techniques::MapCalls> map_;
     std::vector<techniques::Query> queries_;
@@ -137,9 +143,9 @@ int take_connection() {
 
 }  // namespace
 
-void host_techniques(const std::string& library) {
+void host_techniques(const std::string& library, const std::string& hash) {
     const Descriptor line(take_connection());
-    Hosted hosted(library);
+    Hosted hosted(library, hash);
     MessageHead head;
     while (read_all(line.number(), &head, sizeof head)) {
         std::string body(head.size, '\0');

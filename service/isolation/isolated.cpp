@@ -19,7 +19,8 @@ using base::ErrorCode;
 // Processes of one library. Each has one map at most; one whose map is gone waits for the next.
 class HostPool {
 public:
-    HostPool(std::string file, IsolationOptions options) : file_(std::move(file)), options_(std::move(options)) {}
+    HostPool(std::string file, std::string hash, IsolationOptions options)
+        : file_(std::move(file)), hash_(std::move(hash)), options_(std::move(options)) {}
 
     std::unique_ptr<Connection> take() {
         {
@@ -30,7 +31,7 @@ public:
                 return host;
             }
         }
-        return std::make_unique<Connection>(options_.program, file_, options_.call_seconds);
+        return std::make_unique<Connection>(options_, file_, hash_);
     }
     void give_back(std::unique_ptr<Connection> host) {
         if (!host || !host->alive()) return;
@@ -39,7 +40,7 @@ public:
     }
 
 private:
-    std::string file_;
+    std::string file_, hash_;
     IsolationOptions options_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<Connection>> idle_;
@@ -147,7 +148,7 @@ private:
 techniques::OpenLibrary open_isolated(const std::filesystem::path& file, const IsolationOptions& options) {
     techniques::OpenLibrary open{techniques::identify(file), {}};
     open.library.isolated = true;
-    const auto pool = std::make_shared<HostPool>(std::filesystem::absolute(file).string(), options);
+    const auto pool = std::make_shared<HostPool>(std::filesystem::absolute(file).string(), open.library.hash, options);
     const Borrowed host(pool);
     MessageReader from = host->ask(Request::describe, "shadowbench_techniques", {});
     const std::size_t count = from.get_count();

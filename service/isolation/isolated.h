@@ -3,6 +3,7 @@
 // lookups are timed without a floor.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -11,11 +12,12 @@
 namespace shadowbench::service {
 
 struct IsolationOptions {
-    std::string program;         // this one, which runs `technique-host FILE`
+    std::string program;         // this one, which runs `technique-host FILE HASH`
     double call_seconds = 60.0;  // that one call may take
+    std::size_t memory = 0;      // bytes that a process may reserve, for itself and its map; 0: no limit
 };
 
-// As techniques::open_library(), in another process.
+// As techniques::open_library(), in another process. Later processes refuse the file if it has changed since.
 techniques::OpenLibrary open_isolated(const std::filesystem::path& file, const IsolationOptions& options);
 
 }  // namespace shadowbench::service

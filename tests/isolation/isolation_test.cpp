@@ -6,10 +6,12 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "errors.h"
 #include "techniques/hand_rays.h"
+#include "temporary_folder.h"
 
 namespace shadowbench::service {
 namespace {
@@ -96,6 +98,35 @@ TEST(Isolated, FaultsComeWithTheirReasons) {
     EXPECT_EQ(map_of(row, {{"fault", "print"}})(behind), 1.0f) << "what a library prints is not an answer";
     const HandMap few = map_of(row, {{"fault", "few"}});
     EXPECT_TRUE(std::isnan(few(behind)));
+}
+
+// Else a map could take the memory of the whole machine.
+TEST(Isolated, AMapBeyondItsMemoryFails) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers reserve terabytes, so there is no limit";
+#endif
+    const std::size_t gib = std::size_t{1} << 30;
+    const Technique row = row_of(open_isolated(SHADOWBENCH_FAULTY, {SHADOWBENCH_PROGRAM, 60.0, gib}));
+    EXPECT_THAT(test::error_of(
+                    [&] {
+                        map_of(row, {{"fault", "greedy"}});
+                    },
+                    base::ErrorCode::internal, SHADOWBENCH_FAULTY),
+                HasSubstr("finish() threw an exception: std::bad_alloc"));
+    EXPECT_EQ(map_of(row, {{"fault", "none"}})(behind), 1.0f);
+}
+
+// Else answers of the new file would be reported as those of the old one.
+TEST(Isolated, AFileThatChangesAfterItWasLoadedFails) {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "libchanging.so", next = folder.path() / "next";
+    std::filesystem::copy_file(SHADOWBENCH_FAULTY, file);
+    const Technique row = isolated(file.c_str());
+    const HandMap first = map_of(row, {{"fault", "none"}});  // which has the process that described the library
+    std::filesystem::copy_file(SHADOWBENCH_STAIRS, next);
+    std::filesystem::rename(next, file);
+    test::error_of([&] { map_of(row, {{"fault", "none"}}); }, base::ErrorCode::internal, file.string());
+    EXPECT_EQ(first(behind), 1.0f);
 }
 
 TEST(Isolated, ALibraryThatCannotBeOpenedIsRefused) {
