@@ -24,8 +24,9 @@ export function filePicker({taken, signal}) {
     const [file] = own.files;
     if (file) taken(await file.text());
   }});
-  get('/v1/files', signal).then(({files}) => {
+  get('/v1/files', signal).then(({files, more}) => {
     if (!files.length) return setText(said, 'There are no such files in the data folders of the server (--data).');
+    if (more) setText(said, 'There are more files than this list holds. The text below can name any of them.');
     name = files[0].name;
     place.replaceChildren(
       choice('File', files.map((f) => ({value: f.name, text: `${f.name}, ${bytes(f.bytes)}`})), name, (v) => { name = v; }),

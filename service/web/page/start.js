@@ -18,7 +18,7 @@ export function startHead({compare, files, recommend, error}) {
       h('figure', {}, h('img', {src: '/assets/first.webp', width: '600', height: '400', alt: 'A ball of fine hair over a plane. Its shadow is dark and fibrous.'}),
         h('figcaption', {class: 'note'}, 'The shadow of 9,000 strands of hair in a deep shadow map.'))),
     h('div', {class: 'cards'},
-      card('Compare techniques on an example', 'A ball of hair, seven techniques, less than a minute.',
+      card('Compare techniques on an example', 'A ball of hair, six techniques, less than a minute.',
         h('button', {type: 'button', class: 'primary', onclick: compare}, 'Show the example')),
       card('Bring a file', 'A mesh, hair, a volume or a deep image: light, camera and ground are placed around it.', files),
       card('Ask for a recommendation', 'The cheapest technique and settings for an error, for the scenario below.', ask)));

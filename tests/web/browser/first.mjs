@@ -63,6 +63,7 @@ firstPage['a file of the data folders'] = async ({page, url, mock}) => {
   await page.goto(url);
   await ready(page);
   const card = page.locator('.card', {hasText: 'Bring a file'});
+  assert.match(await card.innerText(), /more files than this list holds/);
   await card.locator('select').first().selectOption('torn.bad');
   await card.locator('button').click();
   await page.waitForFunction(() => document.querySelector('.card [role="alert"]').textContent === 'torn.bad: not a grid');

@@ -140,7 +140,7 @@ export class Mock {
     this.json(response, 200, {techniques: ids.map((id) => ({id, title: `the technique ${id}`, parameters: []}))});
   }
 
-  getFiles({response}) { this.json(response, 200, {files: this.dataFiles}); }
+  getFiles({response}) { this.json(response, 200, {files: this.dataFiles, more: this.dataFiles.length > 2}); }
 
   // A scenario around a file; one that ends with .bad cannot be read.
   newScenario({response, body}) {
