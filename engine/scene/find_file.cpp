@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "scene/readers/beside.h"
+#include "scene/beside.h"
 #include "scene/scenario.h"
 
 namespace shadowbench::scene {

@@ -11,8 +11,8 @@
 #include "base/json_pointer.h"
 #include "base/utf8.h"
 #include "document/document.h"
+#include "scene/beside.h"
 #include "scene/new_scenario.h"
-#include "scene/readers/beside.h"
 #include "scene/scenario.h"
 #include "techniques/technique.h"
 

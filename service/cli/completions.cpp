@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "service/cli/help_model.h"
+#include "service/cli/options_model.h"
 
 namespace shadowbench::service {
 namespace {

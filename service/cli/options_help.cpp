@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "base/write_files.h"
-#include "service/cli/help_model.h"
+#include "service/cli/options_model.h"
 #include "service/cli/options.h"
 
 namespace shadowbench::service {

@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"/ray", "{}", "/ray", "perhaps \"rays\""},
                     Wrong{"/lights/0/color", "1", "/lights/0/color", "perhaps \"colour\""},
                     Wrong{"/lights/0/position", "[0, 1, 0]", "/lights/0/position",
-                          "the keys here are: colour, direction"},
+                          "the keys here are: casts_shadow, colour, direction"},
                     Wrong{"/scene/objects/0/extinction", "1", "/scene/objects/0/extinction", "casts_shadow, centre"},
                     Wrong{"/scene/object", "[]", "/scene/object", "perhaps \"objects\""},
                     Wrong{"/receivers", R"({"type": "probes", "fov": 3})", "/receivers/fov", "unknown key \"fov\""},

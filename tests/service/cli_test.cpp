@@ -198,6 +198,7 @@ TEST_F(Cli, validate_reports_what_readers_skipped) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.out,
               "OK deep: 1 variant of 1 light and 1 technique\n"
+              "file: /scene/deep_image/file: zback0.exr: 8 x 8 pixels, 64 samples, Z 3\n"
               "note: /scene/deep_image: 64 of 64 samples have their ZBack before Z: taken as surfaces\n");
 }
 

@@ -89,7 +89,6 @@ TEST_F(FileCommands, RefuseFilesWithTheirPlace) {
         fails({command, write("a.xyz", "1 2 3\n")}, 65, "a.xyz: the name of a data file must end in .obj, ");
         fails({command, write("b.obj", "v 0 0 0\nv 1 zero 0\n")}, 65, "b.obj:2");
     }
-    fails({"new", case_file("points.ply")}, 65, "points.ply: a point cloud");
     fails({"new", case_file("inf.exr"), case_file("bom.obj")}, 64, "inf.exr: a deep image is a scene of its own");
     fails({"new", case_file("bom.obj"), "--up", "x"}, 64, "--up");
     const std::string mesh = write("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");

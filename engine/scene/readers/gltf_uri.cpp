@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "scene/readers/beside.h"
+#include "scene/beside.h"
 
 namespace shadowbench::scene {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "scene/beside.h"
 #include "scene/limits.h"
-#include "scene/readers/beside.h"
 #include "scene/readers/text_lines.h"
 
 namespace shadowbench::scene {

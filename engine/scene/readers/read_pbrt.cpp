@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "base/read_text.h"
 #include "base/utf8.h"
-#include "scene/readers/beside.h"
+#include "scene/beside.h"
 #include "scene/readers/extension.h"
 #include "scene/readers/pbrt_files.h"
 #include "scene/readers/pbrt_media.h"

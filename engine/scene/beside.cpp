@@ -1,4 +1,4 @@
-#include "scene/readers/beside.h"
+#include "scene/beside.h"
 
 #include <algorithm>
 #include <system_error>

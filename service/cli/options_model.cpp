@@ -1,4 +1,4 @@
-#include "service/cli/help_model.h"
+#include "service/cli/options_model.h"
 
 #include <algorithm>
 #include <sstream>
