@@ -48,8 +48,7 @@ public:
 
     // Returns false, and does nothing, for a block that it cannot take.
     bool run(std::span<const Query> block, std::span<float> answers) {
-        constexpr std::size_t fewest_queries = 8;
-        if (block.size() < fewest_queries || !arrange(block)) return false;
+        if (block.size() < Reads::fewest_in_slots || !arrange(block)) return false;
         for (std::size_t r = 0; r < reads_.count; ++r) __builtin_prefetch(&map_.offsets[pixel_[r]]);
         for (std::size_t r = 0; r < reads_.count; ++r) {
             const float* depths = map_.floats.data() + map_.offsets[pixel_[r]];

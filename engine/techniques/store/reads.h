@@ -17,6 +17,8 @@ namespace shadowbench::techniques {
 // Both have the texels of a query in the same order, so their sums have the same bits.
 struct Reads {
     static constexpr std::size_t most_slots = 4, most = most_slots * block_queries;
+    // Of a shorter block the empty places in slots would take longer than they save.
+    static constexpr std::size_t fewest_in_slots = 8;
 
     std::size_t count = 0;
     std::size_t slots = 0;  // 0: in any order

@@ -72,7 +72,9 @@ public:
                 queries, visibility,
                 [&](std::span<const Query> block) {
                     own().prepare_all(block, prepared);
-                    std::fill(prepared.begin() + block.size(), prepared.end(), prepared[0]);
+                    // The empty places of slots are evaluated too.
+                    if (block.size() >= Reads::fewest_in_slots)
+                        std::fill(prepared.begin() + block.size(), prepared.end(), prepared[0]);
                 },
                 [&](Reads& reads) { own().evaluate_all(reads, prepared); });
         }

@@ -151,9 +151,8 @@ private:
     // Arranges the reads of a block in slots, and prefetches them. Returns false if a query has too many texels for
     // that, or if the block is so short that its empty places would take longer; then only `covered` is set.
     bool read_slots(std::span<const Query> block, Cover& covered, Reads& reads) const {
-        constexpr std::size_t fewest_queries = 8;
         filter == Filter::footprint ? cover(grid, block, covered) : cover_nearest(grid, block, covered);
-        if (block.size() < fewest_queries || covered.across.longest > 2 || covered.down.longest > 2) return false;
+        if (block.size() < Reads::fewest_in_slots || covered.across.longest > 2 || covered.down.longest > 2) return false;
         if (filter == Filter::point) {
             reads.begin(1);
             std::fill_n(reads.weight.begin(), block_queries, 1.0);
