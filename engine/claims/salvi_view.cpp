@@ -15,7 +15,7 @@
 #include "curves/sweep.h"
 #include "rays/capture.h"
 #include "rays/tracer.h"
-#include "render/image_file.h"
+#include "render/display.h"
 #include "render/render.h"
 
 namespace shadowbench::claims::salvi {

@@ -4,11 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "render/colour_map.h"
 #include "render/digits.h"
 
 namespace shadowbench::render {
@@ -19,18 +17,6 @@ using base::Vec3f;
 constexpr int margin = 4, bar_height = 10, tick_height = 3, text_scale = 2;
 constexpr int text_height = digit_height * text_scale;
 const Vec3f paper(1.0f), ink(0.0f);
-
-std::vector<Vec3f> colours(const std::vector<float>& unit_values, int width, int height) {
-    const OIIO::ImageSpec spec(width, height, 1, OIIO::TypeDesc::FLOAT);
-    // A copy, since the library may write to the memory that it wraps.
-    std::vector<float> values = unit_values;
-    const OIIO::ImageBuf source(spec, values.data());
-    const OIIO::ImageBuf mapped = OIIO::ImageBufAlgo::color_map(source, 0, "viridis");
-    std::vector<Vec3f> result(unit_values.size());
-    if (mapped.has_error() || !mapped.get_pixels(mapped.roi(), OIIO::TypeDesc::FLOAT, result.data()))
-        throw base::Error(base::ErrorCode::internal, "", "OpenImageIO has no colour map: " + mapped.geterror());
-    return result;
-}
 
 void fill(Image& image, int x0, int x1, int y0, int y1, const Vec3f& colour) {
     for (int y = y0; y < y1; ++y)
@@ -51,7 +37,7 @@ void add_legend(Image& image, int top_row, double top) {
     std::vector<float> ramp;
     for (int x = left; x < right; ++x)
         ramp.push_back(static_cast<float>(x - left) / static_cast<float>(right - left - 1));
-    const std::vector<Vec3f> shades = colours(ramp, right - left, 1);
+    const std::vector<Vec3f> shades = colour_map(ramp, right - left, 1);
     for (int x = left; x < right; ++x) fill(image, x, x + 1, bar, bar + bar_height, shades[x - left]);
     const double numbers[] = {0.0, 0.5 * top, top};
     int needed = 0;
@@ -82,7 +68,7 @@ Image heat_map(std::span<const float> values, int width, int height, double top)
     scaled.reserve(values.size());
     for (const float v : values) scaled.push_back(static_cast<float>(std::min(v / top, 1.0)));
     Image image({width, height + legend_height()}, paper);
-    const std::vector<Vec3f> shades = colours(scaled, width, height);
+    const std::vector<Vec3f> shades = colour_map(scaled, width, height);
     std::copy(shades.begin(), shades.end(), image.pixels.begin());
     add_legend(image, height, top);
     return image;

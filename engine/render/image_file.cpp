@@ -10,6 +10,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "base/error.h"
+#include "render/display.h"
 
 namespace shadowbench::render {
 namespace {
@@ -29,14 +30,6 @@ std::string encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDe
 }
 
 }  // namespace
-
-double to_display(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
-double from_display(double shown) {
-    return shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4);
-}
 
 std::string encode_exr(const Image& image) {
     OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::HALF);

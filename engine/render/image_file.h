@@ -7,10 +7,6 @@
 
 namespace shadowbench::render {
 
-// sRGB's transfer function, IEC 61966-2-1: linear [0, 1] to display [0, 1].
-double to_display(double linear);
-double from_display(double shown);  // its inverse
-
 // OpenEXR with half floats; values stay linear.
 std::string encode_exr(const Image& image);
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "render/image_file.h"
+#include "render/display.h"
 
 namespace shadowbench::claims {
 namespace {

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "claims/salvi.h"
 #include "claims/salvi_streams.h"
-#include "render/image_file.h"
+#include "render/display.h"
 #include "render/render.h"
 
 namespace shadowbench::claims::salvi {

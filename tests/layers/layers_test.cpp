@@ -117,7 +117,8 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
          {"base", "scene", "curves", "techniques", "techniques/deep", "techniques/external", "document", "results",
           "compare", "bench", "recommend", "render", "claims", "service/log", "service/privacy", "service/process", "service/isolation",
           "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
-        {"service", {"service/cli"}},
+        {"service/images", {"base", "scene", "render", "results", "service/images"}},
+        {"service", {"service/cli", "service/images"}},
     };
     for (const Include& include : includes()) {
         if (include.system) continue;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "render/digits.h"
-#include "render/image_file.h"
+#include "render/display.h"
 
 namespace shadowbench::render {
 namespace {

@@ -8,6 +8,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include "render/display.h"
+
 namespace shadowbench::render {
 namespace {
 

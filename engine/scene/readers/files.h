@@ -35,6 +35,9 @@ MeshFile read_mesh(const std::filesystem::path& file);
 // The alpha channel of an image (its luminance where it has none): PNG, JPEG, TIFF, OpenEXR, DDS or TGA.
 AlphaTexture read_alpha(const std::filesystem::path& file);
 
+// The same; nothing for an image without an alpha channel.
+std::optional<AlphaTexture> read_alpha_channel(const std::filesystem::path& file);
+
 // How to treat densities below 0, which interpolation and rounding leave in files. clamp: set them all to 0, and report
 // their number and the least of them in the volume's notes. refuse: refuse the file. Values that are not finite are
 // always refused.

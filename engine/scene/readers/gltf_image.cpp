@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,15 +13,9 @@
 #include "scene/readers/files.h"
 #include "scene/readers/gltf_accessor.h"
 #include "scene/readers/gltf_uri.h"
-#include "scene/readers/read_image.h"
 
 namespace shadowbench::scene {
 namespace {
-
-std::optional<AlphaTexture> read_file(const std::filesystem::path& file) {
-    if (alpha_channel(open_image(file)->spec()) < 0) return std::nullopt;
-    return read_alpha(file);
-}
 
 std::vector<char> embedded_bytes(const GltfModel& model, const GltfImage& image, const std::string& at) {
     if (image.view) return read_gltf_view(model, *image.view);
@@ -37,7 +30,7 @@ std::optional<AlphaTexture> read_gltf_image(const GltfModel& model, std::size_t 
     const GltfImage& image = model.images[number];
     const std::string at = fmt::format("/images/{}", number), where = fmt::format("{}: {}", model.file.string(), at);
     if (!image.view && image.uri.empty()) fail(model, at, "\"uri\" or \"bufferView\" is missing");
-    if (!image.view && !is_data_uri(image.uri)) return read_file(file_of_uri(model.file, image.uri, where + "/uri"));
+    if (!image.view && !is_data_uri(image.uri)) return read_alpha_channel(file_of_uri(model.file, image.uri, where + "/uri"));
     // The checks that images need before a library reads them are for files.
     const std::vector<char> bytes = embedded_bytes(model, image, at);
     const base::TemporaryFolder folder;
@@ -47,7 +40,7 @@ std::optional<AlphaTexture> read_gltf_image(const GltfModel& model, std::size_t 
     stream.close();
     if (!stream) throw base::Error(base::ErrorCode::io, where, "no room for a temporary copy of the image");
     try {
-        return read_file(copy);
+        return read_alpha_channel(copy);
     } catch (const base::Error& error) {
         throw base::Error(error.code(), where, error.message());
     }

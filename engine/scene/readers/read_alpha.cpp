@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -164,6 +165,11 @@ AlphaTexture read_alpha(const std::filesystem::path& file) {
     } catch (const std::exception& fault) {
         refuse_image(file, fmt::format("not a readable image: {}", fault.what()));
     }
+}
+
+std::optional<AlphaTexture> read_alpha_channel(const std::filesystem::path& file) {
+    if (alpha_channel(open_image(file)->spec()) < 0) return std::nullopt;
+    return read_alpha(file);
 }
 
 }  // namespace shadowbench::scene
