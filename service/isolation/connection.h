@@ -26,7 +26,8 @@ public:
 
     bool alive() const { return !dead_; }
 
-    // One request at a time; others wait. The first one may take half a minute more: the process starts meanwhile.
+    // One request at a time; others wait. To describe the library may take ten seconds, or those of a call if they are
+    // fewer. Before the first request the process may take half a minute to start.
     // `function` names it in messages. Throws Error{internal}, place: the library, if the process answers that it
     // failed; if it ends, does not answer in time, or answers what makes no sense, which all end it: then all later
     // requests, and those that waited, fail with the same reason.
@@ -35,6 +36,7 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    void allow(double seconds);  // from now on, for what follows
     void send(const void* from, std::size_t size, const char* function);
     void receive(void* to, std::size_t size, const char* function);
     void wait(short events, const char* function);
@@ -50,7 +52,8 @@ private:
     std::atomic<bool> dead_ = false;
     std::string why_;  // it is dead
     bool started_ = false;
-    Clock::time_point until_;  // of the request that is asked
+    double seconds_ = 0.0;     // that what is waited for may take
+    Clock::time_point until_;  // of it
 };
 
 }  // namespace shadowbench::service
