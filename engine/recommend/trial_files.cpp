@@ -36,12 +36,9 @@ std::string checksum_of(json file) {
 
 json key_of(const results::Result& of, const json& question) {
     const json whole(results::to_json(of));
-    return {{"scenario_hash", of.hash},
-            {"files", of.files},
-            {"question", question},
-            {"program", whole.at("program")},
-            {"machine", whole.at("machine")},
-            {"node", results::this_node()},
+    return {{"scenario_hash", of.hash},       {"files", of.files},
+            {"question", question},           {"program", whole.at("program")},
+            {"machine", whole.at("machine")}, {"node", results::this_node()},
             {"threads", of.times.threads}};
 }
 
@@ -61,7 +58,8 @@ FiledTrial read_filed(const results::Field& whole) {
     filed.rays = effort.at("rays").at_least_zero();
     const results::Field result = whole.at("result");
     results::Result read = results::from_json(result.value, result.where);
-    if (read.variants.size() != 1 || read.variants[0].lights.size() != 1 || read.variants[0].lights[0].cells.size() != 1)
+    if (read.variants.size() != 1 || read.variants[0].lights.size() != 1 ||
+        read.variants[0].lights[0].cells.size() != 1)
         results::refuse(result.where, "must hold one variant with one light and one cell");
     filed.variant = std::move(read.variants[0]);
     return filed;

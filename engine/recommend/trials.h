@@ -58,7 +58,7 @@ public:
     // From now on, measure() takes what is in this folder, and adds what is not (trial_files.h). Throws what TrialFiles
     // throws.
     void keep_in(const std::filesystem::path& folder);
-    std::size_t taken() const { return taken_; }  // trials from the folder
+    std::size_t taken() const { return taken_; }                          // trials from the folder
     std::size_t others() const { return files_ ? files_->others() : 0; }  // in it, which do not count here
 
     const Space& space() const { return *space_; }

@@ -52,8 +52,8 @@ const results::Cell& Trials::put_cell(results::LightResult& light, results::Cell
 results::VariantResult Trials::variant_of(const bench::RayChoice& rays, results::LightResult light) {
     const base::Vec2i sides = rays.resolution;
     results::VariantResult variant;
-    variant.settings = {{"/rays/resolution", sides.x == sides.y ? fmt::format("{}", sides.x)
-                                                                : fmt::format("[{},{}]", sides.x, sides.y)},
+    variant.settings = {{"/rays/resolution",
+                         sides.x == sides.y ? fmt::format("{}", sides.x) : fmt::format("[{},{}]", sides.x, sides.y)},
                         {"/rays/samples_per_pixel", fmt::format("{}", rays.samples)}};
     variant.lights.push_back(std::move(light));
     return variant;

@@ -11,8 +11,9 @@
 namespace shadowbench::recommend {
 
 void Trials::keep_in(const std::filesystem::path& folder) {
-    files_.emplace(folder, result_without_variants(),
-                   nlohmann::json{{"light", light_->name}, {"measure", measure_words[static_cast<std::size_t>(measure_)]}});
+    files_.emplace(
+        folder, result_without_variants(),
+        nlohmann::json{{"light", light_->name}, {"measure", measure_words[static_cast<std::size_t>(measure_)]}});
 }
 
 void Trials::note_effort(const Setting& setting, double seconds, double rays, double bytes) {

@@ -19,7 +19,8 @@ void load_libraries(const LibraryArguments& libraries, double memory_limit) {
     for (const std::string& text : libraries.unusable) {
         const std::size_t end = text.rfind('\n');
         if (end == std::string::npos)
-            throw base::Error(base::ErrorCode::usage, "--unusable-library", "expected a file, a line break and a reason");
+            throw base::Error(base::ErrorCode::usage, "--unusable-library",
+                              "expected a file, a line break and a reason");
         techniques::load_library(text.substr(0, end),
                                  [&](const std::filesystem::path& file) -> techniques::OpenLibrary {
                                      throw base::Error(base::ErrorCode::internal, file.string(), text.substr(end + 1));

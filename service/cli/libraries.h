@@ -27,8 +27,8 @@ struct UnusableLibrary {
     std::string file, reason;
 };
 
-// Takes out the libraries, loaded before, whose row fails with a reason, and notes them as unusable: a process that gets
-// library_arguments() then makes the same row without opening the file, which may take as long as it wants.
+// Takes out the libraries, loaded before, whose row fails with a reason, and notes them as unusable: a process that
+// gets library_arguments() then makes the same row without opening the file, which may take as long as it wants.
 std::vector<UnusableLibrary> part_unusable(LibraryArguments& libraries);
 
 // Whether every technique of a result came from where the registry has it now.

@@ -111,8 +111,8 @@ fs::path trials_folder(const fs::path& folder) {
 }
 
 // Explores the scenario and writes the result.
-recommend::Explored explore_scenario(const RecommendArguments& arguments, const recommend::Goal& goal,
-                                     fs::path& folder, std::ostream& err) {
+recommend::Explored explore_scenario(const RecommendArguments& arguments, const recommend::Goal& goal, fs::path& folder,
+                                     std::ostream& err) {
     const Job job = read_job(arguments);
     folder = output_folder(arguments.out, "results/recommendations", *job.document);
     base::Undo made;
@@ -124,10 +124,9 @@ recommend::Explored explore_scenario(const RecommendArguments& arguments, const 
         bar.show({fmt::format("{} measured, {} open,", progress.measured, progress.open), stage_name(progress.stage),
                   static_cast<std::size_t>(std::min(seconds, goal.budget)), static_cast<std::size_t>(goal.budget)});
     };
-    recommend::Explored explored =
-        recommend::explore(*job.document, job.options,
-                           {goal, read_measure(arguments.measure), arguments.light, arguments.only}, watch,
-                           trials_folder(folder));
+    recommend::Explored explored = recommend::explore(
+        *job.document, job.options, {goal, read_measure(arguments.measure), arguments.light, arguments.only}, watch,
+        trials_folder(folder));
     bar.end();
     base::write_files({{folder / "result.json", recommend::to_json(explored).dump(1) + "\n"},
                        {folder / "result.csv", results::to_csv(explored.result)}});
@@ -173,8 +172,7 @@ bool recommend_command(const RecommendArguments& arguments, std::ostream& out, s
     std::string more;  // about what was written
     const auto explored = [&] {
         recommend::Explored all = explore_scenario(arguments, goal, folder, err);
-        more = trials_text(all, folder) +
-               fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
+        more = trials_text(all, folder) + fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
         return std::move(all.recommendation);
     };
     const Recommendation found =

@@ -154,7 +154,9 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     if (!arguments.libraries.empty()) libraries.files = libraries_in(arguments.libraries);
     load_libraries(libraries);
     for (const UnusableLibrary& library : part_unusable(libraries))
-        say(log, {LogLevel::warning, "server", "a library of techniques cannot be used",
+        say(log, {LogLevel::warning,
+                  "server",
+                  "a library of techniques cannot be used",
                   {{"file", library.file}, {"reason", library.reason}}});
     const std::vector<std::string> further = library_arguments(libraries);
     const ServiceOptions options = service_options(arguments, program, further, log);

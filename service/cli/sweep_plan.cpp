@@ -137,8 +137,7 @@ fs::path joblog(const SweepPlan& plan) {
 
 std::string parallel_input(const SweepPlan& plan) {
     std::string input;
-    for (std::size_t part = 0; part < plan.parts; ++part)
-        input += part_line(plan, part) + '\0';
+    for (std::size_t part = 0; part < plan.parts; ++part) input += part_line(plan, part) + '\0';
     return input;
 }
 
@@ -155,8 +154,7 @@ std::string slurm_script(const SweepPlan& plan) {
 
 std::string parallel_script(const SweepPlan& plan) {
     std::string commands;
-    for (std::size_t part = 0; part < plan.parts; ++part)
-        commands += " " + shell_word(part_line(plan, part));
+    for (std::size_t part = 0; part < plan.parts; ++part) commands += " " + shell_word(part_line(plan, part));
     return fmt::format("mkdir -p {} &&\nprintf '%s\\0'{} |\n{}\n{}\n", shell_word(batch_folder(plan).string()),
                        commands, shell_command("parallel", parallel_words(plan)), merge_line(plan));
 }

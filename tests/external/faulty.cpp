@@ -1,5 +1,6 @@
 // A library that does wrong what it is asked for: a technique by its parameter `fault`, the library itself by
-// $SHADOWBENCH_TEST_FAULT. It adds a line to the file $SHADOWBENCH_TEST_OPENED. With the fault "none" the map is sound: everything is lit, and nothing casts a shadow.
+// $SHADOWBENCH_TEST_FAULT. It adds a line to the file $SHADOWBENCH_TEST_OPENED. With the fault "none" the map is sound:
+// everything is lit, and nothing casts a shadow.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>

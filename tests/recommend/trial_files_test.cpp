@@ -26,7 +26,8 @@ using nlohmann::json;
 
 class KeptTrials : public ::testing::Test {
 protected:
-    std::unique_ptr<Trials> trials(Measure measure = Measure::rms, const json& document = two_layers(), int threads = 2) const {
+    std::unique_ptr<Trials> trials(Measure measure = Measure::rms, const json& document = two_layers(),
+                                   int threads = 2) const {
         bench::RunOptions options;
         options.only = {"deep", "pcf"};
         options.threads = threads;
@@ -35,9 +36,7 @@ protected:
         return made;
     }
     fs::path folder() const { return temporary_.path() / "trials"; }
-    std::vector<fs::path> files() const {
-        return {fs::directory_iterator(folder()), fs::directory_iterator()};
-    }
+    std::vector<fs::path> files() const { return {fs::directory_iterator(folder()), fs::directory_iterator()}; }
     // The cheapest point of a family, or one of a finer map.
     static Point point(const Lab& lab, std::size_t family, int finer = 0) {
         Point made{family, std::vector<int>(lab.families()[family].axes.size(), 0)};

@@ -88,14 +88,13 @@ TEST(Recommend, GoesOnAfterAKill) {
     const TemporaryFolder folder;
     const std::string scenario = folder.path("two_quads.json"), out = folder.path("found");
     std::ofstream(scenario) << two_quads;
-    const std::vector<std::string> words{"recommend", scenario, "--error", "0.3", "--only", "variance",
-                                         "--budget",  "20s",    "--out",   out};
+    const std::vector<std::string> words{"recommend", scenario,   "--error", "0.3",   "--only",
+                                         "variance",  "--budget", "20s",     "--out", out};
     const auto kept = [&] {
         std::error_code none_yet;
         const std::filesystem::directory_iterator trials(out + "/trials", none_yet);
-        return std::count_if(begin(trials), end(trials), [](const auto& file) {
-            return file.path().filename().string().front() != '.';
-        });
+        return std::count_if(begin(trials), end(trials),
+                             [](const auto& file) { return file.path().filename().string().front() != '.'; });
     };
     const pid_t killed = ::fork();
     if (killed == 0) {

@@ -166,7 +166,8 @@ TEST_F(ServerCommands, TechniquesFromOutsideComeFromItsFolderAndMayCrash) {
     EXPECT_THAT(crash.out, ::testing::HasSubstr("\n  deep "));
 }
 
-// Every check of a scenario has a process of its own, which would wait for the library for longer than a check may take.
+// Every check of a scenario has a process of its own, which would wait for the library for longer than a check may
+// take.
 TEST_F(ServerCommands, ALibraryThatHangsWhenItIsOpenedCostsOnlyItsRow) {
     fs::create_directory(path("libraries"));
     fs::copy_file(SHADOWBENCH_FAULTY, path("libraries/libfaulty.so"));

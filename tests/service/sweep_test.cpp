@@ -252,7 +252,8 @@ TEST_F(Sweeps, CellsOfDifferentLibrariesAreNotMerged) {
     from(all.back(), {"libdeep.so", "fedcba9876543210", false});
     const Outcome other = merged();
     EXPECT_EQ(other.code, 65);
-    EXPECT_THAT(other.err, HasSubstr(all.back().string() + ": its technique deep is from libdeep.so (fedcba9876543210)"));
+    EXPECT_THAT(other.err,
+                HasSubstr(all.back().string() + ": its technique deep is from libdeep.so (fedcba9876543210)"));
     EXPECT_THAT(other.err, HasSubstr("libdeep.so (0123456789abcdef)"));
     from(all.back(), {"libdeep.so", "0123456789abcdef", true});
     EXPECT_THAT(merged().err, HasSubstr("(0123456789abcdef, isolated)")) << "whose times hold the way there and back";

@@ -64,10 +64,11 @@ TEST_F(WithParallel, InterruptedOrKilledLeavesNoPartBehind) {
         "--set timing.repetitions=10000 --set timing.lookups=100000 --set receivers.count=100000 --threads 1";
     for (const int signal : {SIGTERM, SIGKILL}) {
         const std::string out = "sweep-" + std::to_string(signal);
-        const std::string script = "(" + program("sweep swept.json --out " + out + " --engine parallel " + slow, "sweep.log") +
-                                   ") & until grep -q measuring: " + path(out + "/batch/part-0.log") +
-                                   " 2>/dev/null; do kill -0 $! || exit 99; sleep 0.02; done; kill -" +
-                                   std::to_string(signal) + " $!; wait $!";
+        const std::string script =
+            "(" + program("sweep swept.json --out " + out + " --engine parallel " + slow, "sweep.log") +
+            ") & until grep -q measuring: " + path(out + "/batch/part-0.log") +
+            " 2>/dev/null; do kill -0 $! || exit 99; sleep 0.02; done; kill -" + std::to_string(signal) +
+            " $!; wait $!";
         EXPECT_EQ(shell(script), 128 + signal) << text("sweep.log");
         EXPECT_TRUE(soon([&] { return tasks("", out).empty(); })) << signal;
     }
