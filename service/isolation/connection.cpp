@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -47,7 +48,8 @@ MessageReader Connection::ask(Request request, const char* function, const Messa
         receive(&answer, sizeof answer, "main");
         started_ = true;
     }
-    allow(request == Request::describe ? std::min(call_seconds_, opening_seconds) : call_seconds_);
+    const double opening = std::exchange(opened_, true) ? 0.0 : opening_seconds;
+    allow(request == Request::describe ? std::min(call_seconds_, opening_seconds) : call_seconds_ + opening);
     const MessageHead head{static_cast<std::uint32_t>(request), body.body().size()};
     send(&head, sizeof head, function);
     send(body.body().data(), body.body().size(), function);

@@ -26,11 +26,11 @@ public:
 
     bool alive() const { return !dead_; }
 
-    // One request at a time; others wait. To describe the library may take ten seconds, or those of a call if they are
-    // fewer. Before the first request the process may take half a minute to start.
-    // `function` names it in messages. Throws Error{internal}, place: the library, if the process answers that it
-    // failed; if it ends, does not answer in time, or answers what makes no sense, which all end it: then all later
-    // requests, and those that waited, fail with the same reason.
+    // One request at a time; others wait. Before the first, the process may take half a minute to start. The first
+    // opens the library, which may take ten seconds more; to open and describe it may take ten, or those of a call if
+    // they are fewer. `function` names it in messages. Throws Error{internal}, place: the library, if the process
+    // answers that it failed; if it ends, does not answer in time, or answers what makes no sense, which all end it:
+    // then all later requests, and those that waited, fail with the same reason.
     MessageReader ask(Request request, const char* function, const MessageWriter& body);
 
 private:
@@ -51,7 +51,7 @@ private:
     std::mutex mutex_;
     std::atomic<bool> dead_ = false;
     std::string why_;  // it is dead
-    bool started_ = false;
+    bool started_ = false, opened_ = false;
     double seconds_ = 0.0;     // that what is waited for may take
     Clock::time_point until_;  // of it
 };
