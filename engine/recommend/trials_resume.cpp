@@ -1,7 +1,4 @@
 // How Trials goes on with the trials of an exploration that ended early.
-#include <algorithm>
-#include <utility>
-
 #include <nlohmann/json.hpp>
 
 #include "recommend/attempt.h"
