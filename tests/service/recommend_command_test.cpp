@@ -88,8 +88,8 @@ TEST(Recommend, GoesOnAfterAKill) {
     const TemporaryFolder folder;
     const std::string scenario = folder.path("two_quads.json"), out = folder.path("found");
     std::ofstream(scenario) << two_quads;
-    const std::vector<std::string> words{"recommend", scenario,   "--error", "0.3",   "--only",
-                                         "variance",  "--budget", "20s",     "--out", out};
+    const std::vector<std::string> words{"recommend", scenario,   "--error",  "0.3", "--cheapest", "bytes",
+                                         "--only",    "variance", "--budget", "20s", "--out",      out};
     const auto kept = [&] {
         std::error_code none_yet;
         const std::filesystem::directory_iterator trials(out + "/trials", none_yet);
