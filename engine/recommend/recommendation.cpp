@@ -21,11 +21,12 @@ using base::Error;
 using base::ErrorCode;
 
 Explored explore(const nlohmann::json& document, const bench::RunOptions& options, const Request& request,
-                 const Watch& watch) {
+                 const Watch& watch, const std::filesystem::path& folder) {
     bench::RunOptions chosen = options;
     chosen.only = request.only;
     const bench::Stopwatch stopwatch;
     Trials trials(document, chosen, request.light, request.measure, watch.measuring);
+    if (!folder.empty()) trials.keep_in(folder);
     Hooks hooks;
     hooks.seconds = [&] { return stopwatch.seconds(); };
     if (watch.exploring)
@@ -35,7 +36,7 @@ Explored explore(const nlohmann::json& document, const bench::RunOptions& option
                          trials.footprint_share(), explore(trials, request.goal, hooks)};
     if (const std::optional<double> after = bench::steal_seconds(); after && steal_before)
         found.exploration.steal = std::max(0.0, *after - *steal_before) / stopwatch.seconds();
-    return {std::move(found), trials.result()};
+    return {std::move(found), trials.result(), trials.taken(), trials.others()};
 }
 
 nlohmann::ordered_json to_json(const Explored& explored) {
@@ -45,6 +46,7 @@ nlohmann::ordered_json to_json(const Explored& explored) {
     recommendation["measure"] = measure_words[static_cast<std::size_t>(explored.recommendation.measure)];
     const std::optional<double> share = explored.recommendation.footprint_share;
     recommendation["footprint_share"] = share ? nlohmann::ordered_json(*share) : nlohmann::ordered_json(nullptr);
+    recommendation["measured_before"] = explored.taken;
     recommendation.update(to_json(explored.recommendation.exploration));
     return out;
 }

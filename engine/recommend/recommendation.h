@@ -1,6 +1,7 @@
 // From a scenario and a request to the answer, and back from the file that keeps it.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -32,11 +33,14 @@ struct Watch {
 struct Explored {
     Recommendation recommendation;
     results::Result result;  // of every setting measured
+    std::size_t taken = 0;   // of them, those that an earlier exploration had measured in the folder of the trials
+    std::size_t others = 0;  // files in that folder that do not count: of another question, program or machine
 };
 
-// Explores a scenario. `request.only` takes the place of that of the options. Throws what Trials throws.
+// Explores a scenario. `request.only` takes the place of that of the options. `trials`: a folder of trials that are not
+// measured again, to which new ones are added (trial_files.h); empty: none. Throws what Trials and TrialFiles throw.
 Explored explore(const nlohmann::json& document, const bench::RunOptions& options, const Request& request,
-                 const Watch& watch);
+                 const Watch& watch, const std::filesystem::path& trials = {});
 
 // result.json: the result, with the recommendation as one more member.
 nlohmann::ordered_json to_json(const Explored& explored);

@@ -246,34 +246,35 @@ void Trials::check_some(Attempt& attempt) const {
 Trial Trials::measure(const Point& point) {
     const Stopwatch stopwatch;
     const Setting setting = space_->setting(point);
+    if (const FiledTrial* filed = files_ ? files_->find(filed_name(point, setting)) : nullptr)
+        return take(*filed, point, setting);
     const auto there = find_kept(setting);
     const bool built = there == kept_.end();
     Attempt attempt = built ? build(setting, 0, true) : take_kept(there, setting);
     const Contender& contender = attempt.contender;
+    FiledTrial fresh;
     const Stopwatch after_capture;
     judge_lookups(attempt);
     if (built) {
-        const double seconds = 1e-3 * attempt.build_ms + after_capture.seconds();
-        const double bytes = static_cast<double>(contender.cell.bytes);
-        if (bytes > large_map) {
-            large_seconds_ += seconds;
-            large_bytes_ += bytes;
-        } else {
-            Effort& effort = efforts_[setting.row];
-            effort.seconds += seconds;
-            if (attempt.rays) effort.rays += static_cast<double>(attempt.rays->source->rays());
-        }
+        fresh.seconds = 1e-3 * attempt.build_ms + after_capture.seconds();
+        if (attempt.rays) fresh.rays = static_cast<double>(attempt.rays->source->rays());
+        note_effort(setting, fresh.seconds, fresh.rays, static_cast<double>(contender.cell.bytes));
     }
     if (built && contender.ok()) check_some(attempt);
     if (contender.ok()) time_quickly(attempt);
-    Trial trial{attempt.failed(), 0.0, {}};
+    Trial& trial = fresh.trial;
+    trial.failed = attempt.failed();
     if (contender.ok()) {
         trial.error = error_of(contender.cell);
         trial.cost = {contender.cell.times->random_order.ns.median, static_cast<double>(contender.cell.bytes),
                       attempt.capture_ms + attempt.build_ms};
         trials_.emplace_back(point, trial);
     }
-    if (attempt.frame) keep(attempt.rays ? record(setting, *attempt.rays) : *recorded(setting), contender);
+    if (attempt.frame) {
+        results::LightResult& light = attempt.rays ? record(setting, *attempt.rays) : *recorded(setting);
+        const results::Cell& cell = keep(light, contender);
+        if (files_) file(point, setting, light, cell, fresh);
+    }
     if (contender.ok()) keep_map(setting, std::move(attempt));
     seconds_ += stopwatch.seconds();
     return trial;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <list>
 #include <map>
 #include <memory>
@@ -30,6 +31,7 @@
 #include "recommend/exploration.h"
 #include "recommend/lab.h"
 #include "recommend/space.h"
+#include "recommend/trial_files.h"
 #include "results/result.h"
 
 namespace shadowbench::recommend {
@@ -52,6 +54,12 @@ public:
     Trial measure(const Point& point) override;
     std::vector<std::optional<double>> time_again(std::span<const Point> points) override;
     std::vector<Confirmed> confirm(std::span<const Point> points, const Confirming& how) override;
+
+    // From now on, measure() takes what is in this folder, and adds what is not (trial_files.h). Throws what TrialFiles
+    // throws.
+    void keep_in(const std::filesystem::path& folder);
+    std::size_t taken() const { return taken_; }                          // trials from the folder
+    std::size_t others() const { return files_ ? files_->others() : 0; }  // in it, which do not count here
 
     const Space& space() const { return *space_; }
     // One more setting to measure: see Space::add.
@@ -89,9 +97,17 @@ private:
                      double most_seconds);
     void plan_lookups(std::vector<Timed>& timed) const;
     void time_lookups(std::vector<Timed>& timed, int least, double longest) const;
+    void note_effort(const Setting& setting, double seconds, double rays, double bytes);
+    std::string filed_name(const Point& point, const Setting& setting) const;
+    Trial take(const FiledTrial& filed, const Point& point, const Setting& setting);
+    void file(const Point& point, const Setting& setting, const results::LightResult& light, const results::Cell& cell,
+              FiledTrial filed) const;
     results::LightResult* recorded(const Setting& setting);
     results::LightResult& record(const Setting& setting, const bench::StoredRays& rays);
-    void keep(results::LightResult& light, const bench::Contender& contender) const;
+    const results::Cell& keep(results::LightResult& light, const bench::Contender& contender) const;
+    static const results::Cell& put_cell(results::LightResult& light, results::Cell cell);
+    static results::VariantResult variant_of(const bench::RayChoice& rays, results::LightResult light);
+    results::Result result_without_variants() const;
 
     bench::RunOptions options_;
     base::ThreadLimit threads_;
@@ -120,6 +136,8 @@ private:
     double large_seconds_ = 0.1, large_bytes_ = 1e8;
     std::list<Kept> kept_;  // the last used one first
     std::vector<std::pair<Point, Trial>> trials_;
+    std::optional<TrialFiles> files_;
+    std::size_t taken_ = 0;
     std::vector<std::pair<bench::RayChoice, results::LightResult>> recorded_;
     double seconds_ = 0.0;
 };

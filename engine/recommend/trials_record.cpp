@@ -35,19 +35,31 @@ results::LightResult& Trials::record(const Setting& setting, const StoredRays& r
     return recorded_.emplace_back(choice(setting, 0), std::move(light)).second;
 }
 
-// A later measurement of the same setting takes the place of the earlier one.
-void Trials::keep(results::LightResult& light, const Contender& contender) const {
+const results::Cell& Trials::keep(results::LightResult& light, const Contender& contender) const {
     results::Cell cell = contender.cell;
     bench::judge(cell, contender.promises, light.reference.noise_tolerance);
-    for (results::Cell& other : light.cells)
-        if (other.technique == cell.technique && other.parameters_json == cell.parameters_json) {
-            other = std::move(cell);
-            return;
-        }
-    light.cells.push_back(std::move(cell));
+    return put_cell(light, std::move(cell));
 }
 
-results::Result Trials::result() const {
+// A later measurement of the same setting takes the place of the earlier one.
+const results::Cell& Trials::put_cell(results::LightResult& light, results::Cell cell) {
+    for (results::Cell& other : light.cells)
+        if (other.technique == cell.technique && other.parameters_json == cell.parameters_json)
+            return other = std::move(cell);
+    return light.cells.emplace_back(std::move(cell));
+}
+
+results::VariantResult Trials::variant_of(const bench::RayChoice& rays, results::LightResult light) {
+    const base::Vec2i sides = rays.resolution;
+    results::VariantResult variant;
+    variant.settings = {{"/rays/resolution",
+                         sides.x == sides.y ? fmt::format("{}", sides.x) : fmt::format("[{},{}]", sides.x, sides.y)},
+                        {"/rays/samples_per_pixel", fmt::format("{}", rays.samples)}};
+    variant.lights.push_back(std::move(light));
+    return variant;
+}
+
+results::Result Trials::result_without_variants() const {
     results::Result result;
     const nlohmann::json document = nlohmann::json::parse(document_);
     result.name = document.at("name").get<std::string>();
@@ -62,15 +74,12 @@ results::Result Trials::result() const {
     result.times = times_;
     result.times.seconds = seconds_;
     result.times.threads = base::thread_count();
-    for (const auto& [rays, light] : recorded_) {
-        results::VariantResult variant;
-        const base::Vec2i sides = rays.resolution;
-        variant.settings = {{"/rays/resolution", sides.x == sides.y ? fmt::format("{}", sides.x)
-                                                                    : fmt::format("[{},{}]", sides.x, sides.y)},
-                            {"/rays/samples_per_pixel", fmt::format("{}", rays.samples)}};
-        variant.lights.push_back(light);
-        result.variants.push_back(std::move(variant));
-    }
+    return result;
+}
+
+results::Result Trials::result() const {
+    results::Result result = result_without_variants();
+    for (const auto& [rays, light] : recorded_) result.variants.push_back(variant_of(rays, light));
     return result;
 }
 

@@ -14,6 +14,8 @@ struct LibraryArguments {
     std::vector<std::string> files;
     bool isolate = false;        // each map in a process of its own
     double call_seconds = 60.0;  // that one call may take there
+    // Of a server's processes: "FILE\nREASON", libraries that the server could not use. They are not opened again.
+    std::vector<std::string> unusable = {};
 };
 
 struct JobArguments {

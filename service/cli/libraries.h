@@ -23,6 +23,14 @@ std::string hash_of_libraries();
 // The options that load the same again, wherever the command runs.
 std::vector<std::string> library_arguments(const LibraryArguments& libraries);
 
+struct UnusableLibrary {
+    std::string file, reason;
+};
+
+// Takes out the libraries, loaded before, whose row fails with a reason, and notes them as unusable: a process that
+// gets library_arguments() then makes the same row without opening the file, which may take as long as it wants.
+std::vector<UnusableLibrary> part_unusable(LibraryArguments& libraries);
+
 // Whether every technique of a result came from where the registry has it now.
 bool same_libraries(const results::Result& result);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <set>
 #include <string>
@@ -59,15 +60,46 @@ std::string program_text(const results::Program& program) {
     return fmt::format("{} ({}, {}, {})", program.version, program.commit, program.compiler, program.build_type);
 }
 
+// "libstairs.so (0123456789abcdef, isolated)"
+std::string library_text(const std::optional<results::TechniqueLibrary>& library) {
+    if (!library) return "the program itself";
+    return fmt::format("{} ({}{})", library->file, library->hash, library->isolated ? ", isolated" : "");
+}
+
+// Where the techniques of all cells are from: one technique of a sweep must be from one file.
+class Sources {
+public:
+    // Throws Error{bad_input}, place: the file, for a cell whose technique is from elsewhere than in an earlier cell.
+    void add(const results::SweepCell& cell, const std::string& file) {
+        for (const results::Cell& row : cell.result.variants.at(0).lights.at(0).cells) {
+            const auto [known, is_new] = known_.try_emplace(row.technique, Source{row.library, file});
+            if (is_new || known->second.library == row.library) continue;
+            throw base::Error(base::ErrorCode::bad_input, file,
+                              fmt::format("its technique {} is from {}, but that of {} from {}; measure all with the "
+                                          "same library: run --shard measures cells of other libraries again",
+                                          row.technique, library_text(row.library), known->second.file,
+                                          library_text(known->second.library)));
+        }
+    }
+
+private:
+    struct Source {
+        std::optional<results::TechniqueLibrary> library;
+        std::string file;  // of the first cell
+    };
+    std::map<std::string, Source> known_;
+};
+
 using CellsByHash = std::map<std::string, std::vector<CellFile>>;
 
-// Throws Error{bad_input}, place: the file, for cells that are damaged, of another sweep, or of another program than
-// the first.
+// Throws Error{bad_input}, place: the file, for cells that are damaged, of another sweep, or of another program or
+// another library of a technique than the first.
 CellsByHash read_cells(const std::vector<std::string>& folders, const std::vector<PlannedCell>& planned) {
     std::set<std::string> known;
     for (const PlannedCell& cell : planned) known.insert(cell.hash);
     CellsByHash cells;
     std::string first_file, first_program;
+    Sources sources;
     for (const std::string& folder : folders)
         for (const fs::path& file : cell_files(folder)) {
             results::SweepCell cell = read_cell_file(file);
@@ -86,6 +118,7 @@ CellsByHash read_cells(const std::vector<std::string>& folders, const std::vecto
                                               "run --shard measures cells of another version or commit again, but "
                                               "those of another compiler must be removed first",
                                               program, first_file, first_program));
+            sources.add(cell, file.string());
             cells[hash].push_back({file, std::move(cell)});
         }
     return cells;

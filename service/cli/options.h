@@ -43,6 +43,8 @@ void set_help(CLI::App& command, const char* group, std::initializer_list<const 
 // Options that several commands share; arguments and folder must outlive the parsing.
 void add_job_options(CLI::App& command, JobArguments& arguments);
 void add_library_options(CLI::App& command, LibraryArguments& libraries);
+// And what only a server passes on.
+void add_server_library_options(CLI::App& command, LibraryArguments& libraries);
 void add_only_option(CLI::App& command, JobArguments& arguments);
 void add_output_options(CLI::App& command, OutputArguments& arguments);
 void add_folder_option(CLI::App& command, std::string& folder, const char* text);

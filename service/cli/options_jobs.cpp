@@ -20,7 +20,7 @@ void add_job_commands(CLI::App& app, Commands& commands) {
                     "GiB of memory. A scenario that certainly needs more is refused")
         ->check(CLI::Range(0.001, 1e6))
         ->capture_default_str();
-    add_library_options(*job, arguments->libraries);
+    add_server_library_options(*job, arguments->libraries);
     job->add_flag("!--no-pictures", arguments->pictures, "Measure, but render no pictures");
     commands.push_back(
         {job, [arguments](std::ostream& out, std::ostream&) { return job_process_command(*arguments, out) ? 0 : 2; }});

@@ -79,6 +79,12 @@ void add_library_options(CLI::App& command, LibraryArguments& libraries) {
         ->capture_default_str();
 }
 
+void add_server_library_options(CLI::App& command, LibraryArguments& libraries) {
+    add_library_options(command, libraries);
+    repeatable(command.add_option("--unusable-library", libraries.unusable,
+                                  "FILE, a line break and a reason: a library whose row fails without being opened"));
+}
+
 void add_folder_option(CLI::App& command, std::string& folder, const char* text) {
     command.add_option("--out", folder, text)->check([](const std::string& name) {
         return std::string(name.empty() ? "the name of the folder is empty" : "");

@@ -60,9 +60,11 @@ void add_recommend(CLI::App& app, Commands& commands) {
     recommend->add_option("--light", arguments->light, "A light's name, or its number, from 0 [the only light]");
     add_job_options(*recommend, *arguments);
     add_only_option(*recommend, *arguments);
-    add_folder_option(*recommend, arguments->out,
-                      "Folder of result.json, with every setting measured [results/recommendations/<scenario name>, in "
-                      "the current folder]");
+    add_folder_option(
+        *recommend, arguments->out,
+        "Folder of result.json, with every setting measured [results/recommendations/<scenario name>, in "
+        "the current folder]. What an earlier call measured there for the same question, with this program "
+        "on this machine, is not measured again");
     recommend
         ->add_option("--from", arguments->from,
                      "Answer from the result.json in this folder, which recommend or run wrote, without measuring")

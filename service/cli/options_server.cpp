@@ -213,7 +213,7 @@ void add_helpers(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<HelperArguments>();
     CLI::App* examine = app.add_subcommand("examine", "Check scenarios, one per line of standard input")->group("");
     add_data(*examine, arguments->data, "Scenarios may name the files of this folder");
-    add_library_options(*examine, arguments->libraries);
+    add_server_library_options(*examine, arguments->libraries);
     commands.push_back({examine, [arguments](std::ostream& out, std::ostream&) {
                             examine_command(*arguments, out);
                             return 0;
@@ -232,7 +232,7 @@ void add_helpers(CLI::App& app, Commands& commands) {
         app.add_subcommand("curves", "Read a scenario, then pixels, one per line; write their visibility functions")
             ->group("");
     add_data(*curves, arguments->data, "Scenarios may name the files of this folder");
-    add_library_options(*curves, arguments->libraries);
+    add_server_library_options(*curves, arguments->libraries);
     curves->add_option("--light", arguments->light, "A light's name, or its number, from 0 [the first light]");
     curves->add_option("--variant", arguments->variant, "Number of a combination of the sweeps' values, from 0");
     commands.push_back({curves, [arguments](std::ostream& out, std::ostream&) {

@@ -105,9 +105,14 @@ const char* stage_name(recommend::Stage stage) {
     return stage == recommend::Stage::climbing ? "climb" : stage == recommend::Stage::refining ? "refine" : "confirm";
 }
 
+// Where an exploration keeps its trials, so that it goes on after a kill.
+fs::path trials_folder(const fs::path& folder) {
+    return folder / "trials";
+}
+
 // Explores the scenario and writes the result.
-Recommendation explore_scenario(const RecommendArguments& arguments, const recommend::Goal& goal, fs::path& folder,
-                                std::ostream& err) {
+recommend::Explored explore_scenario(const RecommendArguments& arguments, const recommend::Goal& goal, fs::path& folder,
+                                     std::ostream& err) {
     const Job job = read_job(arguments);
     folder = output_folder(arguments.out, "results/recommendations", *job.document);
     base::Undo made;
@@ -120,12 +125,26 @@ Recommendation explore_scenario(const RecommendArguments& arguments, const recom
                   static_cast<std::size_t>(std::min(seconds, goal.budget)), static_cast<std::size_t>(goal.budget)});
     };
     recommend::Explored explored = recommend::explore(
-        *job.document, job.options, {goal, read_measure(arguments.measure), arguments.light, arguments.only}, watch);
+        *job.document, job.options, {goal, read_measure(arguments.measure), arguments.light, arguments.only}, watch,
+        trials_folder(folder));
     bar.end();
     base::write_files({{folder / "result.json", recommend::to_json(explored).dump(1) + "\n"},
                        {folder / "result.csv", results::to_csv(explored.result)}});
     made.keep();
-    return std::move(explored.recommendation);
+    return explored;
+}
+
+// What trials of earlier explorations gave; empty if there are none.
+std::string trials_text(const recommend::Explored& explored, const fs::path& folder) {
+    std::string text;
+    if (explored.taken > 0)
+        text += fmt::format("{} of {} settings were measured before: {} has them. What is confirmed is measured now.\n",
+                            explored.taken, explored.recommendation.exploration.measured.size(),
+                            trials_folder(folder).string());
+    if (explored.others > 0)
+        text += fmt::format("{} files of {} do not count: they are of another question, program or machine\n",
+                            explored.others, trials_folder(folder).string());
+    return text;
 }
 
 // Measures the cheapest settings of two answers again.
@@ -150,13 +169,18 @@ bool recommend_command(const RecommendArguments& arguments, std::ostream& out, s
         throw Error(ErrorCode::usage, "SCENARIO",
                     "name a scenario, or the folder of a finished recommend or run with --from");
     fs::path folder = arguments.from;
+    std::string more;  // about what was written
+    const auto explored = [&] {
+        recommend::Explored all = explore_scenario(arguments, goal, folder, err);
+        more = trials_text(all, folder) + fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
+        return std::move(all.recommendation);
+    };
     const Recommendation found =
         arguments.from.empty()
-            ? explore_scenario(arguments, goal, folder, err)
+            ? explored()
             : read_recommendation(arguments.from, arguments.light, read_measure(arguments.measure), goal, &arguments);
     const recommend::AnswerText answer = recommend::answer_text(found, goal);
-    out << answer.text;
-    if (arguments.from.empty()) out << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
+    out << answer.text << more;
     if (!arguments.beside.empty()) out << beside(arguments, goal, found, err);
     return answer.reached;
 }

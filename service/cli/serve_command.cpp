@@ -153,7 +153,12 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     LibraryArguments libraries{{}, true, arguments.call_seconds};
     if (!arguments.libraries.empty()) libraries.files = libraries_in(arguments.libraries);
     load_libraries(libraries);
-    const std::vector<std::string> further = libraries.files.empty() ? libraries.files : library_arguments(libraries);
+    for (const UnusableLibrary& library : part_unusable(libraries))
+        say(log, {LogLevel::warning,
+                  "server",
+                  "a library of techniques cannot be used",
+                  {{"file", library.file}, {"reason", library.reason}}});
+    const std::vector<std::string> further = library_arguments(libraries);
     const ServiceOptions options = service_options(arguments, program, further, log);
     std::vector<std::string> data;
     for (const fs::path& folder : options.data) data.push_back(folder.string());

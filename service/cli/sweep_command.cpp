@@ -250,6 +250,7 @@ void run_parallel(const SweepPlan& plan, const std::vector<PlannedCell>& cells, 
 
 int with_parallel(const SweepPlan& plan, const std::vector<PlannedCell>& cells, std::ostream& out, std::ostream& err) {
     const std::string program = find_program("parallel", "install GNU parallel (package parallel)");
+    find_program("setpriv", "install util-linux; it lets parts end with the sweep");
     const auto failed = [&] {
         for (std::size_t part = 0; part < plan.parts; ++part)
             if (exit_code(plan, std::to_string(part)).value_or(1) != 0) return true;

@@ -1,5 +1,7 @@
 #include "service/cli/sweep_plan.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "base/hash_text.h"
@@ -24,10 +26,16 @@ std::string keep_code(const SweepPlan& plan, const std::string& of) {
     return fmt::format("echo $code >{}{}; exit $code", shell_word((batch_folder(plan) / "exit-").string()), of);
 }
 
+// Starts a command that the kernel kills when the one who started it ends, even by SIGKILL. GNU parallel puts each part
+// into a group of its own, so that nothing else would end the parts of a killed sweep. Slurm ends its own.
+const std::vector<std::string> bound{"setpriv", "--pdeathsig", "KILL"};
+
 // Runs a part. A program that a fault or the kernel killed (SIGILL to SIGSEGV, SIGKILL among them) is started again
-// twice: it continues with the next cell that is missing. `part`: a number, or what a shell replaces by it.
-std::string part_text(const SweepPlan& plan, const std::string& part) {
-    std::vector<std::string> run{plan.program, "run"};
+// twice: it continues with the next cell that is missing. `part`: a number, or what a shell replaces by it. `prefix`:
+// words before the program.
+std::string part_text(const SweepPlan& plan, const std::string& part, std::vector<std::string> prefix = {}) {
+    std::vector<std::string> run = std::move(prefix);
+    run.insert(run.end(), {plan.program, "run"});
     run.insert(run.end(), plan.arguments.begin(), plan.arguments.end());
     return fmt::format(
         "for try in 1 2 3; do {} --shard {}/{} --out {}; code=$?; [ $code -ge 132 ] && [ $code -le 139 ] || break; "
@@ -63,9 +71,13 @@ std::string shell_command(const std::string& program, const std::vector<std::str
     return program + " " + line_of(words);
 }
 
-std::string part_command(const SweepPlan& plan, std::size_t part) {
-    return fmt::format("exec >>{} 2>&1; {}", shell_word(part_log(plan, part).string()),
-                       part_text(plan, std::to_string(part)));
+// A line for the shell of GNU parallel.
+std::string part_line(const SweepPlan& plan, std::size_t part) {
+    const std::string script = fmt::format("exec >>{} 2>&1; {}", shell_word(part_log(plan, part).string()),
+                                           part_text(plan, std::to_string(part), bound));
+    std::vector<std::string> words = bound;
+    words.insert(words.end(), {"sh", "-c", script});
+    return "exec " + line_of(words);
 }
 
 }  // namespace
@@ -125,8 +137,7 @@ fs::path joblog(const SweepPlan& plan) {
 
 std::string parallel_input(const SweepPlan& plan) {
     std::string input;
-    for (std::size_t part = 0; part < plan.parts; ++part)
-        input += line_of({"sh", "-c", part_command(plan, part)}) + '\0';
+    for (std::size_t part = 0; part < plan.parts; ++part) input += part_line(plan, part) + '\0';
     return input;
 }
 
@@ -143,8 +154,7 @@ std::string slurm_script(const SweepPlan& plan) {
 
 std::string parallel_script(const SweepPlan& plan) {
     std::string commands;
-    for (std::size_t part = 0; part < plan.parts; ++part)
-        commands += " " + shell_word(line_of({"sh", "-c", part_command(plan, part)}));
+    for (std::size_t part = 0; part < plan.parts; ++part) commands += " " + shell_word(part_line(plan, part));
     return fmt::format("mkdir -p {} &&\nprintf '%s\\0'{} |\n{}\n{}\n", shell_word(batch_folder(plan).string()),
                        commands, shell_command("parallel", parallel_words(plan)), merge_line(plan));
 }

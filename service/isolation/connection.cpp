@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ using base::ErrorCode;
 
 namespace {
 
-constexpr double starting_seconds = 30.0;
+constexpr double starting_seconds = 30.0, opening_seconds = 10.0;
 constexpr std::uint64_t most_answered = std::uint64_t{1} << 30;  // bytes of an answer
 
 }  // namespace
@@ -41,13 +42,17 @@ Connection::Connection(const IsolationOptions& options, const std::string& libra
 MessageReader Connection::ask(Request request, const char* function, const MessageWriter& body) {
     const std::lock_guard lock(mutex_);
     if (dead_) throw Error(ErrorCode::internal, library_, why_);
-    const double seconds = call_seconds_ + (started_ ? 0.0 : starting_seconds);
-    started_ = true;
-    until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    MessageHead answer;
+    if (!started_) {
+        allow(starting_seconds);
+        receive(&answer, sizeof answer, "main");
+        started_ = true;
+    }
+    const double opening = std::exchange(opened_, true) ? 0.0 : opening_seconds;
+    allow(request == Request::describe ? std::min(call_seconds_, opening_seconds) : call_seconds_ + opening);
     const MessageHead head{static_cast<std::uint32_t>(request), body.body().size()};
     send(&head, sizeof head, function);
     send(body.body().data(), body.body().size(), function);
-    MessageHead answer;
     receive(&answer, sizeof answer, function);
     if (answer.size > most_answered) end(fmt::format("{}() answered {} bytes", function, answer.size));
     std::string text(static_cast<std::size_t>(answer.size), '\0');
@@ -55,6 +60,11 @@ MessageReader Connection::ask(Request request, const char* function, const Messa
     MessageReader reader(std::move(text));
     if (static_cast<Reply>(answer.kind) == Reply::done) return reader;
     throw Error(ErrorCode::internal, library_, reader.get_text());
+}
+
+void Connection::allow(double seconds) {
+    seconds_ = seconds;
+    until_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
 void Connection::send(const void* from, std::size_t size, const char* function) {
@@ -87,7 +97,7 @@ void Connection::receive(void* to, std::size_t size, const char* function) {
 
 void Connection::wait(short events, const char* function) {
     const double left = std::chrono::duration<double, std::milli>(until_ - Clock::now()).count();
-    if (left <= 0.0) end(fmt::format("{}() did not answer within {:g} s", function, call_seconds_));
+    if (left <= 0.0) end(fmt::format("{}() did not answer within {:g} s", function, seconds_));
     pollfd waiting{sockets_.own.number(), events, 0};
     ::poll(&waiting, 1, static_cast<int>(std::ceil(std::min(left, 1e6))));
 }

@@ -26,15 +26,17 @@ public:
 
     bool alive() const { return !dead_; }
 
-    // One request at a time; others wait. The first one may take half a minute more: the process starts meanwhile.
-    // `function` names it in messages. Throws Error{internal}, place: the library, if the process answers that it
-    // failed; if it ends, does not answer in time, or answers what makes no sense, which all end it: then all later
-    // requests, and those that waited, fail with the same reason.
+    // One request at a time; others wait. Before the first, the process may take half a minute to start. The first
+    // opens the library, which may take ten seconds more; to open and describe it may take ten, or those of a call if
+    // they are fewer. `function` names it in messages. Throws Error{internal}, place: the library, if the process
+    // answers that it failed; if it ends, does not answer in time, or answers what makes no sense, which all end it:
+    // then all later requests, and those that waited, fail with the same reason.
     MessageReader ask(Request request, const char* function, const MessageWriter& body);
 
 private:
     using Clock = std::chrono::steady_clock;
 
+    void allow(double seconds);  // from now on, for what follows
     void send(const void* from, std::size_t size, const char* function);
     void receive(void* to, std::size_t size, const char* function);
     void wait(short events, const char* function);
@@ -49,8 +51,9 @@ private:
     std::mutex mutex_;
     std::atomic<bool> dead_ = false;
     std::string why_;  // it is dead
-    bool started_ = false;
-    Clock::time_point until_;  // of the request that is asked
+    bool started_ = false, opened_ = false;
+    double seconds_ = 0.0;     // that what is waited for may take
+    Clock::time_point until_;  // of it
 };
 
 }  // namespace shadowbench::service

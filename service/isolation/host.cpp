@@ -146,7 +146,8 @@ int take_connection() {
 void host_techniques(const std::string& library, const std::string& hash) {
     const Descriptor line(take_connection());
     Hosted hosted(library, hash);
-    MessageHead head;
+    MessageHead head{static_cast<std::uint32_t>(Reply::done), 0};
+    if (!write_all(line.number(), &head, sizeof head)) return;  // it has started
     while (read_all(line.number(), &head, sizeof head)) {
         std::string body(head.size, '\0');
         if (!read_all(line.number(), body.data(), body.size())) return;

@@ -1,5 +1,6 @@
 // A library that does wrong what it is asked for: a technique by its parameter `fault`, the library itself by
-// $SHADOWBENCH_TEST_FAULT. With the fault "none" the map is sound: everything is lit, and nothing casts a shadow.
+// $SHADOWBENCH_TEST_FAULT. It adds a line to the file $SHADOWBENCH_TEST_OPENED. With the fault "none" the map is sound:
+// everything is lit, and nothing casts a shadow.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -96,6 +97,11 @@ uint64_t least_bytes(const shadowbench_value* values, size_t, const shadowbench_
 extern "C" __attribute__((visibility("default"))) const shadowbench_library* shadowbench_techniques() {
     const char* set = std::getenv("SHADOWBENCH_TEST_FAULT");
     const std::string fault = set ? set : "";
+    if (const char* opened = std::getenv("SHADOWBENCH_TEST_OPENED"))
+        if (std::FILE* file = std::fopen(opened, "a")) std::fputs("opened\n", file), std::fclose(file);
+    if (fault == "hang")
+        for (volatile bool on = true; on;) {
+        }
     static shadowbench_parameter parameter;
     static shadowbench_technique techniques[2];
     static shadowbench_library library;

@@ -130,15 +130,16 @@ TEST(Isolated, AFileThatChangesAfterItWasLoadedFails) {
 }
 
 TEST(Isolated, ALibraryThatCannotBeOpenedIsRefused) {
-    const auto refusal = [](const char* fault) {
+    const auto refusal = [](const char* fault, double seconds = 60.0) {
         ::setenv("SHADOWBENCH_TEST_FAULT", fault, 1);
-        const std::string message =
-            test::error_of([] { isolated(SHADOWBENCH_FAULTY); }, base::ErrorCode::internal, SHADOWBENCH_FAULTY);
+        const std::string message = test::error_of([&] { isolated(SHADOWBENCH_FAULTY, seconds); },
+                                                   base::ErrorCode::internal, SHADOWBENCH_FAULTY);
         ::unsetenv("SHADOWBENCH_TEST_FAULT");
         return message;
     };
     EXPECT_THAT(refusal("abi"), HasSubstr("made for version 7 of shadowbench_technique.h"));
     EXPECT_THAT(refusal("crash"), HasSubstr("shadowbench_techniques() ended its process"));
+    EXPECT_THAT(refusal("hang", 0.3), HasSubstr("shadowbench_techniques() did not answer within"));
 }
 
 }  // namespace

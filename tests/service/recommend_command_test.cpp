@@ -2,12 +2,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "base/read_text.h"
+#include "processes.h"
 #include "results/report.h"
 #include "service/run_cli.h"
 #include "temporary_folder.h"
@@ -74,6 +81,40 @@ TEST(Recommend, AnswersFromARun) {
     EXPECT_THAT(found.out, ::testing::HasSubstr("2 settings measured, 2 confirmed"));
     EXPECT_THAT(found.out, ::testing::HasSubstr("variance, resolution=16"));
     EXPECT_EQ(cli({"recommend", "--from", out, "--error", "0.5", "--measure", "curve"}).code, 65);
+}
+
+// Otherwise a night of exploring would be lost with the machine.
+TEST(Recommend, GoesOnAfterAKill) {
+    const TemporaryFolder folder;
+    const std::string scenario = folder.path("two_quads.json"), out = folder.path("found");
+    std::ofstream(scenario) << two_quads;
+    const std::vector<std::string> words{"recommend", scenario,   "--error",  "0.2", "--cheapest", "bytes",
+                                         "--only",    "variance", "--budget", "20s", "--out",      out};
+    const auto kept = [&] {
+        std::error_code none_yet;
+        const std::filesystem::directory_iterator trials(out + "/trials", none_yet);
+        return std::count_if(begin(trials), end(trials),
+                             [](const auto& file) { return file.path().filename().string().front() != '.'; });
+    };
+    const pid_t killed = ::fork();
+    if (killed == 0) {
+        std::vector<char*> arguments{const_cast<char*>("shadowbench")};
+        for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+        arguments.push_back(nullptr);
+        ::execv(SHADOWBENCH_PROGRAM, arguments.data());
+        ::_exit(127);
+    }
+    ASSERT_TRUE(soon([&] { return kept() >= 2; }));
+    ::kill(killed, SIGKILL);
+    ASSERT_EQ(::waitpid(killed, nullptr, 0), killed);
+    const auto before = kept();
+    const Outcome found = cli(words);
+    EXPECT_EQ(found.code, 2) << "nothing reaches the error: " << found.err;
+    EXPECT_THAT(found.out, ::testing::HasSubstr("settings were measured before"));
+    const auto written = nlohmann::json::parse(base::read_text(out + "/result.json"));
+    EXPECT_GE(written.at("recommendation").at("measured_before"), 2u);
+    EXPECT_LE(written.at("recommendation").at("measured_before"), before);
+    EXPECT_GE(kept(), written.at("recommendation").at("measured").size());
 }
 
 TEST(Recommend, RefusesWhatItCannotRead) {

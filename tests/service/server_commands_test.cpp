@@ -166,6 +166,26 @@ TEST_F(ServerCommands, TechniquesFromOutsideComeFromItsFolderAndMayCrash) {
     EXPECT_THAT(crash.out, ::testing::HasSubstr("\n  deep "));
 }
 
+// Every check of a scenario has a process of its own, which would wait for the library for longer than a check may
+// take.
+TEST_F(ServerCommands, ALibraryThatHangsWhenItIsOpenedCostsOnlyItsRow) {
+    fs::create_directory(path("libraries"));
+    fs::copy_file(SHADOWBENCH_FAULTY, path("libraries/libfaulty.so"));
+    nlohmann::json scenario = nlohmann::json::parse(tiny);
+    scenario["techniques"] = {{{"type", "deep"}}, {{"type", "faulty"}}};
+    write("hang.json", scenario.dump());
+    ::setenv("SHADOWBENCH_TEST_FAULT", "hang", 1);
+    ::setenv("SHADOWBENCH_TEST_OPENED", path("opened").c_str(), 1);
+    serve({"--technique-libraries", path("libraries"), "--call-seconds", "0.3"});
+    ::unsetenv("SHADOWBENCH_TEST_FAULT");
+    ::unsetenv("SHADOWBENCH_TEST_OPENED");
+    const Outcome hang = cli({"submit", path("hang.json"), "--server", url_, "--wait", "--no-pictures"});
+    EXPECT_EQ(hang.code, 2) << hang.err;
+    EXPECT_THAT(hang.out, ::testing::ContainsRegex("did[ \n]+not[ \n]+answer[ \n]+within[ \n]+0.3[ \n]+s"));
+    EXPECT_THAT(hang.out, ::testing::HasSubstr("\n  deep "));
+    EXPECT_EQ(read(path("opened")), "opened\n") << "once, when the server started";
+}
+
 TEST_F(ServerCommands, SubmitWaitsForAServerThatIsStartedAnew) {
     serve();
     // Long enough to be cut off.

@@ -236,6 +236,33 @@ TEST_F(Sweeps, ACellOfAnotherVersionIsMeasuredAgain) {
     EXPECT_EQ(merged().code, 0);
 }
 
+// Otherwise one row of a result would hold the measures of two programs.
+TEST_F(Sweeps, CellsOfDifferentLibrariesAreNotMerged) {
+    ASSERT_EQ(shard("0/1").code, 0);
+    const std::vector<fs::path> all = files();
+    const auto from = [&](const fs::path& file, const results::TechniqueLibrary& library) {
+        change(file, file, [&](results::SweepCell& cell) {
+            for (results::Cell& row : cell.result.variants[0].lights[0].cells)
+                if (row.technique == "deep") row.library = library;
+        });
+    };
+    const results::TechniqueLibrary one{"libdeep.so", "0123456789abcdef", false};
+    for (const fs::path& file : all) from(file, one);
+    ASSERT_EQ(merged().code, 0) << "all are of one";
+    from(all.back(), {"libdeep.so", "fedcba9876543210", false});
+    const Outcome other = merged();
+    EXPECT_EQ(other.code, 65);
+    EXPECT_THAT(other.err,
+                HasSubstr(all.back().string() + ": its technique deep is from libdeep.so (fedcba9876543210)"));
+    EXPECT_THAT(other.err, HasSubstr("libdeep.so (0123456789abcdef)"));
+    from(all.back(), {"libdeep.so", "0123456789abcdef", true});
+    EXPECT_THAT(merged().err, HasSubstr("(0123456789abcdef, isolated)")) << "whose times hold the way there and back";
+    change(all.back(), all.back(), [](results::SweepCell& cell) {
+        for (results::Cell& row : cell.result.variants[0].lights[0].cells) row.library.reset();
+    });
+    EXPECT_THAT(merged().err, HasSubstr("is from the program itself"));
+}
+
 TEST_F(Sweeps, OneFolderTakesOneSweep) {
     ASSERT_EQ(shard("0/4").code, 0);
     for (const std::vector<std::string>& other :

@@ -58,15 +58,20 @@ TEST_F(WithParallel, PassesOnTheExitCodeOfAPartThatFails) {
 }
 
 // GNU parallel puts each part into a group of its own, so a signal to its group would leave the parts measuring, beside
-// those of the next call.
-TEST_F(WithParallel, InterruptedLeavesNoPartBehind) {
+// those of the next call. SIGKILL leaves nobody who could pass it on.
+TEST_F(WithParallel, InterruptedOrKilledLeavesNoPartBehind) {
     const std::string slow =
         "--set timing.repetitions=10000 --set timing.lookups=100000 --set receivers.count=100000 --threads 1";
-    const std::string script = "(" + program("sweep swept.json --out sweep --engine parallel " + slow, "sweep.log") +
-                               ") & until grep -q measuring: " + path("sweep/batch/part-0.log") +
-                               " 2>/dev/null; do kill -0 $! || exit 99; sleep 0.02; done; kill -TERM $!; wait $!";
-    EXPECT_EQ(shell(script), 128 + SIGTERM) << text("sweep.log");
-    EXPECT_TRUE(soon([&] { return tasks().empty(); }));
+    for (const int signal : {SIGTERM, SIGKILL}) {
+        const std::string out = "sweep-" + std::to_string(signal);
+        const std::string script =
+            "(" + program("sweep swept.json --out " + out + " --engine parallel " + slow, "sweep.log") +
+            ") & until grep -q measuring: " + path(out + "/batch/part-0.log") +
+            " 2>/dev/null; do kill -0 $! || exit 99; sleep 0.02; done; kill -" + std::to_string(signal) +
+            " $!; wait $!";
+        EXPECT_EQ(shell(script), 128 + signal) << text("sweep.log");
+        EXPECT_TRUE(soon([&] { return tasks("", out).empty(); })) << signal;
+    }
 }
 
 // What is printed does the same, in any POSIX shell, whatever quotes the names and values need.

@@ -67,8 +67,8 @@ protected:
     }
 
     // The processes that measure a part of the sweep, such as "0/4", or all parts.
-    std::vector<pid_t> tasks(const std::string& part = "") const {
-        const std::string out = std::string("--out") + '\0' + path("sweep") + '\0',
+    std::vector<pid_t> tasks(const std::string& part = "", const std::string& folder = "sweep") const {
+        const std::string out = std::string("--out") + '\0' + path(folder) + '\0',
                           shard = std::string("--shard") + '\0';
         std::vector<pid_t> found;
         for (const auto& entry : fs::directory_iterator("/proc")) {
