@@ -48,10 +48,22 @@ foreach(file IN ITEMS share/shadowbench/scenario.schema.json share/doc/shadowben
   endif()
 endforeach()
 
+# Images are read and written by a library that is opened when one is: all else starts without OpenImageIO.
+run(/lib64/ld-linux-x86-64.so.2 --list "${prefix}/bin/shadowbench")
+if(text MATCHES "OpenImageIO")
+  message(FATAL_ERROR "The program loads OpenImageIO when it starts:\n${text}")
+endif()
+run(${program} render hard/one_hair --only deep --size 32x24 --out "${WORK}/pictures")
+file(GLOB pictures "${WORK}/pictures/*.png")
+if(NOT pictures)
+  message(FATAL_ERROR "render wrote no picture:\n${text}")
+endif()
+file(GLOB images_library "${prefix}/lib*/shadowbench/*.so" "${prefix}/lib*/*/shadowbench/*.so")
+
 # --- the libraries of an image: service/container -----------------------------------------------------------------------
-# What is collected is all that the program loads, apart from the C library and its like.
-run("${CMAKE_COMMAND}" -E env COLLECT=list "${CMAKE_CURRENT_LIST_DIR}/../../service/container/collect"
-    "${prefix}/bin/shadowbench")
+# What is collected is all that the program and its library load, apart from the C library and its like.
+run("${CMAKE_COMMAND}" -E env COLLECT=list "${CMAKE_CURRENT_LIST_DIR}/../../service/container/collect" -
+    "${prefix}/bin/shadowbench" ${images_library})
 string(REGEX MATCHALL "[^\n]+" collected "${text}")
 set(image "${WORK}/image")
 file(MAKE_DIRECTORY "${image}")
@@ -67,7 +79,7 @@ endforeach()
 if(all GREATER 440000000)
   message(FATAL_ERROR "The libraries of an image of service/container take ${all} bytes: more than 440 MB")
 endif()
-run(/lib64/ld-linux-x86-64.so.2 --inhibit-cache --library-path "${image}" --list "${prefix}/bin/shadowbench")
+run(/lib64/ld-linux-x86-64.so.2 --inhibit-cache --library-path "${image}" --list ${images_library})
 expect("${text}" "${image}/libOpenImageIO.so")
 string(REGEX MATCHALL "[^\n]+" loaded "${text}")
 foreach(line IN LISTS loaded)
