@@ -68,9 +68,13 @@ std::size_t PixelScratch::bytes() const {
            fewest.bytes();
 }
 
-void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression) {
+bool is_coloured(const PixelScratch& scratch, int functions) {
     const auto& f = scratch.function;
-    const bool coloured = functions == 3 && !(f[0] == f[1] && f[0] == f[2]);
+    return functions == 3 && !(f[0] == f[1] && f[0] == f[2]);
+}
+
+void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression) {
+    const bool coloured = is_coloured(scratch, functions);
     if (coloured)
         append_three(run, scratch, compression);
     else

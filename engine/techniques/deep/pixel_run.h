@@ -47,6 +47,9 @@ struct Compression {
     Method method = Method::bounded;
 };
 
+// Whether the first `functions` (1 or 3) of the scratch are three that differ.
+bool is_coloured(const PixelScratch& scratch, int functions);
+
 // Compresses the first `functions` (1 or 3) of the scratch and appends them as the run's next pixel. Three equal ones
 // are stored as one.
 void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression);
