@@ -30,7 +30,7 @@ bool is_grey(const rays::LightRays& tile, std::size_t first, std::size_t count) 
 }
 
 // The search for the fewest nodes of a pixel gives up after so many steps, some thousandths of a second.
-constexpr std::size_t most_steps = std::size_t{1} << 18;
+constexpr std::size_t most_search_steps = std::size_t{1} << 18;
 
 // Makes the functions of pixel (x, y): only one if its channels are surely equal. Returns how many. `offset_of(ray)` is
 // called unless the filter is the pixel.
@@ -136,6 +136,10 @@ void DeepMap::make(std::span<const curves::Curve> functions) {
     place(0, 0, 0, width, 1);
     PixelScratch scratch;
     for (const curves::Curve& function : functions) {
+        if (lossless_.empty()) {
+            append_given(runs_[0], scratch, function, compression);
+            continue;
+        }
         scratch.function[0] = function;
         append(0, scratch, 1, compression);
     }
@@ -174,7 +178,7 @@ FewestNodes DeepMap::fewest_nodes(int x, int y, const rays::LightRays& tile) con
     if (is_coloured(scratch.pixel, functions)) return {0, false};
     curves::Curve& function = scratch.pixel.function[0];
     curves::FewestScratch& fewest = scratch.pixel.fewest;
-    fewest.most_steps = most_steps;
+    fewest.most_steps = most_search_steps;
     const std::size_t nodes = curves::compress_to_fewest(function, after_lines().tolerance, fewest, function.data());
     return {nodes, fewest.complete};
 }

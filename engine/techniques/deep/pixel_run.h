@@ -54,6 +54,9 @@ bool is_coloured(const PixelScratch& scratch, int functions);
 // are stored as one.
 void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression);
 
+// The same for a function that the scratch does not hold, and which is not copied.
+void append_given(PixelRun& run, PixelScratch& scratch, curves::CurveView function, const Compression& compression);
+
 // The same without loss, and the scratch keeps its functions.
 void append_lossless(PixelRun& run, PixelScratch& scratch, int functions);
 
