@@ -19,9 +19,9 @@ struct Slopes {
 
 // Narrows the slopes of lines from (z, value) by blocks of four vertices, and returns how many vertices that were: the
 // first block that starts at `first` and each next one, for as long as some line is left and the block ends where its
-// depth ends. The slopes come out as if each vertex had narrowed them alone, to the bit: a greatest and a least number
-// do not depend on the order. Inputs that are not visibility functions give some slopes. Without SSE2 there are no
-// blocks.
+// depth ends. The slopes come out as if the vertices had narrowed them one by one, to the bit: the greatest and the
+// least number do not depend on the order. Inputs that are not visibility functions give some slopes. Without SSE2
+// there are no blocks.
 inline std::size_t narrow_by_blocks(CurveView curve, std::size_t first, double z, double value, double epsilon,
                                     Slopes& slopes) {
 #if defined(__SSE2__)

@@ -77,7 +77,7 @@ struct SeedErrors {
 // (curves/fewest.h). Techniques that break one of these rules may have fewer.
 struct FewestNodes {
     std::uint64_t cells = 0;               // compared: all, or an even share of many
-    std::uint64_t left_out = 0;            // cells among them whose fewest nodes are not known; not in what follows
+    std::uint64_t left_out = 0;            // further cells of the share, whose fewest nodes are not known
     std::uint64_t nodes = 0, fewest = 0;   // that they hold; the fewest, above 0
     metrics::Interval interval{1.0, 1.0};  // 95 %, of the ratio over all cells; without width if all were compared
 
