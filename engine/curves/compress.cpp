@@ -56,22 +56,9 @@ public:
         // The function starts at its exact first value, so nothing before the first occluder is darkened.
         last_ = in_.read();
         out_.emit(last_.z, last_.before);
-        if (exceeds(last_.before, last_.after))
-            out_.emit(last_.z, last_.after);
-        else
-            *this = first_segment(*this);
-        Compressor rest = *this;  // whose state nothing refers to: it stays in registers
-        return rest.take_all();
-    }
-
-private:
-    // Vertices of a segment before the first block is tried, and after each block that failed.
-    static constexpr std::size_t kShort = 4;
-    using Step = Group<channels>;
-
-    std::size_t take_all() {
+        if (exceeds(last_.before, last_.after)) out_.emit(last_.z, last_.after);
         while (in_.more()) {
-            const Step group = in_.read();
+            const Group<channels> group = in_.read();
             take(group);
             last_ = group;
             if constexpr (channels == 1)
@@ -80,55 +67,10 @@ private:
         return finish();
     }
 
-    // The values of a segment that passes both sides of a group.
-    struct Window {
-        Values<channels> floor, ceiling;
-        bool torn = false;  // no segment passes this step
-    };
-
-    Window window_of(const Step& group) const {
-        Window window;
-        for (int c = 0; c < channels; ++c) {
-            window.floor[c] = std::max(group.before[c] - epsilon_, 0.0);
-            window.ceiling[c] = group.after[c] + epsilon_;
-            window.torn = window.torn || window.floor[c] > window.ceiling[c];
-        }
-        return window;
-    }
-
-    // The state in front of the first group that the first segment does not pass. It begins at the first depth, or, if
-    // it then gets further, at the last one up to where the first value serves: what falls slowly at first needs a
-    // vertex less. States go by value: a caller's own can stay in registers.
-    [[gnu::noinline]] static Compressor first_segment(Compressor first) {
-        Compressor early = first, late = first;
-        early.pass_groups();
-        for (Reader ahead = first.in_; ahead.more();) {
-            const Step group = ahead.read();
-            if (!ahead.more() || first.exceeds(first.out_.value, group.after)) break;
-            late.last_ = group;
-            late.in_ = ahead;
-        }
-        late.out_.z = late.last_.z;
-        if (late.out_.z > first.out_.z) late.pass_groups();
-        if (!(late.last_.z > early.last_.z)) return early;
-        late.out_.vertices[0].z = static_cast<float>(late.out_.z);
-        return late;
-    }
-
-    void pass_groups() {
-        while (in_.more()) {
-            const Reader ahead = in_;
-            const Step group = in_.read();
-            const Window window = window_of(group);
-            if (!narrow(group.z, window.floor, window.ceiling)) {
-                in_ = ahead;
-                return;
-            }
-            last_ = group;
-            if constexpr (channels == 1)
-                if (in_.next >= slow_until_) take_blocks();
-        }
-    }
+private:
+    // Vertices of a segment before the first block is tried, and after each block that failed.
+    static constexpr std::size_t kShort = 4;
+    using Step = Group<channels>;
 
     bool exceeds(const Values<channels>& before, const Values<channels>& after) const {
         for (int c = 0; c < channels; ++c)
@@ -153,7 +95,14 @@ private:
     }
 
     void take(const Step& group) {
-        const auto [floor, ceiling, torn] = window_of(group);
+        // The segment passes both sides of the step.
+        Values<channels> floor, ceiling;
+        bool torn = false;  // no segment passes this step
+        for (int c = 0; c < channels; ++c) {
+            floor[c] = std::max(group.before[c] - epsilon_, 0.0);
+            ceiling[c] = group.after[c] + epsilon_;
+            torn = torn || floor[c] > ceiling[c];
+        }
         while (!narrow(group.z, floor, ceiling)) {
             if (torn) {  // reach its front side if possible, then step
                 Values<channels> front;

@@ -16,9 +16,8 @@ namespace shadowbench::curves {
 //  - output depths are a subset of the input's; the output is a visibility function too;
 //  - O(n) time, O(1) state; the same bits with and without the instructions that take four vertices at once.
 // Differences from the paper, which keep its guarantee: a segment never rises (the published middle slope can), windows
-// are cut at 0, the function starts at its exact first value (nothing before all occluders is darkened), the first
-// segment begins as far back as that value serves if it then gets further, and the last segment aims at the exact last
-// value. A function that is 1 everywhere has no vertices.
+// are cut at 0, the function starts at its exact first value (nothing before all occluders is darkened), and the last
+// segment aims at the exact last value. A function that is 1 everywhere has no vertices.
 // The output may be compressed again with the same tolerance, and then errs by up to twice that; only with a tolerance
 // of 0 does it stay the same.
 std::size_t compress(CurveView curve, float tolerance, Vertex* out);

@@ -170,21 +170,6 @@ TEST(Compress, ManySmallStepsBecomeALine) {
 }
 
 // The middle of the allowed slopes may be above 0 on a flat part that follows a fall; the published rule rises there.
-// From the first depth, no line passes both what falls slowly and what falls fast: that would take three vertices.
-TEST(Compress, TheFirstVertexStandsAsFarBackAsItsValueServes) {
-    const Curve slow_then_fast{{0, 1}, {1, 0.99f}, {2, 0.985f}, {3, 0.5f}, {4, 0}};
-    EXPECT_EQ(compress(slow_then_fast, 0.02f), (Curve{{2, 1}, {4, 0}}));
-}
-
-// Further back, a line would not get further: it would only be further off.
-TEST(Compress, TheFirstVertexStaysWhereTheFirstSegmentGetsAsFar) {
-    Curve ramp_before_wall;
-    for (int i = 0; i <= 50; ++i)
-        ramp_before_wall.push_back({static_cast<float>(i), 1.0f - 0.01f * static_cast<float>(i)});
-    ramp_before_wall.push_back({50, 0});
-    EXPECT_EQ(compress(ramp_before_wall, 0.02f)[0], (Vertex{0, 1}));
-}
-
 TEST(Compress, DoesNotRiseAfterAFall) {
     base::Random random(5);
     for (int round = 0; round < 300; ++round) {

@@ -133,7 +133,7 @@ Technique deep() {
     return {.id = "deep",
             .title = "deep shadow map: visibility functions compressed within a tolerance",
             .paper = "Lokovic, Veach 2000",
-            .version = 5,
+            .version = 4,
             .parameters = deep_parameters::all(),
             .create = create_map<Deep>,
             .error_bound =
