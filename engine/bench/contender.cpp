@@ -210,7 +210,9 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
     }
     const std::vector<CurveVerdict> verdicts = check_curves(source, layout, checked, max_checked_cells, watch);
     for (std::size_t i = 0; i < owners.size(); ++i) {
-        owners[i]->cell.curve = verdicts[i].errors;
+        results::Cell& cell = owners[i]->cell;
+        cell.curve = verdicts[i].errors;
+        cell.nodes.over_fewest = over_fewest(verdicts[i].nodes, cell.nodes.cells);
         if (!verdicts[i].broken.empty()) fail(*owners[i], verdicts[i].broken);
     }
 }

@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "bench/node_ratio.h"
 #include "curves/norms.h"
 #include "curves/sweep.h"
 
@@ -35,6 +36,7 @@ struct TileErrors {
     double rise = 0.0, lowest = 0.0;
     int worst_x = 0, worst_y = 0;
     std::string broken;
+    NodesBesideFewest nodes;
 };
 
 struct CellRays {
@@ -220,6 +222,8 @@ void check_filtered(const Pass& pass, bool fine, int channel, const LightRays& r
 std::vector<TileErrors> check_tile(const Pass& pass, const LightRays& tile) {
     std::vector<TileErrors> errors(pass.maps.size());
     PixelScratch scratch;
+    for (std::size_t m = 0; m < pass.maps.size(); ++m)
+        if (pass.maps[m].apron == pass.apron) compare_nodes(*pass.maps[m].maps, tile, pass.layout, errors[m].nodes);
     for (int c = 0; c < tile.channels; ++c) {
         LightRays copy;
         if (tile.channels > 1) copy = rays::channel(tile, c);
@@ -247,6 +251,7 @@ CurveVerdict merge(std::span<const std::vector<TileErrors>> tiles, std::size_t m
     double worst = -1.0;
     for (const std::vector<TileErrors>& tile : tiles) {
         const TileErrors& part = tile[map];
+        verdict.nodes.push_back(part.nodes);
         all.insert(all.end(), part.max.begin(), part.max.end());
         errors.mean_l1 += part.l1;
         errors.rise = std::max(errors.rise, part.rise);
@@ -297,7 +302,7 @@ std::vector<CurveVerdict> check_curves(const RaySource& source, const MapLayout&
     std::vector<CurveVerdict> verdicts;
     for (std::size_t m = 0; m < maps.size(); ++m) {
         if (std::string fault = bench::fault(*maps[m].maps); !fault.empty()) {
-            verdicts.push_back({std::nullopt, std::move(fault)});
+            verdicts.push_back({std::nullopt, std::move(fault), {}});
             continue;
         }
         verdicts.push_back(merge(tiles, m, layout.media ? pass.linearisation(is_fine(maps[m], layout)) : 0.0));

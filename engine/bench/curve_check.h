@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/maps.h"
+#include "bench/node_ratio.h"
 #include "bench/ray_source.h"
 #include "results/result.h"
 #include "techniques/technique.h"
@@ -28,6 +29,7 @@ struct CheckedMap {
 struct CurveVerdict {
     std::optional<results::CurveErrors> errors;  // absent if the technique stores no function
     std::string broken;                          // describes the first broken promise; empty: none
+    std::vector<NodesBesideFewest> nodes = {};   // of each tile
 };
 
 // Checks all maps in one pass over the light rays, tiles in parallel. Of a map with more than `max_cells` cells, an

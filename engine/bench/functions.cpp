@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "bench/clock.h"
+#include "bench/node_ratio.h"
 #include "curves/norms.h"
 
 namespace shadowbench::bench {
@@ -80,7 +81,11 @@ void check(const Map& map, const techniques::Promises& promises, std::span<const
     const metrics::ErrorNorms norms = metrics::error_norms(errors);
     result.error_max = norms.max;
     result.error_rms = norms.rms;
-    if (result.tolerance) result.over_tolerance = over;
+    if (!result.tolerance) return;
+    result.over_tolerance = over;
+    NodesBesideFewest nodes;
+    compare_nodes(functions, result.stored, *result.tolerance, nodes);
+    result.over_fewest = over_fewest({&nodes, 1}, functions.size());
 }
 
 // Queries spread evenly over the functions, and in each over its depths and a little beyond, front to back.

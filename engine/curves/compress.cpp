@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "curves/compress_parts.h"
+#include "curves/slope_windows.h"
 
 namespace shadowbench::curves {
 
@@ -60,17 +61,37 @@ public:
             const Group<channels> group = in_.read();
             take(group);
             last_ = group;
+            if constexpr (channels == 1)
+                if (in_.next >= slow_until_) take_blocks();
         }
         return finish();
     }
 
 private:
+    // Vertices of a segment before the first block is tried, and after each block that failed.
+    static constexpr std::size_t kShort = 4;
     using Step = Group<channels>;
 
     bool exceeds(const Values<channels>& before, const Values<channels>& after) const {
         for (int c = 0; c < channels; ++c)
             if (before[c] - after[c] > epsilon_) return true;
         return false;
+    }
+
+    // Takes many groups at once while the segment passes them. Short segments would only lose by it.
+    void take_blocks() {
+        Slopes slopes{low_[0], high_[0]};
+        const std::size_t first = in_.next;
+        in_.next += narrow_by_blocks(in_.curve, first, out_.z, out_.value[0], epsilon_, slopes);
+        slow_until_ = in_.next + kShort;
+        if (in_.next == first) return;
+        low_[0] = slopes.low;
+        high_[0] = slopes.high;
+        const Vertex end = in_.curve[in_.next - 1];
+        float before = end.value;
+        for (std::size_t i = in_.next - 1; i > first && in_.curve[i - 1].z == end.z; --i)
+            before = in_.curve[i - 1].value;
+        last_ = {end.z, {before}, {end.value}};
     }
 
     void take(const Step& group) {
@@ -129,6 +150,7 @@ private:
         out_.emit(z, value);
         low_ = all(-kInfinity);
         high_ = all(kInfinity);
+        if constexpr (channels == 1) slow_until_ = in_.next + kShort;
     }
 
     // The functions keep their last values from here on, so the last segment aims at them instead of at the middle.
@@ -165,6 +187,7 @@ private:
     // Slopes from the origin that pass within epsilon of all groups up to `last`. `high` may be above 0, which keeps
     // the middle unbiased on flat parts; only what is written is kept from rising.
     Values<channels> low_ = all(-kInfinity), high_ = all(kInfinity);
+    std::size_t slow_until_ = kShort;  // no block is tried before this vertex
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace shadowbench::curves {
 // non-decreasing, values non-increasing and in [0, 1]).
 //  - |out(z) - curve(z)| <= tolerance for every z, on both sides of steps, up to one rounding of a float;
 //  - output depths are a subset of the input's; the output is a visibility function too;
-//  - O(n) time, O(1) state.
+//  - O(n) time, O(1) state; the same bits with and without the instructions that take four vertices at once.
 // Differences from the paper, which keep its guarantee: a segment never rises (the published middle slope can), windows
 // are cut at 0, the function starts at its exact first value (nothing before all occluders is darkened), and the last
 // segment aims at the exact last value. A function that is 1 everywhere has no vertices.

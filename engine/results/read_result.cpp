@@ -109,11 +109,25 @@ std::vector<SeedErrors> read_seeds(const Field& field) {
     return seeds;
 }
 
+FewestNodes read_fewest(const Field& field) {
+    FewestNodes over;
+    over.cells = field.at("cells").count();
+    over.left_out = field.at("left_out").count();
+    over.nodes = field.at("nodes").count();
+    over.fewest = field.at("fewest").count();
+    if (over.fewest == 0) refuse(field.at("fewest").where, "must be above 0");
+    const Field interval = field.at("interval95");
+    if (interval.array().size() != 2) refuse(interval.where, "must hold two numbers");
+    over.interval = {interval.item(0).number(), interval.item(1).number()};
+    return over;
+}
+
 NodeCounts read_nodes(const Field& field) {
     NodeCounts nodes;
     nodes.cells = field.at("cells").count();
     nodes.total = field.at("total").count();
     nodes.max = static_cast<std::uint32_t>(read_int(field.at("max")));
+    if (field.has("over_fewest")) nodes.over_fewest = read_fewest(field.at("over_fewest"));
     if (!field.has("histogram")) return nodes;
     const Field histogram = field.at("histogram");
     for (std::size_t i = 0; i < histogram.array().size(); ++i) nodes.histogram.push_back(histogram.item(i).count());

@@ -22,6 +22,9 @@ std::string notes_text(const std::vector<std::string>& notes, const std::string&
 // "notes" is there only if there are some.
 nlohmann::ordered_json to_json(const Result& result);
 
+// One measure of a cell, as result.json has it.
+nlohmann::ordered_json to_json(const FewestNodes& over);
+
 // Adds the load and the job of Slurm, as far as they are known, to an object of times.
 void add_state_to(nlohmann::ordered_json& out, const RunTimes& times);
 

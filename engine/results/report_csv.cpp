@@ -133,6 +133,8 @@ private:
         add({"nodes_total", "nodes", static_cast<double>(cell.nodes.total)});
         add({"nodes_mean", "nodes", cell.nodes.mean()});
         add({"nodes_max", "nodes", static_cast<double>(cell.nodes.max)});
+        if (const auto& over = cell.nodes.over_fewest)
+            add({"nodes_over_fewest", "1", over->ratio(), over->interval, "cells"});
     }
     void add_norms(const std::array<const char*, 4>& names, const metrics::ErrorNorms& norms,
                    const Measure& interval_of_rms = {}) {

@@ -84,11 +84,13 @@ json to_json(const std::vector<SeedErrors>& seeds) {
 }
 
 json to_json(const NodeCounts& nodes) {
-    return {{"cells", nodes.cells},
-            {"total", nodes.total},
-            {"mean", nodes.mean()},
-            {"max", nodes.max},
-            {"histogram", nodes.histogram}};
+    json out = {{"cells", nodes.cells},
+                {"total", nodes.total},
+                {"mean", nodes.mean()},
+                {"max", nodes.max},
+                {"histogram", nodes.histogram}};
+    if (nodes.over_fewest) out["over_fewest"] = to_json(*nodes.over_fewest);
+    return out;
 }
 
 json to_json(const Cell& cell, const LightResult& light) {
@@ -232,6 +234,12 @@ json to_json(const VariantResult& variant) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json to_json(const FewestNodes& over) {
+    return {{"ratio", over.ratio()}, {"interval95", {over.interval.low, over.interval.high}},
+            {"cells", over.cells},   {"left_out", over.left_out},
+            {"nodes", over.nodes},   {"fewest", over.fewest}};
+}
 
 void add_state_to(nlohmann::ordered_json& out, const RunTimes& times) {
     if (times.load) out["load"] = *times.load;

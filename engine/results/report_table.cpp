@@ -17,11 +17,10 @@ using base::error_text;
 
 constexpr const char* legend =
     "ns/seg: build time per segment of the light rays. image ns, random ns: time of a lookup in image and in random\n"
-    "order. x floor: its ratio to reading the same cache lines. curve max: largest |stored - uncompressed|. lookup:\n"
-    "error against the truth. rms 95 %: interval of the RMS expected over seeds of the rays; with ?: of the truth's\n"
-    "uncertainty only. front: T certainly no other technique beats it in time (random order) and error, B in bytes "
-    "and\n"
-    "error; T? and B? perhaps none does.\n";
+    "order. x floor: its ratio to reading the same cache lines. x fewest: nodes over the fewest that do within the\n"
+    "tolerance without rising. curve max: largest |stored - uncompressed|. lookup: error against the truth. rms 95 %:\n"
+    "interval of the RMS expected over seeds of the rays; with ?: of the truth's uncertainty only. front: T certainly\n"
+    "no other technique beats it in time (random order) and error, B in bytes and error; T? and B? perhaps none does.\n";
 
 std::string status_text(const Cell& cell) {
     if (cell.status == CellStatus::failed) return "failed: " + cell.reason;
@@ -42,7 +41,8 @@ std::vector<std::string> row_of(const Cell& cell, const LightResult& light) {
         row.insert(row.end(), 6, "-");
     }
     row.insert(row.end(),
-               {bytes_text(cell.bytes), fmt::format("{:.1f}", cell.nodes.mean()), fmt::format("{}", cell.nodes.max)});
+               {bytes_text(cell.bytes), fmt::format("{:.1f}", cell.nodes.mean()), fmt::format("{}", cell.nodes.max),
+                cell.nodes.over_fewest ? fmt::format("{:.3f}", cell.nodes.over_fewest->ratio()) : "-"});
     row.push_back(cell.curve ? error_text(cell.curve->norms.max) : "-");
     if (cell.lookup) {
         const metrics::ErrorNorms& e = cell.lookup->norms;
@@ -63,8 +63,8 @@ std::string to_table(const Result& result) {
         text += settings_lines(variant);
         for (const LightResult& light : variant.lights) {
             base::Table table({"technique", "build ms", "ns/seg", "image ns", "x floor", "random ns", "x floor",
-                               "bytes", "nodes mean", "max", "curve max", "lookup rms", "rms 95 %", "p99", "max",
-                               "front", "status"});
+                               "bytes", "nodes mean", "max", "x fewest", "curve max", "lookup rms", "rms 95 %", "p99",
+                               "max", "front", "status"});
             for (const Cell& cell : light.cells) table.add(row_of(cell, light));
             const Settling found = settling(light);
             marked = marked || !found.uncertain.empty();

@@ -72,12 +72,25 @@ struct SeedErrors {
     std::size_t bytes = 0;
 };
 
+// The nodes of stored functions beside the fewest that do within the same tolerance for the same uncompressed
+// functions, if they start at the exact value, do not rise and have nodes only at depths of the input
+// (curves/fewest.h). Techniques that break one of these rules may have fewer.
+struct FewestNodes {
+    std::uint64_t cells = 0;               // compared: all, or an even share of many
+    std::uint64_t left_out = 0;            // further cells of the share, whose fewest nodes are not known
+    std::uint64_t nodes = 0, fewest = 0;   // that they hold; the fewest, above 0
+    metrics::Interval interval{1.0, 1.0};  // 95 %, of the ratio over all cells; without width if all were compared
+
+    double ratio() const { return static_cast<double>(nodes) / static_cast<double>(fewest); }
+};
+
 // The number of cells (stored functions) and of their nodes.
 struct NodeCounts {
     std::uint64_t cells = 0;
     std::uint64_t total = 0;
     std::uint32_t max = 0;
-    std::vector<std::uint64_t> histogram;  // cells by number of nodes, up to max
+    std::vector<std::uint64_t> histogram;         // cells by number of nodes, up to max
+    std::optional<FewestNodes> over_fewest = {};  // absent for techniques without a tolerance, and if nothing is stored
 
     double mean() const { return cells ? static_cast<double>(total) / static_cast<double>(cells) : 0.0; }
 };
@@ -128,7 +141,7 @@ struct Cell {
     Verdict verdict = Verdict::kept;
     std::string verdict_why;                                 // the figures, and why a degraded cell has no bound
     metrics::OnFront on_bytes_front = metrics::OnFront::no;  // of bytes and error: see fronts.h
-    std::optional<CellTimes> times;  // absent for a failed cell, and if the run took none
+    std::optional<CellTimes> times;                          // absent for a failed cell, and if the run took none
 };
 
 // "deep tolerance=0.02": a technique and its parameters, which may be empty.
@@ -159,7 +172,7 @@ struct Agreement {
 bool agrees(const Agreement& agreement);
 
 struct ReferenceReport {
-    std::uint64_t judged = 0;  // receivers compared with the truth
+    std::uint64_t judged = 0;                      // receivers compared with the truth
     int samples_per_pixel = 0;                     // rays used for the truth
     double error_rms = 0.0, error_max = 0.0;       // standard error of the truth, over the judged receivers
     int degrees = 0;                               // its degrees of freedom; 0: exact, or an upper bound

@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -55,6 +56,12 @@ struct NodeStats {
 
     double mean() const { return cells ? static_cast<double>(total) / static_cast<double>(cells) : 0.0; }
     void add(std::uint32_t nodes);
+};
+
+// The fewest nodes that one stored function needs.
+struct FewestNodes {
+    std::size_t nodes = 0;
+    bool known = true;  // false: the search took too long, or the cell's functions share their depths
 };
 
 // Which rays one stored function represents.
@@ -131,6 +138,10 @@ public:
     // Only for Cells::filtered: the rays of its tile, including the apron asked for, that cell (x, y) represents. `out`
     // is replaced; weights are above 0 and sum to 1.
     virtual void weights(int, int, const rays::LightRays&, std::vector<curves::WeightedRay>& out) const { out.clear(); }
+    // Only for techniques with one cell a pixel that compress its function within a tolerance: the fewest nodes that do
+    // within that tolerance, by the rules of curves/fewest.h, for the same uncompressed function. `tile` holds the rays
+    // of cell (x, y), with the apron asked for.
+    virtual std::optional<FewestNodes> fewest_nodes(int, int, const rays::LightRays&) const { return {}; }
 };
 
 // What a technique promises for every stored function in every scene (only in opaque scenes if opaque_only).
@@ -212,9 +223,9 @@ std::unique_ptr<Map> create_map(const ParameterValues& values) {
 
 // The file that a technique from outside was loaded from.
 struct Library {
-    std::string file;       // its name, without folders
-    std::string hash;       // of its content
-    bool isolated = false;  // its maps live in processes of their own
+    std::string file;        // its name, without folders
+    std::string hash;        // of its content
+    bool isolated = false;   // its maps live in processes of their own
     std::string fault = {};  // why it cannot be used, so that its maps fail; empty: it can
     friend bool operator==(const Library&, const Library&) = default;
 };

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "base/random.h"
 #include "cases.h"
 #include "curves/norms.h"
+#include "curves/slope_windows.h"
 
 namespace shadowbench::curves {
 namespace {
@@ -85,6 +87,45 @@ RC_GTEST_PROP(Compress, EndsAtTheExactValueWhenOneSegmentReachesTheEnd, ()) {
     RC_ASSERT(evaluate_behind(compressed, curve.back().z) == curve.back().value);
     RC_ASSERT(compressed.size() <= 2u);
 }
+
+#if defined(__SSE2__)
+// Blocks are only faster. Were their slopes off by a bit, or were a step cut in two, maps would depend on the machine.
+TEST(SlopeWindows, OfBlocksAreThoseOfVerticesOneByOne) {
+    base::Random random(5);
+    std::size_t blocks = 0, failures = 0, steps = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        Curve curve{{0.25f, 1.0f}};
+        for (int i = 0; i < 40; ++i) {
+            const Vertex last = curve.back();
+            const float fall = random.below(8) == 0 ? 0.03f : static_cast<float>(random.uniform(0.0, 0.002));
+            curve.push_back({random.below(3) == 0 ? last.z : last.z + static_cast<float>(random.uniform(0.0, 0.1)),
+                             std::max(0.0f, last.value - fall)});
+        }
+        std::size_t first = 1;
+        while (curve[first].z == curve[0].z) ++first;
+        constexpr double epsilon = 0.02;
+        Slopes expected{-1e9, 1e9}, slopes = expected, tried = expected;
+        std::size_t count = 0;
+        for (std::size_t i = first; i < curve.size(); ++i) {
+            const double inverse = 1.0 / (static_cast<double>(curve[i].z) - curve[0].z);
+            tried.low = std::max(tried.low, (std::max(curve[i].value - epsilon, 0.0) - 1.0) * inverse);
+            tried.high = std::min(tried.high, (curve[i].value + epsilon - 1.0) * inverse);
+            if ((i - first) % 4 != 3) continue;
+            const bool cut = i + 1 < curve.size() && curve[i + 1].z == curve[i].z;
+            steps += cut;
+            failures += !cut && tried.low > tried.high;
+            if (cut || tried.low > tried.high) break;
+            expected = tried;
+            count += 4;
+        }
+        blocks += count / 4;
+        ASSERT_EQ(narrow_by_blocks(curve, first, curve[0].z, 1.0, epsilon, slopes), count) << trial;
+        ASSERT_EQ(slopes.low, expected.low) << trial;
+        ASSERT_EQ(slopes.high, expected.high) << trial;
+    }
+    EXPECT_GT(std::min({blocks, failures, steps}), 100u) << "all three ways out were taken";
+}
+#endif
 
 TEST(Compress, NoVerticesStayNone) {
     EXPECT_TRUE(compress(Curve{}, 0.02f).empty());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "metrics/ratio_of_sums.h"
 
 namespace shadowbench::metrics {
 namespace {
@@ -18,6 +19,24 @@ TEST(MeanInterval, OfAKnownSample) {
     EXPECT_DOUBLE_EQ(mean_and_variance(sample).mean, 3.0);
     EXPECT_NEAR(interval.high, 3.0 + 2.7764451 * std::sqrt(2.5 / 5.0), 1e-6);
     EXPECT_NEAR(interval.low, 6.0 - interval.high, 1e-12);
+}
+
+// By hand: a sample of 4 of 100, sums 20 and 10, so the ratio is 2; deviations a - 2 b of 1, -1, 1, -1 with variance
+// 4/3; the standard error is sqrt(0.96 * 4 * 4/3) / 10.
+TEST(RatioInterval, OfAKnownSample) {
+    const std::vector<double> a{3, 3, 7, 7}, b{1, 2, 3, 4};
+    const double error = 1.959964 * std::sqrt(0.96 * 4.0 * 4.0 / 3.0) / 10.0;
+    const Interval interval = ratio_interval(a, b, 100);
+    EXPECT_NEAR(interval.low, 2.0 - error, 1e-12);
+    EXPECT_NEAR(interval.high, 2.0 + error, 1e-12);
+}
+
+TEST(RatioInterval, HasNoWidthWhereNothingIsUnseen) {
+    const std::vector<double> a{3, 3, 7, 7}, b{1, 2, 3, 4};
+    EXPECT_EQ(ratio_interval(a, b, 4).low, 2.0);
+    EXPECT_EQ(ratio_interval(a, b, 4).high, 2.0);
+    const std::vector<double> twice{2, 4, 6, 8};
+    EXPECT_EQ(ratio_interval(twice, b, 100).low, 2.0) << "every item has the same ratio";
 }
 
 TEST(MeanInterval, OfEqualValuesIsThatValue) {

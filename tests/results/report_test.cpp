@@ -139,6 +139,24 @@ TEST(ResultJson, names_the_library_of_a_technique_from_outside) {
     EXPECT_NE(to_csv(result).find(",deep,0,0123456789abcdef,tolerance=0.02,"), std::string::npos);
 }
 
+TEST(ResultJson, gives_the_nodes_over_the_fewest_where_they_are_known) {
+    Result result = small_result();
+    Cell& cell = result.variants[0].lights[0].cells[0];
+    cell.nodes.over_fewest = FewestNodes{1000, 2, 5000, 4000, {1.125, 1.375}};
+    const nlohmann::ordered_json json = to_json(result);
+    const auto& cells = json["variants"][0]["lights"][0]["cells"];
+    EXPECT_EQ(cells[0]["nodes"]["over_fewest"].dump(),
+              R"({"ratio":1.25,"interval95":[1.125,1.375],"cells":1000,"left_out":2,"nodes":5000,"fewest":4000})");
+    EXPECT_FALSE(cells[1]["nodes"].contains("over_fewest"));
+    EXPECT_EQ(to_json(from_json(nlohmann::json::parse(json.dump()), "")), json);
+    EXPECT_NE(to_csv(result).find(",nodes_over_fewest,1,1.25,1.125,1.375,cells,"), std::string::npos) << to_csv(result);
+    EXPECT_NE(to_table(result).find("  1.250  "), std::string::npos) << to_table(result);
+    nlohmann::json none = nlohmann::json::parse(json.dump());
+    none["variants"][0]["lights"][0]["cells"][0]["nodes"]["over_fewest"]["fewest"] = 0;
+    test::error_of([&] { from_json(none, "a"); }, base::ErrorCode::bad_input,
+                   "a: /variants/0/lights/0/cells/0/nodes/over_fewest/fewest");
+}
+
 TEST(ResultJson, of_an_earlier_program_has_no_intervals) {
     nlohmann::json json = to_json(small_result());
     nlohmann::json& cell = json["variants"][0]["lights"][0]["cells"][0];

@@ -75,6 +75,9 @@ public:
     void weights(int x, int y, const rays::LightRays& tile, std::vector<curves::WeightedRay>& out) const override {
         map_.weights(x, y, tile, out);
     }
+    std::optional<FewestNodes> fewest_nodes(int x, int y, const rays::LightRays& tile) const override {
+        return map_.fewest_nodes(x, y, tile);
+    }
 
     std::span<const DeepLevel> levels() const { return map_.levels; }
     std::optional<TileCounts> tiles() const { return tiled_ ? std::optional(tiled_->counts()) : std::nullopt; }

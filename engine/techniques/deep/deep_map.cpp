@@ -29,9 +29,14 @@ bool is_grey(const rays::LightRays& tile, std::size_t first, std::size_t count) 
     return true;
 }
 
-// Makes the functions of pixel (x, y): only one if its channels are surely equal. Returns how many.
-int make_functions(const PixelFilter& filter, const rays::LightRays& tile, int x, int y, double linearisation,
-                   TileScratch& scratch) {
+// The search for the fewest nodes of a pixel gives up after so many steps, some thousandths of a second.
+constexpr std::size_t most_search_steps = std::size_t{1} << 18;
+
+// Makes the functions of pixel (x, y): only one if its channels are surely equal. Returns how many. `offset_of(ray)` is
+// called unless the filter is the pixel.
+template <class OffsetOf>
+int make_functions(const PixelFilter& filter, const rays::LightRays& tile, const OffsetOf& offset_of, int x, int y,
+                   double linearisation, TileScratch& scratch) {
     auto& functions = scratch.pixel.function;
     const std::size_t count = static_cast<std::size_t>(tile.samples);
     if (filter.is_pixel()) {
@@ -45,8 +50,7 @@ int make_functions(const PixelFilter& filter, const rays::LightRays& tile, int x
         functions[0].clear();
         return 1;
     }
-    filter_rays(
-        filter, tile, [&](std::size_t ray) { return scratch.offsets[ray]; }, x, y, scratch.chosen);
+    filter_rays(filter, tile, offset_of, x, y, scratch.chosen);
     const bool grey =
         tile.channels == 1 || std::all_of(scratch.chosen.begin(), scratch.chosen.end(),
                                           [&](const curves::WeightedRay& r) { return is_grey(tile, r.ray, 1); });
@@ -70,6 +74,14 @@ void DeepMap::begin(const rays::MapLayout& map_layout) {
     layout_ = map_layout;
     begin_tiles(static_cast<std::size_t>(layout_.tiles()));
     scratch_bytes_.assign(layout_.tiles(), 0);
+}
+
+double DeepMap::linearisation() const {
+    return layout_.media ? linearisation_of(compression.tolerance) : 0.0;
+}
+
+Compression DeepMap::after_lines() const {
+    return {static_cast<float>(std::max(0.0, compression.tolerance - linearisation())), compression.method};
 }
 
 void DeepMap::begin_tiles(std::size_t count) {
@@ -99,16 +111,16 @@ void DeepMap::add(const rays::LightRays& tile) {
     const int y0 = tile.tile / layout_.tiles_x() * layout_.tile_height;
     const int width = std::min(layout_.tile_width, layout_.width - x0);
     place(number, x0, y0, width, layout_.channels);
-    const double linearisation = layout_.media ? linearisation_of(compression.tolerance) : 0.0;
-    const Compression rest{static_cast<float>(std::max(0.0, compression.tolerance - linearisation)),
-                           compression.method};
+    const Compression rest = after_lines();
     TileScratch scratch;
+    const auto offset_of = [&](std::size_t ray) { return scratch.offsets[ray]; };
     if (!filter.is_pixel())
         for (std::size_t ray = 0; ray < tile.rays(); ++ray) scratch.offsets.push_back(ray_offset(layout_, tile, ray));
     const int y1 = std::min(y0 + layout_.tile_height, layout_.height);
     for (int y = y0; y < y1; ++y)
         for (int x = x0; x < x0 + width; ++x)
-            append(number, scratch.pixel, make_functions(filter, tile, x, y, linearisation, scratch), rest);
+            append(number, scratch.pixel, make_functions(filter, tile, offset_of, x, y, linearisation(), scratch),
+                   rest);
     scratch_bytes_[number] = scratch.bytes();
 }
 
@@ -124,6 +136,10 @@ void DeepMap::make(std::span<const curves::Curve> functions) {
     place(0, 0, 0, width, 1);
     PixelScratch scratch;
     for (const curves::Curve& function : functions) {
+        if (lossless_.empty()) {
+            append_given(runs_[0], scratch, function, compression);
+            continue;
+        }
         scratch.function[0] = function;
         append(0, scratch, 1, compression);
     }
@@ -153,6 +169,18 @@ void DeepMap::put_together(std::size_t scratch_bytes, int width, int height, int
 void DeepMap::weights(int x, int y, const rays::LightRays& tile, std::vector<curves::WeightedRay>& out) const {
     filter_rays(
         filter, tile, [&](std::size_t ray) { return ray_offset(layout_, tile, ray); }, x, y, out);
+}
+
+FewestNodes DeepMap::fewest_nodes(int x, int y, const rays::LightRays& tile) const {
+    TileScratch scratch;
+    const auto offset_of = [&](std::size_t ray) { return ray_offset(layout_, tile, ray); };
+    const int functions = make_functions(filter, tile, offset_of, x, y, linearisation(), scratch);
+    if (is_coloured(scratch.pixel, functions)) return {0, false};
+    curves::Curve& function = scratch.pixel.function[0];
+    curves::FewestScratch& fewest = scratch.pixel.fewest;
+    fewest.most_steps = most_search_steps;
+    const std::size_t nodes = curves::compress_to_fewest(function, after_lines().tolerance, fewest, function.data());
+    return {nodes, fewest.complete};
 }
 
 std::size_t DeepMap::bytes() const {

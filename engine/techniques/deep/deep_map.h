@@ -31,10 +31,15 @@ struct DeepMap {
     // See Map::weights; call it while the rays still exist.
     void weights(int x, int y, const rays::LightRays& tile, std::vector<curves::WeightedRay>& out) const;
 
+    // See Map::fewest_nodes; of the map's own functions, without mip levels.
+    FewestNodes fewest_nodes(int x, int y, const rays::LightRays& tile) const;
+
     std::size_t bytes() const;
     NodeStats stats() const;  // of the map's own functions, without mip levels
 
 private:
+    double linearisation() const;     // of the layout's rays
+    Compression after_lines() const;  // with what linearisation() leaves of the tolerance
     void begin_tiles(std::size_t count);
     void place(std::size_t tile, int x0, int y0, int width, int channels);
     void append(std::size_t tile, PixelScratch& scratch, int functions, const Compression& how);

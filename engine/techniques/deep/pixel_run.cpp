@@ -16,29 +16,37 @@ void for_each_row(const DeepLevel& level, const PixelRun& run, const Visit& visi
         visit(level.pixel(run.x0, run.y0 + static_cast<int>(first) / run.width), first);
 }
 
-// Compresses a function in its own memory. Returns its number of vertices.
-std::size_t compress_one(curves::Curve& function, curves::FewestScratch& fewest, const Compression& how) {
+// Returns the number of vertices. `out` may be the function's own memory.
+std::size_t compress_one(curves::CurveView function, curves::FewestScratch& fewest, const Compression& how,
+                         curves::Vertex* out) {
     switch (how.method) {
         case Compression::Method::published:
-            return curves::compress_published(function, how.tolerance, function.data());
+            return curves::compress_published(function, how.tolerance, out);
         case Compression::Method::optimal:
-            return curves::compress_to_fewest(function, how.tolerance, fewest, function.data());
+            return curves::compress_to_fewest(function, how.tolerance, fewest, out);
         case Compression::Method::bounded:
             break;
     }
-    return curves::compress(function, how.tolerance, function.data());
+    return curves::compress(function, how.tolerance, out);
 }
 
-void append_one(PixelRun& run, PixelScratch& scratch, const Compression& how) {
-    curves::Curve& function = scratch.function[0];
-    const std::size_t n = compress_one(function, scratch.fewest, how);
+// `function` may be the scratch's first one.
+void append_one(PixelRun& run, PixelScratch& scratch, curves::CurveView function, const Compression& how) {
+    curves::Curve& out = scratch.function[0];
+    if (out.size() < function.size()) out.resize(function.size());
+    const std::size_t n = compress_one(function, scratch.fewest, how, out.data());
     const std::size_t first = run.floats.size();
     run.floats.resize(first + 2 * n);
     float* depths = run.floats.data() + first;
     for (std::size_t i = 0; i < n; ++i) {
-        depths[i] = function[i].z;
-        depths[n + i] = function[i].value;
+        depths[i] = out[i].z;
+        depths[n + i] = out[i].value;
     }
+}
+
+void end_pixel(PixelRun& run, bool coloured) {
+    if (run.channels == 3) run.coloured.push_back(coloured);
+    run.begin.push_back(static_cast<std::uint32_t>(run.floats.size()));
 }
 
 void append_three(PixelRun& run, PixelScratch& scratch, const Compression& how) {
@@ -68,15 +76,23 @@ std::size_t PixelScratch::bytes() const {
            fewest.bytes();
 }
 
-void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression) {
+bool is_coloured(const PixelScratch& scratch, int functions) {
     const auto& f = scratch.function;
-    const bool coloured = functions == 3 && !(f[0] == f[1] && f[0] == f[2]);
+    return functions == 3 && !(f[0] == f[1] && f[0] == f[2]);
+}
+
+void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression) {
+    const bool coloured = is_coloured(scratch, functions);
     if (coloured)
         append_three(run, scratch, compression);
     else
-        append_one(run, scratch, compression);
-    if (run.channels == 3) run.coloured.push_back(coloured);
-    run.begin.push_back(static_cast<std::uint32_t>(run.floats.size()));
+        append_one(run, scratch, scratch.function[0], compression);
+    end_pixel(run, coloured);
+}
+
+void append_given(PixelRun& run, PixelScratch& scratch, curves::CurveView function, const Compression& compression) {
+    append_one(run, scratch, function, compression);
+    end_pixel(run, false);
 }
 
 void append_lossless(PixelRun& run, PixelScratch& scratch, int functions) {

@@ -47,9 +47,15 @@ struct Compression {
     Method method = Method::bounded;
 };
 
+// Whether the first `functions` (1 or 3) of the scratch are three that differ.
+bool is_coloured(const PixelScratch& scratch, int functions);
+
 // Compresses the first `functions` (1 or 3) of the scratch and appends them as the run's next pixel. Three equal ones
 // are stored as one.
 void append(PixelRun& run, PixelScratch& scratch, int functions, const Compression& compression);
+
+// The same for a function that the scratch does not hold, and which is not copied.
+void append_given(PixelRun& run, PixelScratch& scratch, curves::CurveView function, const Compression& compression);
 
 // The same without loss, and the scratch keeps its functions.
 void append_lossless(PixelRun& run, PixelScratch& scratch, int functions);

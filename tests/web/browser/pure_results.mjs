@@ -7,7 +7,7 @@ import {named} from '../../../service/web/page/result/names.js';
 import {ownFronts, pointsAt, settingsOf} from '../../../service/web/page/result/settings.js';
 import {overTime, pointsOfAll} from '../../../service/web/page/result/several.js';
 import {undecided} from '../../../service/web/page/result/points.js';
-import {errors, frontOf, fronts, lightMapOf, marked, originOf, quoted, rerunOf, rmsInterval, speeds, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
+import {errors, fewestInterval, frontOf, fronts, lightMapOf, marked, originOf, quoted, rerunOf, rmsInterval, speeds, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
 
 test('a group whose floors drifted says why, and no other does', () => {
   const result = {times: {settled: false, unsettled: [{variant: 1, light: 'key', why: '3 of 14 floors spread'}]}};
@@ -46,6 +46,13 @@ test('the marks of the fronts are words, and those of older results are not cert
   assert.deepEqual(marks({times: {on_time_error_front: 'certainly'}, on_bytes_error_front: 'perhaps'}), ['certainly', 'perhaps']);
   assert.deepEqual(marks({times: {on_time_error_front: true}, on_bytes_error_front: false}), ['perhaps', 'no']);
   assert.deepEqual(marks({times: null}), ['no', 'no']);
+});
+
+test('the nodes over the fewest say how many cells they cover', () => {
+  const cell = (over) => ({nodes: {over_fewest: {ratio: 1.25, interval95: [1.2, 1.3], cells: 1010, left_out: 0, ...over}}});
+  assert.equal(fewestInterval(cell()), '1.2 to 1.3 (95 %), from 1,010 cells');
+  assert.equal(fewestInterval(cell({interval95: [1.25, 1.25], cells: 64, left_out: 3})), 'all of 64 cells; 3 left out, whose fewest are not known');
+  assert.equal(fewestInterval({nodes: {cells: 64}}), null, 'a technique without a tolerance');
 });
 
 test('the interval of the RMS says what it covers', () => {

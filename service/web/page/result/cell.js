@@ -5,7 +5,7 @@ import {linearAxis} from '../plots/axes.js';
 import {glyph} from '../plots/palette.js';
 import {plot} from '../plots/plot.js';
 import {factorOf, mapLegend, maps} from './legend.js';
-import {fileOf, picturesOf, rerunOf, titleOf, worstPixelOf} from './model.js';
+import {fewestInterval, fileOf, picturesOf, rerunOf, titleOf, worstPixelOf} from './model.js';
 import {verdictMark} from './table.js';
 
 const kinds = [['shaded', 'Shaded'], ['shadow', 'Shadow: average visibility'], ['difference', 'Difference to the reference'], ['heat', '|error| of the shadow']];
@@ -71,6 +71,7 @@ function facts(cell, map, worst) {
     ['version', String(cell.version)],
     cell.curve_error?.worst_cell && ['largest curve error', [`${significant(cell.curve_error.max)} at pixel `, worst && cell.curve_error.max > 0
       ? h('button', {type: 'button', class: 'link', onclick: () => worst(cell)}, worstPixelOf(cell, map).join(', ')) : worstPixelOf(cell, map).join(', ')]],
+    cell.nodes?.over_fewest && ['nodes over the fewest', `${significant(cell.nodes.over_fewest.ratio, 4)}: ${fewestInterval(cell)}`],
     cell.lookup_error && ['mean signed error', significant(cell.lookup_error.signed_mean, 2)],
   ].filter(Boolean);
   const list = (entries) => h('dl', {class: 'facts'}, entries.map(([k, v]) => h('div', {}, h('dt', {}, k), h('dd', {}, v))));

@@ -1,7 +1,7 @@
 // Derives what the page shows from a result (result.json of `run`): groups of cells, measures, the front, the command of a
 // cell.
 
-import {significant} from '../format.js';
+import {count, plural, significant} from '../format.js';
 import {named} from './names.js';
 
 export function titleOf(cell) {
@@ -48,6 +48,15 @@ export function rmsInterval(cell) {
   const [low, high] = error.rms_interval95;
   return `expected over seeds (95 %): ${significant(low)} to ${significant(high)}` +
     (error.rms_interval_covers === 'truth' ? ', for the uncertainty of the truth only' : '');
+}
+
+// What the ratio of nodes to the fewest covers, as text. Only techniques with a tolerance have one.
+export function fewestInterval(cell) {
+  const over = cell.nodes?.over_fewest;
+  if (!over) return null;
+  const [low, high] = over.interval95;
+  return (low < high ? `${significant(low, 4)} to ${significant(high, 4)} (95 %), from ${plural(over.cells, 'cell')}` : `all of ${plural(over.cells, 'cell')}`) +
+    (over.left_out ? `; ${count(over.left_out)} left out, whose fewest are not known` : '');
 }
 
 // The marks of a front: 'no', 'perhaps' or 'certainly', by intervals. Older results have true or false, without intervals.

@@ -2,7 +2,7 @@
 import {h} from '../dom.js';
 import {bytes, significant} from '../format.js';
 import {glyph} from '../plots/palette.js';
-import {fronts, marked, rmsInterval, titleOf} from './model.js';
+import {fewestInterval, fronts, marked, rmsInterval, titleOf} from './model.js';
 
 const mark = '; ~: its 95 % interval is wider than the goal';
 
@@ -18,6 +18,7 @@ const columns = [
   {text: 'bytes', value: (c) => c.bytes, show: (c) => bytes(c.bytes)},
   {text: 'nodes', unit: 'mean', value: (c) => c.nodes?.mean, title: 'Nodes a cell'},
   {text: 'nodes', unit: 'max', value: (c) => c.nodes?.max},
+  {text: 'nodes', unit: '× fewest', value: (c) => c.nodes?.over_fewest?.ratio, title: 'Over the fewest that do within the tolerance without rising', tip: fewestInterval},
   {text: 'curve error', unit: 'max', value: (c) => c.curve_error?.max, digits: 2, title: 'Largest |stored − uncompressed|'},
   {text: 'lookup error', unit: 'RMS', value: (c) => c.lookup_error?.rms, digits: 2, title: 'Relative to the reference', tip: rmsInterval},
   {text: 'lookup', unit: '99 %', value: (c) => c.lookup_error?.p99, digits: 2},
