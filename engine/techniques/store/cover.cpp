@@ -53,46 +53,77 @@ SHADOWBENCH_SIMD_LOOP inline void nearest_of(const float* places, float per_pixe
 }
 
 // The places of the queries in the map; 0 for one outside.
-void find_places(const CellGrid& grid, std::span<const Query> queries, Places& places,
-                 std::array<bool, block_queries>& in_map) {
+SHADOWBENCH_SIMD_LOOP inline void find_places(const CellGrid& grid, const Query* queries, Places& places,
+                                              bool* __restrict in_map) {
     const float width = static_cast<float>(grid.width), height = static_cast<float>(grid.height);
-    std::size_t k = 0;
-    for (const Query& q : queries) {
-        const float x = q.x * grid.per_pixel_x, y = q.y * grid.per_pixel_y;
+    for (std::size_t k = 0; k < block_queries; ++k) {
+        const float x = queries[k].x * grid.per_pixel_x, y = queries[k].y * grid.per_pixel_y;
         const bool inside = (x >= 0.0f) & (y >= 0.0f) & (x < width) & (y < height);
         in_map[k] = inside;
-        places.x[k] = inside ? q.x : 0.0f;
-        places.y[k] = inside ? q.y : 0.0f;
-        places.width[k++] = width_of(q);
-    }
-    for (; k < block_queries; ++k) {
-        in_map[k] = false;
-        places.x[k] = places.y[k] = places.width[k] = 0.0f;
+        places.x[k] = inside ? queries[k].x : 0.0f;
+        places.y[k] = inside ? queries[k].y : 0.0f;
+        places.width[k] = width_of(queries[k]);
     }
 }
+
+// A full block: the queries, then some outside the map.
+class FullBlock {
+public:
+    explicit FullBlock(std::span<const Query> queries) : first_(queries.data()) {
+        if (queries.size() == block_queries) return;
+        padded_.fill({-1.0f, -1.0f, 0.0f, 0.0f});
+        std::copy(queries.begin(), queries.end(), padded_.begin());
+        first_ = padded_.data();
+    }
+    const Query* data() const { return first_; }
+
+private:
+    std::array<Query, block_queries> padded_;
+    const Query* first_;
+};
 
 }  // namespace
 
 void cover(const CellGrid& grid, std::span<const Query> queries, Cover& out) {
-    Places places;
-    find_places(grid, queries, places, out.inside);
+    const FullBlock block(queries);
     on_simd_path([&]() SHADOWBENCH_SIMD_LOOP {
+        Places places;
+        find_places(grid, block.data(), places, out.inside.data());
         side_of(places.x.data(), places.width.data(), grid.per_pixel_x, grid.width, out.across);
         side_of(places.y.data(), places.width.data(), grid.per_pixel_y, grid.height, out.down);
     });
 }
 
 void cover_nearest(const CellGrid& grid, std::span<const Query> queries, Cover& out) {
-    Places places;
-    find_places(grid, queries, places, out.inside);
+    const FullBlock block(queries);
     for (BlockSide* side : {&out.across, &out.down}) {
         side->first.fill(1.0);
         side->last.fill(1.0);
         side->longest = 1;
     }
     on_simd_path([&]() SHADOWBENCH_SIMD_LOOP {
+        Places places;
+        find_places(grid, block.data(), places, out.inside.data());
         nearest_of(places.x.data(), grid.per_pixel_x, out.across);
         nearest_of(places.y.data(), grid.per_pixel_y, out.down);
+    });
+}
+
+void four_cells(const Cover& cover, int width, CellSlots& cells) {
+    on_simd_path([&cover, row = static_cast<std::uint32_t>(width), to = cells.data()]() SHADOWBENCH_SIMD_LOOP {
+        std::size_t* __restrict cell = to;
+        for (std::size_t k = 0; k < block_queries; ++k) {
+            // Widened products of what is not negative: an index may have more than 32 bits.
+            const std::uint32_t left = static_cast<std::uint32_t>(cover.across.begin[k]);
+            const std::uint32_t right = static_cast<std::uint32_t>(cover.across.end[k]) - 1;
+            const std::uint32_t upper = static_cast<std::uint32_t>(cover.down.begin[k]);
+            const std::uint32_t lower = static_cast<std::uint32_t>(cover.down.end[k]) - 1;
+            const std::size_t first = std::size_t{upper} * row, second = std::size_t{lower} * row;
+            cell[k] = first + left;
+            cell[block_queries + k] = first + right;
+            cell[2 * block_queries + k] = second + left;
+            cell[3 * block_queries + k] = second + right;
+        }
     });
 }
 
