@@ -49,40 +49,35 @@ public:
         for (std::size_t k = 0; k < block.size(); ++k) segments_.z[k] = block[k].z;
         std::fill(segments_.z.begin() + block.size(), segments_.z.end(), 0.0f);
         std::array<float, block_queries> means;
-        if (rule_.kernel == Kernel::pixels) {
-            find_segments(map_, 1, segments_);
-            value_of_one(segments_, means.data());
-        } else {
-            find_segments(map_, cell_slots, segments_);
-            mean_of_four(segments_, weights_.data(), means.data());
-        }
+        find_segments(map_, segments_);
+        mean_of(segments_, weights_.data(), means.data());
         for (std::size_t k = 0; k < block.size(); ++k) answers[k] = covered_.inside[k] ? means[k] : 1.0f;
         return true;
     }
 
 private:
     bool arrange(std::span<const Query> block) {
-        const float widest = widest_few(rule_);
-        for (const Query& q : block)
-            if (!(width_of(q) <= widest)) return false;
         if (rule_.kernel == Kernel::box) {
             cover(grid_, block, covered_);
-            if (covered_.across.longest > 2 || covered_.down.longest > 2) return false;
+            if (covered_.widest > widest_few(rule_) || covered_.across.longest > 2 || covered_.down.longest > 2) return false;
             set_weights(covered_, weights_.data());
         } else {
             cover_nearest(grid_, block, covered_);
+            if (covered_.widest > widest_few(rule_)) return false;
         }
         if (rule_.kernel == Kernel::tent)
             for (std::size_t k = 0; k < block_queries; ++k)
                 if (!arrange_tent(k, k < block.size() && covered_.inside[k] ? block[k] : Query{0.5f, 0.5f, 0.0f, 0.0f}))
                     return false;
         four_cells(covered_, map_.width, segments_.pixel);
+        segments_.slots = covered_.down.longest > 1 ? 4 : covered_.across.longest;
         return true;
     }
     bool arrange_tent(std::size_t k, const Query& q) {
         const Side across(Kernel::tent, q.x, 1.0f, static_cast<float>(map_.width));
         const Side down(Kernel::tent, q.y, 1.0f, static_cast<float>(map_.height));
         if (across.end - across.begin > 2 || down.end - down.begin > 2) return false;
+        covered_.across.longest = covered_.down.longest = 2;
         covered_.across.begin[k] = across.begin;
         covered_.across.end[k] = across.end;
         covered_.down.begin[k] = down.begin;

@@ -21,20 +21,20 @@ struct Segments {
     };
     static constexpr std::size_t most = cell_slots * block_queries;
 
-    CellSlots pixel;                                  // given
-    alignas(64) std::array<float, block_queries> z;   // given
-    alignas(64) std::array<Range, most> range;        // of the floats of the function
-    alignas(64) std::array<std::uint32_t, most> left;  // the last node before z, or else the first
-    // Of that node and the next float, which is no node behind the last one, and of any memory if there is no node.
-    alignas(64) std::array<Two, most> depths, values;
+    std::size_t slots = 0;                                 // how many are in use; given, as are:
+    CellSlots pixel;
+    alignas(64) std::array<float, block_queries> z;
+    alignas(64) std::array<Range, most> range;             // of the floats of the function
+    alignas(64) std::array<std::uint32_t, most> left{};    // the last node before z, or else the first
+    // Of that node and the next float, which is no node behind the last one. Anything if the function has no nodes.
+    alignas(64) std::array<Two, most> depths{}, values{};
 };
 
-// Finds the segments of the first `slots` slots of a map of one channel. All cache lines are prefetched before the first
-// is searched, so that their misses overlap.
-void find_segments(const DeepLevel& map, std::size_t slots, Segments& segments);
+// Finds the segments in a map of one channel. All cache lines of a large map are prefetched before the first is
+// searched, so that their misses overlap.
+void find_segments(const DeepLevel& map, Segments& segments);
 
-// means[k]: the mean over the four slots of query k with these weights, or the value of its only slot; at most 1.
-void mean_of_four(const Segments& segments, const double* weights, float* means);
-void value_of_one(const Segments& segments, float* values);
+// means[k]: the mean over the slots of query k with these weights; at most 1.
+void mean_of(const Segments& segments, const double* weights, float* means);
 
 }  // namespace shadowbench::techniques

@@ -1,6 +1,7 @@
 #include "techniques/store/cover.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "techniques/store/simd_path.h"
 
@@ -15,7 +16,7 @@ struct Places {
 // become vector instructions.
 SHADOWBENCH_SIMD_LOOP inline void side_of(const float* places, const float* widths, float a_pixel, int cells,
                                            BlockSide& out) {
-    alignas(64) std::array<double, block_queries> low, high, nearest, behind;
+    alignas(64) std::array<double, block_queries> nearest, behind, from, to;
     const double filled = cells, per_pixel = a_pixel;
     for (std::size_t k = 0; k < block_queries; ++k) {
         nearest[k] = static_cast<double>(static_cast<std::int32_t>(places[k] * per_pixel));
@@ -23,26 +24,25 @@ SHADOWBENCH_SIMD_LOOP inline void side_of(const float* places, const float* widt
     }
     for (std::size_t k = 0; k < block_queries; ++k) {
         const double centre = places[k] * per_pixel, half = 0.5 * (widths[k] * per_pixel);
-        low[k] = std::max(centre - half, 0.0);
-        high[k] = std::min(centre + half, filled);
+        const double low = std::max(centre - half, 0.0), high = std::min(centre + half, filled);
+        const double begin_else = nearest[k], end_else = behind[k];
+        from[k] = low < high ? low : begin_else;
+        to[k] = low < high ? high : end_else;
     }
     for (std::size_t k = 0; k < block_queries; ++k) {
-        const double begin = low[k], end = high[k], begin_else = nearest[k], end_else = behind[k];
-        low[k] = begin < end ? begin : begin_else;
-        high[k] = begin < end ? end : end_else;
-    }
-    for (std::size_t k = 0; k < block_queries; ++k) {
-        const std::int32_t begin = static_cast<std::int32_t>(low[k]), whole = static_cast<std::int32_t>(high[k]);
+        const double low = from[k], high = to[k];
+        const std::int32_t begin = static_cast<std::int32_t>(low), whole = static_cast<std::int32_t>(high);
         const double begin_place = begin, whole_place = whole;
-        const std::int32_t end = whole + (whole_place < high[k] ? 1 : 0);
+        const std::int32_t end = whole + (whole_place < high ? 1 : 0);
         const double second = begin_place + 1.0, last = static_cast<double>(end) - 1.0;
         out.begin[k] = begin;
         out.end[k] = end;
-        out.first[k] = std::min(second, high[k]) - low[k];
-        out.last[k] = high[k] - std::max(low[k], last);
+        out.first[k] = std::min(second, high) - low;
+        out.last[k] = high - std::max(low, last);
     }
-    out.longest = 0;
-    for (std::size_t k = 0; k < block_queries; ++k) out.longest = std::max(out.longest, out.end[k] - out.begin[k]);
+    std::int32_t longest = 0;
+    for (std::size_t k = 0; k < block_queries; ++k) longest = std::max(longest, out.end[k] - out.begin[k]);
+    out.longest = longest;
 }
 
 SHADOWBENCH_SIMD_LOOP inline void nearest_of(const float* places, float per_pixel, BlockSide& out) {
@@ -52,9 +52,9 @@ SHADOWBENCH_SIMD_LOOP inline void nearest_of(const float* places, float per_pixe
     }
 }
 
-// The places of the queries in the map; 0 for one outside.
-SHADOWBENCH_SIMD_LOOP inline void find_places(const CellGrid& grid, const Query* queries, Places& places,
-                                              bool* __restrict in_map) {
+// Sets the places of the queries in the map, 0 for one outside, and what `out` holds besides the cells.
+SHADOWBENCH_SIMD_LOOP inline void find_places(const CellGrid& grid, const Query* queries, Places& places, Cover& out) {
+    bool* __restrict in_map = out.inside.data();
     const float width = static_cast<float>(grid.width), height = static_cast<float>(grid.height);
     for (std::size_t k = 0; k < block_queries; ++k) {
         const float x = queries[k].x * grid.per_pixel_x, y = queries[k].y * grid.per_pixel_y;
@@ -64,6 +64,10 @@ SHADOWBENCH_SIMD_LOOP inline void find_places(const CellGrid& grid, const Query*
         places.y[k] = inside ? queries[k].y : 0.0f;
         places.width[k] = width_of(queries[k]);
     }
+    std::int32_t widest = 0;  // bits of floats, none of them negative, which have their order
+    for (std::size_t k = 0; k < block_queries; ++k)
+        widest = std::max(widest, std::bit_cast<std::int32_t>(places.width[k]));
+    out.widest = std::bit_cast<float>(widest);
 }
 
 // A full block: the queries, then some outside the map.
@@ -88,7 +92,7 @@ void cover(const CellGrid& grid, std::span<const Query> queries, Cover& out) {
     const FullBlock block(queries);
     on_simd_path([&]() SHADOWBENCH_SIMD_LOOP {
         Places places;
-        find_places(grid, block.data(), places, out.inside.data());
+        find_places(grid, block.data(), places, out);
         side_of(places.x.data(), places.width.data(), grid.per_pixel_x, grid.width, out.across);
         side_of(places.y.data(), places.width.data(), grid.per_pixel_y, grid.height, out.down);
     });
@@ -103,7 +107,7 @@ void cover_nearest(const CellGrid& grid, std::span<const Query> queries, Cover& 
     }
     on_simd_path([&]() SHADOWBENCH_SIMD_LOOP {
         Places places;
-        find_places(grid, block.data(), places, out.inside.data());
+        find_places(grid, block.data(), places, out);
         nearest_of(places.x.data(), grid.per_pixel_x, out.across);
         nearest_of(places.y.data(), grid.per_pixel_y, out.down);
     });

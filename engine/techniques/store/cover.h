@@ -29,6 +29,7 @@ struct BlockSide {
 struct Cover {
     std::array<bool, block_queries> inside;
     BlockSide across, down;
+    float widest = 0.0f;  // the largest width of a query, in pixels
 };
 
 // Cells that the queries of a block read, in slots: number s * block_queries + k is the s-th of query k.
