@@ -18,21 +18,33 @@ namespace {
 
 constexpr std::uint32_t lanes = 16;  // depths that are compared at once
 
-using Numbers = std::array<std::uint8_t, Segments::most>;
+// The numbers of functions that have nodes. Those that need more than one comparison are kept apart: when both are
+// mixed, the processor predicts badly which comes next.
+struct Numbers {
+    std::array<std::uint8_t, Segments::most> of;  // first the short ones, at the end the long ones
+    std::size_t short_count = 0, long_count = 0;
 
-// Sets the ranges and collects the numbers of the functions that have nodes. Returns how many.
-std::size_t load_ranges(const DeepLevel& map, Segments& s, Numbers& lit) {
+    std::span<const std::uint8_t> short_ones() const { return std::span(of).first(short_count); }
+    std::span<const std::uint8_t> long_ones() const { return std::span(of).last(long_count); }
+};
+
+// Sets the ranges. Without branches, like the searches: they would be hard to predict.
+Numbers load_ranges(const DeepLevel& map, Segments& s) {
+    constexpr std::uint32_t most_short = 2 * lanes;  // floats
     const std::uint32_t* const offsets = map.offsets.data();
-    std::size_t count = 0;
+    Numbers numbers;
+    std::size_t short_count = 0, long_count = 0;
     for (std::size_t r = 0; r < s.slots * block_queries; ++r) {
-        std::uint64_t both;
-        static_assert(sizeof(both) == sizeof(Segments::Range));
-        std::memcpy(&both, offsets + s.pixel[r], sizeof(both));
-        std::memcpy(&s.range[r], &both, sizeof(both));
-        lit[count] = static_cast<std::uint8_t>(r);
-        count += static_cast<std::uint32_t>(both) != both >> 32 ? 1 : 0;  // both offsets are equal without nodes
+        const std::uint32_t begin = offsets[s.pixel[r]], end = offsets[s.pixel[r] + 1];
+        s.range[r] = {begin, end};
+        const std::uint32_t floats = end - begin;
+        numbers.of[short_count] = numbers.of[Segments::most - 1 - long_count] = static_cast<std::uint8_t>(r);
+        short_count += floats - 1 < most_short ? 1 : 0;  // 0 - 1 is large
+        long_count += floats > most_short ? 1 : 0;
     }
-    return count;
+    numbers.short_count = short_count;
+    numbers.long_count = long_count;
+    return numbers;
 }
 
 void prefetch(const DeepLevel& map, std::span<const std::uint8_t> numbers, const Segments& s) {
@@ -43,71 +55,68 @@ void prefetch(const DeepLevel& map, std::span<const std::uint8_t> numbers, const
     }
 }
 
-// What is left of the nodes of a function: at most `lanes`. The segment does not begin before the first of them.
-struct Few {
-    const float* depths;
-    std::uint32_t nodes;
-};
-
-// Almost without branches: those of a search are hard to predict.
-[[gnu::always_inline]] inline Few narrow(const float* depths, std::uint32_t nodes, float z) {
-    while (nodes > lanes) [[unlikely]] {
-        const std::uint32_t half = nodes / 2;
-        depths += half & -static_cast<std::uint32_t>(depths[half] < z);
-        nodes -= half;
-    }
-    return {depths, nodes};
-}
-
-// Bits of lanes [1, n).
-[[gnu::always_inline]] inline std::uint32_t lanes_behind_first(std::uint32_t n) {
-    return ~1u & ((1u << n) - 1);
-}
-
-// `more`: the number of nodes of `few` before z, without the first.
-[[gnu::always_inline]] inline void set_segment(const float* depths, std::uint32_t nodes, const Few& few,
-                                               std::uint32_t more, std::size_t r, Segments& s) {
-    const std::size_t at = static_cast<std::size_t>(few.depths - depths) + more;
-    s.left[r] = static_cast<std::uint32_t>(at);
-    std::memcpy(&s.depths[r], depths + at, sizeof(Segments::Two));
-    std::memcpy(&s.values[r], depths + nodes + at, sizeof(Segments::Two));
-}
-
 [[gnu::always_inline]] inline std::uint32_t nodes_of(const Segments::Range& range) {
     return (range.end - range.begin) / 2;
 }
 
+// Of the function with number r, at most `lanes` nodes, before whose first one the segment does not begin.
+struct Few {
+    const float *depths, *few;
+    std::uint32_t nodes, few_nodes;
+
+    template <bool is_short>
+    [[gnu::always_inline]] static Few of(const float* floats, const Segments::Range& range, float z) {
+        const float* const depths = floats + range.begin;
+        Few f{depths, depths, nodes_of(range), nodes_of(range)};
+        while (!is_short && f.few_nodes > lanes) {
+            const std::uint32_t half = f.few_nodes / 2;
+            f.few += half & -static_cast<std::uint32_t>(f.few[half] < z);
+            f.few_nodes -= half;
+        }
+        return f;
+    }
+    // Bits of the lanes of the nodes, without the first.
+    [[gnu::always_inline]] std::uint32_t lanes_behind_first() const { return ~1u & ((1u << few_nodes) - 1); }
+    // `more`: how many of those are before z.
+    [[gnu::always_inline]] void set_segment(std::uint32_t more, std::size_t r, Segments& s) const {
+        const std::size_t at = static_cast<std::size_t>(few - depths) + more;
+        s.left[r] = static_cast<std::uint32_t>(at);
+        std::memcpy(&s.depths[r], depths + at, sizeof(Segments::Two));
+        std::memcpy(&s.values[r], depths + nodes + at, sizeof(Segments::Two));
+    }
+};
+
+template <bool is_short>
 void search(const DeepLevel& map, std::span<const std::uint8_t> numbers, Segments& s) {
     const float* const floats = map.floats.data();
     for (const std::uint8_t r : numbers) {
         const float z = s.z[r % block_queries];
-        const float* const depths = floats + s.range[r].begin;
-        const std::uint32_t nodes = nodes_of(s.range[r]);
-        const Few few = narrow(depths, nodes, z);
+        const Few f = Few::of<is_short>(floats, s.range[r], z);
         std::uint32_t before = 0;
-        if (static_cast<std::size_t>(few.depths - floats) + lanes <= map.floats.size()) {
-            before = depths_before<lanes>(few.depths, z);
+        if (static_cast<std::size_t>(f.few - floats) + lanes <= map.floats.size()) {
+            before = depths_before<lanes>(f.few, z);
         } else {  // the last functions of the map may be nearer to its end than a vector is long
-            for (std::uint32_t i = 0; i < few.nodes; ++i) before |= static_cast<std::uint32_t>(few.depths[i] < z) << i;
+            for (std::uint32_t i = 0; i < f.few_nodes; ++i) before |= static_cast<std::uint32_t>(f.few[i] < z) << i;
         }
-        before &= lanes_behind_first(few.nodes);
-        set_segment(depths, nodes, few, 31 - static_cast<std::uint32_t>(std::countl_zero(before | 1)), r, s);
+        // The depths before z are the first ones, so the last of their bits gives their number, without an instruction
+        // that counts bits.
+        const int last = 31 - std::countl_zero((before & f.lanes_behind_first()) | 1);
+        f.set_segment(static_cast<std::uint32_t>(last), r, s);
     }
 }
 
 #if defined(__x86_64__)
+template <bool is_short>
 [[gnu::target("avx512f,avx512vl,avx512dq,avx512bw,bmi2,popcnt")]] void search_avx512(
     const DeepLevel& map, std::span<const std::uint8_t> numbers, Segments& s) {
     const float* const floats = map.floats.data();
     for (const std::uint8_t r : numbers) {
         const float z = s.z[r % block_queries];
-        const float* const depths = floats + s.range[r].begin;
-        const std::uint32_t nodes = nodes_of(s.range[r]);
-        const Few few = narrow(depths, nodes, z);
-        const auto mask = static_cast<__mmask16>(lanes_behind_first(few.nodes));
+        const Few f = Few::of<is_short>(floats, s.range[r], z);
+        const auto mask = static_cast<__mmask16>(f.lanes_behind_first());
         const std::uint32_t before =
-            _mm512_mask_cmp_ps_mask(mask, _mm512_maskz_loadu_ps(mask, few.depths), _mm512_set1_ps(z), _CMP_LT_OQ);
-        set_segment(depths, nodes, few, static_cast<std::uint32_t>(std::popcount(before)), r, s);
+            _mm512_mask_cmp_ps_mask(mask, _mm512_maskz_loadu_ps(mask, f.few), _mm512_set1_ps(z), _CMP_LT_OQ);
+        f.set_segment(static_cast<std::uint32_t>(std::popcount(before)), r, s);
     }
 }
 #endif
@@ -150,14 +159,17 @@ SHADOWBENCH_SIMD_LOOP inline void average(const float* values, const double* __r
 }  // namespace
 
 void find_segments(const DeepLevel& map, Segments& segments) {
-    Numbers numbers;
-    const std::span<const std::uint8_t> lit = std::span(numbers).first(load_ranges(map, segments, numbers));
+    const Numbers numbers = load_ranges(map, segments);
     static const bool pf=getenv("PF");
-    if (pf) prefetch(map, lit, segments);
+    if (pf) prefetch(map, numbers.short_ones(), segments), prefetch(map, numbers.long_ones(), segments);
 #if defined(__x86_64__)
-    if (simd_path() == SimdPath::avx512) return search_avx512(map, lit, segments);
+    if (simd_path() == SimdPath::avx512) {
+        search_avx512<true>(map, numbers.short_ones(), segments);
+        return search_avx512<false>(map, numbers.long_ones(), segments);
+    }
 #endif
-    search(map, lit, segments);
+    search<true>(map, numbers.short_ones(), segments);
+    search<false>(map, numbers.long_ones(), segments);
 }
 
 void mean_of(const Segments& segments, const double* weights, float* means) {
