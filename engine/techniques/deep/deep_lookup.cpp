@@ -36,8 +36,8 @@ struct InMemory {
     }
 };
 
-// Blocks of lookups that each read at most 2 x 2 pixels of the map, of one channel: all are searched, joined and averaged
-// side by side, with the bits of Lookup.
+// Blocks of lookups that each read at most 2 x 2 pixels of the map, of one channel: all are searched, joined and
+// averaged side by side, with the bits of Lookup.
 class BlockLookup {
 public:
     BlockLookup(const DeepLevel& map, const LookupRule& rule)
@@ -59,7 +59,8 @@ private:
     bool arrange(std::span<const Query> block) {
         if (rule_.kernel == Kernel::box) {
             cover(grid_, block, covered_);
-            if (covered_.widest > widest_few(rule_) || covered_.across.longest > 2 || covered_.down.longest > 2) return false;
+            if (covered_.widest > widest_few(rule_) || covered_.across.longest > 2 || covered_.down.longest > 2)
+                return false;
             set_weights(covered_, weights_.data());
         } else {
             cover_nearest(grid_, block, covered_);
@@ -70,7 +71,7 @@ private:
                 if (!arrange_tent(k, k < block.size() && covered_.inside[k] ? block[k] : Query{0.5f, 0.5f, 0.0f, 0.0f}))
                     return false;
         four_cells(covered_, map_.width, segments_.pixel);
-        segments_.slots = covered_.down.longest > 1 ? 4 : covered_.across.longest;
+        segments_.slots = covered_.down.longest > 1 ? 4 : static_cast<std::size_t>(covered_.across.longest);
         return true;
     }
     bool arrange_tent(std::size_t k, const Query& q) {
@@ -101,8 +102,9 @@ private:
 
 void lookup_blocks(std::span<const DeepLevel> levels, const LookupRule& rule, std::span<const Query> queries,
                    std::span<float> visibility) {
-    BlockLookup blocks(levels[0], rule);
     Lookup<1, BinarySearch, InMemory> others(InMemory{levels}, rule);
+    if (queries.size() < Reads::fewest_in_slots) return others.run(queries, visibility);
+    BlockLookup blocks(levels[0], rule);
     for (std::size_t start = 0; start < queries.size(); start += block_queries) {
         const std::span<const Query> block = queries.subspan(start, std::min(block_queries, queries.size() - start));
         const std::span<float> answers = visibility.subspan(start, block.size());
@@ -114,8 +116,7 @@ void lookup_blocks(std::span<const DeepLevel> levels, const LookupRule& rule, st
 
 void lookup(std::span<const DeepLevel> levels, const LookupRule& rule, std::span<const Query> queries,
             std::span<const Footprint> footprints, std::span<float> visibility) {
-    if (levels[0].channels == 3)
-        return lookup_channels<3>(InMemory{levels}, rule, queries, footprints, visibility);
+    if (levels[0].channels == 3) return lookup_channels<3>(InMemory{levels}, rule, queries, footprints, visibility);
     if (rule.search == Search::binary && (rule.probes == 0 || footprints.empty()))
         return lookup_blocks(levels, rule, queries, visibility);
     lookup_channels<1>(InMemory{levels}, rule, queries, footprints, visibility);

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstring>
 #include <span>
-#include <cstdlib>
 
 #include "techniques/store/before.h"
 #include "techniques/store/simd_path.h"
@@ -47,11 +46,23 @@ Numbers load_ranges(const DeepLevel& map, Segments& s) {
     return numbers;
 }
 
-void prefetch(const DeepLevel& map, std::span<const std::uint8_t> numbers, const Segments& s) {
+// A smaller map stays in the caches nearest to the processor, and prefetching would take longer than it saves.
+bool is_large(const DeepLevel& map) {
+    return map.floats.size() > (std::size_t{1} << 17);
+}
+
+void prefetch(const DeepLevel& map, const Numbers& numbers, const Segments& s) {
+    constexpr std::uint32_t floats_a_line = 16, most = 8 * floats_a_line;  // more would not arrive in time
     const float* const floats = map.floats.data();
-    for (const std::uint8_t r : numbers) {
+    for (const std::uint8_t r : numbers.short_ones()) {
         __builtin_prefetch(floats + s.range[r].begin);
         __builtin_prefetch(floats + s.range[r].end - 1);
+    }
+    for (const std::uint8_t r : numbers.long_ones()) {
+        const Segments::Range& range = s.range[r];
+        const std::uint32_t end = std::min(range.end, range.begin + most);
+        for (std::uint32_t i = range.begin; i < end; i += floats_a_line) __builtin_prefetch(floats + i);
+        __builtin_prefetch(floats + end - 1);
     }
 }
 
@@ -59,7 +70,7 @@ void prefetch(const DeepLevel& map, std::span<const std::uint8_t> numbers, const
     return (range.end - range.begin) / 2;
 }
 
-// Of the function with number r, at most `lanes` nodes, before whose first one the segment does not begin.
+// A function, and at most `lanes` of its nodes, before whose first one the segment does not begin.
 struct Few {
     const float *depths, *few;
     std::uint32_t nodes, few_nodes;
@@ -160,8 +171,7 @@ SHADOWBENCH_SIMD_LOOP inline void average(const float* values, const double* __r
 
 void find_segments(const DeepLevel& map, Segments& segments) {
     const Numbers numbers = load_ranges(map, segments);
-    static const bool pf=getenv("PF");
-    if (pf) prefetch(map, numbers.short_ones(), segments), prefetch(map, numbers.long_ones(), segments);
+    if (is_large(map)) prefetch(map, numbers, segments);
 #if defined(__x86_64__)
     if (simd_path() == SimdPath::avx512) {
         search_avx512<true>(map, numbers.short_ones(), segments);
@@ -174,10 +184,14 @@ void find_segments(const DeepLevel& map, Segments& segments) {
 
 void mean_of(const Segments& segments, const double* weights, float* means) {
     on_simd_path([&s = segments, weights, means]() SHADOWBENCH_SIMD_LOOP {
-        if (s.slots == 1) return join(s, means);
         alignas(64) std::array<float, Segments::most> values;
         join(s, values.data());
-        s.slots == 2 ? average<2>(values.data(), weights, means) : average<4>(values.data(), weights, means);
+        if (s.slots == 1)  // needs no weights
+            for (std::size_t k = 0; k < block_queries; ++k) means[k] = std::min(values[k], 1.0f);
+        else if (s.slots == 2)
+            average<2>(values.data(), weights, means);
+        else
+            average<4>(values.data(), weights, means);
     });
 }
 

@@ -21,11 +21,12 @@ struct Segments {
     };
     static constexpr std::size_t most = cell_slots * block_queries;
 
-    std::size_t slots = 0;                                 // how many are in use; given, as are:
+    std::size_t slots = 0;  // how many are in use: 1, 2 or 4; given, as are:
     CellSlots pixel;
     alignas(64) std::array<float, block_queries> z;
-    alignas(64) std::array<Range, most> range;             // of the floats of the function
-    alignas(64) std::array<std::uint32_t, most> left{};    // the last node before z, or else the first
+    // Found:
+    alignas(64) std::array<Range, most> range;           // of the floats of the function
+    alignas(64) std::array<std::uint32_t, most> left{};  // the last node before z, or else the first
     // Of that node and the next float, which is no node behind the last one. Anything if the function has no nodes.
     alignas(64) std::array<Two, most> depths{}, values{};
 };

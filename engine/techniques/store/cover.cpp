@@ -15,7 +15,7 @@ struct Places {
 // stretch() for every place. A footprint that covers nothing becomes the cell of its centre. No branches: the loops
 // become vector instructions.
 SHADOWBENCH_SIMD_LOOP inline void side_of(const float* places, const float* widths, float a_pixel, int cells,
-                                           BlockSide& out) {
+                                          BlockSide& out) {
     alignas(64) std::array<double, block_queries> nearest, behind, from, to;
     const double filled = cells, per_pixel = a_pixel;
     for (std::size_t k = 0; k < block_queries; ++k) {
