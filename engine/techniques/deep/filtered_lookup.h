@@ -101,13 +101,9 @@ private:
 
     Few few_pixels(const Query& q) const {
         int x, y;
-        const float widest = rule_.mip == Mip::none ? 2.0f : narrowest_mip(rule_);
-        if (rule_.kernel == Kernel::tent || !(width_of(q) <= widest) || !grid().find(q.x, q.y, x, y)) return {};
-        if (rule_.kernel == Kernel::pixels) {
-            // A footprint of a pixel's width includes the nearest pixel, whose centre is within half of that.
-            if (width_of(q) > 1.0f) return {};
-            return {true, {x, x + 1}, {y, y + 1}};
-        }
+        if (rule_.kernel == Kernel::tent || !(width_of(q) <= widest_few(rule_)) || !grid().find(q.x, q.y, x, y))
+            return {};
+        if (rule_.kernel == Kernel::pixels) return {true, {x, x + 1}, {y, y + 1}};
         const Few few{true, stretch(q.x, width_of(q), source_.width()), stretch(q.y, width_of(q), source_.height())};
         return few.across.end - few.across.begin <= 2 && few.down.end - few.down.begin <= 2 ? few : Few{};
     }

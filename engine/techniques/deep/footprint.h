@@ -21,6 +21,14 @@ inline float narrowest_mip(const LookupRule& rule) {
     return rule.kernel == Kernel::tent ? 1.0f : 1.5f;
 }
 
+// The widest footprint, in pixels of the map, that may read at most 2 x 2 of its pixels and no other level.
+inline float widest_few(const LookupRule& rule) {
+    // A footprint of a pixel's width includes the nearest pixel, whose centre is within half of that, and no other; a
+    // tent has at least that width.
+    if (rule.kernel != Kernel::box) return 1.0f;
+    return rule.mip == Mip::none ? 2.0f : narrowest_mip(rule);
+}
+
 inline LevelChoice choose_levels(const LookupRule& rule, float width, std::size_t levels) {
     const float narrowest = narrowest_mip(rule);
     if (rule.mip == Mip::none || !(width > narrowest)) return {};

@@ -29,11 +29,19 @@ struct BlockSide {
 struct Cover {
     std::array<bool, block_queries> inside;
     BlockSide across, down;
+    float widest = 0.0f;  // the largest width of a query, in pixels
 };
+
+// Cells that the queries of a block read, in slots: number s * block_queries + k is the s-th of query k.
+inline constexpr std::size_t cell_slots = 4;
+using CellSlots = std::array<std::size_t, cell_slots * block_queries>;
 
 // At most block_queries.
 void cover(const CellGrid& grid, std::span<const Query> queries, Cover& out);
 // The same for the cells that the queries lie in, whatever their width: one for each.
 void cover_nearest(const CellGrid& grid, std::span<const Query> queries, Cover& out);
+
+// The indices of footprints of at most 2 x 2 cells, row after row; a narrower one repeats cells. `width`: of the map.
+void four_cells(const Cover& cover, int width, CellSlots& cells);
 
 }  // namespace shadowbench::techniques

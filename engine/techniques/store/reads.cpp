@@ -6,15 +6,16 @@
 
 namespace shadowbench::techniques {
 void Reads::begin(std::size_t number_of_slots) {
+    // The numbers of slots stay until reads in any order overwrite them.
+    if (number_of_slots > 0 && slots == 0)
+        for (std::size_t r = 0; r < most; ++r) query[r] = static_cast<std::uint8_t>(r % block_queries);
     slots = number_of_slots;
     count = slots * block_queries;
-    for (std::size_t s = 0; s < slots; ++s)
-        for (std::size_t k = 0; k < block_queries; ++k) query[s * block_queries + k] = static_cast<std::uint8_t>(k);
 }
 
-void set_weights(const Cover& cover, Reads& reads) {
-    on_simd_path([&cover, of = reads.weight.data()]() SHADOWBENCH_SIMD_LOOP {
-        double* __restrict weight = of;
+void set_weights(const Cover& cover, double* weights) {
+    on_simd_path([&cover, weights]() SHADOWBENCH_SIMD_LOOP {
+        double* __restrict weight = weights;
         for (std::size_t k = 0; k < block_queries; ++k) {
             const double second_x = cover.across.end[k] - cover.across.begin[k] == 2 ? cover.across.last[k] : 0.0;
             const double second_y = cover.down.end[k] - cover.down.begin[k] == 2 ? cover.down.last[k] : 0.0;

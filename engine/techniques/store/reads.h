@@ -16,7 +16,7 @@ namespace shadowbench::techniques {
 //  - in any order, of queries that may have thousands of texels: they go on in the next lot.
 // Both have the texels of a query in the same order, so their sums have the same bits.
 struct Reads {
-    static constexpr std::size_t most_slots = 4, most = most_slots * block_queries;
+    static constexpr std::size_t most_slots = cell_slots, most = most_slots * block_queries;
     // Of a shorter block the empty places in slots would take longer than they save.
     static constexpr std::size_t fewest_in_slots = 8;
 
@@ -38,8 +38,8 @@ struct Reads {
     bool full() const { return count == most; }
 };
 
-// Sets the weights of four slots: those of the footprint's cells, row after row. It must have at most 2 x 2.
-void set_weights(const Cover& cover, Reads& reads);
+// The weights of four_cells(); 0 for a cell that repeats another.
+void set_weights(const Cover& cover, double* weights);
 
 // answers[k]: the weighted mean of query k, at most `highest`; 1 outside the map. For reads in slots; a single one needs
 // no weights.

@@ -13,7 +13,8 @@ std::size_t paths_here() {
 #if defined(__x86_64__)
     if (!__builtin_cpu_supports("avx2")) return 1;
     const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+                        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                        __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
     return avx512 ? 3 : 2;
 #else
     return 1;

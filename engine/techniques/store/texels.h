@@ -156,35 +156,31 @@ private:
         if (filter == Filter::point) {
             reads.begin(1);
             std::fill_n(reads.weight.begin(), block_queries, 1.0);
-            for (std::size_t k = 0; k < block_queries; ++k) put(reads, k, covered.across.begin[k], covered.down.begin[k]);
+            for (std::size_t k = 0; k < block_queries; ++k)
+                put(reads, k, grid.index(covered.across.begin[k], covered.down.begin[k]));
             return true;
         }
         reads.begin(4);
         if (filter == Filter::footprint) {
-            set_weights(covered, reads);
-            for (std::size_t k = 0; k < block_queries; ++k) {
-                const int x0 = covered.across.begin[k], x1 = covered.across.end[k] - 1;
-                const int y0 = covered.down.begin[k], y1 = covered.down.end[k] - 1;
-                put(reads, k, x0, y0);
-                put(reads, block_queries + k, x1, y0);
-                put(reads, 2 * block_queries + k, x0, y1);
-                put(reads, 3 * block_queries + k, x1, y1);
-            }
+            set_weights(covered, reads.weight.data());
+            CellSlots cells;
+            four_cells(covered, grid.width, cells);
+            for (std::size_t r = 0; r < reads.count; ++r) put(reads, r, cells[r]);
             return true;
         }
         for (std::size_t k = 0; k < block_queries; ++k) {
             std::size_t slot = k;
             for_each_of_four(grid, k < block.size() && covered.inside[k] ? block[k] : Query{},
                              [&](int x, int y, float weight) {
-                                 put(reads, slot, x, y);
+                                 put(reads, slot, grid.index(x, y));
                                  reads.weight[slot] = weight;
                                  slot += block_queries;
                              });
         }
         return true;
     }
-    void put(Reads& reads, std::size_t r, int x, int y) const {
-        const float* texel = at(grid.index(x, y));
+    void put(Reads& reads, std::size_t r, std::size_t cell) const {
+        const float* texel = at(cell);
         prefetch_texel(texel, stride);
         reads.texel[r] = texel;
     }
