@@ -130,7 +130,7 @@ Technique avsm() {
     return {.id = "avsm",
             .title = "adaptive volumetric shadow map: a fixed number of nodes a texel",
             .paper = "Salvi et al. 2010",
-            .version = 3,
+            .version = 4,
             .parameters = parameters,
             .create = create_map<Avsm>,
             .from_curves = [](const ParameterValues& values, std::span<const curves::Curve> functions)

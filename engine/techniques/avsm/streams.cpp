@@ -1,6 +1,7 @@
 #include "techniques/avsm/streams.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -8,7 +9,7 @@
 
 #include "techniques/store/simd_path.h"
 
-#pragma GCC diagnostic ignored "-Wpsabi"
+#pragma GCC diagnostic ignored "-Wpsabi"  // no vector is passed: all functions that have one are inlined
 
 namespace shadowbench::techniques {
 namespace {
@@ -65,6 +66,10 @@ SHADOWBENCH_SIMD_LOOP inline void order(Floats& low, Floats& high) {
     set_min(low, high);
     set_max(high, first);
 }
+
+// Of an area: not its sign, nor its last bits. Areas that differ by less than 1 part in 500,000 count as equal, since
+// those of steps of one height differ by rounding only.
+constexpr std::int32_t compared_bits = 0x7ffffff0;
 
 // Section 3.2.1: twice the area of the triangle of a node and its neighbours.
 template <class Floats>
@@ -151,8 +156,7 @@ struct Block {
 
         // Nodes at the segment's ends serve as its ends: the first one at `front` holds the value before the segment,
         // and the last one at `back`, if it is another node, the value behind it.
-        Mask has_back{}, same = ~medium, inside{};
-        same = medium;
+        Mask has_back{}, same = medium, inside{};
         for (int i = 0; i < count; ++i) {
             const Mask ends = (depth[i] == back) & same;
             has_back |= ends;
@@ -184,25 +188,21 @@ struct Block {
     // Whether the last place is not in use in any lane: the one before it is at the far plane too.
     SHADOWBENCH_SIMD_LOOP bool spare(int count) const { return !any(depth[count - 2] < depth[count - 1]); }
 
-    // The first and the last node stay. Of equal areas the last goes, so that places that are not in use, whose areas
-    // are 0, go first.
+    // The first and the last node stay. Of equal areas the first one goes; before all, a place that is not in use.
     SHADOWBENCH_SIMD_LOOP void remove_least(int count) {
         if (spare(count)) return;
         Floats area[nodes + 2], least = Floats{} + std::numeric_limits<float>::infinity();
         for (int i = 1; i + 1 < count; ++i) {
             area_of(depth + i, value + i, area[i]);
-            area[i] = reinterpret_cast<Floats>(reinterpret_cast<Mask>(area[i]) & 0x7fffffff);
+            area[i] = reinterpret_cast<Floats>(reinterpret_cast<Mask>(area[i]) & compared_bits);
+            area[i] = depth[i] < depth[count - 1] ? area[i] : Floats{} - 1.0f;
             set_min(least, area[i]);
         }
-        Mask stays{};
-        Floats next_depth = depth[count - 1], next_value = value[count - 1];
-        for (int i = count - 2; i > 0; --i) {
-            const Floats own_depth = depth[i], own_value = value[i];
-            depth[i] = stays ? own_depth : next_depth;
-            value[i] = stays ? own_value : next_value;
-            stays |= area[i] == least;
-            next_depth = own_depth;
-            next_value = own_value;
+        Mask gone{};
+        for (int i = 1; i + 1 < count; ++i) {
+            gone |= area[i] == least;
+            depth[i] = gone ? depth[i + 1] : depth[i];
+            value[i] = gone ? value[i + 1] : value[i];
         }
     }
 };
@@ -268,9 +268,11 @@ void Streams::append(std::size_t lane, int nodes, float its_depth, float its_val
     for (int i = 1; i < nodes; ++i) {
         float area;
         area_of(&depths[i], &values[i], area);
-        if (std::abs(area) <= least_area) {
+        area =
+            depths[i] < depths[nodes] ? std::bit_cast<float>(std::bit_cast<std::int32_t>(area) & compared_bits) : -1.0f;
+        if (area < least_area) {
             least = i;
-            least_area = std::abs(area);
+            least_area = area;
         }
     }
     for (int i = 0; i < nodes; ++i) {
