@@ -24,6 +24,8 @@ struct LightView;
 
 namespace shadowbench::techniques {
 
+class MeanRays;
+
 // "How much light reaches light-space point (x, y, z), over a footprint of `width` map pixels?"
 //
 // Any floats are valid, and the answer is always a number:
@@ -70,6 +72,7 @@ enum class Cells {
 struct RayNeeds {
     int apron = 0;            // pixels around a tile that its LightRays cover too (clipped to the map)
     bool submission = false;  // LightRays::submission
+    bool means = false;       // only the mean of each pixel's rays, where it has several: see Map::add_means
 };
 
 // The source of the light rays; all of it outlives the map.
@@ -131,6 +134,11 @@ public:
     // Only for Cells::filtered: the rays of its tile, including the apron asked for, that cell (x, y) represents. `out`
     // is replaced; weights are above 0 and sum to 1.
     virtual void weights(int, int, const rays::LightRays&, std::vector<curves::WeightedRay>& out) const { out.clear(); }
+
+    // Only for maps that need `means`: does what add() does, from the means of a tile with several rays a pixel and the
+    // channel of this map. Whoever builds several such maps makes the means of a tile once and hands them to each; add()
+    // makes them itself. The time of a build includes that of the means, whoever made them.
+    virtual void add_means(const MeanRays&) {}
 };
 
 // What a technique promises for every stored function in every scene (only in opaque scenes if opaque_only).
