@@ -109,8 +109,7 @@ std::vector<std::vector<std::size_t>> groups_of(std::span<const Contender> conte
 void time_builds(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
                  std::vector<std::vector<double>>& seconds, results::TimedPasses& passes) {
     for (const int apron : aprons_of(contenders))
-        for (const std::vector<std::size_t>& group :
-             groups_of(contenders, apron, source.kept(apron), input.layout)) {
+        for (const std::vector<std::size_t>& group : groups_of(contenders, apron, source.kept(apron), input.layout)) {
             std::vector<TimedBuild> builds;
             for (const std::size_t i : group) builds.push_back(begin_timed(contenders, i, input));
             source.for_each_batch(apron, [&](RaySource::Batch batch) {

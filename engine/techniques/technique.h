@@ -136,8 +136,8 @@ public:
     virtual void weights(int, int, const rays::LightRays&, std::vector<curves::WeightedRay>& out) const { out.clear(); }
 
     // Only for maps that need `means`: does what add() does, from the means of a tile with several rays a pixel and the
-    // channel of this map. Whoever builds several such maps makes the means of a tile once and hands them to each; add()
-    // makes them itself. The time of a build includes that of the means, whoever made them.
+    // channel of this map. Whoever builds several such maps makes the means of a tile once and hands them to each;
+    // add() makes them itself. The time of a build includes that of the means, whoever made them.
     virtual void add_means(const MeanRays&) {}
 };
 
@@ -220,9 +220,9 @@ std::unique_ptr<Map> create_map(const ParameterValues& values) {
 
 // The file that a technique from outside was loaded from.
 struct Library {
-    std::string file;       // its name, without folders
-    std::string hash;       // of its content
-    bool isolated = false;  // its maps live in processes of their own
+    std::string file;        // its name, without folders
+    std::string hash;        // of its content
+    bool isolated = false;   // its maps live in processes of their own
     std::string fault = {};  // why it cannot be used, so that its maps fail; empty: it can
     friend bool operator==(const Library&, const Library&) = default;
 };
