@@ -1,30 +1,42 @@
 #include "bench/build_timing.h"
 
+#include <array>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "bench/clock.h"
 #include "bench/disturbance.h"
+#include "bench/shared_tile.h"
 
 namespace shadowbench::bench {
 namespace {
 
+// The time of a part of a build, and how often it was interrupted.
+struct Spent {
+    double seconds = 0.0;
+    std::uint64_t switches = 0;
+
+    void add(const Spent& more) {
+        seconds += more.seconds;
+        switches += more.switches;
+    }
+};
+
 struct TimedBuild {
     std::size_t contender;
     Maps maps;
-    double seconds = 0.0;
-    std::uint64_t switches = 0;
+    Spent spent = {};
 };
 
-// Adds the time of a part of a build, and how often it was interrupted.
 template <typename Part>
-void time_part(TimedBuild& build, const Part& part) {
+Spent time_part(const Part& part) {
     const std::uint64_t before = involuntary_switches();
     const Stopwatch stopwatch;
     part();
-    build.seconds += stopwatch.seconds();
-    build.switches += involuntary_switches() - before;
+    const double seconds = stopwatch.seconds();
+    return {seconds, involuntary_switches() - before};
 }
 
 // Makes a step of the build of a contender that is ok; one that throws fails.
@@ -43,55 +55,68 @@ void attempt(Contender& contender, const Step& step) {
 TimedBuild begin_timed(std::span<Contender> contenders, std::size_t i, const techniques::BuildInput& input) {
     TimedBuild build{i, {}};
     Contender& contender = contenders[i];
-    attempt(contender,
-            [&] { time_part(build, [&] { build.maps = begin_maps(*contender.row, contender.values, input); }); });
+    attempt(contender, [&] {
+        build.spent.add(time_part([&] { build.maps = begin_maps(*contender.row, contender.values, input); }));
+    });
     return build;
 }
 
-void add_timed(TimedBuild& build, Contender& contender, RaySource::Batch batch) {
-    attempt(contender, [&] {
-        for (const rays::LightRays& tile : batch) {
-            const std::size_t parts = build.maps.parts.size();
-            for (std::size_t p = 0; p < parts; ++p) {
-                rays::LightRays single;
-                if (parts > 1) single = rays::channel(tile, static_cast<int>(p));
-                time_part(build, [&] { build.maps.parts[p]->add(parts > 1 ? single : tile); });
+// The means are made and timed once, and each build that reads them is charged their time.
+void add_timed(std::span<TimedBuild> builds, std::span<Contender> contenders, const rays::LightRays& rays) {
+    SharedTile tile(rays);
+    std::array<std::optional<Spent>, 3> means;  // of each channel
+    for (TimedBuild& build : builds)
+        attempt(contenders[build.contender], [&] {
+            for (std::size_t p = 0; p < build.maps.parts.size(); ++p) {
+                prepare_part(build.maps, p, tile);
+                if (reads_means(build.maps, rays)) {
+                    if (!means[p]) means[p] = time_part([&] { tile.means(p); });
+                    build.spent.add(*means[p]);
+                }
+                build.spent.add(time_part([&] { add_part(build.maps, p, tile); }));
             }
-        }
-    });
+        });
 }
 
 void finish_timed(TimedBuild& build, Contender& contender, std::vector<std::vector<double>>& seconds,
                   results::TimedPasses& passes) {
     attempt(contender, [&] {
-        time_part(build, [&] { finish(build.maps); });
-        seconds[build.contender].push_back(build.seconds);
-        count_pass(build.switches, passes);
+        build.spent.add(time_part([&] { finish(build.maps); }));
+        seconds[build.contender].push_back(build.spent.seconds);
+        count_pass(build.spent.switches, passes);
     });
+    build.maps = {};
+}
+
+// The contenders of an apron whose maps grow together, in order: those that read the means of the same rays, or all if
+// each pass over the rays captures them again.
+std::vector<std::vector<std::size_t>> groups_of(std::span<const Contender> contenders, int apron, bool kept,
+                                                const rays::MapLayout& layout) {
+    std::vector<std::vector<std::size_t>> groups;
+    std::optional<std::size_t> shared;
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+        if (!contenders[i].ok() || contenders[i].needs.apron != apron) continue;
+        const bool shares = !kept || (contenders[i].needs.means && layout.samples() > 1);
+        if (!shares || !shared) groups.emplace_back();
+        if (shares && !shared) shared = groups.size() - 1;
+        (shares ? groups[*shared] : groups.back()).push_back(i);
+    }
+    return groups;
 }
 
 }  // namespace
 
 void time_builds(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
                  std::vector<std::vector<double>>& seconds, results::TimedPasses& passes) {
-    for (const int apron : aprons_of(contenders)) {
-        std::vector<TimedBuild> builds;  // those that grow together if each pass captures the rays again
-        for (std::size_t i = 0; i < contenders.size(); ++i) {
-            if (!contenders[i].ok() || contenders[i].needs.apron != apron) continue;
-            TimedBuild build = begin_timed(contenders, i, input);
-            if (!source.kept(apron)) {
-                builds.push_back(std::move(build));
-                continue;
-            }
-            source.for_each_batch(apron, [&](RaySource::Batch batch) { add_timed(build, contenders[i], batch); });
-            finish_timed(build, contenders[i], seconds, passes);
+    for (const int apron : aprons_of(contenders))
+        for (const std::vector<std::size_t>& group : groups_of(contenders, apron, source.kept(apron), input.layout)) {
+            std::vector<TimedBuild> builds;
+            for (const std::size_t i : group) builds.push_back(begin_timed(contenders, i, input));
+            source.for_each_batch(apron, [&](RaySource::Batch batch) {
+                for (const rays::LightRays& tile : batch) add_timed(builds, contenders, tile);
+            });
+            for (TimedBuild& build : builds) finish_timed(build, contenders[build.contender], seconds, passes);
         }
-        if (builds.empty()) continue;
-        source.for_each_batch(apron, [&](RaySource::Batch batch) {
-            for (TimedBuild& build : builds) add_timed(build, contenders[build.contender], batch);
-        });
-        for (TimedBuild& build : builds) finish_timed(build, contenders[build.contender], seconds, passes);
-    }
 }
 
 }  // namespace shadowbench::bench

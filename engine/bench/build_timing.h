@@ -10,10 +10,13 @@
 
 namespace shadowbench::bench {
 
-// Builds every contender that is ok once, in order, appends the seconds of each to seconds[i], and counts its pass.
-// Capturing and splitting colours into channels are not timed. Each map is dropped at once if the light rays are kept;
-// otherwise all maps grow together, since each pass captures the rays again. A technique that throws Error{internal},
-// though it could build this map before, fails.
+// Builds every contender that is ok once, appends the seconds of each to seconds[i], and counts its pass. Capturing and
+// splitting colours into channels are not timed.
+//
+// Maps that read the means of a pixel's rays grow together, tile by tile: the means are made once, and their time is
+// added to that of each such map, as if it had made them itself. Of the others, each map is dropped before the next one
+// begins if the light rays are kept; otherwise all maps grow together, since each pass captures the rays again. A
+// technique that throws Error{internal}, though it could build this map before, fails.
 void time_builds(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
                  std::vector<std::vector<double>>& seconds, results::TimedPasses& passes);
 

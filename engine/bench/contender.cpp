@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "bench/curve_check.h"
+#include "bench/shared_tile.h"
 
 namespace shadowbench::bench {
 namespace {
@@ -44,19 +45,24 @@ void begin_all(std::span<Contender> contenders, const techniques::BuildInput& in
 
 // Adds a batch to every map that needs this apron. If several tiles fail, the reason of the first one is kept.
 void add_batch(std::span<Contender> contenders, int apron, RaySource::Batch batch) {
-    for (Contender& contender : contenders) {
-        if (!contender.ok() || contender.needs.apron != apron) continue;
-        std::vector<std::optional<std::string>> faults(batch.size());
-        base::parallel_for(batch.size(), [&](std::size_t i) {
+    std::vector<Contender*> added;
+    for (Contender& contender : contenders)
+        if (contender.ok() && contender.needs.apron == apron) added.push_back(&contender);
+    std::vector<std::vector<std::optional<std::string>>> faults(batch.size());  // of each tile, by contender
+    base::parallel_for(batch.size(), [&](std::size_t i) {
+        SharedTile tile(batch[i]);
+        faults[i].resize(added.size());
+        for (std::size_t a = 0; a < added.size(); ++a) {
             try {
-                add(contender.maps, batch[i]);
+                add(added[a]->maps, tile);
             } catch (const base::Error& error) {
-                faults[i] = error.message();
+                faults[i][a] = error.message();
             }
-        });
-        for (const auto& fault : faults)
-            if (fault) fail(contender, *fault);
-    }
+        }
+    });
+    for (const auto& of_tile : faults)
+        for (std::size_t a = 0; a < added.size(); ++a)
+            if (of_tile[a]) fail(*added[a], *of_tile[a]);
 }
 
 void refuse_too_large(std::span<Contender> contenders, std::size_t memory_limit) {

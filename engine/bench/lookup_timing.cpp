@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/random.h"
@@ -13,12 +14,13 @@
 namespace shadowbench::bench {
 namespace {
 
-constexpr double longest_pass = 0.020;         // seconds
+constexpr double longest_pass = 0.010;         // seconds
 constexpr double longest_warm_pass = 0.100;    // seconds: only passes of 64 lookups that take longer stay cold
 constexpr double longest_random_pass = 0.010;  // seconds, of several random orders
 constexpr double beyond_prediction = 65536.0;  // number of lookups beyond what a branch predictor learns
 constexpr int least_warm_passes = 2, most_warm_passes = 16;
-constexpr double warm_time = 0.050;      // seconds: a map of the size of L3 needs several passes to fill it
+constexpr double warm_time = 0.025;      // seconds: a map of the size of L3 needs several passes to fill it
+constexpr double no_faster = 0.99;       // of the fastest pass before: the caches have settled if two in a row are so
 constexpr double shortest_pass = 0.002;  // seconds: keeps clock errors and late interrupts below 1 %
 constexpr std::size_t most_lines = std::size_t{1} << 21;  // 16 MiB of addresses an order
 
@@ -54,11 +56,18 @@ int rounds_of(double seconds_a_round) {
     return static_cast<int>(std::min(1000.0, std::ceil(shortest_pass / seconds_a_round)));
 }
 
-// Makes untimed passes until the caches have settled: at least two, then more for `time` seconds.
+// Makes untimed passes until the caches have settled: at least two, then more until passes get no faster, at most for
+// `time` seconds.
 template <typename Pass>
 void warm_up(double time, const Pass& pass) {
-    double seconds = 0.0;
-    for (int p = 0; p < least_warm_passes || (p < most_warm_passes && seconds < time); ++p) seconds += pass();
+    double seconds = 0.0, fastest = std::numeric_limits<double>::infinity();
+    int steady = 0;
+    for (int p = 0; p < least_warm_passes || (p < most_warm_passes && seconds < time && steady < 2); ++p) {
+        const double last = pass();
+        steady = last > no_faster * fastest ? steady + 1 : 0;
+        fastest = std::min(fastest, last);
+        seconds += last;
+    }
 }
 
 // The seconds of a timed pass, which is counted.
@@ -141,24 +150,21 @@ void time_order(const Maps& maps, const LookupPlan& plan, LookupOrder& order, bo
     const int rounds = order.rounds;
     const double lookups = static_cast<double>(order.queries.size()) * rounds;
     const double read = static_cast<double>(order.covered) * rounds;
-    const auto warm_lookups = [&](double time) {
-        warm_up(time, [&] { return seconds_of_pass(maps, order.asked(), 1, order.answers); });
-    };
-    const auto warm_floor = [&] { warm_up(0.0, [&] { return seconds_of_floor(order.lines, 1); }); };
-    if (plan.warm && !settled) warm_lookups(warm_time);
+    const double settling = settled ? 0.0 : warm_time;
+    const auto warm_floor = [&](double time) { warm_up(time, [&] { return seconds_of_floor(order.lines, 1); }); };
     // Lookups and floor each warm up, so that what ran before has no influence.
     const auto time_lookups = [&] {
         // The floor's reads leave lines in the cache that lookups do not. Reading them here makes the order of the two
         // irrelevant.
-        if (plan.warm && !order.lines.empty()) warm_floor();
-        if (plan.warm) warm_lookups(0.0);
+        if (plan.warm && !order.lines.empty()) warm_floor(0.0);
+        if (plan.warm) warm_up(settling, [&] { return seconds_of_pass(maps, order.asked(), 1, order.answers); });
         const double seconds =
             counted(order.passes, [&] { return seconds_of_pass(maps, order.asked(), rounds, order.answers); });
         order.ns.push_back(1e9 * seconds / lookups);
     };
     const auto time_floor = [&] {
         if (order.lines.empty()) return;
-        if (plan.warm) warm_floor();
+        if (plan.warm) warm_floor(floor_first ? settling : 0.0);
         const double seconds = counted(order.passes, [&] { return seconds_of_floor(order.lines, rounds); });
         order.floor_ns.push_back(1e9 * seconds / read);
     };

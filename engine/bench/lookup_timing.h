@@ -50,7 +50,7 @@ std::vector<std::size_t> choose_runs(std::size_t total, std::size_t count);
 std::size_t random_orders(std::size_t queries, double seconds_a_lookup);
 
 // Warms up, and chooses for this map how many of the queries (at most `most`, and at least 64 if there are so many)
-// keep one pass at or under 20 ms. Without `floors` no lines are noted, so that only lookups are timed.
+// keep one pass at or under 10 ms. Without `floors` no lines are noted, so that only lookups are timed.
 LookupPlan plan_lookups(const Maps& maps, const Asked& asked, std::size_t most, std::uint64_t seed, bool floors = true);
 
 // Times one repetition of both orders on this thread, and appends the times to the plan. `floor_first` says whether the

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "bench/shared_tile.h"
 
 namespace shadowbench::bench {
 
@@ -21,8 +22,8 @@ Maps begin_maps(const techniques::Technique& row, const techniques::ParameterVal
 }
 
 void add(Maps& maps, const rays::LightRays& tile) {
-    if (maps.parts.size() == 1) return maps.parts[0]->add(tile);
-    for (std::size_t c = 0; c < maps.parts.size(); ++c) maps.parts[c]->add(rays::channel(tile, static_cast<int>(c)));
+    SharedTile shared(tile);
+    add(maps, shared);
 }
 
 void finish(Maps& maps) {

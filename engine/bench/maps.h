@@ -38,7 +38,7 @@ struct Maps {
 Maps begin_maps(const techniques::Technique& row, const techniques::ParameterValues& values,
                 const techniques::BuildInput& input);
 
-// Thread-safe for different tiles.
+// Thread-safe for different tiles. Where several maps are made of one tile, see SharedTile.
 void add(Maps& maps, const rays::LightRays& tile);
 void finish(Maps& maps);
 // See Map::set_lookups.

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/parallel.h"
+#include "bench/shared_tile.h"
 #include "claims/first_light.h"
 #include "rays/capture.h"
 
@@ -67,7 +68,8 @@ std::vector<MeanVertices> mean_vertices(const nlohmann::json& document, const sc
     for (const bench::Contender& contender : source.first.contenders)
         maps.push_back(bench::begin_maps(*contender.row, contender.values, source.first.input()));
     source.for_each_tile([&](const rays::LightRays& tile) {
-        for (bench::Maps& map : maps) bench::add(map, tile);
+        bench::SharedTile shared(tile);
+        for (bench::Maps& map : maps) bench::add(map, shared);
     });
     std::vector<MeanVertices> means;
     for (bench::Maps& map : maps) {

@@ -10,6 +10,7 @@
 #include "bench/camera_points.h"
 #include "bench/clock.h"
 #include "bench/lookup_timing.h"
+#include "bench/shared_tile.h"
 #include "rays/tracer.h"
 
 namespace shadowbench::claims {
@@ -65,7 +66,8 @@ std::vector<bench::Maps> SeededLight::build(int seed) const {
         maps.push_back(bench::begin_maps(*contender.row, contender.values, {layout, first_.light.view, nullptr}));
     base::parallel_for(static_cast<std::size_t>(layout.tiles()), [&](std::size_t t) {
         const rays::LightRays tile = capture.tile(static_cast<int>(t));
-        for (bench::Maps& map : maps) bench::add(map, tile);
+        bench::SharedTile shared(tile);
+        for (bench::Maps& map : maps) bench::add(map, shared);
     });
     for (bench::Maps& map : maps) bench::finish(map);
     return maps;

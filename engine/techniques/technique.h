@@ -25,6 +25,8 @@ struct LightView;
 
 namespace shadowbench::techniques {
 
+class MeanRays;
+
 // "How much light reaches light-space point (x, y, z), over a footprint of `width` map pixels?"
 //
 // Any floats are valid, and the answer is always a number:
@@ -77,6 +79,7 @@ enum class Cells {
 struct RayNeeds {
     int apron = 0;            // pixels around a tile that its LightRays cover too (clipped to the map)
     bool submission = false;  // LightRays::submission
+    bool means = false;       // only the mean of each pixel's rays, where it has several: see Map::add_means
 };
 
 // The source of the light rays; all of it outlives the map.
@@ -142,6 +145,11 @@ public:
     // within that tolerance, by the rules of curves/fewest.h, for the same uncompressed function. `tile` holds the rays
     // of cell (x, y), with the apron asked for.
     virtual std::optional<FewestNodes> fewest_nodes(int, int, const rays::LightRays&) const { return {}; }
+
+    // Only for maps that need `means`: does what add() does, from the means of a tile with several rays a pixel and the
+    // channel of this map. Whoever builds several such maps makes the means of a tile once and hands them to each;
+    // add() makes them itself. The time of a build includes that of the means, whoever made them.
+    virtual void add_means(const MeanRays&) {}
 };
 
 // What a technique promises for every stored function in every scene (only in opaque scenes if opaque_only).

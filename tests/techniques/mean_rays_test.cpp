@@ -1,5 +1,5 @@
 // The mean of a pixel's rays as one ray, against the mean of their transmittances in double.
-#include "techniques/store/mean_rays.h"
+#include "techniques/mean_rays.h"
 
 #include <gtest/gtest.h>
 

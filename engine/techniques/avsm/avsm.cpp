@@ -64,7 +64,11 @@ public:
         }
     }
 
-    RayNeeds needs() const override { return {.submission = order_ == Order::captured}; }
+    RayNeeds needs() const override {
+        RayNeeds needs = TexelMap::needs();
+        needs.submission = order_ == Order::captured;
+        return needs;
+    }
 
     void fill(const rays::LightRays& rays) {
         if (order_ == Order::captured && rays.submission.size() != rays.segments())

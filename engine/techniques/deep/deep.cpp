@@ -29,7 +29,7 @@ public:
         store();
     }
 
-    RayNeeds needs() const override { return {map_.filter.apron(), false}; }
+    RayNeeds needs() const override { return {.apron = map_.filter.apron()}; }
     void begin(const BuildInput& input) override {
         map_.compression.tolerance = static_cast<float>(tolerance_of(values_, input.layout.samples()));
         map_.begin(input.layout);

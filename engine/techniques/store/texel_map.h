@@ -22,7 +22,7 @@
 #include <span>
 #include <vector>
 
-#include "techniques/store/mean_rays.h"
+#include "techniques/mean_rays.h"
 #include "techniques/store/most_bytes.h"
 #include "techniques/store/texels.h"
 
@@ -51,11 +51,16 @@ public:
         return Texels::bytes(values, layout, Own::floats_a_texel(values));
     }
 
+    RayNeeds needs() const override { return {.means = !Own::sums_rays && texels_.kind == Cells::pixel}; }
     void begin(const BuildInput& input) override { allocate(input.layout); }
     void add(const rays::LightRays& tile) override {
-        if (Own::sums_rays || texels_.kind != Cells::pixel || tile.samples == 1) return own().fill(tile);
+        if (!TexelMap::needs().means || tile.samples == 1) return own().fill(tile);
         MeanRays means;
-        own().fill(means.of(tile));
+        means.of(tile);
+        TexelMap::add_means(means);
+    }
+    void add_means(const MeanRays& means) override {
+        own().fill(means.rays());
         scratch_.add(means.bytes());
     }
     void finish() override {}

@@ -1,4 +1,4 @@
-#include "techniques/store/mean_rays.h"
+#include "techniques/mean_rays.h"
 
 namespace shadowbench::techniques {
 namespace {

@@ -19,6 +19,7 @@ public:
     // cut into so many segments that it errs by at most 1e-4. In submission order the segments are sorted by depth.
     // Valid until the next call.
     const rays::LightRays& of(const rays::LightRays& tile);
+    const rays::LightRays& rays() const { return result_; }  // of the last call
 
     std::size_t bytes() const;
 

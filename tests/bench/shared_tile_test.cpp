@@ -1,0 +1,183 @@
+// Maps that grow together share the means of a pixel's rays; each must be the map that grows by itself.
+#include "bench/shared_tile.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/build_timing.h"
+#include "bench/contender.h"
+#include "bench/memory.h"
+#include "rays/capture.h"
+#include "rays/scenes.h"
+
+namespace shadowbench::bench {
+namespace {
+
+// Its add() fails and its add_means() only counts, so that all the time of its build is that of the shared means.
+class MeansMap final : public techniques::Map {
+public:
+    static inline int added = 0;
+    static inline std::vector<const techniques::MeanRays*> given = {};
+
+    techniques::RayNeeds needs() const override { return {.means = true}; }
+    void begin(const techniques::BuildInput&) override {}
+    void add(const rays::LightRays&) override { ++added; }
+    void add_means(const techniques::MeanRays& means) override { given.push_back(&means); }
+    void finish() override {}
+    void lookup(std::span<const techniques::Query>, std::span<float>) const override {}
+    void touched(const techniques::Query&, std::vector<const void*>&) const override {}
+    std::size_t bytes() const override { return 0; }
+    std::size_t working_bytes() const override { return 0; }
+    techniques::NodeStats nodes() const override { return {}; }
+    techniques::Cells cells() const override { return techniques::Cells::pixel; }
+    void stored(int, int, int, std::span<const float>, curves::Curve& out) const override { out.clear(); }
+};
+
+Contender of_means() {
+    static const techniques::Technique row{
+        .id = "means", .create = [](const techniques::ParameterValues&) -> std::unique_ptr<techniques::Map> {
+            return std::make_unique<MeansMap>();
+        }};
+    Contender contender;
+    contender.row = &row;
+    contender.needs = MeansMap().needs();
+    return contender;
+}
+
+// A medium with hair before it, a channel or three.
+class SharedTiles : public ::testing::Test {
+protected:
+    void light(int samples, bool coloured) {
+        constexpr int resolution = 24;  // one tile
+        MeansMap::added = 0;
+        MeansMap::given.clear();
+        scene_.objects.resize(2);
+        scene_.objects[0].shape = rays::testing::slab();
+        if (coloured) scene_.objects[0].extinction = {1.0f, 0.5f, 0.25f};
+        scene_.objects[1] = rays::testing::curly_hair(40, 12, 0.02f, 5);
+        scene_.objects[1].opacity = {0.6f, 0.6f, 0.6f};
+        view_ = rays::make_light_view(rays::testing::directional(), scene_, {resolution, resolution}, "");
+        layout_ = rays::make_layout(scene_, view_, rays::testing::rays(resolution, samples));
+        capture_ = std::make_unique<rays::Capture>(scene_, view_, layout_);
+        source_ = std::make_unique<RaySource>(*capture_, layout_, std::size_t{1} << 30, RaySource::Watch{});
+    }
+    techniques::BuildInput input() const { return {layout_, view_, nullptr}; }
+
+    scene::Scene scene_;
+    rays::LightView view_;
+    rays::MapLayout layout_;
+    std::unique_ptr<rays::Capture> capture_;
+    std::unique_ptr<RaySource> source_;
+};
+
+std::vector<Contender> every_technique() {
+    std::vector<Contender> contenders;
+    for (const techniques::Technique& row : techniques::all()) {
+        if (row.traits.traces) continue;
+        contenders.push_back(make_contender({row.id, "{}", ""}, ""));
+        contenders.push_back(make_contender({row.id, "{}", ""}, ""));  // the second finds what the first has used
+    }
+    contenders.push_back(make_contender({"avsm", R"({"nodes": 4, "order": "shuffled"})", ""}, ""));
+    contenders.push_back(make_contender({"avsm", R"({"cells": "sample"})", ""}, ""));
+    return contenders;
+}
+
+// Every map of every contender must have the bytes, nodes and functions of one that was built by itself, without
+// anything shared.
+void expect_as_alone(std::span<const Contender> contenders, const RaySource& source,
+                     const techniques::BuildInput& input) {
+    curves::Curve shared, alone;
+    for (const Contender& contender : contenders) {
+        ASSERT_TRUE(contender.ok()) << contender.row->id << contender.cell.reason;
+        Maps maps = begin_maps(*contender.row, contender.values, input);
+        source.for_each_batch(contender.needs.apron, [&](RaySource::Batch batch) {
+            for (const rays::LightRays& tile : batch)
+                for (std::size_t p = 0; p < maps.parts.size(); ++p)
+                    maps.parts[p]->add(maps.parts.size() == 1 ? tile : rays::channel(tile, static_cast<int>(p)));
+        });
+        finish(maps);
+        EXPECT_EQ(contender.cell.bytes, bytes(maps)) << contender.row->id;
+        EXPECT_EQ(contender.cell.working_bytes, working_bytes(maps)) << contender.row->id;
+        EXPECT_EQ(contender.cell.nodes.total, nodes(maps).total) << contender.row->id;
+        for (int y = 0; y < input.layout.height; ++y)
+            for (int x = 0; x < input.layout.width; ++x)
+                for (int c = 0; c < input.layout.channels; ++c) {
+                    stored(contender.maps, x, y, c, {}, shared);
+                    stored(maps, x, y, c, {}, alone);
+                    ASSERT_EQ(shared, alone) << contender.row->id << " at " << x << ", " << y << " channel " << c;
+                }
+    }
+}
+
+TEST_F(SharedTiles, make_every_map_as_if_it_grew_by_itself) {
+    for (const bool coloured : {false, true}) {
+        light(4, coloured);
+        std::vector<Contender> contenders = every_technique();
+        ask_for_needs(contenders, layout_);
+        capture_ = std::make_unique<rays::Capture>(scene_, view_, layout_);
+        source_ = std::make_unique<RaySource>(*capture_, layout_, std::size_t{1} << 30, RaySource::Watch{});
+        build_all(contenders, *source_, input(), MemoryLimits{}.all, {});
+        expect_as_alone(contenders, *source_, input());
+    }
+}
+
+// Without sharing, each map would be given means of its own, or make them itself.
+TEST_F(SharedTiles, hand_the_same_means_to_every_map) {
+    light(4, false);
+    std::vector<Contender> contenders;
+    contenders.push_back(of_means());
+    contenders.push_back(of_means());
+    build_all(contenders, *source_, input(), MemoryLimits{}.all, {});
+    ASSERT_EQ(MeansMap::given.size(), 2u);
+    EXPECT_EQ(MeansMap::given[0], MeansMap::given[1]);
+    EXPECT_EQ(MeansMap::added, 0);
+}
+
+// One ray is not its own mean to the bit.
+TEST_F(SharedTiles, make_no_means_of_one_ray_a_pixel) {
+    light(1, false);
+    std::vector<Contender> contenders;
+    contenders.push_back(of_means());
+    build_all(contenders, *source_, input(), MemoryLimits{}.all, {});
+    EXPECT_EQ(MeansMap::added, 1);
+    EXPECT_TRUE(MeansMap::given.empty());
+}
+
+// Their own parts take next to nothing. If only the first were charged, the second would seem to build for free.
+TEST_F(SharedTiles, charge_the_means_to_every_build_that_reads_them) {
+    light(16, true);
+    for (const std::size_t kept : {std::size_t{1} << 30, std::size_t{0}}) {
+        const RaySource source(*capture_, layout_, kept, {});
+        std::vector<Contender> contenders;
+        contenders.push_back(of_means());
+        contenders.push_back(make_contender({"shadow_map", "{}", ""}, ""));
+        contenders.push_back(of_means());
+        std::vector<std::vector<double>> seconds(contenders.size());
+        results::TimedPasses passes;
+        MeansMap::given.clear();
+        time_builds(contenders, source, input(), seconds, passes);
+        for (const std::vector<double>& of_one : seconds) ASSERT_EQ(of_one.size(), 1u);
+        EXPECT_EQ(passes.passes, 3u);
+        ASSERT_EQ(MeansMap::given.size(), 6u);
+        EXPECT_GT(seconds[2][0], 0.5 * seconds[0][0]);
+        EXPECT_GT(seconds[0][0], 0.5 * seconds[2][0]);
+    }
+}
+
+// Maps that share means exist a second time, all of them, while their builds are timed.
+TEST_F(SharedTiles, count_together_against_the_memory_limit) {
+    light(4, false);
+    const auto least = [&](int count) {
+        std::vector<Contender> contenders;
+        for (int i = 0; i < count; ++i) contenders.push_back(make_contender({"avsm", "{}", ""}, ""));
+        return least_bytes(layout_, layout_, contenders, {});
+    };
+    const double one = static_cast<double>(layout_.width) * layout_.height * 16 * sizeof(float);
+    EXPECT_DOUBLE_EQ(least(3) - least(1), 2.0 * 2.0 * one);
+}
+
+}  // namespace
+}  // namespace shadowbench::bench
