@@ -18,14 +18,46 @@ void add_sphere(const LightView& view, const Vec3d& c, double radius, PlaneBox& 
     }
     const double front = c.z - radius, back = c.z + radius;
     if (back <= view.z_near) return;
-    if (front <= 0.25 * view.z_near) {  // around the light, or so near that slopes mean nothing
-        box.add_all();
-        return;
-    }
+    if (front <= 0.25 * view.z_near) return add_across_near(view, {&c, 1}, radius, box);
     // The slopes of the box around the sphere: each extreme is at a corner.
     for (const double per_z : {1.0 / front, 1.0 / back}) {
         box.add((c.x - radius) * per_z, (c.y - radius) * per_z);
         box.add((c.x + radius) * per_z, (c.y + radius) * per_z);
+    }
+}
+
+void add_hair(const LightView& view, const Vec3d& a, double radius_a, const Vec3d& b, double radius_b, PlaneBox& box) {
+    if (view.perspective && std::min(a.z - radius_a, b.z - radius_b) <= view.z_near) {
+        const Vec3d ends[] = {a, b};
+        return add_across_near(view, ends, std::max(radius_a, radius_b), box);
+    }
+    add_sphere(view, a, radius_a, box);
+    add_sphere(view, b, radius_b, box);
+}
+
+// The hull of cubes around the points, cut at the near plane: slopes are extreme at the corners of what is left, which
+// are corners of cubes, and where an edge between like corners of two cubes meets the near plane.
+void add_across_near(const LightView& view, std::span<const Vec3d> points, double radius, PlaneBox& box) {
+    const double near = view.z_near;
+    double largest = 0.0;
+    for (const Vec3d& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    const double reach = radius + 1e-12 * largest;  // outweighs rounding
+    const auto add_square = [&](const Vec3d& middle, double z) {
+        box.add((middle.x - reach) / z, (middle.y - reach) / z);
+        box.add((middle.x + reach) / z, (middle.y + reach) / z);
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3d& a = points[i];
+        for (const double z : {a.z - reach, a.z + reach})
+            if (z > near) add_square(a, z);
+        for (std::size_t j = i; j < points.size(); ++j) {
+            const Vec3d& b = points[j];
+            if (std::max(a.z, b.z) < near - reach || std::min(a.z, b.z) > near + reach) continue;
+            for (const double side : {-1.0, 1.0}) {
+                const double u = a.z != b.z ? (near + side * reach - a.z) / (b.z - a.z) : side;
+                add_square(a + (b - a) * std::clamp(u, 0.0, 1.0), near);
+            }
+        }
     }
 }
 

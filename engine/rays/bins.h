@@ -31,18 +31,20 @@ struct PlaneBox {
         add(box.x_low, box.y_low);
         add(box.x_high, box.y_high);
     }
-    void add_all() {  // covers the whole plane
-        add(-infinity, -infinity);
-        add(infinity, infinity);
-    }
 
 private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 };
 
-// Adds the bounds of what a ray sees of a sphere (surface or not) or a triangle. Parts at z <= z_near are left out.
+// Adds the bounds of what a ray sees of a sphere (surface or not), a segment of hair with these half-widths at its
+// ends, or a triangle. Parts at z <= z_near are left out.
 void add_sphere(const LightView& view, const Vec3d& centre, double radius, PlaneBox& box);
+void add_hair(const LightView& view, const Vec3d& a, double radius_a, const Vec3d& b, double radius_b, PlaneBox& box);
 void add_triangle(const LightView& view, const Vec3d& a, const Vec3d& b, const Vec3d& c, PlaneBox& box);
+
+// The same for all that lies within `radius` of the hull of the points, of which parts may lie before the near plane of
+// a view in perspective: beside the light its slopes are large, so most tiles do not meet it.
+void add_across_near(const LightView& view, std::span<const Vec3d> points, double radius, PlaneBox& box);
 
 // One list of primitives for each tile.
 struct Bins {

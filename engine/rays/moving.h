@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "base/vec.h"
@@ -73,18 +74,20 @@ inline TriangleSetup at_time(const MovingTriangle& triangle, double time) {
 }
 
 // Where a primitive is seen once it has moved by an offset: its view-plane bounds, which are valid only if all of it
-// lies behind the near plane, and its depths.
+// lies behind the near plane; its depths; and itself, as what lies within `radius` of the hull of `count` points.
 struct Placed {
     PlaneBox box;
     double z_low, z_high;
+    std::array<Vec3d, 3> points;
+    std::size_t count;
+    double radius;
 };
 Placed place_sphere(const LightView& view, const base::Vec3f& centre, double radius, const Vec3d& offset);
 Placed place_triangle(const LightView& view, const base::Vec3f& a, const base::Vec3f& b, const base::Vec3f& c,
                       const Vec3d& offset);
 Placed place_hair(const LightView& view, const HairSegment& segment, const Vec3d& offset);
 
-// View-plane bounds of all that a primitive covers on its straight way between two positions; the whole plane if it
-// meets the near plane on its way.
+// View-plane bounds of all that a primitive covers, behind the near plane, on its straight way between two positions.
 PlaneBox swept(const LightView& view, const Placed& from, const Placed& to);
 
 // Calls visit(ray, offset at the ray's time) for every ray that may meet a primitive; place(offset) returns where it

@@ -54,12 +54,7 @@ Prepared prepare(const scene::Object& object, const LightView& view, const MapLa
             const HairSegment s = hair_segment(p, *hair, static_cast<std::uint32_t>(i));
             if (p.moving) return swept(view, place_hair(view, s, still), place_hair(view, s, p.motion));
             PlaneBox box;
-            // It crosses the near plane, where slopes grow without bound.
-            if (view.perspective && std::min(s.a.z - s.radius_a, s.b.z - s.radius_b) <= view.z_near &&
-                std::max(s.a.z + s.radius_a, s.b.z + s.radius_b) > view.z_near)
-                box.add_all();
-            add_sphere(view, Vec3d(s.a), s.radius_a, box);
-            add_sphere(view, Vec3d(s.b), s.radius_b, box);
+            add_hair(view, Vec3d(s.a), s.radius_a, Vec3d(s.b), s.radius_b, box);
             return box;
         });
     } else if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {

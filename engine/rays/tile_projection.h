@@ -83,7 +83,7 @@ private:
                         sink_.surface(ray.ray, z + moved.z, p.transmittance);
                 });
             } else {
-                project_hair<perspective>(s, grid_, view_.z_near, p.transmittance, sink_);
+                project_hair<perspective>(s, grid_, view_, p.transmittance, sink_);
             }
         }
     }
@@ -151,8 +151,7 @@ private:
             PlaneBox box;
             add_sphere(view_, centre, radius, box);
             if (box.empty()) return;
-            visit_samples(box.x_low, box.x_high, box.y_low, box.y_high, grid_,
-                          [&](std::uint32_t ray, double x, double y) { pass(ray, x, y, centre); });
+            visit_samples(box, grid_, [&](std::uint32_t ray, double x, double y) { pass(ray, x, y, centre); });
         }
     }
 

@@ -14,6 +14,7 @@ inline constexpr std::uint64_t max_camera_points = std::uint64_t{1}
                                                    << 28;  // pixels of a camera's image * (media_lookups + 1)
 inline constexpr std::uint64_t max_reference_rays = std::uint64_t{1} << 32;  // queries * samples_per_pixel
 inline constexpr std::uint64_t max_hair_points = 200'000'000;
+inline constexpr int max_hairs_on_a_ray = 1000;                  // through a ball of hair
 inline constexpr std::uint64_t max_mesh_elements = 200'000'000;  // vertices; triangles have the same limit
 inline constexpr std::uint64_t max_voxels = 1'000'000'000;
 inline constexpr std::uint64_t max_texels = std::uint64_t{1} << 30;

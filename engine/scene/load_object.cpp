@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -122,6 +123,13 @@ Loaded hair(const json& from, const SearchPath& path, const std::string& where) 
     return {with_length(std::move(strands.hair)), std::move(strands.passed_over)};
 }
 
+// That a ray through the ball crosses, on average: the areas of all hairs over that of the ball.
+double hairs_on_a_ray(const HairBall& ball) {
+    constexpr double tapered = 0.625;  // mean width of a hair over that of its root
+    const double reach = ball.ball_radius + ball.length + ball.radius;
+    return ball.strands * (2.0 * tapered * ball.radius / reach) * (ball.length / reach) / std::numbers::pi;
+}
+
 Loaded hair_ball(const json& from, const SearchPath&, const std::string& where) {
     HairBall ball;
     read(from, "strands", ball.strands);
@@ -138,6 +146,10 @@ Loaded hair_ball(const json& from, const SearchPath&, const std::string& where) 
         static_cast<std::uint64_t>(ball.strands) * static_cast<std::uint64_t>(ball.segments + 1);
     if (points > max_hair_points)
         refuse(where + "/strands", fmt::format("{} points of hair; the limit is {}", points, max_hair_points));
+    if (const double hairs = hairs_on_a_ray(ball); hairs > max_hairs_on_a_ray)
+        refuse(where + "/radius", fmt::format("a ray would cross about {:.0f} hairs; the limit is {}: this is the "
+                                              "half-width of one hair, and \"ball_radius\" is that of the ball",
+                                              hairs, max_hairs_on_a_ray));
     return {with_length(make_hair_ball(ball))};
 }
 

@@ -159,7 +159,12 @@ void check_shadow(const DataFile& data) {
         refuse_file(data,
                     "a point cloud, which has no faces and so casts no shadow; write it as PLY, whose points are read "
                     "as particles, or put its points into a scenario as the centres of an object of type spheres");
-    if (!casts_shadow(data)) refuse_file(data, "nothing in it casts a shadow");
+    if (casts_shadow(data)) return;
+    std::string message = "nothing in it casts a shadow";
+    for (const Object& object : data.scene.objects)
+        for (const PassedOver& each : object.passed_over)
+            message += fmt::format("; passed over: {} ({})", each.what, each.count);
+    refuse_file(data, message);
 }
 
 // Far from the limits of a scenario, which the ground and the camera must also keep.

@@ -227,6 +227,10 @@ TEST(LoadObject, HairOfMitsubaMayBeSplines) {
 TEST(LoadObject, LimitsHair) {
     EXPECT_THAT(failure(R"({"type": "hair_ball", "strands": 100000000, "segments": 2})").message(),
                 HasSubstr("limit is 200000000"));
+    // Taken for the ball's, the width of hair would make each ray cross a thousand, for hours.
+    const base::Error wide = failure(R"({"type": "hair_ball", "radius": 0.5})");
+    EXPECT_EQ(wide.where(), "/scene/objects/0/radius");
+    EXPECT_THAT(wide.message(), HasSubstr("about 1353 hairs"));
 }
 
 TEST(LoadVolume, ReadsRawValuesIntoTheirBox) {

@@ -207,6 +207,9 @@ TEST(NewScenario, RefusesWhatCannotCastAShadow) {
     EXPECT_THAT(error_of([&] { made_from({lone}); }).message(), HasSubstr("a point cloud"));
     const auto empty = test::write_file("empty_2x2x2.raw", std::string(8, '\0'));
     EXPECT_THAT(error_of([&] { made_from({empty}); }).message(), HasSubstr("nothing in it casts a shadow"));
+    const auto lines = test::write_file("lines.obj", "v 0 1 0\nv 1 1 -1\nl 1 2\np 1\n");
+    EXPECT_THAT(error_of([&] { made_from({lines}); }).message(),
+                HasSubstr("a shadow; passed over: lines (1); passed over: points (1)"));
     const base::Error two = error_of([] { made_from({case_file("bom.obj"), case_file("inf.exr")}); });
     EXPECT_EQ(two.code(), base::ErrorCode::usage);
     EXPECT_EQ(two.where(), case_file("inf.exr").string());

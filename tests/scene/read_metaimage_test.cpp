@@ -134,7 +134,7 @@ TEST(ReadMetaImage, NamesTheFaultsOfAHeader) {
     EXPECT_THAT(message("nothing\n"), HasSubstr("not a line of a MetaImage header"));
     EXPECT_THAT(message("ObjectType = Tube\nNDims = 3\n"), HasSubstr("not an image"));
     EXPECT_THAT(message("ObjectType = Image\n"), HasSubstr("without the field \"ndims\""));
-    EXPECT_THAT(message("NDims = 2\n"), HasSubstr("3 dimensions"));
+    EXPECT_THAT(message("NDims = 2\n"), HasSubstr("2 dimensions, where a volume has 3"));
     EXPECT_THAT(message("NDims = 3\nDimSize = 1 1 1\nElementType = MET_UCHAR\n"),
                 HasSubstr("without the field \"elementdatafile\""));
     EXPECT_THAT(message(header("MET_LONG_LONG", "1 1 1")), HasSubstr("\"MET_LONG_LONG\""));

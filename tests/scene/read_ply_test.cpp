@@ -178,6 +178,16 @@ TEST(ReadPly, RefusesVerticesTwice) {
     EXPECT_THAT(error_of([&] { read(twice); }).message(), HasSubstr("second element"));
 }
 
+// As Blender 2.47 wrote them. A line behind the first element may be a misspelt element: its vertices must not vanish.
+TEST(ReadPly, PassesOverCommentsWithoutTheirKeywordAtTheTop) {
+    std::string bytes = ascii;
+    bytes.insert(bytes.find("element"), "Created by Blender3D 247 - www.blender.org, source file: \n");
+    EXPECT_EQ(test::area(read(bytes)), 1.0);
+    bytes = ascii;
+    bytes.replace(bytes.find("element face"), 7, "elemant");
+    EXPECT_THAT(error_of([&] { read(bytes); }).message(), HasSubstr("\"elemant\" is unknown"));
+}
+
 TEST(ReadPly, TakesAByteOrderMark) {
     for (const std::string& bytes : {ascii, binary(false), binary(true)})
         EXPECT_EQ(test::area(read("\xef\xbb\xbf" + bytes)), 1.0);

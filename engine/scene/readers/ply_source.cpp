@@ -153,7 +153,8 @@ void PlySource::read_header() {
             elements_.push_back(element);
         } else if (keyword == "property") {
             read_property(text);
-        } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+        } else if (!elements_.empty() && !keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+            // Before the first element it is a comment without its keyword, as Blender 2.47 wrote.
             fail(fmt::format("the header line \"{}\" is unknown", keyword.substr(0, 40)));
         }
     }

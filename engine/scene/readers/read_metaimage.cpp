@@ -63,8 +63,9 @@ bool is_true(const HeaderFields& fields, const HeaderField* field, bool absent) 
 void check_kind(const HeaderFields& fields) {
     if (const HeaderField* kind = fields.find("objecttype"); kind && lower_case(kind->value) != "image")
         fields.fail(*kind, "not an image");
-    if (const HeaderField& dimensions = fields.need("ndims"); fields.integers(dimensions, 1)[0] != 3)
-        fields.fail(dimensions, "a volume has 3 dimensions");
+    const HeaderField& dimensions = fields.need("ndims");
+    if (const auto count = fields.integers(dimensions, 1)[0]; count != 3)
+        fields.fail(dimensions, fmt::format("{} dimensions, where a volume has 3", count));
     if (fields.integer("elementnumberofchannels", 1, 1) != 1)
         fields.fail(fields.need("elementnumberofchannels"),
                     "several channels; a volume of one is read: save one alone");
