@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "rays/grid_density.h"
+#include "rays/voxel_blocks.h"
 
 namespace shadowbench::scene {
 struct GridVolume;
@@ -45,7 +47,7 @@ public:
     void optical_depths(const base::Vec3d& origin, const base::Vec3d& direction, double scale, double t_min,
                         std::span<const double> t, std::span<double> depth) const;
 
-    std::size_t bytes() const { return occupied_.capacity(); }
+    std::size_t bytes() const { return blocks_.bytes(); }
 
 private:
     // A ray inside the box: voxel coordinates start + slope * s, s in [0, length], at t = t_min + s.
@@ -57,13 +59,12 @@ private:
                Way& way) const;
     double density(const base::Vec3d& index) const;
     double integral(const Way& way, double from, double to) const;
-    double empty_ahead(const base::Vec3d& index, const base::Vec3d& slope) const;
     template <class Visit>
     void for_each_cell(const Way& way, const Visit& visit) const;
 
     const scene::GridVolume& volume_;
-    base::Vec3i blocks_;
-    std::vector<unsigned char> occupied_;  // block_size^3 cells per block; 1: some corner of them has density
+    Voxels voxels_;
+    VoxelBlocks blocks_;
 };
 
 // The part of the ray inside a sphere, before clipping; returns false if the ray misses it.
