@@ -59,9 +59,7 @@ private:
 }  // namespace
 
 VolumeMarcher::VolumeMarcher(const scene::GridVolume& volume)
-    : volume_(volume),
-      voxels_{volume.density.data(), volume.size.x, volume.size.y, volume.size.z},
-      blocks_(volume) {}
+    : volume_(volume), voxels_{volume.density.data(), volume.size.x, volume.size.y, volume.size.z}, blocks_(volume) {}
 
 double VolumeMarcher::density(const Vec3d& index) const {
     return density_at(voxels_, index.x, index.y, index.z);
@@ -100,13 +98,11 @@ void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double sc
     if (!enter(origin, direction, t_min, t_max, way)) return;
     const double step = volume_.step / scale;
     const auto steps = static_cast<std::int64_t>(std::max(1.0, std::ceil(way.length / step)));
-    const auto place = [&](std::int64_t i) { return i >= steps ? way.length : static_cast<double>(i) * step; };
+    const auto place = [&](std::int64_t i) { return std::min(static_cast<double>(i) * step, way.length); };
 
     Joiner joiner(way.t_min, out);
-    Lanes places, densities;
-    double before = 0.0;  // density at the step's start
-    bool first = true;
-    for (std::int64_t i = 0; i < steps;) {
+    double before = -1.0;  // density at the step's start; below 0: not known
+    for (std::int64_t i = 0; i < steps; ++i) {
         double s = place(i);
         if (before <= 0.0) {
             const Vec3d index = way.start + way.slope * s;
@@ -116,20 +112,14 @@ void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double sc
                 if (last >= static_cast<double>(steps)) break;
                 i = std::max(i, static_cast<std::int64_t>(last));
                 s = place(i);
-            } else if (first) {
-                before = density(index);
+                before = -1.0;
             }
+            if (before < 0.0) before = density(way.start + way.slope * s);
         }
-        first = false;
-        const auto count = static_cast<std::size_t>(std::min<std::int64_t>(side_by_side, steps - i));
-        for (std::size_t k = 0; k < side_by_side; ++k) places[k] = place(i + 1 + static_cast<std::int64_t>(k));
-        densities_at(voxels_, way.start, way.slope, places, densities);
-        for (std::size_t k = 0; k < count; ++k, ++i) {
-            const double next = places[k], behind = densities[k];
-            joiner.add(s, next, 0.5 * (before + behind) * (next - s) * scale);
-            before = behind;
-            s = next;
-        }
+        const double next = place(i + 1);
+        const double behind = density(way.start + way.slope * next);
+        joiner.add(s, next, 0.5 * (before + behind) * (next - s) * scale);
+        before = behind;
     }
     joiner.gap(way.length);
 }

@@ -22,6 +22,16 @@ struct MediumSegment {
     double depth;
 };
 
+// A segment that transmits so much.
+struct MediumStep {
+    float front, back, transmittance;
+};
+
+struct WorldRay {
+    base::Vec3d origin, direction;
+    double scale;
+};
+
 // A grid prepared for rays: knows which blocks of voxels are empty. Rays are in the world; a grid that is turned or
 // sheared there is met by the ray in its own space, at the same t, so integrals stay exact.
 // Density is trilinear between voxel centres, and constant in the half voxel outside the outermost ones. Along a ray it
@@ -41,6 +51,12 @@ public:
                std::vector<MediumSegment>& out) const;
     void march_cells(const base::Vec3d& origin, const base::Vec3d& direction, double scale, double t_min, double t_max,
                      std::vector<MediumSegment>& out) const;
+
+    // The same as march, for up to side_by_side rays at once, and what StepRounding makes of the depths of each ray:
+    // the steps that transmit less than 1. `out` is replaced. Returns false if the rays must be marched one by one:
+    // where steps are shorter than floats can tell, or darker than a float can hold.
+    bool march_side_by_side(std::span<const WorldRay> rays, double t_min, double t_max, float extinction,
+                            Lanes<std::vector<MediumStep>>& out) const;
 
     // The exact optical depth of one unit of extinction from t_min to each value of `t`, which must ascend: depth[i]
     // belongs to t[i], which may be inside a cell. The relative error is that of double sums over the cells crossed.

@@ -8,13 +8,13 @@
 namespace shadowbench::rays {
 namespace {
 
-constexpr int block_size = 8;
+constexpr int block_size = 4;
 constexpr int farthest = 255;
 
 }  // namespace
 
 VoxelBlocks::VoxelBlocks(const scene::GridVolume& volume) {
-    // Block b holds the interpolation cells whose lower corner index + 1 lies in [8 b, 8 b + 8); indices run from -1 to
+    // Block b holds the interpolation cells whose lower corner index + 1 lies in [4 b, 4 b + 4); indices run from -1 to
     // size - 1.
     blocks_ = {volume.size.x / block_size + 1, volume.size.y / block_size + 1, volume.size.z / block_size + 1};
     distance_.assign(number(0, 0, blocks_.z), farthest);
@@ -31,7 +31,8 @@ void VoxelBlocks::mark_occupied(const scene::GridVolume& volume) {
                 // A voxel is a corner of the cells at its own index and at the index below, in each axis.
                 for (int bz = z / block_size; bz <= (z + 1) / block_size; ++bz)
                     for (int by = y / block_size; by <= (y + 1) / block_size; ++by)
-                        for (int bx = x / block_size; bx <= (x + 1) / block_size; ++bx) distance_[number(bx, by, bz)] = 0;
+                        for (int bx = x / block_size; bx <= (x + 1) / block_size; ++bx)
+                            distance_[number(bx, by, bz)] = 0;
             }
 }
 
@@ -59,8 +60,7 @@ void VoxelBlocks::find_distances() {
 
 double VoxelBlocks::empty_ahead(const base::Vec3d& index, const base::Vec3d& slope) const {
     base::Vec3i block;
-    for (int a = 0; a < 3; ++a)
-        block[a] = std::clamp(static_cast<int>(index[a] + 1.0) / block_size, 0, blocks_[a] - 1);
+    for (int a = 0; a < 3; ++a) block[a] = std::clamp(static_cast<int>(index[a] + 1.0) / block_size, 0, blocks_[a] - 1);
     const int distance = distance_[number(block.x, block.y, block.z)];
     if (distance == 0) return 0.0;
     double ahead = std::numeric_limits<double>::infinity();

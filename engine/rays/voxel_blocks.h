@@ -1,4 +1,4 @@
-// Where a grid has density: blocks of 8^3 cells, each with its distance to the nearest block that is not empty.
+// Where a grid has density: blocks of 4^3 cells, each with its distance to the nearest block that is not empty.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// What capture of media is held against: the same rays, marched one by one by plain loops in double, which skip nothing.
+// What capture of media is held against: the same rays, marched one by one by plain loops in double, which skip
+// nothing.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,8 +26,7 @@ std::vector<rays::LightLine> lines_of(const Input& input, const std::vector<rays
         for (std::size_t ray = 0; ray < tile.rays(); ++ray) {
             const int pixel = static_cast<int>(ray) / tile.samples, sample = static_cast<int>(ray) % tile.samples;
             const rays::SamplePosition at = rays::sample_position(
-                input.layout,
-                (tile.x0 + pixel % tile.width) * input.layout.samples_x + sample % input.layout.samples_x,
+                input.layout, (tile.x0 + pixel % tile.width) * input.layout.samples_x + sample % input.layout.samples_x,
                 (tile.y0 + pixel / tile.width) * input.layout.samples_y + sample / input.layout.samples_x);
             lines.push_back(rays::light_line(input.view, at.x, at.y));
         }
@@ -45,9 +45,8 @@ double density_at(const scene::GridVolume& grid, const Vec3d& point) {
     std::array<int, 3> low{}, high{};
     std::array<double, 3> share{};
     for (int a = 0; a < 3; ++a) {
-        const double place =
-            std::clamp((point[a] - grid.lower[a]) / (grid.upper[a] - grid.lower[a]) * grid.size[a] - 0.5, 0.0,
-                       grid.size[a] - 1.0);
+        const double place = std::clamp(
+            (point[a] - grid.lower[a]) / (grid.upper[a] - grid.lower[a]) * grid.size[a] - 0.5, 0.0, grid.size[a] - 1.0);
         const auto axis = static_cast<std::size_t>(a);
         low[axis] = static_cast<int>(place);
         high[axis] = std::min(low[axis] + 1, grid.size[a] - 1);
@@ -138,8 +137,8 @@ Subject prepare_march(Kind kind, int map, int samples) {
     check_marched(marched, tiles);
     Subject subject;
     subject.exact.nodes = static_cast<double>(marched.segments.size());
-    subject.exact.bytes = static_cast<double>(marched.begin.size() * sizeof(std::size_t) +
-                                              marched.segments.size() * sizeof(Segment));
+    subject.exact.bytes =
+        static_cast<double>(marched.begin.size() * sizeof(std::size_t) + marched.segments.size() * sizeof(Segment));
     subject.vertices = *subject.exact.nodes;
     subject.pass = [input, lines] {
         benchmark::DoNotOptimize(march_all(input->scene.objects[0], *lines).segments.data());
@@ -151,8 +150,8 @@ Subject prepare_march(Kind kind, int map, int samples) {
 
 void add_march_kernels(Kernels& kernels) {
     for (const Kind kind : {Kind::smoke, Kind::cloud})
-        kernels.push_back({fmt::format("march/{}/map:64/samples:16", name_of(kind)),
-                           [=] { return prepare_march(kind, 64, 16); }});
+        kernels.push_back(
+            {fmt::format("march/{}/map:64/samples:16", name_of(kind)), [=] { return prepare_march(kind, 64, 16); }});
 }
 
 }  // namespace shadowbench::kernels
