@@ -26,7 +26,7 @@ bool starts_with(const std::string& text, const std::string& start) {
 TEST(Kernels, HaveDifferentNames) {
     std::set<std::string> names;
     for (const Kernel& kernel : all_kernels()) EXPECT_TRUE(names.insert(kernel.name).second) << kernel.name;
-    for (const char* family : {"reference/", "capture/", "sweep/", "compress/", "build/", "lookup/", "load/"}) {
+    for (const char* family : {"reference/", "capture/", "march/", "sweep/", "compress/", "build/", "lookup/", "load/"}) {
         const auto first = names.lower_bound(family);
         EXPECT_TRUE(first != names.end() && starts_with(*first, family)) << family;
     }
@@ -62,6 +62,7 @@ std::set<std::string> counters_of(const std::string& name) {
     if (starts_with(name, "build/") && !traced) counters.insert({"error", "ns_per_vertex", "floor_ratio"});
     if (starts_with(name, "sweep/") || starts_with(name, "compress"))
         counters.insert({"error", "ns_per_vertex", "floor_ratio"});
+    if (starts_with(name, "march/")) counters.insert("ns_per_vertex");
     if (starts_with(name, "capture/") || starts_with(name, "load/")) counters.insert({"ns_per_vertex", "floor_ratio"});
     return counters;
 }
