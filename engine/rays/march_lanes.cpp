@@ -1,4 +1,5 @@
 // Rays that are neighbours, marched side by side: VolumeMarcher::march_side_by_side.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -123,7 +124,7 @@ bool VolumeMarcher::march_side_by_side(std::span<const WorldRay> rays, double t_
             const double ahead = blocks_.empty_ahead(index, slope);
             until = std::min(until, ahead > 0.0 ? std::floor((s + ahead) / ways.step[l]) : i);
         }
-        return until;
+        return std::max(until, i);  // the division may round down
     };
     State state, next;
     Step step;
