@@ -26,7 +26,8 @@ bool starts_with(const std::string& text, const std::string& start) {
 TEST(Kernels, HaveDifferentNames) {
     std::set<std::string> names;
     for (const Kernel& kernel : all_kernels()) EXPECT_TRUE(names.insert(kernel.name).second) << kernel.name;
-    for (const char* family : {"reference/", "capture/", "march/", "sweep/", "compress/", "build/", "lookup/", "load/"}) {
+    for (const char* family :
+         {"reference/", "capture/", "march/", "sweep/", "compress/", "build/", "lookup/", "load/"}) {
         const auto first = names.lower_bound(family);
         EXPECT_TRUE(first != names.end() && starts_with(*first, family)) << family;
     }
