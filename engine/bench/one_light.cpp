@@ -65,20 +65,27 @@ OneLight::OneLight(const nlohmann::json& document, const RunOptions& options, co
     if (!scenario_->scene.objects.empty()) casters_ = std::make_unique<rays::Tracer>(scenario_->scene, true);
 }
 
-void OneLight::capture(std::span<Contender> contenders, const ProgressCallback& progress, const Visit& visit) const {
+// Rays are captured only while `visit` asks for them, which must be once.
+void OneLight::capture(std::span<Contender> contenders, const Visit& visit) const {
     const PreparedLight prepared = prepare_light(*scenario_, index_, contenders, options_.limits);
     const rays::Capture capture(scenario_->scene, prepared.view, prepared.layout);
-    const RaySource source(capture, prepared.layout, options_.limits.kept_rays,
-                           stage(progress, "capture", prepared.layout));
+    const RaySource source(capture, prepared.layout);
+    visit(source, prepared);
     if (source.segments() == 0)
         throw Error(ErrorCode::bad_input, light_->where,
                     fmt::format("light \"{}\" sees nothing that casts a shadow", light_->name));
-    visit(source, prepared);
 }
 
 void OneLight::for_each_batch(const std::function<void(RaySource::Batch)>& body,
                               const ProgressCallback& progress) const {
-    capture({}, progress, [&](const RaySource& source, const PreparedLight&) { source.for_each_batch(0, body); });
+    const RaySource::Watch watch = stage(progress, "capture", prepared_.layout);
+    std::size_t done = 0;
+    capture({}, [&](const RaySource& source, const PreparedLight&) {
+        source.for_each_batch(0, [&](RaySource::Batch batch) {
+            body(batch);
+            if (watch) watch(done += batch.size());
+        });
+    });
 }
 
 Contender OneLight::build(const document::TechniqueChoice& technique, const ProgressCallback& progress) const {
@@ -86,7 +93,7 @@ Contender OneLight::build(const document::TechniqueChoice& technique, const Prog
     Contender contender =
         make_contender({technique.row->id, techniques::to_json(technique.values).dump(), where}, where);
     const std::span<Contender> contenders(&contender, 1);
-    capture(contenders, progress, [&](const RaySource& source, const PreparedLight& prepared) {
+    capture(contenders, [&](const RaySource& source, const PreparedLight& prepared) {
         build_all(contenders, source, {prepared.layout, prepared.view, casters_.get()}, options_.limits.all,
                   stage(progress, "build", prepared.layout));
     });

@@ -54,7 +54,7 @@ public:
 
 private:
     using Visit = std::function<void(const RaySource& source, const PreparedLight& light)>;
-    void capture(std::span<Contender> contenders, const ProgressCallback& progress, const Visit& visit) const;
+    void capture(std::span<Contender> contenders, const Visit& visit) const;
 
     RunOptions options_;
     ScenarioLoader loader_;

@@ -20,24 +20,36 @@ bool any_light(const rays::LightRays& tile) {
 
 RaySource::RaySource(const rays::Capture& capture, const rays::MapLayout& layout, std::size_t keep_budget,
                      const Watch& watch)
-    : capture_(capture), layout_(layout), budget_(keep_budget) {
+    : capture_(capture), layout_(layout), budget_(keep_budget), single_pass_(false) {
     std::size_t done = 0;
     Stopwatch stopwatch;
     capture_and_keep(0, [&](std::vector<rays::LightRays>& batch) {
         seconds_ += stopwatch.seconds();
-        for (const rays::LightRays& tile : batch) {
-            rays_ += tile.rays();
-            segments_ += tile.segments();
-            bytes_ += tile.bytes();
-            translucent_ = translucent_ || any_light(tile);
-        }
+        count(batch);
         if (watch) watch(done += batch.size());
         stopwatch = {};
     });
 }
 
+RaySource::RaySource(const rays::Capture& capture, const rays::MapLayout& layout)
+    : capture_(capture), layout_(layout), budget_(0), single_pass_(true) {}
+
+void RaySource::count(Batch batch) const {
+    for (const rays::LightRays& tile : batch) {
+        rays_ += tile.rays();
+        segments_ += tile.segments();
+        bytes_ += tile.bytes();
+        translucent_ = translucent_ || any_light(tile);
+    }
+}
+
 void RaySource::for_each_batch(int apron, const std::function<void(Batch)>& body) const {
-    if (kept(apron))
+    if (single_pass_)
+        capture_all(apron, [&](std::vector<rays::LightRays>& batch) {
+            count(batch);
+            body(batch);
+        });
+    else if (kept(apron))
         body(tiles_.at(apron));
     else if (too_large_.contains(apron))
         capture_all(apron, body);

@@ -21,6 +21,8 @@ public:
 
     // Captures every tile once, in parallel, and counts rays, segments and bytes. Keeps a reference to `capture`.
     RaySource(const rays::Capture& capture, const rays::MapLayout& layout, std::size_t keep_budget, const Watch& watch);
+    // For a single pass: keeps no tiles, and counts them when for_each_batch captures them.
+    RaySource(const rays::Capture& capture, const rays::MapLayout& layout);
 
     // Calls body with the tiles of the map, each once, in order: all at once if they are kept, otherwise a few at a
     // time. Tiles are captured in parallel, before a call of body and never during it. Each tile has `apron` more
@@ -39,15 +41,17 @@ private:
     using Visit = std::function<void(std::vector<rays::LightRays>& batch)>;
     void capture_all(int apron, const Visit& visit) const;
     void capture_and_keep(int apron, const Visit& visit) const;
+    void count(Batch batch) const;
 
     const rays::Capture& capture_;
     rays::MapLayout layout_;
     mutable std::map<int, std::vector<rays::LightRays>> tiles_;  // kept tiles, by apron
     mutable std::set<int> too_large_;                            // aprons whose tiles do not fit
     mutable std::size_t budget_;                                 // bytes that may still be kept
-    bool translucent_ = false;
-    std::uint64_t rays_ = 0, segments_ = 0, bytes_ = 0;
+    mutable bool translucent_ = false;
+    mutable std::uint64_t rays_ = 0, segments_ = 0, bytes_ = 0;
     double seconds_ = 0.0;
+    const bool single_pass_;
 };
 
 }  // namespace shadowbench::bench

@@ -51,6 +51,15 @@ void find_submission(const std::vector<T>& found, Less less, LightRays& tile) {
     }
 }
 
+// Whether they are in order as they are: ray after ray, each from front to back, none at one depth.
+bool are_sorted(const std::vector<SegmentHits::Hit>& hits) {
+    for (std::size_t h = 1; h < hits.size(); ++h)
+        if (hits[h].ray < hits[h - 1].ray ||
+            (hits[h].ray == hits[h - 1].ray && !(hits[h].z_front > hits[h - 1].z_front)))
+            return false;
+    return true;
+}
+
 }  // namespace
 
 void refuse_hits() {
@@ -82,18 +91,22 @@ void sort_hits(const SurfaceHits& hits, std::size_t rays, bool submission, Light
 
 void sort_hits(const SegmentHits& hits, std::size_t rays, bool submission, LightRays& tile) {
     count(hits, rays, tile.begin);
-    thread_local std::vector<SegmentHits::Hit> sorted;
-    sorted.resize(hits.hits.size());
-    std::vector<std::uint32_t> next(tile.begin.begin(), tile.begin.end() - 1);
-    for (const auto& hit : hits.hits) sorted[next[hit.ray]++] = hit;
+    const bool in_order = are_sorted(hits.hits);  // as the hits of one volume
+    thread_local std::vector<SegmentHits::Hit> scattered;
     const auto key = [](const SegmentHits::Hit& h) {
         return std::tie(h.z_front, h.z_back, h.transmittance[0], h.transmittance[1], h.transmittance[2]);
     };
     const auto less = [&](const SegmentHits::Hit& a, const SegmentHits::Hit& b) { return key(a) < key(b); };
+    if (!in_order) {
+        scattered.resize(hits.hits.size());
+        std::vector<std::uint32_t> next(tile.begin.begin(), tile.begin.end() - 1);
+        for (const auto& hit : hits.hits) scattered[next[hit.ray]++] = hit;
+    }
+    const std::vector<SegmentHits::Hit>& sorted = in_order ? hits.hits : scattered;
     if (submission) find_submission(sorted, less, tile);
+    for (std::size_t r = 0; r < rays && !in_order; ++r)
+        sort_ray(scattered.data() + tile.begin[r], scattered.data() + tile.begin[r + 1], less);
     bool media = false;
-    for (std::size_t r = 0; r < rays; ++r)
-        sort_ray(sorted.data() + tile.begin[r], sorted.data() + tile.begin[r + 1], less);
     for (const auto& hit : sorted) media |= hit.z_back > hit.z_front;
 
     const std::size_t channels = tile.channels;

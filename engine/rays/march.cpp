@@ -11,8 +11,6 @@
 namespace shadowbench::rays {
 namespace {
 
-constexpr int block_size = 8;
-
 using base::Vec3d;
 using base::Vec3i;
 
@@ -60,59 +58,11 @@ private:
 
 }  // namespace
 
-VolumeMarcher::VolumeMarcher(const scene::GridVolume& volume) : volume_(volume) {
-    // Block b holds the interpolation cells whose lower corner index + 1 lies in [8 b, 8 b + 8); indices run from -1 to
-    // size - 1.
-    blocks_ = {volume.size.x / block_size + 1, volume.size.y / block_size + 1, volume.size.z / block_size + 1};
-    occupied_.assign(static_cast<std::size_t>(blocks_.x) * blocks_.y * blocks_.z, 0);
-    std::size_t v = 0;
-    for (int z = 0; z < volume.size.z; ++z)
-        for (int y = 0; y < volume.size.y; ++y)
-            for (int x = 0; x < volume.size.x; ++x, ++v) {
-                if (volume.density[v] <= 0.0f) continue;
-                // A voxel is a corner of the cells at its own index and at the index below, in each axis.
-                for (int bz = z / block_size; bz <= (z + 1) / block_size; ++bz)
-                    for (int by = y / block_size; by <= (y + 1) / block_size; ++by)
-                        for (int bx = x / block_size; bx <= (x + 1) / block_size; ++bx)
-                            occupied_[(static_cast<std::size_t>(bz) * blocks_.y + by) * blocks_.x + bx] = 1;
-            }
-}
+VolumeMarcher::VolumeMarcher(const scene::GridVolume& volume)
+    : volume_(volume), voxels_{volume.density.data(), volume.size.x, volume.size.y, volume.size.z}, blocks_(volume) {}
 
-// Trilinear at `index` = voxel coordinates (voxel centres at whole numbers) inside the box. The box ends half a voxel
-// outside the outermost centres, where the outermost value holds.
 double VolumeMarcher::density(const Vec3d& index) const {
-    const Vec3i size = volume_.size;
-    const auto cell = [](double place, int count) {  // floor, for positions >= -1
-        return std::min(static_cast<int>(place + 1.0), count) - 1;
-    };
-    const int x = cell(index.x, size.x), y = cell(index.y, size.y), z = cell(index.z, size.z);
-    const int x0 = std::max(x, 0), x1 = std::min(x + 1, size.x - 1);
-    const int y0 = std::max(y, 0), y1 = std::min(y + 1, size.y - 1);
-    const int z0 = std::max(z, 0), z1 = std::min(z + 1, size.z - 1);
-    const double fx = index.x - x, fy = index.y - y, fz = index.z - z;
-    const float* d = volume_.density.data();
-    const auto row = [&](int yy, int zz) {
-        const float* r = d + (static_cast<std::size_t>(zz) * size.y + yy) * size.x;
-        return r[x0] + fx * (static_cast<double>(r[x1]) - r[x0]);
-    };
-    const double r00 = row(y0, z0), r01 = row(y0, z1);
-    const double a = r00 + fy * (row(y1, z0) - r00), b = r01 + fy * (row(y1, z1) - r01);
-    return std::max(a + fz * (b - a), 0.0);
-}
-
-// If the block around `index` is empty, the step of t to where the ray leaves it; otherwise 0.
-double VolumeMarcher::empty_ahead(const Vec3d& index, const Vec3d& slope) const {
-    std::size_t block = 0;
-    double ahead = std::numeric_limits<double>::infinity();
-    for (int a = 2; a >= 0; --a) {
-        const int b = std::clamp(static_cast<int>(index[a] + 1.0) / block_size, 0, blocks_[a] - 1);
-        block = block * blocks_[a] + b;
-        if (slope[a] != 0.0) {
-            const double wall = (slope[a] > 0.0 ? b + 1 : b) * block_size - 1;
-            ahead = std::min(ahead, (wall - index[a]) / slope[a]);
-        }
-    }
-    return occupied_[block] ? 0.0 : ahead;
+    return density_at(voxels_, index.x, index.y, index.z);
 }
 
 bool VolumeMarcher::enter(const Vec3d& world_origin, const Vec3d& world_direction, double t_min, double t_max,
@@ -148,21 +98,23 @@ void VolumeMarcher::march(const Vec3d& origin, const Vec3d& direction, double sc
     if (!enter(origin, direction, t_min, t_max, way)) return;
     const double step = volume_.step / scale;
     const auto steps = static_cast<std::int64_t>(std::max(1.0, std::ceil(way.length / step)));
-    const auto place = [&](std::int64_t i) { return i >= steps ? way.length : static_cast<double>(i) * step; };
+    const auto place = [&](std::int64_t i) { return std::min(static_cast<double>(i) * step, way.length); };
 
     Joiner joiner(way.t_min, out);
     double before = -1.0;  // density at the step's start; below 0: not known
     for (std::int64_t i = 0; i < steps; ++i) {
-        const double s = place(i);
+        double s = place(i);
         if (before <= 0.0) {
             const Vec3d index = way.start + way.slope * s;
-            if (const double ahead = empty_ahead(index, way.slope); ahead > 0.0) {  // skip whole steps in the block
+            if (const double ahead = blocks_.empty_ahead(index, way.slope); ahead > 0.0) {
                 joiner.gap(s);
-                i = std::max(i, static_cast<std::int64_t>((s + ahead) / step) - 1);
+                const double last = std::floor((s + ahead) / step);  // of the steps that start in empty blocks
+                if (last >= static_cast<double>(steps)) break;
+                i = std::max(i, static_cast<std::int64_t>(last));
+                s = place(i);
                 before = -1.0;
-                continue;
             }
-            if (before < 0.0) before = density(index);
+            if (before < 0.0) before = density(way.start + way.slope * s);
         }
         const double next = place(i + 1);
         const double behind = density(way.start + way.slope * next);
@@ -211,7 +163,7 @@ void VolumeMarcher::for_each_cell(const Way& way, const Visit& visit) const {
         const double next = std::min({way.length, reach[0], reach[1], reach[2]});
         if (empty) {
             const double middle = 0.5 * (s + next);
-            const double end = middle + empty_ahead(way.start + way.slope * middle, way.slope);
+            const double end = middle + blocks_.empty_ahead(way.start + way.slope * middle, way.slope);
             if (end > next) {
                 s = end;
                 stand(s);

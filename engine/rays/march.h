@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "rays/grid_density.h"
+#include "rays/voxel_blocks.h"
 
 namespace shadowbench::scene {
 struct GridVolume;
@@ -18,6 +20,16 @@ namespace shadowbench::rays {
 struct MediumSegment {
     float front, back;
     double depth;
+};
+
+// A segment that transmits so much.
+struct MediumStep {
+    float front, back, transmittance;
+};
+
+struct WorldRay {
+    base::Vec3d origin, direction;
+    double scale;
 };
 
 // A grid prepared for rays: knows which blocks of voxels are empty. Rays are in the world; a grid that is turned or
@@ -40,12 +52,18 @@ public:
     void march_cells(const base::Vec3d& origin, const base::Vec3d& direction, double scale, double t_min, double t_max,
                      std::vector<MediumSegment>& out) const;
 
+    // The same as march, for up to side_by_side rays at once, and what StepRounding makes of the depths of each ray:
+    // the steps that transmit less than 1. `out` is replaced. Returns false if the rays must be marched one by one:
+    // where steps are shorter than floats can tell, or darker than a float can hold.
+    bool march_side_by_side(std::span<const WorldRay> rays, double t_min, double t_max, float extinction,
+                            Lanes<std::vector<MediumStep>>& out) const;
+
     // The exact optical depth of one unit of extinction from t_min to each value of `t`, which must ascend: depth[i]
     // belongs to t[i], which may be inside a cell. The relative error is that of double sums over the cells crossed.
     void optical_depths(const base::Vec3d& origin, const base::Vec3d& direction, double scale, double t_min,
                         std::span<const double> t, std::span<double> depth) const;
 
-    std::size_t bytes() const { return occupied_.capacity(); }
+    std::size_t bytes() const { return blocks_.bytes(); }
 
 private:
     // A ray inside the box: voxel coordinates start + slope * s, s in [0, length], at t = t_min + s.
@@ -57,13 +75,12 @@ private:
                Way& way) const;
     double density(const base::Vec3d& index) const;
     double integral(const Way& way, double from, double to) const;
-    double empty_ahead(const base::Vec3d& index, const base::Vec3d& slope) const;
     template <class Visit>
     void for_each_cell(const Way& way, const Visit& visit) const;
 
     const scene::GridVolume& volume_;
-    base::Vec3i blocks_;
-    std::vector<unsigned char> occupied_;  // block_size^3 cells per block; 1: some corner of them has density
+    Voxels voxels_;
+    VoxelBlocks blocks_;
 };
 
 // The part of the ray inside a sphere, before clipping; returns false if the ray misses it.

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/vec.h"
+#include "rays/exp_minus.h"
 
 namespace shadowbench::rays {
 
@@ -25,7 +26,7 @@ public:
     float transmittance(int channel, double depth) {
         double& rest = rest_[static_cast<std::size_t>(channel)];
         depth += rest;
-        const double exact = std::exp(-depth);
+        const double exact = exp_minus(std::min(depth, most_depth));
         const float rounded = std::min(static_cast<float>(exact), 1.0f);
         rest = rounded == 1.0f ? depth : (rounded - exact) / exact;  // the logarithm of their ratio, to first order
         return rounded;

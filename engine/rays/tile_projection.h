@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -206,29 +208,56 @@ private:
     void project(const Prepared& p, const scene::GridVolume&) {
         if constexpr (std::is_same_v<Sink, SegmentHits>) {
             if constexpr (moving) {
-                for (const TimedRay& ray : grid_.timed) march(p, ray.ray, ray.x, ray.y, p.motion * ray.time);
+                for (const TimedRay& ray : grid_.timed) add_ray(p, ray.ray, ray.x, ray.y, p.motion * ray.time);
             } else {
-                for (int j = 0; j < grid_.ny; ++j)
-                    for (int i = 0; i < grid_.nx; ++i) {
-                        const std::size_t sample = static_cast<std::size_t>(j) * grid_.nx + i;
-                        march(p, grid_.ray_row[j] + grid_.ray_column[i], grid_.x[sample], grid_.y[sample], {0, 0, 0});
-                    }
+                // Pixel after pixel, in the order of the rays' numbers: then there is nothing to sort.
+                for (int y = 0; y < grid_.ny; y += grid_.samples_y)
+                    for (int x = 0; x < grid_.nx; x += grid_.samples_x)
+                        for (int j = y; j < y + grid_.samples_y; ++j)
+                            for (int i = x; i < x + grid_.samples_x; ++i) {
+                                const std::size_t sample = static_cast<std::size_t>(j) * grid_.nx + i;
+                                add_ray(p, grid_.ray_row[j] + grid_.ray_column[i], grid_.x[sample], grid_.y[sample],
+                                        {0, 0, 0});
+                            }
             }
+            march(p);
         }
     }
 
-    // Marches through a volume at its position in the scene: the ray moves the opposite way instead.
-    void march(const Prepared& p, std::uint32_t ray, double x, double y, const Vec3d& moved) {
-        check_hits(sink_);
+    // Adds a ray to those that are marched together, through a volume at its position in the scene: the ray moves the
+    // opposite way instead.
+    void add_ray(const Prepared& p, std::uint32_t ray, double x, double y, const Vec3d& moved) {
         const ViewLine line = view_line(view_, x, y);
         const Vec3d& d = line.direction;
-        segments_.clear();
-        const Vec3d origin = to_world(view_, line.origin - moved);
-        const Vec3d direction = view_.right * d.x + view_.up * d.y + view_.forward * d.z;
-        const auto cut = cells_ ? &VolumeMarcher::march_cells : &VolumeMarcher::march;
-        (*p.marcher.*cut)(origin, direction, line.scale, std::max(view_.z_near, -1e30), 1e30, segments_);
-        StepRounding rounding;
-        for (const MediumSegment& s : segments_) medium(ray, s.front, s.back, s.depth, p.object->extinction, rounding);
+        world_rays_[together_] = {to_world(view_, line.origin - moved),
+                                  view_.right * d.x + view_.up * d.y + view_.forward * d.z, line.scale};
+        ray_numbers_[together_] = ray;
+        if (++together_ == side_by_side) march(p);
+    }
+
+    // Marches the rays that were added.
+    void march(const Prepared& p) {
+        check_hits(sink_);
+        const std::span<const WorldRay> rays(world_rays_.data(), std::exchange(together_, 0));
+        const double z_near = std::max(view_.z_near, -1e30);
+        const base::Vec3f& extinction = p.object->extinction;
+        const bool grey = extinction[0] == extinction[1] && extinction[0] == extinction[2];
+        if (!cells_ && grey && p.marcher->march_side_by_side(rays, z_near, 1e30, extinction[0], steps_)) {
+            for (std::size_t r = 0; r < rays.size(); ++r)
+                for (const MediumStep& step : steps_[r]) {
+                    const float t[3] = {step.transmittance, step.transmittance, step.transmittance};
+                    sink_.medium(ray_numbers_[r], step.front, step.back, t);
+                }
+            return;
+        }
+        for (std::size_t r = 0; r < rays.size(); ++r) {
+            segments_.clear();
+            const auto cut = cells_ ? &VolumeMarcher::march_cells : &VolumeMarcher::march;
+            (*p.marcher.*cut)(rays[r].origin, rays[r].direction, rays[r].scale, z_near, 1e30, segments_);
+            StepRounding rounding;
+            for (const MediumSegment& s : segments_)
+                medium(ray_numbers_[r], s.front, s.back, s.depth, extinction, rounding);
+        }
     }
 
     const LightView& view_;
@@ -238,6 +267,10 @@ private:
     Sink& sink_;
     const double longest_;  // at least every ray's length per depth in this tile
     std::vector<MediumSegment> segments_;
+    Lanes<WorldRay> world_rays_;  // to be marched together
+    Lanes<std::uint32_t> ray_numbers_;
+    std::size_t together_ = 0;
+    Lanes<std::vector<MediumStep>> steps_;
 };
 
 }  // namespace shadowbench::rays

@@ -49,6 +49,7 @@ Kernels all_kernels();
 // The families, each in its own file.
 void add_reference_kernels(Kernels& kernels);
 void add_capture_kernels(Kernels& kernels);
+void add_march_kernels(Kernels& kernels);
 void add_sweep_kernels(Kernels& kernels);
 void add_compression_kernels(Kernels& kernels);
 void add_insert_kernels(Kernels& kernels);

@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "base/simd_path.h"
+#include "rays/exp_minus.h"
+#include "rays/medium_floats.h"
 #include "scene/scene.h"
 
 namespace shadowbench::rays {
@@ -93,6 +96,60 @@ TEST(March, SkippingEmptyBlocksLosesNothing) {
         for (std::size_t s = 1; s < segments.size(); ++s) EXPECT_GE(segments[s].front, segments[s - 1].back);
     }
     EXPECT_EQ(hit, 60);
+}
+
+// Trilinear, without blocks.
+double plain_density(const scene::GridVolume& g, const base::Vec3d& point) {
+    double value = 0.0, place[3];
+    for (int a = 0; a < 3; ++a)
+        place[a] =
+            std::clamp((point[a] - g.lower[a]) / (g.upper[a] - g.lower[a]) * g.size[a] - 0.5, 0.0, g.size[a] - 1.0);
+    for (int c = 0; c < 8; ++c) {
+        double weight = 1.0;
+        int at[3];
+        for (int a = 0; a < 3; ++a) {
+            const int low = static_cast<int>(place[a]);
+            weight *= c >> a & 1 ? place[a] - low : 1 - place[a] + low;
+            at[a] = std::min(low + (c >> a & 1), g.size[a] - 1);
+        }
+        value += weight * g.density[(static_cast<std::size_t>(at[2]) * g.size.y + at[1]) * g.size.x + at[0]];
+    }
+    return value;
+}
+
+// Otherwise the step that leads from empty space into density is lost.
+TEST(March, IsTheTrapezoidRuleOverAllSteps) {
+    base::Random random(4);
+    scene::GridVolume g = grid({40, 37, 51}, 0.3);
+    for (int i = 0; i < 60; ++i) g.density[random.below(g.density.size())] = static_cast<float>(random.uniform(1, 3));
+    const VolumeMarcher marcher(g);
+    int met = 0;
+    for (int i = 0; i < 300; ++i) {
+        base::Vec3d d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        d.normalize();
+        std::size_t v = random.below(g.density.size());
+        while (g.density[v] == 0.0f) v = (v + 1) % g.density.size();
+        const base::Vec3d voxel(static_cast<double>(v % 40) + 0.5, static_cast<double>(v / 40 % 37) + 0.5,
+                                static_cast<double>(v / 40 / 37) + 0.5);
+        base::Vec3d target;
+        for (int a = 0; a < 3; ++a) target[a] = g.lower[a] + voxel[a] / g.size[a] * (g.upper[a] - g.lower[a]);
+        const base::Vec3d origin = target - d * 12.0;
+        double front = 0.0, back = 1e30, sum = 0.0;
+        for (int a = 0; a < 3; ++a) {
+            const double t0 = (g.lower[a] - origin[a]) / d[a], t1 = (g.upper[a] - origin[a]) / d[a];
+            front = std::max(front, std::min(t0, t1));
+            back = std::min(back, std::max(t0, t1));
+        }
+        for (int k = 0; front + k * 0.3 < back; ++k) {
+            const double from = front + k * 0.3, to = std::min(from + 0.3, back);
+            sum += 0.5 * (plain_density(g, origin + d * from) + plain_density(g, origin + d * to)) * (to - from);
+        }
+        std::vector<MediumSegment> segments;
+        marcher.march(origin, d, 1.0, 0, 1e30, segments);
+        EXPECT_NEAR(depth_of(segments), sum, 1e-9) << "ray " << i;
+        met += sum > 0.0;
+    }
+    EXPECT_GT(met, 200);
 }
 
 TEST(March, StepsAreRegularAndShareTheirEnds) {
@@ -298,6 +355,72 @@ TEST(March, ABoxThinnerThanAFloatIsNotLost) {
     ASSERT_EQ(segments.size(), 1u);
     EXPECT_NEAR(segments[0].depth, 1e-6, 1e-12);
     EXPECT_LT(segments[0].front, segments[0].back);
+}
+
+// Neighbours end, miss and cross empty space at different steps: what one ray meets may not reach another.
+TEST(March, SideBySideIsOneByOneToTheBitWithAllInstructions) {
+    base::Random random(31);
+    std::size_t found = 0;
+    for (const scene::GridVolume& g : odd_grids()) {
+        const VolumeMarcher marcher(g);
+        for (int i = 0; i < 20; ++i) {
+            const Line line = line_through(g, random);
+            std::vector<WorldRay> rays(1 + random.below(side_by_side));
+            for (WorldRay& ray : rays) {
+                const double spread = i % 2 ? 0.05 : 2.0;
+                const base::Vec3d aside(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+                ray = {line.origin + aside * spread, line.direction, 1.0 + random.uniform()};
+            }
+            const float extinction = i % 3 ? 1.5f : 1e-7f;
+            for (const base::SimdPath path : base::simd_paths()) {
+                base::set_simd_path(path);
+                Lanes<std::vector<MediumStep>> steps;
+                ASSERT_EQ(marcher.march_side_by_side(rays, 0.0, 1e30, extinction, steps), g.size.x > 1);
+                for (std::size_t r = 0; r < rays.size() && g.size.x > 1; ++r) {
+                    std::vector<MediumSegment> segments;
+                    marcher.march(rays[r].origin, rays[r].direction, rays[r].scale, 0.0, 1e30, segments);
+                    StepRounding rounding;
+                    std::size_t s = 0;
+                    for (const MediumSegment& segment : segments) {
+                        const float t = rounding.transmittance(0, segment.depth * static_cast<double>(extinction));
+                        if (t == 1.0f) continue;
+                        ASSERT_LT(s, steps[r].size());
+                        EXPECT_EQ(steps[r][s].front, segment.front);
+                        EXPECT_EQ(steps[r][s].back, segment.back);
+                        EXPECT_EQ(steps[r][s++].transmittance, t);
+                    }
+                    EXPECT_EQ(s, steps[r].size());
+                    found += s;
+                }
+            }
+            base::set_simd_path(base::simd_paths().back());
+        }
+    }
+    EXPECT_GT(found, 1000u);
+}
+
+TEST(March, SideBySideLeavesShortAndDarkStepsToTheOtherWay) {
+    scene::GridVolume g = grid({4, 4, 4}, 0.25);
+    for (float& d : g.density) d = 1;
+    Lanes<std::vector<MediumStep>> steps;
+    const auto march = [&](double distance, float extinction) {
+        const WorldRay ray{{0, 0, -distance}, {0, 0, 1}, 1.0};
+        return VolumeMarcher(g).march_side_by_side({&ray, 1}, 0.0, 1e30, extinction, steps);
+    };
+    EXPECT_TRUE(march(10, 1.0f));
+    EXPECT_EQ(steps[0].size(), 24u);
+    EXPECT_FALSE(march(4e6, 1.0f)) << "a quarter is less than a float there";
+    EXPECT_FALSE(march(10, 400.0f)) << "a step of depth 100 has no float transmittance";
+}
+
+TEST(ExpMinus, IsTheExponentialToTheLastPlace) {
+    base::Random random(6);
+    for (int i = 0; i < 100'000; ++i) {
+        const double x = i % 2 ? random.uniform(-1.0, most_depth) : std::pow(10.0, random.uniform(-20.0, 0.0));
+        const long double exact = std::exp(-static_cast<long double>(x));
+        ASSERT_NEAR(static_cast<double>(exp_minus(x) / exact), 1.0, 0x1p-52) << x;
+    }
+    EXPECT_EQ(exp_minus(0.0), 1.0);
 }
 
 TEST(SphereStretch, KeepsItsDigitsFarAway) {

@@ -9,6 +9,7 @@
 #include "techniques/deep/deep_map.h"
 #include "techniques/deep/footprint.h"
 #include "techniques/deep/mip.h"
+#include "techniques/deep/pixel_run.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -67,6 +68,35 @@ curves::Curve exact_mean(const std::vector<curves::Curve>& functions, const rays
     curves::Curve mean;
     curves::weighted_sum(terms, scratch, mean);
     return mean;
+}
+
+// Two bands of two runs. If runs stayed until the level is complete, a map would take twice its memory.
+TEST(DeepMip, ALevelIsPutTogetherWhileItsRunsAreGivenBack) {
+    std::vector<PixelRun> runs(4);
+    const std::uint32_t floats = 1000;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+        runs[r].x0 = r % 2 ? 2 : 0;
+        runs[r].y0 = r / 2 ? 1 : 0;
+        runs[r].width = r % 2 ? 1 : 2;
+        for (int x = 0; x < runs[r].width; ++x) {
+            runs[r].floats.insert(runs[r].floats.end(), floats, static_cast<float>(10 * r) + static_cast<float>(x));
+            runs[r].begin.push_back(static_cast<std::uint32_t>(runs[r].floats.size()));
+        }
+        complete(runs[r]);
+        EXPECT_EQ(runs[r].floats.capacity(), runs[r].floats.size());
+    }
+    std::size_t before = 0, peak = 0;
+    for (const PixelRun& run : runs) before += run.bytes();
+    const DeepLevel level = assemble(3, 2, 1, runs, peak);
+    const float expected[] = {0, 1, 10, 20, 21, 30};
+    for (std::size_t p = 0; p < 6; ++p) {
+        ASSERT_EQ(level.offsets[p + 1] - level.offsets[p], floats);
+        EXPECT_EQ(level.floats[level.offsets[p]], expected[p]);
+        EXPECT_EQ(level.floats[level.offsets[p + 1] - 1], expected[p]);
+    }
+    for (const PixelRun& run : runs) EXPECT_EQ(run.floats.capacity(), 0u);
+    EXPECT_GT(peak, before);
+    EXPECT_LT(peak, before + level.bytes() * 3 / 5) << "one of two bands is held twice";
 }
 
 TEST(DeepMip, SizesGoDownToOnePixel) {

@@ -121,6 +121,8 @@ void DeepMap::add(const rays::LightRays& tile) {
         for (int x = x0; x < x0 + width; ++x)
             append(number, scratch.pixel, make_functions(filter, tile, offset_of, x, y, linearisation(), scratch),
                    rest);
+    complete(runs_[number]);
+    if (!lossless_.empty()) complete(lossless_[number]);
     scratch_bytes_[number] = scratch.bytes();
 }
 
@@ -152,14 +154,15 @@ void DeepMap::put_together(std::size_t scratch_bytes, int width, int height, int
         for (const PixelRun& run : runs) sum += run.bytes();
         return sum;
     };
-    levels.push_back(assemble(width, height, channels, runs_));
-    peak_bytes = scratch_bytes + bytes() + bytes_of(runs_) + bytes_of(lossless_);
+    std::size_t assembling = 0;
+    levels.push_back(assemble(width, height, channels, runs_, assembling));
+    peak_bytes = scratch_bytes + assembling + bytes_of(lossless_);
     runs_ = {};
     if (rule.mip == Mip::none) return;
     std::optional<DeepLevel> uncompressed;
     if (!lossless_.empty()) {
-        uncompressed = assemble(width, height, channels, lossless_);
-        peak_bytes = std::max(peak_bytes, bytes() + bytes_of(lossless_) + uncompressed->bytes());
+        uncompressed = assemble(width, height, channels, lossless_, assembling);
+        peak_bytes = std::max(peak_bytes, bytes() + assembling);
         lossless_ = {};
     }
     const std::size_t working = add_mip_levels(levels, compression, std::move(uncompressed));

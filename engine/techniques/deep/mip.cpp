@@ -79,11 +79,11 @@ std::size_t add_mip_levels(std::vector<DeepLevel>& levels, const Compression& co
                 if (uncompressed) append_lossless(lossless, scratch, functions);
                 append(run, scratch, functions, finer);
             }
-        std::size_t held = run.bytes() + scratch.bytes();
-        levels.push_back(assemble(width, height, channels, {&run, 1}));  // ends the life of `map` and `below`
+        std::size_t held = scratch.bytes() + run.bytes(), assembling = 0;
+        levels.push_back(assemble(width, height, channels, {&run, 1}, assembling));  // ends the life of `map`, `below`
         if (uncompressed) {
-            DeepLevel next = assemble(width, height, channels, {&lossless, 1});
-            held += lossless.bytes() + uncompressed->bytes() + next.bytes();
+            DeepLevel next = assemble(width, height, channels, {&lossless, 1}, assembling);
+            held += assembling + uncompressed->bytes();
             *uncompressed = std::move(next);
         }
         peak = std::max(peak, held);

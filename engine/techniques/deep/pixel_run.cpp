@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include "base/error.h"
 #include "curves/compress_published.h"
 
@@ -65,6 +69,14 @@ void append_three(PixelRun& run, PixelScratch& scratch, const Compression& how) 
     }
 }
 
+// The C library keeps small blocks that were freed, unless it is asked.
+constexpr std::size_t pays_to_return = std::size_t{32} << 20;
+void return_freed_memory() {
+#if defined(__GLIBC__)
+    malloc_trim(0);
+#endif
+}
+
 }  // namespace
 
 std::size_t PixelScratch::bytes() const {
@@ -95,20 +107,29 @@ void append_given(PixelRun& run, PixelScratch& scratch, curves::CurveView functi
     end_pixel(run, false);
 }
 
+void complete(PixelRun& run) {
+    run.begin.shrink_to_fit();
+    run.floats.shrink_to_fit();
+    run.coloured.shrink_to_fit();
+}
+
 void append_lossless(PixelRun& run, PixelScratch& scratch, int functions) {
     for (std::size_t c = 0; c < static_cast<std::size_t>(functions); ++c) scratch.kept[c] = scratch.function[c];
     append(run, scratch, functions, {});
     for (std::size_t c = 0; c < static_cast<std::size_t>(functions); ++c) scratch.function[c].swap(scratch.kept[c]);
 }
 
-DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun> runs) {
+DeepLevel assemble(int width, int height, int channels, std::span<PixelRun> runs, std::size_t& peak_bytes) {
     DeepLevel level;
     level.width = width;
     level.height = height;
     level.channels = channels;
     const std::size_t pixels = static_cast<std::size_t>(width) * height;
-    std::size_t total = 0;
-    for (const PixelRun& run : runs) total += run.floats.size();
+    std::size_t total = 0, held = 0;
+    for (const PixelRun& run : runs) {
+        total += run.floats.size();
+        held += run.bytes();
+    }
     if (total > std::numeric_limits<std::uint32_t>::max())
         throw base::Error(
             base::ErrorCode::bad_input, "/techniques",
@@ -125,13 +146,32 @@ DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun
             }
         });
     for (std::size_t p = 0; p < pixels; ++p) level.offsets[p + 1] += level.offsets[p];
-    level.floats.assign(total + DeepLevel::padding, 0.0f);
-    for (const PixelRun& run : runs)
-        for_each_row(level, run, [&](std::size_t to, std::size_t from) {
-            std::copy(run.floats.begin() + run.begin[from],
-                      run.floats.begin() + run.begin[from + static_cast<std::size_t>(run.width)],
-                      level.floats.begin() + level.offsets[to]);
-        });
+    // The system gives pages to the level as they are written, so the runs and the level never fill memory both.
+    level.floats.reserve(total + DeepLevel::padding);
+    held += level.bytes() - level.floats.capacity() * sizeof(float);
+    peak_bytes = held;
+    std::size_t freed = 0;
+    for (std::size_t first = 0, last = 0; first < runs.size(); first = last) {
+        std::size_t band = 0;
+        for (; last < runs.size() && runs[last].y0 == runs[first].y0; ++last) band += runs[last].floats.size();
+        level.floats.resize(level.floats.size() + band);
+        peak_bytes = std::max(peak_bytes, held + level.floats.size() * sizeof(float));
+        for (PixelRun& run : runs.subspan(first, last - first)) {
+            for_each_row(level, run, [&](std::size_t to, std::size_t from) {
+                std::copy(run.floats.begin() + run.begin[from],
+                          run.floats.begin() + run.begin[from + static_cast<std::size_t>(run.width)],
+                          level.floats.begin() + level.offsets[to]);
+            });
+            held -= run.bytes();
+            freed += run.bytes();
+            run = {};
+        }
+        if (freed >= pays_to_return) {
+            return_freed_memory();
+            freed = 0;
+        }
+    }
+    level.floats.resize(total + DeepLevel::padding);
     return level;
 }
 

@@ -60,8 +60,13 @@ void append_given(PixelRun& run, PixelScratch& scratch, curves::CurveView functi
 // The same without loss, and the scratch keeps its functions.
 void append_lossless(PixelRun& run, PixelScratch& scratch, int functions);
 
-// Puts together runs that fill the level. Throws Error{bad_input} if it would hold more than 2^32 floats.
-DeepLevel assemble(int width, int height, int channels, std::span<const PixelRun> runs);
+// Gives back the memory that a run with all its pixels does not need.
+void complete(PixelRun& run);
+
+// Puts together runs that fill the level: those of the first rows of pixels, from left to right, then those of the rows
+// behind them. It empties each run once it is copied. `peak_bytes` becomes the most that level and runs hold together.
+// Throws Error{bad_input} if the level would hold more than 2^32 floats.
+DeepLevel assemble(int width, int height, int channels, std::span<PixelRun> runs, std::size_t& peak_bytes);
 
 // The function of a channel; `out` is replaced.
 void read_function(const DeepLevel& level, std::size_t pixel, int channel, curves::Curve& out);

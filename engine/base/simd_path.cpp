@@ -1,10 +1,10 @@
-#include "techniques/store/simd_path.h"
+#include "base/simd_path.h"
 
 #include <array>
 #include <atomic>
 #include <cstddef>
 
-namespace shadowbench::techniques {
+namespace shadowbench::base {
 namespace {
 
 constexpr std::array all_paths{SimdPath::baseline, SimdPath::avx2, SimdPath::avx512};
@@ -40,4 +40,4 @@ void set_simd_path(SimdPath chosen) {
     path().store(chosen, std::memory_order_relaxed);
 }
 
-}  // namespace shadowbench::techniques
+}  // namespace shadowbench::base
