@@ -27,15 +27,15 @@ struct HairStrip {
     int j_low, j_high;
 };
 
-// How far on the view plane a segment can reach from its axis; infinite if it comes so near the light that slopes mean
-// nothing. Seen from the light, a sphere of angular radius alpha around a point at the angle theta from the light's
-// axis reaches from tan theta to tan(theta + alpha) outwards, and less far to all other sides.
+// How far on the view plane a segment behind the light can reach from its axis; infinite if it is so near that slopes
+// mean nothing. Seen from the light, a sphere of angular radius alpha around a point at the angle theta from the
+// light's axis reaches from tan theta to tan(theta + alpha) outwards, and less far to all other sides.
 template <bool perspective>
-double reach_of(const HairSegment& s, double z_near) {
+double reach_of(const HairSegment& s) {
     if constexpr (!perspective) return std::max(s.radius_a, s.radius_b);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double az = s.a.z, bz = s.b.z, front_a = az - s.radius_a, front_b = bz - s.radius_b;
-    if (std::min(front_a, front_b) <= 0.25 * z_near) return infinity;
+    if (!(std::min(front_a, front_b) > 0.0)) return infinity;
     // At least tan alpha and tan^2 theta everywhere on the segment: both are greatest at an end.
     const double spread = std::max(s.radius_a / front_a, s.radius_b / front_b);
     const auto square = [](const base::Vec3f& p, double z) {
@@ -50,8 +50,9 @@ double reach_of(const HairSegment& s, double z_near) {
 template <bool perspective>
 bool find_strip(const HairSegment& s, const TileGrid& grid, double z_near, HairStrip& strip) {
     constexpr double far = 1e9;  // cells: beyond, rounding counts
-    const double reach = reach_of<perspective>(s, z_near);
-    if (perspective && !std::isfinite(reach) && std::max(s.a.z, s.b.z) <= z_near) return false;
+    const bool around_light = perspective && std::min(s.a.z - s.radius_a, s.b.z - s.radius_b) <= 0.25 * z_near;
+    if (around_light && std::max(s.a.z, s.b.z) <= z_near) return false;
+    const double reach = around_light ? std::numeric_limits<double>::infinity() : reach_of<perspective>(s);
     const double per_za = perspective ? 1.0 / s.a.z : 1.0, per_zb = perspective ? 1.0 / s.b.z : 1.0;
     const double ax = grid.cells_x(s.a.x * per_za), ay = grid.cells_y(s.a.y * per_za);
     const double bx = grid.cells_x(s.b.x * per_zb), by = grid.cells_y(s.b.y * per_zb);
