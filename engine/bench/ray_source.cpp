@@ -57,15 +57,23 @@ void RaySource::for_each_batch(int apron, const std::function<void(Batch)>& body
         capture_and_keep(apron, body);
 }
 
-// Calls visit with each batch, which it may take.
+// Calls visit with each batch, which it may take. At the end of a batch threads wait for its last tile. So where there
+// are several, a batch has many tiles: as many as `most_bytes` hold, if all are as large as the largest so far.
 void RaySource::capture_all(int apron, const Visit& visit) const {
-    const int in_flight = 4 * base::thread_count();  // several per thread, so that uneven tiles leave no thread idle
+    constexpr std::size_t least = 4, most = 32;  // for each thread
+    constexpr std::size_t most_bytes = std::size_t{64} << 20;
+    const std::size_t threads = static_cast<std::size_t>(base::thread_count());
+    const std::size_t tiles = static_cast<std::size_t>(layout_.tiles());
+    std::size_t in_flight = least * threads, largest = 1;
     std::vector<rays::LightRays> batch;
-    for (int first = 0; first < layout_.tiles(); first += in_flight) {
+    for (std::size_t first = 0; first < tiles;) {
         batch.clear();
-        batch.resize(static_cast<std::size_t>(std::min(in_flight, layout_.tiles() - first)));
+        batch.resize(std::min(in_flight, tiles - first));
         base::parallel_for(batch.size(),
-                           [&](std::size_t i) { batch[i] = capture_.tile(first + static_cast<int>(i), apron); });
+                           [&](std::size_t i) { batch[i] = capture_.tile(static_cast<int>(first + i), apron); });
+        for (const rays::LightRays& tile : batch) largest = std::max(largest, tile.bytes());
+        first += batch.size();
+        if (threads > 1) in_flight = std::clamp(most_bytes / largest, least * threads, most * threads);
         visit(batch);
     }
 }

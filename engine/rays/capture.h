@@ -4,7 +4,7 @@
 //    exactly one of them (homogeneous form in perspective: Olano and Greer, Triangle Scan Conversion using 2D
 //    Homogeneous Coordinates, 1997).
 //  - Hair: ribbons that face the ray with round ends; at a joint the disc around the shared point belongs to the
-//    earlier segment, so a ray crosses a strand once there.
+//    earlier segment, so a ray crosses a strand once there. Only samples near the axis are tested (project_hair.h).
 //  - Moving objects: each ray tests them at their position at the ray's time, with edge functions linear in time.
 //  - Grid volumes: as the layout says, marched at regular steps, joined by the trapezoid rule (Lokovic and Veach 2000,
 //    section 3.2), or cell by cell.

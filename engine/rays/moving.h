@@ -18,7 +18,7 @@ namespace shadowbench::rays {
 // Distances of moved points from a ray.
 template <bool perspective>
 struct MovedRayMetric : RayMetric<perspective> {
-    base::Vec2d offset;
+    Flat<double> offset;
 
     MovedRayMetric(double x, double y, const Vec3d& moved) : RayMetric<perspective>(x, y) {
         if constexpr (perspective)
@@ -26,13 +26,16 @@ struct MovedRayMetric : RayMetric<perspective> {
         else
             offset = {moved.x, moved.y};
     }
-    base::Vec2d flat(const base::Vec3f& p) const { return RayMetric<perspective>::flat(p) + offset; }
+    Flat<double> flat(const base::Vec3f& p) const {
+        const Flat<double> still = RayMetric<perspective>::flat(p);
+        return {still.x + offset.x, still.y + offset.y};
+    }
 
     // Whether the ray surely misses the segment: both ends are on one side of the ray, farther than `reach` (half-width
     // times the ray's length per depth: distances in the plane are longer than those across the ray by at most this
     // factor).
     bool misses(const HairSegment& s, double reach) const {
-        const base::Vec2d a = flat(s.a), b = flat(s.b);
+        const Flat<double> a = flat(s.a), b = flat(s.b);
         return std::min(a.x, b.x) > reach || std::max(a.x, b.x) < -reach || std::min(a.y, b.y) > reach ||
                std::max(a.y, b.y) < -reach;
     }

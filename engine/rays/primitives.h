@@ -3,21 +3,29 @@
 // sample's (x, y) as slope. All tests compute in double, on coordinates stored as float.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/vec.h"
 
 namespace shadowbench::rays {
 
-// Distances of points from a ray, measured across the ray. `flat` is the point's position minus the ray's at that
-// depth.
-template <bool perspective>
-struct RayMetric {
-    double sx = 0, sy = 0;       // slope; 0 if orthographic
-    double inverse_length2 = 1;  // 1 / (1 + slope^2)
-    double px = 0, py = 0;
+// The position of a point minus that of a ray at the point's depth.
+template <class Real>
+struct Flat {
+    Real x, y;
+};
 
-    RayMetric(double x, double y) {
+// Distances of points from a ray, measured across the ray. `Real` is double, or a vector of them for as many rays.
+template <bool perspective, class R = double>
+struct RayMetric {
+    using Real = R;
+    Real sx{}, sy{};       // slope; 0 if orthographic
+    Real inverse_length2;  // 1 / (1 + slope^2)
+    Real px{}, py{};
+
+    RayMetric(const Real& x, const Real& y) {
         if constexpr (perspective) {
             sx = x;
             sy = y;
@@ -25,17 +33,19 @@ struct RayMetric {
         } else {
             px = x;
             py = y;
+            inverse_length2 = Real{} + 1.0;
         }
     }
-    base::Vec2d flat(const base::Vec3f& p) const {
+    Flat<Real> flat(const base::Vec3f& p) const {
+        const double x = p.x, y = p.y, z = p.z;
         if constexpr (perspective)
-            return {p.x - sx * p.z, p.y - sy * p.z};
+            return {x - sx * z, y - sy * z};
         else
-            return {p.x - px, p.y - py};
+            return {x - px, y - py};
     }
-    double along(const base::Vec2d& a) const { return a.x * sx + a.y * sy; }
+    Real along(const Flat<Real>& a) const { return a.x * sx + a.y * sy; }
     // The dot product of the components of a and b across the ray.
-    double dot(const base::Vec2d& a, const base::Vec2d& b) const {
+    Real dot(const Flat<Real>& a, const Flat<Real>& b) const {
         if constexpr (perspective)
             return a.x * b.x + a.y * b.y - along(a) * along(b) * inverse_length2;
         else
@@ -50,26 +60,27 @@ struct HairSegment {
     bool joined;
 };
 
-// The ribbon faces the ray and has round ends. Writes the depth at which the ray passes its axis. The disc around a
-// joint belongs to the earlier segment: the same arithmetic on the same shared point decides for both, so the ray
-// crosses the joint exactly once.
+// The ribbon faces the ray and has round ends. Returns the depth at which the ray passes its axis; minus infinity if it
+// misses the ribbon. The disc around a joint belongs to the earlier segment: the same arithmetic on the same shared
+// point decides for both, so the ray crosses the joint exactly once.
 template <class Metric>
-bool cross_hair(const HairSegment& s, const Metric& ray, double& z) {
-    const base::Vec2d a = ray.flat(s.a), b = ray.flat(s.b);
-    const double ra = s.radius_a, rb = s.radius_b;
-    const bool in_a = ray.dot(a, a) <= ra * ra;
-    if (in_a && s.joined) return false;
-    const base::Vec2d d = b - a;
-    const double length2 = ray.dot(d, d);
-    double u = length2 > 0.0 ? -ray.dot(a, d) / length2 : 0.0;
-    u = u <= 0.0 ? 0.0 : u >= 1.0 ? 1.0 : u;
-    const base::Vec2d nearest = a + d * u;
-    const double radius = ra + (rb - ra) * u;
-    if (!(in_a || ray.dot(b, b) <= rb * rb || ray.dot(nearest, nearest) <= radius * radius)) return false;
-    if (ra == 0.0 && rb == 0.0) return false;
+[[gnu::always_inline]] inline typename Metric::Real hair_depth(const HairSegment& s, const Metric& ray) {
+    using Real = typename Metric::Real;
+    const Real zero{}, one = zero + 1.0, missed = zero - std::numeric_limits<double>::infinity();
+    const Flat<Real> a = ray.flat(s.a), b = ray.flat(s.b), d{b.x - a.x, b.y - a.y};
+    const double ra = s.radius_a, rb = s.radius_b, az = s.a.z, bz = s.b.z;
+    const Real length2 = ray.dot(d, d), along_axis = -ray.dot(a, d) / length2;
+    Real u = length2 > 0.0 ? along_axis : zero;
+    u = u <= 0.0 ? zero : u;
+    u = u >= 1.0 ? one : u;
+    const Flat<Real> nearest{a.x + d.x * u, a.y + d.y * u};
+    const Real radius = ra + (rb - ra) * u;
     // The ray passes the axis beside it, at the axis' depth along the ray.
-    z = s.a.z + (static_cast<double>(s.b.z) - s.a.z) * u + ray.along(nearest) * ray.inverse_length2;
-    return true;
+    const Real z = az + (bz - az) * u + ray.along(nearest) * ray.inverse_length2;
+    Real depth = ray.dot(nearest, nearest) <= radius * radius ? z : missed;
+    depth = ray.dot(b, b) <= rb * rb ? z : depth;
+    depth = ray.dot(a, a) <= ra * ra ? (s.joined ? missed : z) : depth;
+    return ra > 0.0 || rb > 0.0 ? depth : missed;
 }
 
 // A triangle as three edge functions E(x, y) = ex x + ey y + e1 of the sample's view-plane position. Each edge function

@@ -1,9 +1,26 @@
 #include "rays/tile_grid.h"
 
+#include <limits>
+
 #include "rays/pixel_positions.h"
 
 namespace shadowbench::rays {
 namespace {
+
+void add_cells(TileGrid& grid) {
+    grid.ray.resize(grid.x.size());
+    grid.cell_stride = static_cast<std::size_t>(grid.nx) + 3;
+    grid.cell_x.assign(grid.cell_stride * grid.ny, std::numeric_limits<float>::quiet_NaN());
+    grid.cell_y.assign(grid.cell_stride * grid.ny, std::numeric_limits<float>::quiet_NaN());
+    std::size_t s = 0;
+    for (int j = 0; j < grid.ny; ++j)
+        for (int i = 0; i < grid.nx; ++i, ++s) {
+            const std::size_t at = j * grid.cell_stride + i;
+            grid.cell_x[at] = static_cast<float>(grid.cells_x(grid.x[s]));
+            grid.cell_y[at] = static_cast<float>(grid.cells_y(grid.y[s]));
+            grid.ray[s] = grid.ray_row[j] + grid.ray_column[i];
+        }
+}
 
 void add_times(const MapLayout& layout, TileGrid& grid) {
     const std::size_t across = static_cast<std::size_t>(grid.nx / layout.samples_x);
@@ -55,6 +72,7 @@ TileGrid make_tile_grid(const LightView& view, const MapLayout& layout, const Li
     for (int j = 0; j < grid.ny; ++j)
         grid.ray_row[j] =
             (j / layout.samples_y) * tile.width * layout.samples() + (j % layout.samples_y) * layout.samples_x;
+    add_cells(grid);
     if (timed) add_times(layout, grid);
     return grid;
 }

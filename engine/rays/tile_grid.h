@@ -28,6 +28,11 @@ struct TileGrid {
     // the tile's ray in each column and row: ray = ray_row[j] + ray_column[i].
     std::vector<double> x, y;
     std::vector<std::uint32_t> ray_column, ray_row;
+    std::vector<std::uint32_t> ray;  // the same for each sample
+    // x and y in cells of this tile, for readers of four samples of a row: rows begin `cell_stride` apart, and NaNs
+    // follow each.
+    std::vector<float> cell_x, cell_y;
+    std::size_t cell_stride = 0;
     // If asked for, the same rays by their time: for each of the samples() equal parts of the shutter, one ray of every
     // pixel, row after row of pixels. Otherwise empty.
     std::vector<TimedRay> timed;

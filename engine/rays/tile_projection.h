@@ -16,6 +16,7 @@
 #include "rays/moving.h"
 #include "rays/prepared.h"
 #include "rays/project.h"
+#include "rays/project_hair.h"
 #include "scene/scene.h"
 
 namespace shadowbench::rays {
@@ -72,21 +73,23 @@ private:
     template <bool moving>
     void project(const Prepared& p, const scene::Hair& hair) {
         if (transmits_all(p.transmittance)) return;
-        for (const std::uint32_t i : p.bins.of(tile_)) {
-            check_hits(sink_);
-            const HairSegment s = hair_segment(p, hair, i);
-            if constexpr (moving) {
+        if constexpr (moving) {
+            for (const std::uint32_t i : p.bins.of(tile_)) {
+                check_hits(sink_);
+                const HairSegment s = hair_segment(p, hair, i);
                 const auto place = [&](const Vec3d& offset) { return place_hair(view_, s, offset); };
                 const double reach = std::max(s.radius_a, s.radius_b) * longest_;
                 visit_moving(view_, grid_, p.motion, place, [&](const TimedRay& ray, const Vec3d& moved) {
                     const MovedRayMetric<perspective> metric(ray.x, ray.y, moved);
-                    double z;
-                    if (!metric.misses(s, reach) && cross_hair(s, metric, z) && z + moved.z > view_.z_near)
-                        sink_.surface(ray.ray, z + moved.z, p.transmittance);
+                    if (metric.misses(s, reach)) return;
+                    const double z = hair_depth(s, metric) + moved.z;
+                    if (z > view_.z_near) sink_.surface(ray.ray, z, p.transmittance);
                 });
-            } else {
-                project_hair<perspective>(s, grid_, view_, p.transmittance, sink_);
             }
+        } else {
+            HairProjection<perspective, Sink> projection(grid_, view_, p.transmittance, sink_);
+            for (const std::uint32_t i : p.bins.of(tile_)) projection.project(hair_segment(p, hair, i));
+            projection.finish();
         }
     }
 

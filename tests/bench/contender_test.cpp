@@ -1,5 +1,6 @@
 #include "bench/contender.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "bench/fake_map.h"
 #include "bench/half_covered.h"
 #include "bench/memory.h"
@@ -183,6 +185,24 @@ TEST_F(Contenders, are_judged_alike_if_the_rays_are_captured_again) {
         for (const rays::LightRays& tile : batch) rays += tile.rays();
     });
     EXPECT_EQ(rays, source_.rays());
+}
+
+// A batch of few tiles leaves threads idle at its end; one of all would take memory in proportion to the map.
+TEST_F(Contenders, get_more_tiles_at_a_time_from_several_threads_but_not_all) {
+    rays::MapLayout layout = layout_;
+    layout.width = layout.height = 16;
+    layout.tile_width = layout.tile_height = 1;
+    const rays::Capture capture(half_.scene, half_.view, layout);
+    const auto batches = [&](int threads) {
+        const base::ThreadLimit limit(threads);
+        std::vector<std::size_t> sizes;
+        RaySource(capture, layout, 0, {}).for_each_batch(0, [&](RaySource::Batch batch) {
+            sizes.push_back(batch.size());
+        });
+        return sizes;
+    };
+    EXPECT_THAT(batches(1), ::testing::AllOf(::testing::SizeIs(64), ::testing::Each(4u)));
+    EXPECT_THAT(batches(2), ::testing::ElementsAre(8u, 64u, 64u, 64u, 56u));
 }
 
 // A fake technique on a medium of optical depth 2 over the whole map.
