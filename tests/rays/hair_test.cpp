@@ -38,10 +38,10 @@ TileGrid grid_of(bool perspective, LightView& view) {
 using Hit = std::tuple<std::uint32_t, float>;
 
 template <bool perspective>
-std::vector<Hit> projected(const std::vector<HairSegment>& segments, const TileGrid& grid, double z_near) {
+std::vector<Hit> projected(const std::vector<HairSegment>& segments, const TileGrid& grid, const LightView& view) {
     const float half = 0.5f;
     SurfaceHits sink;
-    HairProjection<perspective, SurfaceHits> projection(grid, z_near, &half, sink);
+    HairProjection<perspective, SurfaceHits> projection(grid, view, &half, sink);
     for (const HairSegment& s : segments) projection.project(s);
     projection.finish();
     std::vector<Hit> hits;
@@ -95,7 +95,7 @@ void expect_no_sample_lost() {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const std::vector<HairSegment> segments = segments_of(perspective, seed);
         const std::vector<Hit> expected = every_sample<perspective>(segments, grid, view.z_near);
-        EXPECT_EQ(projected<perspective>(segments, grid, view.z_near), expected) << seed;
+        EXPECT_EQ(projected<perspective>(segments, grid, view), expected) << seed;
         hits += expected.size();
     }
     EXPECT_GT(hits, 4000u);
@@ -121,10 +121,10 @@ TEST(HairProjection, PassesOverTilesAndSamplesBesideTheStrip) {
                            false};
     };
     HairStrip strip;
-    EXPECT_FALSE(find_strip<false>(segment(0.1, -0.1, 0.2, -0.1), grid, view.z_near, strip)) << "beside";
-    EXPECT_FALSE(find_strip<false>(segment(-0.1, 0.1, -0.1, 0.2), grid, view.z_near, strip)) << "above";
-    EXPECT_FALSE(find_strip<false>(segment(0.3, -0.1, -0.1, 0.3), grid, view.z_near, strip)) << "past the corner";
-    ASSERT_TRUE(find_strip<false>(segment(-0.2, -0.2, -0.1, -0.1), grid, view.z_near, strip));
+    EXPECT_FALSE(find_strip<false>(segment(0.1, -0.1, 0.2, -0.1), grid, view, strip)) << "beside";
+    EXPECT_FALSE(find_strip<false>(segment(-0.1, 0.1, -0.1, 0.2), grid, view, strip)) << "above";
+    EXPECT_FALSE(find_strip<false>(segment(0.3, -0.1, -0.1, 0.3), grid, view, strip)) << "past the corner";
+    ASSERT_TRUE(find_strip<false>(segment(-0.2, -0.2, -0.1, -0.1), grid, view, strip));
     EXPECT_LT(strip.reach, 0.1) << "cells";
 }
 
