@@ -223,7 +223,8 @@ std::vector<TileErrors> check_tile(const Pass& pass, const LightRays& tile) {
     std::vector<TileErrors> errors(pass.maps.size());
     PixelScratch scratch;
     for (std::size_t m = 0; m < pass.maps.size(); ++m)
-        if (pass.maps[m].apron == pass.apron) compare_nodes(*pass.maps[m].maps, tile, pass.layout, errors[m].nodes);
+        if (const CheckedMap& map = pass.maps[m]; map.nodes && map.apron == pass.apron)
+            compare_nodes(*map.maps, tile, pass.layout, errors[m].nodes);
     for (int c = 0; c < tile.channels; ++c) {
         LightRays copy;
         if (tile.channels > 1) copy = rays::channel(tile, c);
