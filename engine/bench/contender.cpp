@@ -211,7 +211,7 @@ void check_functions(std::span<Contender> contenders, const RaySource& source, c
     for (Contender& contender : contenders) {
         if (!contender.ok()) continue;
         checked.push_back({&contender.maps, contender.promises, contender.cell.error_bound,
-                           !contender.cell.outside_promise, contender.needs.apron});
+                           !contender.cell.outside_promise, contender.needs.apron, true});
         owners.push_back(&contender);
     }
     const std::vector<CurveVerdict> verdicts = check_curves(source, layout, checked, max_checked_cells, watch);

@@ -1,7 +1,6 @@
 #include "bench/curve_check.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 
@@ -9,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "bench/curve_faults.h"
 #include "bench/node_ratio.h"
 #include "curves/norms.h"
 #include "curves/sweep.h"
@@ -21,7 +21,6 @@ using rays::LightRays;
 using rays::MapLayout;
 using techniques::Cells;
 
-constexpr double rounding = 1e-6;     // of stored floats, allowed beyond every promise
 constexpr double finest = 0x1p-24;    // finer than this, floats do not distinguish lines from exponentials
 constexpr double fine_bound = 16e-6;  // promises up to this are judged with the finer reference
 
@@ -62,34 +61,6 @@ void cells_of_pixel(Cells kind, const LightRays& tile, const MapLayout& layout, 
         for (std::size_t s = 0; s < samples; ++s)
             out.push_back({x * layout.samples_x + static_cast<int>(s) % layout.samples_x,
                            y * layout.samples_y + static_cast<int>(s) / layout.samples_x, p * samples + s, 1});
-}
-
-// How this function breaks a promise; empty if it does not.
-std::string fault_of(const Curve& curve, const techniques::Promises& promises) {
-    for (std::size_t i = 0; i < curve.size(); ++i) {
-        const double value = curve[i].value;
-        if (!std::isfinite(value) || !std::isfinite(curve[i].z)) return "a value is not finite";
-        if (i > 0 && curve[i].z < curve[i - 1].z) return "depths are out of order";
-        if (promises.unit_range && (value < -rounding || value > 1.0 + rounding))
-            return fmt::format("the value {:.9g} at depth {:.9g} is outside [0, 1]", value, curve[i].z);
-        if (promises.monotone && i > 0 && value > curve[i - 1].value + rounding)
-            return fmt::format("the value rises from {:.9g} to {:.9g} at depth {:.9g}", curve[i - 1].value, value,
-                               curve[i].z);
-    }
-    return {};
-}
-
-// How a function breaks its promise of values before and behind all casters; empty if it does not.
-std::string fault_of_ends(const Curve& stored, const Curve& reference, bool early, double allowed) {
-    const auto first = [](const Curve& curve) { return curve.empty() ? 1.0 : curve.front().value; };
-    const auto last = [](const Curve& curve) { return curve.empty() ? 1.0 : curve.back().value; };
-    if (!early && !(std::abs(first(stored) - first(reference)) <= rounding))
-        return fmt::format("before all that casts shadows it is {:.6g} instead of {:.6g}", first(stored),
-                           first(reference));
-    if (!(std::abs(last(stored) - last(reference)) <= allowed))
-        return fmt::format("behind all that casts shadows it is {:.6g} instead of {:.6g}", last(stored),
-                           last(reference));
-    return {};
 }
 
 // Scratch for the cells of a pixel. The reference curve of a cell is shared by all techniques that store such cells.
@@ -178,7 +149,7 @@ void check_cell(const Pass& pass, std::size_t m, bool fine, int channel, const C
     if (fine == is_fine(checked, pass.layout)) measure(d, scratch.stored, cell, errors);
     if (!errors.broken.empty()) return;
     std::string fault = fault_of(scratch.stored, checked.promises);
-    const double slack = (pass.layout.media ? pass.linearisation(fine) : 0.0) + rounding;
+    const double slack = (pass.layout.media ? pass.linearisation(fine) : 0.0) + promise_rounding;
     const double allowed = checked.error_bound + slack;
     const techniques::Promises& promised = checked.promises;
     if (fault.empty() && checked.bound_holds && (!promised.localised || promised.approximate))
@@ -223,7 +194,8 @@ std::vector<TileErrors> check_tile(const Pass& pass, const LightRays& tile) {
     std::vector<TileErrors> errors(pass.maps.size());
     PixelScratch scratch;
     for (std::size_t m = 0; m < pass.maps.size(); ++m)
-        if (pass.maps[m].apron == pass.apron) compare_nodes(*pass.maps[m].maps, tile, pass.layout, errors[m].nodes);
+        if (const CheckedMap& map = pass.maps[m]; map.nodes && map.apron == pass.apron)
+            compare_nodes(*map.maps, tile, pass.layout, errors[m].nodes);
     for (int c = 0; c < tile.channels; ++c) {
         LightRays copy;
         if (tile.channels > 1) copy = rays::channel(tile, c);

@@ -24,12 +24,13 @@ struct CheckedMap {
     double error_bound = 0.0;  // infinity: none
     bool bound_holds = true;   // whether the bound is promised for these rays
     int apron = 0;             // apron of the tiles that it is built from
+    bool nodes = false;        // whether its nodes are compared with the fewest, which takes time of its own
 };
 
 struct CurveVerdict {
     std::optional<results::CurveErrors> errors;  // absent if the technique stores no function
     std::string broken;                          // describes the first broken promise; empty: none
-    std::vector<NodesBesideFewest> nodes = {};   // of each tile
+    std::vector<NodesBesideFewest> nodes = {};   // of each tile; nothing unless asked for
 };
 
 // Checks all maps in one pass over the light rays, tiles in parallel. Of a map with more than `max_cells` cells, an

@@ -12,7 +12,6 @@ namespace {
 using techniques::Cells;
 
 constexpr std::uint64_t compared_cells = 1024;  // of one map: the search takes up to some milliseconds a cell
-constexpr std::size_t most_steps_of_search = std::size_t{1} << 18;
 
 // One cell in so many is compared.
 std::uint64_t node_share(std::uint64_t cells) {
@@ -57,7 +56,7 @@ void compare_nodes(std::span<const curves::Curve> functions, std::span<const cur
                    NodesBesideFewest& out) {
     const std::uint64_t share = node_share(functions.size());
     curves::FewestScratch scratch;
-    scratch.most_steps = most_steps_of_search;
+    scratch.most_steps = curves::steps_of_a_bound;
     curves::Curve fewest;
     for (std::size_t i = 0; i < functions.size(); ++i) {
         if (!in_node_share(i, 0, share)) continue;

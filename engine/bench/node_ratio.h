@@ -20,8 +20,8 @@ struct NodesBesideFewest {
     std::uint64_t left_out = 0;  // cells whose fewest nodes are not known
 };
 
-// Appends an even share of the cells of a tile, so that about 1,024 of the whole map are compared, or all of a smaller
-// map; nothing for a technique whose fewest nodes are not defined. `tile` has the apron that the maps ask for.
+// Appends an even share of the cells of a tile, so that about 512 to 1,024 of the whole map are compared, or all of a
+// smaller map; nothing for a technique whose fewest nodes are not defined. `tile` has the apron that the maps ask for.
 void compare_nodes(const Maps& maps, const rays::LightRays& tile, const rays::MapLayout& layout,
                    NodesBesideFewest& out);
 

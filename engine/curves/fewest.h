@@ -11,6 +11,10 @@
 
 namespace shadowbench::curves {
 
+// FewestScratch::most_steps where only the number of vertices is wanted, of many functions: some thousandths of a
+// second.
+inline constexpr std::size_t steps_of_a_bound = std::size_t{1} << 18;
+
 // The memory of compress_to_fewest(), reused from call to call; each thread has its own.
 struct FewestScratch {
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();

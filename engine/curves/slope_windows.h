@@ -25,6 +25,7 @@ struct Slopes {
 inline std::size_t narrow_by_blocks(CurveView curve, std::size_t first, double z, double value, double epsilon,
                                     Slopes& slopes) {
 #if defined(__SSE2__)
+    static_assert(sizeof(Vertex) == 2 * sizeof(float), "a block is read as pairs of depth and value");
     const __m128d origin = _mm_set1_pd(z), from = _mm_set1_pd(value), within = _mm_set1_pd(epsilon);
     __m128d low = _mm_set1_pd(slopes.low), high = _mm_set1_pd(slopes.high);
     std::size_t next = first;

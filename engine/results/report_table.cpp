@@ -20,7 +20,8 @@ constexpr const char* legend =
     "order. x floor: its ratio to reading the same cache lines. x fewest: nodes over the fewest that do within the\n"
     "tolerance without rising. curve max: largest |stored - uncompressed|. lookup: error against the truth. rms 95 %:\n"
     "interval of the RMS expected over seeds of the rays; with ?: of the truth's uncertainty only. front: T certainly\n"
-    "no other technique beats it in time (random order) and error, B in bytes and error; T? and B? perhaps none does.\n";
+    "no other technique beats it in time (random order) and error, B in bytes and error; T? and B? perhaps none "
+    "does.\n";
 
 std::string status_text(const Cell& cell) {
     if (cell.status == CellStatus::failed) return "failed: " + cell.reason;

@@ -5,10 +5,12 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.h"
+#include "bench/curve_check.h"
 #include "bench/fake_map.h"
 #include "bench/half_covered.h"
 #include "bench/memory.h"
@@ -53,6 +55,25 @@ TEST_F(Contenders, that_answer_exactly_are_ok) {
     EXPECT_NEAR(cell.lookup->signed_mean, 0.05, 1e-6);
     EXPECT_EQ(cell.bytes, 100u);
     EXPECT_EQ(cell.working_bytes, 200u);
+}
+
+// Each pixel's function has two steps, so no function within the tolerance has fewer than four nodes.
+TEST_F(Contenders, with_a_tolerance_have_their_nodes_beside_the_fewest) {
+    std::vector<Contender> contenders;
+    contenders.push_back(make_contender({"deep", R"({"tolerance": 0.02})", ""}, ""));
+    contenders.push_back(make_contender({"shadow_map", "{}", ""}, ""));
+    build_all(contenders, source_, {layout_, half_.view, nullptr}, MemoryLimits{}.all, {});
+    check_functions(contenders, source_, layout_, {});
+    const std::optional<results::FewestNodes>& over = contenders[0].cell.nodes.over_fewest;
+    ASSERT_TRUE(over);
+    EXPECT_EQ(over->cells, 64u);
+    EXPECT_EQ(over->fewest, 4u * 64u);
+    EXPECT_EQ(over->nodes, contenders[0].cell.nodes.total);
+    EXPECT_FALSE(contenders[1].cell.nodes.over_fewest);
+    // The short checks of an exploration do not ask for it, and must not search.
+    const CheckedMap quick{&contenders[0].maps, contenders[0].promises, contenders[0].cell.error_bound};
+    for (const CurveVerdict& verdict : check_curves(source_, layout_, std::span(&quick, 1), 64, {}))
+        for (const NodesBesideFewest& tile : verdict.nodes) EXPECT_TRUE(tile.stored.empty());
 }
 
 TEST_F(Contenders, within_their_promised_error_are_ok) {

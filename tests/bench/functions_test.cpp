@@ -44,6 +44,10 @@ TEST(MeasureFunctions, compresses_a_staircase_within_its_tolerance) {
     EXPECT_GT(result.error_max, 0.0);
     EXPECT_LT(result.nodes_out, 20u) << "202 vertices lie along one line";
     EXPECT_EQ(result.error_rms, result.error_max) << "one function";
+    ASSERT_TRUE(result.over_fewest);
+    EXPECT_EQ(result.over_fewest->cells, 1u);
+    EXPECT_EQ(result.over_fewest->nodes, result.nodes_out);
+    EXPECT_EQ(result.over_fewest->fewest, 2u);
 }
 
 TEST(MeasureFunctions, counts_no_tolerance_where_none_is_promised) {
@@ -51,6 +55,7 @@ TEST(MeasureFunctions, counts_no_tolerance_where_none_is_promised) {
     EXPECT_FALSE(result.tolerance);
     EXPECT_FALSE(result.over_tolerance);
     EXPECT_TRUE(to_json(result)["over_tolerance"].is_null());
+    EXPECT_TRUE(to_json(result)["nodes_over_fewest"].is_null());
 }
 
 // What a technique does not promise is reported, and fails nothing.

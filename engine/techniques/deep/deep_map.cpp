@@ -29,9 +29,6 @@ bool is_grey(const rays::LightRays& tile, std::size_t first, std::size_t count) 
     return true;
 }
 
-// The search for the fewest nodes of a pixel gives up after so many steps, some thousandths of a second.
-constexpr std::size_t most_search_steps = std::size_t{1} << 18;
-
 // Makes the functions of pixel (x, y): only one if its channels are surely equal. Returns how many. `offset_of(ray)` is
 // called unless the filter is the pixel.
 template <class OffsetOf>
@@ -181,7 +178,7 @@ FewestNodes DeepMap::fewest_nodes(int x, int y, const rays::LightRays& tile) con
     if (is_coloured(scratch.pixel, functions)) return {0, false};
     curves::Curve& function = scratch.pixel.function[0];
     curves::FewestScratch& fewest = scratch.pixel.fewest;
-    fewest.most_steps = most_search_steps;
+    fewest.most_steps = curves::steps_of_a_bound;
     const std::size_t nodes = curves::compress_to_fewest(function, after_lines().tolerance, fewest, function.data());
     return {nodes, fewest.complete};
 }

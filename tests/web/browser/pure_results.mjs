@@ -49,9 +49,10 @@ test('the marks of the fronts are words, and those of older results are not cert
 });
 
 test('the nodes over the fewest say how many cells they cover', () => {
-  const cell = (over) => ({nodes: {over_fewest: {ratio: 1.25, interval95: [1.2, 1.3], cells: 1010, left_out: 0, ...over}}});
+  const cell = (over, cells = 4096) => ({nodes: {cells, over_fewest: {ratio: 1.25, interval95: [1.2, 1.3], cells: 1010, left_out: 0, ...over}}});
   assert.equal(fewestInterval(cell()), '1.2 to 1.3 (95 %), from 1,010 cells');
-  assert.equal(fewestInterval(cell({interval95: [1.25, 1.25], cells: 64, left_out: 3})), 'all of 64 cells; 3 left out, whose fewest are not known');
+  assert.equal(fewestInterval(cell({interval95: [1, 1]})), '1 to 1 (95 %), from 1,010 cells', 'compression=optimal: a share, not all');
+  assert.equal(fewestInterval(cell({interval95: [1.25, 1.25], cells: 64, left_out: 3}, 67)), 'all of 64 cells; 3 left out, whose fewest are not known');
   assert.equal(fewestInterval({nodes: {cells: 64}}), null, 'a technique without a tolerance');
 });
 

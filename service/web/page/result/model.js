@@ -55,7 +55,9 @@ export function fewestInterval(cell) {
   const over = cell.nodes?.over_fewest;
   if (!over) return null;
   const [low, high] = over.interval95;
-  return (low < high ? `${significant(low, 4)} to ${significant(high, 4)} (95 %), from ${plural(over.cells, 'cell')}` : `all of ${plural(over.cells, 'cell')}`) +
+  // A share of a map whose cells all have the same ratio has an interval without width.
+  const all = over.cells + over.left_out >= cell.nodes.cells;
+  return (all ? `all of ${plural(over.cells, 'cell')}` : `${significant(low, 4)} to ${significant(high, 4)} (95 %), from ${plural(over.cells, 'cell')}`) +
     (over.left_out ? `; ${count(over.left_out)} left out, whose fewest are not known` : '');
 }
 
