@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "techniques/avsm/filling.h"
 #include "techniques/avsm/order.h"
 #include "techniques/avsm/streams.h"
 #include "techniques/avsm_nodes.h"
@@ -174,6 +175,39 @@ TEST(AvsmShuffle, PutsEveryEntryAnywhere) {
     }
     for (const auto& row : met)
         for (const int times : row) EXPECT_NEAR(times, 1000, 150);
+}
+
+// Otherwise a texel would get segments of the ray that its lane held before, or another order once a ray has more
+// segments than are shuffled at once.
+TEST(AvsmFilling, GivesEachTexelTheSegmentsOfItsRayInTheirOrder) {
+    constexpr int capacity = 8;
+    constexpr std::size_t count = 40;
+    testing::HandRays given{.width = static_cast<int>(count)};
+    for (std::size_t r = 0; r < count; ++r)
+        given.rays.push_back(testing::random_segments(base::hash(7, r), static_cast<int>(1 + r * r / 8), 1, 90));
+    const rays::LightRays rays = testing::light_rays(given);
+    for (const Order way : {Order::sorted, Order::captured, Order::shuffled}) {
+        std::vector<float> texels(2 * capacity * count);
+        Filling filling(rays, capacity, Sampling::linear, way, far_plane);
+        for (std::size_t r = 0; r < count; ++r) filling.add(&texels[2 * capacity * r], r, base::hash(1, r));
+        filling.finish();
+        for (std::size_t r = 0; r < count; ++r) {
+            const std::uint32_t begin = rays.begin[r];
+            const std::vector<std::uint32_t> shuffled = order(base::hash(1, r), rays.begin[r + 1] - begin);
+            Plain expected(capacity, far_plane, Sampling::linear);
+            for (std::uint32_t k = 0; k < shuffled.size(); ++k) {
+                const std::uint32_t s = way == Order::sorted     ? begin + k
+                                        : way == Order::captured ? rays.submission[begin + k]
+                                                                 : begin + shuffled[k];
+                expected.insert({rays.z_front[s], rays.back(s), rays.transmittance[s]});
+            }
+            const float* texel = &texels[2 * capacity * r];
+            Nodes found;
+            for (int i = 0; i < capacity && (i == 0 || texel[i - 1] != far_plane); ++i)
+                found.emplace_back(texel[i], texel[capacity + i]);
+            EXPECT_EQ(found, expected.nodes()) << "order " << static_cast<int>(way) << ", ray " << r;
+        }
+    }
 }
 
 }  // namespace
