@@ -249,7 +249,8 @@ template <int fixed>
 void insert(Streams& streams, const SegmentRows& segments, int nodes, Sampling sampling) {
 #if defined(__x86_64__)
     if (simd_path() != SimdPath::baseline)
-        return run_avx2([&]() SHADOWBENCH_SIMD_LOOP { insert_all<8, fixed>(streams, segments, nodes, sampling); });
+        return base::run_avx2([&]()
+                                  SHADOWBENCH_SIMD_LOOP { insert_all<8, fixed>(streams, segments, nodes, sampling); });
 #endif
     insert_all<4, fixed>(streams, segments, nodes, sampling);
 }
