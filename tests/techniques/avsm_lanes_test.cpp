@@ -182,7 +182,8 @@ TEST(AvsmShuffle, PutsEveryEntryAnywhere) {
 TEST(AvsmFilling, GivesEachTexelTheSegmentsOfItsRayInTheirOrder) {
     constexpr int capacity = 8;
     constexpr std::size_t count = 40;
-    testing::HandRays given{.width = static_cast<int>(count)};
+    testing::HandRays given;
+    given.width = static_cast<int>(count);
     for (std::size_t r = 0; r < count; ++r)
         given.rays.push_back(testing::random_segments(base::hash(7, r), static_cast<int>(1 + r * r / 8), 1, 90));
     const rays::LightRays rays = testing::light_rays(given);
