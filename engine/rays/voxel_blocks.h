@@ -17,7 +17,7 @@ public:
     explicit VoxelBlocks(const scene::GridVolume& volume);
 
     // If the block around `index`, in voxel coordinates, is empty, how far a ray surely stays in empty blocks, in units
-    // of `slope`; infinite if it meets none that is not. Otherwise 0.
+    // of `slope`; infinite if that is 0. Otherwise 0.
     double empty_ahead(const base::Vec3d& index, const base::Vec3d& slope) const;
 
     std::size_t bytes() const { return distance_.capacity(); }

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "base/durable_file.h"
 #include "base/error.h"
@@ -68,7 +68,7 @@ FiledTrial read_filed(const results::Field& whole) {
 }  // namespace
 
 TrialFiles::TrialFiles(fs::path folder, results::Result of, const json& question)
-    : folder_(std::move(folder)), of_(std::move(of)), key_(key_of(of_, question)) {
+    : folder_(std::move(folder)), of_(std::move(of)), key_(key_of(of_, question).dump()) {
     std::error_code failed;
     fs::create_directories(folder_, failed);
     if (failed) refuse_folder(folder_, failed);
@@ -89,7 +89,7 @@ void TrialFiles::read(const fs::path& file) {
         const results::Field whole = results::top(document, file.string()), checksum = whole.at("checksum");
         if (checksum.text() != checksum_of(document))
             results::refuse(checksum.where, "is not that of the file: a value was changed after it was written");
-        if (whole.at("layout").count() != files_layout || whole.at("of").value != key_) {
+        if (whole.at("layout").count() != files_layout || whole.at("of").value.dump() != key_) {
             ++others_;
             return;
         }
@@ -110,8 +110,9 @@ void TrialFiles::write(const std::string& setting, const FiledTrial& filed) cons
     results::Result result = of_;
     result.variants = {filed.variant};
     const Trial& trial = filed.trial;
+    const json key = json::parse(key_);
     json file{{"layout", files_layout},
-              {"of", key_},
+              {"of", key},
               {"setting", setting},
               {"trial",
                {{"failed", trial.failed},
@@ -120,7 +121,7 @@ void TrialFiles::write(const std::string& setting, const FiledTrial& filed) cons
               {"effort", {{"seconds", filed.seconds}, {"rays", filed.rays}}},
               {"result", results::to_json(result)}};
     file["checksum"] = checksum_of(file);
-    const std::string name = base::hash_text(json::array({key_, setting}).dump());
+    const std::string name = base::hash_text(json::array({key, setting}).dump());
     base::write_durable(folder_ / (name + ".json"), file.dump(1) + "\n");
 }
 

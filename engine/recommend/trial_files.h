@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "recommend/lab.h"
 #include "results/result.h"
@@ -42,7 +42,7 @@ private:
 
     std::filesystem::path folder_;
     results::Result of_;
-    nlohmann::json key_;
+    std::string key_;  // JSON: `of` of its files
     std::map<std::string, FiledTrial> filed_;
     std::size_t others_ = 0;
 };

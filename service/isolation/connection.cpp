@@ -58,7 +58,7 @@ MessageReader Connection::ask(Request request, const char* function, const Messa
     std::string text(static_cast<std::size_t>(answer.size), '\0');
     receive(text.data(), text.size(), function);
     MessageReader reader(std::move(text));
-    if (static_cast<Reply>(answer.kind) == Reply::done) return reader;
+    if (static_cast<ReplyKind>(answer.kind) == ReplyKind::done) return reader;
     throw Error(ErrorCode::internal, library_, reader.get_text());
 }
 

@@ -146,18 +146,18 @@ int take_connection() {
 void host_techniques(const std::string& library, const std::string& hash) {
     const Descriptor line(take_connection());
     Hosted hosted(library, hash);
-    MessageHead head{static_cast<std::uint32_t>(Reply::done), 0};
+    MessageHead head{static_cast<std::uint32_t>(ReplyKind::done), 0};
     if (!write_all(line.number(), &head, sizeof head)) return;  // it has started
     while (read_all(line.number(), &head, sizeof head)) {
         std::string body(head.size, '\0');
         if (!read_all(line.number(), body.data(), body.size())) return;
         MessageReader from(std::move(body));
         MessageWriter to;
-        Reply reply = Reply::done;
+        ReplyKind reply = ReplyKind::done;
         try {
             to = hosted.answer(static_cast<Request>(head.kind), from);
         } catch (const Error& error) {
-            reply = Reply::failed;
+            reply = ReplyKind::failed;
             to.put_text(error.message());
         }
         const MessageHead answer{static_cast<std::uint32_t>(reply), to.body().size()};

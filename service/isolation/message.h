@@ -28,10 +28,10 @@ enum class Request : std::uint32_t {
     nodes,
     stored
 };
-enum class Reply : std::uint32_t { done, failed };
+enum class ReplyKind : std::uint32_t { done, failed };
 
 struct MessageHead {
-    std::uint32_t kind = 0;  // a Request or a Reply
+    std::uint32_t kind = 0;  // a Request or a ReplyKind
     std::uint64_t size = 0;  // of the body, bytes
 };
 

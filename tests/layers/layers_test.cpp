@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -113,11 +114,30 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
           "service/privacy", "service/process", "service/jobs", "service/web", "service/api"}},
         {"service/http", {"base", "service/log", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files, and loads techniques from outside.
-        {"service/cli",
-         {"base", "scene", "curves", "techniques", "techniques/deep", "techniques/external", "document", "results",
-          "compare", "bench", "recommend", "render", "claims", "service/log", "service/privacy", "service/process", "service/isolation",
-          "service/jobs", "service/api", "service/http", "service/web", "service/cli"}},
-        {"service/images", {"base", "scene", "render", "results", "service/images"}},
+        {"service/cli", {"base",
+                         "scene",
+                         "curves",
+                         "techniques",
+                         "techniques/deep",
+                         "techniques/external",
+                         "document",
+                         "results",
+                         "compare",
+                         "bench",
+                         "recommend",
+                         "render",
+                         "claims",
+                         "service/log",
+                         "service/privacy",
+                         "service/process",
+                         "service/isolation",
+                         "service/jobs",
+                         "service/api",
+                         "service/http",
+                         "service/web",
+                         "service/cli"}},
+        // The library that reads and writes images holds their readers.
+        {"service/images", {"base", "scene", "scene/readers", "render", "results", "service/images"}},
         {"service", {"service/cli", "service/images"}},
     };
     for (const Include& include : includes()) {
@@ -137,11 +157,40 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
     }
 }
 
-// Readers fill in the plain structs of a scene; how scenarios are read and checked is nothing to them. JSON is a format of
-// data, too, and data files name others that lie beside them.
+// Two classes of one name and namespace link without a word, and the linker keeps one of each inline function that they
+// share, as their constructors: the other class is then made by the wrong one.
+TEST(Layers, HeadersOfANamespaceGiveEachNameToOneClass) {
+    const fs::path top = SHADOWBENCH_SOURCE_DIR;
+    std::map<std::string, std::string> headers;  // by the name of the class
+    for (const char* folder : {"engine", "service"})
+        for (const auto& entry : fs::recursive_directory_iterator(top / folder)) {
+            if (entry.path().extension() != ".h") continue;
+            const std::string file = fs::relative(entry.path(), top).generic_string();
+            std::ifstream in(entry.path());
+            std::string space;
+            for (std::string line; std::getline(in, line);) {
+                std::istringstream words(line);
+                std::string word, name;
+                words >> word >> name;
+                if (word == "enum" && name == "class") words >> name;
+                if (word == "namespace") space = name;
+                // Those at the start of a line; a declaration ends in a semicolon.
+                if (line[0] != word[0] || (word != "struct" && word != "class" && word != "enum") || name.empty() ||
+                    name.back() == ';')
+                    continue;
+                const auto [first, is_new] = headers.try_emplace(space + "::" + name, file);
+                EXPECT_TRUE(is_new || first->second == file)
+                    << file << " and " << first->second << " have a class " << first->first;
+            }
+        }
+    EXPECT_GT(headers.size(), 300u);
+}
+
+// Readers fill in the plain structs of a scene; how scenarios are read and checked is nothing to them. JSON is a format
+// of data, too, and data files name others that lie beside them.
 TEST(Layers, ReadersKnowOnlyTheStructsOfAScene) {
-    const std::set<std::string> structs = {"scene/scene.h", "scene/limits.h", "scene/read_notes.h", "scene/parse_json.h",
-                                           "scene/beside.h"};
+    const std::set<std::string> structs = {"scene/scene.h", "scene/limits.h", "scene/read_notes.h",
+                                           "scene/parse_json.h", "scene/beside.h"};
     for (const Include& include : includes())
         if (starts_with(layer_of_file(include.file), "scene/") && layer_of_include(include.path) == "scene") {
             EXPECT_TRUE(structs.count(include.path)) << include.file << " includes " << include.path;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <variant>
+
 #include "base/random.h"
 #include "rays/moving.h"
 #include "rays/prepared.h"

@@ -1,61 +1,31 @@
+// Regular steps through grids of voxels.
 #include "rays/march.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
-#include "base/random.h"
-#include "base/simd_path.h"
-#include "rays/exp_minus.h"
-#include "rays/medium_floats.h"
-#include "scene/scene.h"
+#include "rays/grids.h"
 
 namespace shadowbench::rays {
 namespace {
 
-scene::GridVolume grid(base::Vec3i size, double step) {
-    scene::GridVolume g;
-    g.size = size;
-    g.density.assign(static_cast<std::size_t>(size.x) * size.y * size.z, 0.0f);
-    g.lower = {-1, -2, -3};
-    g.upper = {2, 2, 3};
-    g.step = step;
-    return g;
-}
-
-float& at(scene::GridVolume& g, int x, int y, int z) {
-    return g.density[(static_cast<std::size_t>(z) * g.size.y + y) * g.size.x + x];
-}
-
-double depth_of(const std::vector<MediumSegment>& segments) {
-    double sum = 0.0;
-    for (const MediumSegment& s : segments) sum += s.depth;
-    return sum;
-}
+using testing::at;
+using testing::depth_of;
+using testing::grid;
+using testing::plain_density;
 
 // The same integral by many small steps over a plain trilinear lookup.
-double brute_force(scene::GridVolume& g, base::Vec3d origin, base::Vec3d direction) {
+double brute_force(const scene::GridVolume& g, const base::Vec3d& origin, const base::Vec3d& direction) {
     double sum = 0.0;
     constexpr double dt = 1e-4;
     for (double t = 0.5 * dt; t < 20; t += dt) {
         const base::Vec3d p = origin + direction * t;
-        base::Vec3d i;
         bool inside = true;
-        for (int a = 0; a < 3; ++a) {
-            inside &= p[a] >= g.lower[a] && p[a] <= g.upper[a];
-            i[a] = std::clamp((p[a] - g.lower[a]) / (g.upper[a] - g.lower[a]) * g.size[a] - 0.5, 0.0, g.size[a] - 1.0);
-        }
-        if (!inside) continue;
-        const int x = std::min(static_cast<int>(i.x), g.size.x - 2), y = std::min(static_cast<int>(i.y), g.size.y - 2),
-                  z = std::min(static_cast<int>(i.z), g.size.z - 2);
-        double value = 0.0;
-        for (int c = 0; c < 8; ++c) {
-            const int dx = c & 1, dy = c >> 1 & 1, dz = c >> 2;
-            value += at(g, x + dx, y + dy, z + dz) * (dx ? i.x - x : 1 - i.x + x) * (dy ? i.y - y : 1 - i.y + y) *
-                     (dz ? i.z - z : 1 - i.z + z);
-        }
-        sum += value * dt;
+        for (int a = 0; a < 3; ++a) inside &= p[a] >= g.lower[a] && p[a] <= g.upper[a];
+        if (inside) sum += plain_density(g, p) * dt;
     }
     return sum;
 }
@@ -96,25 +66,6 @@ TEST(March, SkippingEmptyBlocksLosesNothing) {
         for (std::size_t s = 1; s < segments.size(); ++s) EXPECT_GE(segments[s].front, segments[s - 1].back);
     }
     EXPECT_EQ(hit, 60);
-}
-
-// Trilinear, without blocks.
-double plain_density(const scene::GridVolume& g, const base::Vec3d& point) {
-    double value = 0.0, place[3];
-    for (int a = 0; a < 3; ++a)
-        place[a] =
-            std::clamp((point[a] - g.lower[a]) / (g.upper[a] - g.lower[a]) * g.size[a] - 0.5, 0.0, g.size[a] - 1.0);
-    for (int c = 0; c < 8; ++c) {
-        double weight = 1.0;
-        int at[3];
-        for (int a = 0; a < 3; ++a) {
-            const int low = static_cast<int>(place[a]);
-            weight *= c >> a & 1 ? place[a] - low : 1 - place[a] + low;
-            at[a] = std::min(low + (c >> a & 1), g.size[a] - 1);
-        }
-        value += weight * g.density[(static_cast<std::size_t>(at[2]) * g.size.y + at[1]) * g.size.x + at[0]];
-    }
-    return value;
 }
 
 // Otherwise the step that leads from empty space into density is lost.
@@ -191,144 +142,6 @@ TEST(March, IsClippedToTheStretchAskedFor) {
     EXPECT_TRUE(segments.empty()) << "beside the box";
 }
 
-// Grids for the two exact functions: with holes, empty blocks, and single voxels along an axis.
-std::vector<scene::GridVolume> odd_grids() {
-    base::Random random(8);
-    std::vector<scene::GridVolume> grids;
-    for (const base::Vec3i& size : {base::Vec3i(5, 4, 3), base::Vec3i(1, 1, 4), base::Vec3i(2, 1, 1),
-                                    base::Vec3i(1, 1, 1), base::Vec3i(40, 37, 51)}) {
-        grids.push_back(grid(size, 0.4));
-        for (float& d : grids.back().density)
-            d = static_cast<float>(std::max(0.0, random.uniform(size.x > 8 ? -40.0 : -0.5, 1.5)));
-    }
-    return grids;
-}
-
-// A ray through the box, sometimes along an axis or a diagonal of voxels.
-struct Line {
-    base::Vec3d origin, direction;
-};
-Line line_through(const scene::GridVolume& g, base::Random& random) {
-    base::Vec3d target, d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    for (int a = 0; a < 3; ++a) target[a] = random.uniform(g.lower[a], g.upper[a]);
-    switch (random.below(5)) {
-        case 0:
-            d[static_cast<int>(random.below(3))] = 0.0;
-            break;
-        case 1:
-            d = base::Vec3d(0, 0, 0);
-            d[static_cast<int>(random.below(3))] = random.below(2) ? 1.0 : -1.0;
-            break;
-        case 2:  // through corners of cells
-            for (int a = 0; a < 3; ++a) {
-                const double voxel = (g.upper[a] - g.lower[a]) / g.size[a];
-                target[a] = g.lower[a] + (std::floor((target[a] - g.lower[a]) / voxel) + 0.5) * voxel;
-                d[a] = voxel * (random.below(2) ? 1 : -1);
-            }
-            break;
-        default:
-            break;
-    }
-    d.normalize();
-    return {target - d * 9.0, d};
-}
-
-// The integral of a plain trilinear lookup up to t, in 100,000 steps.
-double by_steps(const scene::GridVolume& g, const Line& line, double t) {
-    double first = 0.0, last = t, sum = 0.0;
-    for (int a = 0; a < 3; ++a) {
-        if (line.direction[a] == 0.0) continue;
-        const double t0 = (g.lower[a] - line.origin[a]) / line.direction[a],
-                     t1 = (g.upper[a] - line.origin[a]) / line.direction[a];
-        first = std::max(first, std::min(t0, t1));
-        last = std::min(last, std::max(t0, t1));
-    }
-    constexpr int steps = 100000;
-    for (int k = 0; k < steps && first < last; ++k) {
-        const base::Vec3d p = line.origin + line.direction * (first + (last - first) * (k + 0.5) / steps);
-        double value = 0.0;
-        base::Vec3d i;
-        for (int a = 0; a < 3; ++a)
-            i[a] = std::clamp((p[a] - g.lower[a]) / (g.upper[a] - g.lower[a]) * g.size[a] - 0.5, 0.0, g.size[a] - 1.0);
-        for (int c = 0; c < 8; ++c) {
-            double weight = 1.0;
-            int at[3];
-            for (int a = 0; a < 3; ++a) {
-                const int low = static_cast<int>(i[a]);
-                weight *= c >> a & 1 ? i[a] - low : 1 - i[a] + low;
-                at[a] = std::min(low + (c >> a & 1), g.size[a] - 1);
-            }
-            value += weight * g.density[(static_cast<std::size_t>(at[2]) * g.size.y + at[1]) * g.size.x + at[0]];
-        }
-        sum += value * (last - first) / steps;
-    }
-    return sum;
-}
-
-TEST(March, OpticalDepthsAreExactAtEveryDepthInsideCellsToo) {
-    base::Random random(21);
-    for (const scene::GridVolume& g : odd_grids()) {
-        const VolumeMarcher marcher(g);
-        int met = 0;
-        for (int i = 0; i < 25; ++i) {
-            const Line line = line_through(g, random);
-            std::vector<double> t(6), depth(6);
-            for (double& place : t) place = random.uniform(2, 16);
-            std::sort(t.begin(), t.end());
-            marcher.optical_depths(line.origin, line.direction, 1.5, 0.0, t, depth);
-            for (std::size_t k = 0; k < t.size(); ++k) {
-                EXPECT_NEAR(depth[k], 1.5 * by_steps(g, line, t[k]), 1e-7) << g.size.x << " voxels, ray " << i;
-                met += depth[k] > 0.0;
-            }
-        }
-        EXPECT_GT(met, 30);
-    }
-}
-
-TEST(March, CellsHoldExactlyWhatLiesBetweenTheirWalls) {
-    base::Random random(22);
-    for (const scene::GridVolume& g : odd_grids()) {
-        const VolumeMarcher marcher(g);
-        std::size_t found = 0;
-        for (int i = 0; i < 100; ++i) {
-            const Line line = line_through(g, random);
-            std::vector<MediumSegment> cells;
-            const double end = i % 2 ? 1e30 : random.uniform(5, 12);
-            marcher.march_cells(line.origin, line.direction, 1.0, 0, end, cells);
-            found += cells.size();
-            double sum = 0.0;
-            for (std::size_t s = 0; s < cells.size(); ++s) {
-                EXPECT_LT(cells[s].front, cells[s].back);
-                if (s) {
-                    EXPECT_GE(cells[s].front, cells[s - 1].back);
-                }
-                sum += cells[s].depth;
-                double exact = 0.0;
-                const double back = cells[s].back;
-                marcher.optical_depths(line.origin, line.direction, 1.0, 0, {&back, 1}, {&exact, 1});
-                if (back < end) {
-                    EXPECT_NEAR(sum, exact, 1e-5) << "up to the rounding of the wall to a float";
-                }
-            }
-            double all = 0.0;
-            marcher.optical_depths(line.origin, line.direction, 1.0, 0, {&end, 1}, {&all, 1});
-            EXPECT_NEAR(sum, all, 1e-12);
-            EXPECT_LE(cells.size(), static_cast<std::size_t>(g.size.x + g.size.y + g.size.z + 3));
-        }
-        EXPECT_GT(found, 50u);
-    }
-}
-
-TEST(March, CellsShorterThanAFloatLoseNothing) {
-    scene::GridVolume g = grid({4, 4, 600}, 1.0);
-    for (float& d : g.density) d = 1;
-    std::vector<MediumSegment> segments;
-    VolumeMarcher(g).march_cells({0, 0, -1e6}, {0, 0, 1}, 1.0, 0, 1e30, segments);
-    EXPECT_NEAR(depth_of(segments), 6.0, 1e-6);
-    for (const MediumSegment& s : segments) EXPECT_LT(s.front, s.back);
-    EXPECT_LE(segments.size(), 97u) << "6 units of 16 floats, and one float more";
-}
-
 TEST(March, StepsShorterThanAFloatLoseNothing) {
     // At a depth of 1e6 floats are 1/16 apart: fifteen of sixteen steps have both ends at one float.
     scene::GridVolume g = grid({4, 4, 4}, 0.004);
@@ -355,72 +168,6 @@ TEST(March, ABoxThinnerThanAFloatIsNotLost) {
     ASSERT_EQ(segments.size(), 1u);
     EXPECT_NEAR(segments[0].depth, 1e-6, 1e-12);
     EXPECT_LT(segments[0].front, segments[0].back);
-}
-
-// Neighbours end, miss and cross empty space at different steps: what one ray meets may not reach another.
-TEST(March, SideBySideIsOneByOneToTheBitWithAllInstructions) {
-    base::Random random(31);
-    std::size_t found = 0;
-    for (const scene::GridVolume& g : odd_grids()) {
-        const VolumeMarcher marcher(g);
-        for (int i = 0; i < 20; ++i) {
-            const Line line = line_through(g, random);
-            std::vector<WorldRay> rays(1 + random.below(side_by_side));
-            for (WorldRay& ray : rays) {
-                const double spread = i % 2 ? 0.05 : 2.0;
-                const base::Vec3d aside(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-                ray = {line.origin + aside * spread, line.direction, 1.0 + random.uniform()};
-            }
-            const float extinction = i % 3 ? 1.5f : 1e-7f;
-            for (const base::SimdPath path : base::simd_paths()) {
-                base::set_simd_path(path);
-                Lanes<std::vector<MediumStep>> steps;
-                ASSERT_EQ(marcher.march_side_by_side(rays, 0.0, 1e30, extinction, steps), g.size.x > 1);
-                for (std::size_t r = 0; r < rays.size() && g.size.x > 1; ++r) {
-                    std::vector<MediumSegment> segments;
-                    marcher.march(rays[r].origin, rays[r].direction, rays[r].scale, 0.0, 1e30, segments);
-                    StepRounding rounding;
-                    std::size_t s = 0;
-                    for (const MediumSegment& segment : segments) {
-                        const float t = rounding.transmittance(0, segment.depth * static_cast<double>(extinction));
-                        if (t == 1.0f) continue;
-                        ASSERT_LT(s, steps[r].size());
-                        EXPECT_EQ(steps[r][s].front, segment.front);
-                        EXPECT_EQ(steps[r][s].back, segment.back);
-                        EXPECT_EQ(steps[r][s++].transmittance, t);
-                    }
-                    EXPECT_EQ(s, steps[r].size());
-                    found += s;
-                }
-            }
-            base::set_simd_path(base::simd_paths().back());
-        }
-    }
-    EXPECT_GT(found, 1000u);
-}
-
-TEST(March, SideBySideLeavesShortAndDarkStepsToTheOtherWay) {
-    scene::GridVolume g = grid({4, 4, 4}, 0.25);
-    for (float& d : g.density) d = 1;
-    Lanes<std::vector<MediumStep>> steps;
-    const auto march = [&](double distance, float extinction) {
-        const WorldRay ray{{0, 0, -distance}, {0, 0, 1}, 1.0};
-        return VolumeMarcher(g).march_side_by_side({&ray, 1}, 0.0, 1e30, extinction, steps);
-    };
-    EXPECT_TRUE(march(10, 1.0f));
-    EXPECT_EQ(steps[0].size(), 24u);
-    EXPECT_FALSE(march(4e6, 1.0f)) << "a quarter is less than a float there";
-    EXPECT_FALSE(march(10, 400.0f)) << "a step of depth 100 has no float transmittance";
-}
-
-TEST(ExpMinus, IsTheExponentialToTheLastPlace) {
-    base::Random random(6);
-    for (int i = 0; i < 100'000; ++i) {
-        const double x = i % 2 ? random.uniform(-1.0, most_depth) : std::pow(10.0, random.uniform(-20.0, 0.0));
-        const long double exact = std::exp(-static_cast<long double>(x));
-        ASSERT_NEAR(static_cast<double>(exp_minus(x) / exact), 1.0, 0x1p-52) << x;
-    }
-    EXPECT_EQ(exp_minus(0.0), 1.0);
 }
 
 TEST(SphereStretch, KeepsItsDigitsFarAway) {

@@ -65,7 +65,7 @@ private:
 
     // Inserts as many segments a lane as the lane with the fewest has left.
     void advance() {
-        std::uint32_t rows = Segments::most;
+        std::uint32_t rows = SegmentRows::most;
         for (const Lane& lane : lanes_)
             if (lane.texel) rows = std::min(rows, lane.count - lane.inserted);
         segments_.count = rows;
@@ -113,7 +113,7 @@ private:
     float far_plane_;
     Insert insert_;
     Streams streams_;
-    Segments segments_;
+    SegmentRows segments_;
     std::array<Lane, lanes> lanes_;
     std::array<Shuffle, lanes> shuffles_;
     std::array<std::array<std::uint32_t, Shuffle::most_entries>, lanes> shuffled_;  // the next ones of each

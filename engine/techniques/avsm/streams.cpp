@@ -209,7 +209,8 @@ struct Block {
 
 // Of `fixed` nodes; if that is most_nodes, of as many as given, and no more work than those in use need.
 template <int width, int fixed>
-SHADOWBENCH_SIMD_LOOP inline void insert_all(Streams& streams, const Segments& segments, int given, Sampling sampling) {
+SHADOWBENCH_SIMD_LOOP inline void insert_all(Streams& streams, const SegmentRows& segments, int given,
+                                             Sampling sampling) {
     constexpr bool any_number = fixed == most_nodes;
     const int nodes = any_number ? given : fixed;
     for (std::size_t first = 0; first < lanes; first += width) {
@@ -245,7 +246,7 @@ SHADOWBENCH_SIMD_LOOP inline void insert_all(Streams& streams, const Segments& s
 }
 
 template <int fixed>
-void insert(Streams& streams, const Segments& segments, int nodes, Sampling sampling) {
+void insert(Streams& streams, const SegmentRows& segments, int nodes, Sampling sampling) {
 #if defined(__x86_64__)
     if (simd_path() != SimdPath::baseline)
         return base::run_avx2([&]()

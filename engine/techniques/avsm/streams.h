@@ -38,7 +38,7 @@ struct Streams {
 // The next segments of each lane: `count` rows. A segment has constant extinction from front to back (front == back: a
 // surface) and transmits `through`. All of it must lie before the far plane. One that transmits everything changes
 // nothing.
-struct Segments {
+struct SegmentRows {
     static constexpr std::size_t most = 16;
     std::size_t count = 0;
     alignas(64) std::array<std::array<float, lanes>, most> front, back, through;
@@ -56,7 +56,7 @@ struct Segments {
 // While no node has been dropped, the order changes the curve only by rounding, if everything between two nodes is what
 // the sampling assumes: always for surfaces, and for overlapping media with exponential sampling. With linear sampling,
 // a node that a later segment puts inside a medium lies on its chord.
-using Insert = void (*)(Streams& streams, const Segments& segments, int nodes, Sampling sampling);
+using Insert = void (*)(Streams& streams, const SegmentRows& segments, int nodes, Sampling sampling);
 
 // The fastest one for this number of nodes; all give the same values.
 Insert inserter(int nodes);

@@ -41,8 +41,8 @@ struct Reads {
 // The weights of four_cells(); 0 for a cell that repeats another.
 void set_weights(const Cover& cover, double* weights);
 
-// answers[k]: the weighted mean of query k, at most `highest`; 1 outside the map. For reads in slots; a single one needs
-// no weights.
+// answers[k]: the weighted mean of query k, at most `highest`; 1 outside the map. For reads in slots; a single one
+// needs no weights.
 void average(const Reads& reads, const std::array<bool, block_queries>& inside, float highest,
              std::span<float> answers);
 

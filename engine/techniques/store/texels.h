@@ -70,18 +70,20 @@ struct Texels {
     std::size_t bytes() const { return grid.count() * sizeof(float) * stride; }
     float* at(std::size_t cell) const { return memory_.get() + cell * stride; }
 
-    // visibility[i]: the weighted mean, over the texels of queries[i]'s filter, of the values that `evaluate` gives them.
-    // Lookups go in blocks: all texels of a block are prefetched first, so that their misses overlap, and evaluated
-    // side by side. For each block, prepare(queries) is called first; then evaluate(reads), once or more often, sets
-    // reads.value from reads.texel and reads.query.
+    // visibility[i]: the weighted mean, over the texels of queries[i]'s filter, of the values that `evaluate` gives
+    // them. Lookups go in blocks: all texels of a block are prefetched first, so that their misses overlap, and
+    // evaluated side by side. For each block, prepare(queries) is called first; then evaluate(reads), once or more
+    // often, sets reads.value from reads.texel and reads.query.
     template <class Prepare, class Evaluate>
     void lookup(std::span<const Query> queries, std::span<float> visibility, const Prepare& prepare,
                 const Evaluate& evaluate) const {
         Reads reads;
         Cover covered;
-        std::array<double, block_queries> sums, weights;  // over up to millions of texels: float sums would stop growing
+        // Over up to millions of texels: float sums would stop growing.
+        std::array<double, block_queries> sums, weights;
         for (std::size_t start = 0; start < queries.size(); start += block_queries) {
-            const std::span<const Query> block = queries.subspan(start, std::min(block_queries, queries.size() - start));
+            const std::span<const Query> block =
+                queries.subspan(start, std::min(block_queries, queries.size() - start));
             const std::span<float> answers = visibility.subspan(start, block.size());
             prepare(block);
             if (read_slots(block, covered, reads)) {
@@ -113,7 +115,8 @@ struct Texels {
         std::array<std::array<double, count>, block_queries> means;
         std::array<double, block_queries> weights;
         for (std::size_t start = 0; start < queries.size(); start += block_queries) {
-            const std::span<const Query> block = queries.subspan(start, std::min(block_queries, queries.size() - start));
+            const std::span<const Query> block =
+                queries.subspan(start, std::min(block_queries, queries.size() - start));
             for (std::array<double, count>& mean : means) mean.fill(0.0);
             weights.fill(0.0);
             const auto add = [&] {
@@ -152,7 +155,8 @@ private:
     // that, or if the block is so short that its empty places would take longer; then only `covered` is set.
     bool read_slots(std::span<const Query> block, Cover& covered, Reads& reads) const {
         filter == Filter::footprint ? cover(grid, block, covered) : cover_nearest(grid, block, covered);
-        if (block.size() < Reads::fewest_in_slots || covered.across.longest > 2 || covered.down.longest > 2) return false;
+        if (block.size() < Reads::fewest_in_slots || covered.across.longest > 2 || covered.down.longest > 2)
+            return false;
         if (filter == Filter::point) {
             reads.begin(1);
             std::fill_n(reads.weight.begin(), block_queries, 1.0);
