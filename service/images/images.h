@@ -36,7 +36,8 @@ struct Images {
 using ImagesOf = const Images*();
 inline constexpr const char* images_symbol = "shadowbench_images";
 
-// The library beside the program, or where it is installed. In a child of a server, the one that the server holds.
+// The library beside the program, or where it is installed. In a child of a server of the same build, on the same
+// machine, the one that the server holds.
 std::filesystem::path images_library();
 
 // Holds the library's file open for the children of this process, so that they open the one that fits this program even
