@@ -41,7 +41,8 @@ inline constexpr const char* images_symbol = "shadowbench_images";
 std::filesystem::path images_library();
 
 // Holds the library's file open for the children of this process, so that they open the one that fits this program even
-// when another one replaces it. Does nothing where there is no library: its absence matters to those who need it.
+// when another one replaces it. Where there is no library, those who need it fail. From now on their errors name it
+// without its folder, which clients of a server do not learn.
 void hold_images();
 
 }  // namespace shadowbench::service

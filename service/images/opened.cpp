@@ -26,9 +26,8 @@ constexpr const char* held = "SHADOWBENCH_IMAGES_LIBRARY";  // set for children 
 [[noreturn]] void fail(const fs::path& file, std::string cause) {
     // The messages of the system name the file that the error's place names already.
     if (const std::string name = file.string() + ": "; cause.starts_with(name)) cause.erase(0, name.size());
-    std::error_code no_link;
-    const fs::path behind = fs::read_symlink(file, no_link);  // of a file that is held
-    throw base::Error(base::ErrorCode::io, (behind.is_absolute() ? behind : file).string(),
+    const bool served = std::getenv(held) != nullptr;  // clients do not learn the server's folders
+    throw base::Error(base::ErrorCode::io, served ? SHADOWBENCH_IMAGES_NAME : file.string(),
                       "cannot open the library for images: " + cause);
 }
 
@@ -80,7 +79,7 @@ fs::path images_library() {
 
 void hold_images() {
     const int file = ::open(images_library().c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) return;
+    // Where there is none, the note of a name that does not exist is empty.
     const std::string name = "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(file);
     ::setenv(held, note_of(name).c_str(), 1);
 }

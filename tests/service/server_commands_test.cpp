@@ -157,6 +157,18 @@ TEST_F(ServerCommands, JobsAndHelpersAreRunByTheProgramThatServes) {
     EXPECT_EQ(removed.code, 0) << removed.err;
 }
 
+// Clients do not learn where the server is installed.
+TEST_F(ServerCommands, WithoutTheLibraryForImagesAJobNamesItWithoutItsFolder) {
+    program_ = path("program");
+    fs::copy_file(SHADOWBENCH_PROGRAM, program_);
+    serve();
+    const Outcome failed = cli({"submit", path("tiny.json"), "--server", url_, "--wait"});
+    EXPECT_NE(failed.code, 0);
+    const std::string name = fs::path(SHADOWBENCH_IMAGES).filename().string();
+    EXPECT_THAT(failed.err, ::testing::HasSubstr(name));
+    EXPECT_THAT(failed.err, ::testing::Not(::testing::HasSubstr("/" + name)));
+}
+
 TEST_F(ServerCommands, TechniquesFromOutsideComeFromItsFolderAndMayCrash) {
     fs::create_directory(path("libraries"));
     fs::copy_file(SHADOWBENCH_FAULTY, path("libraries/libfaulty.so"));
