@@ -27,7 +27,7 @@ target_link_libraries(shadowbench PRIVATE ${CMAKE_DL_LIBS})
 target_link_options(shadowbench PRIVATE -Wl,--as-needed)
 add_dependencies(shadowbench shadowbench_images)
 set(images_folder "${CMAKE_INSTALL_LIBDIR}/shadowbench")
-file(RELATIVE_PATH images_from_program "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_PREFIX}/${images_folder}")
+file(RELATIVE_PATH images_from_program "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}/shadowbench")
 set_property(SOURCE service/images/opened.cpp APPEND PROPERTY COMPILE_DEFINITIONS
              SHADOWBENCH_IMAGES_NAME="$<TARGET_FILE_NAME:shadowbench_images>"
              SHADOWBENCH_IMAGES_FROM_PROGRAM="${images_from_program}")

@@ -8,9 +8,11 @@
 namespace shadowbench::recommend {
 
 void Trials::keep_in(const std::filesystem::path& folder) {
-    files_.emplace(
-        folder, result_without_variants(),
-        nlohmann::json{{"light", light_->name}, {"measure", measure_words[static_cast<std::size_t>(measure_)]}});
+    // With another limit of memory, other maps fail, and other light rays are kept.
+    files_.emplace(folder, result_without_variants(),
+                   nlohmann::json{{"light", light_->name},
+                                  {"measure", measure_words[static_cast<std::size_t>(measure_)]},
+                                  {"memory", options_.limits.all}});
 }
 
 void Trials::note_effort(const Setting& setting, double seconds, double rays, double bytes) {

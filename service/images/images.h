@@ -36,11 +36,13 @@ struct Images {
 using ImagesOf = const Images*();
 inline constexpr const char* images_symbol = "shadowbench_images";
 
-// The library beside the program, or where it is installed. In a child of a server, the one that the server holds.
+// The library beside the program, or where it is installed. In a child of a server of the same build, on the same
+// machine, the one that the server holds.
 std::filesystem::path images_library();
 
 // Holds the library's file open for the children of this process, so that they open the one that fits this program even
-// when another one replaces it. Does nothing where there is no library: its absence matters to those who need it.
+// when another one replaces it. Where there is no library, those who need it fail. From now on their errors name it
+// without its folder, which clients of a server do not learn.
 void hold_images();
 
 }  // namespace shadowbench::service

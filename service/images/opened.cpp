@@ -2,10 +2,12 @@
 // theirs.
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "base/error.h"
@@ -24,7 +26,20 @@ constexpr const char* held = "SHADOWBENCH_IMAGES_LIBRARY";  // set for children 
 [[noreturn]] void fail(const fs::path& file, std::string cause) {
     // The messages of the system name the file that the error's place names already.
     if (const std::string name = file.string() + ": "; cause.starts_with(name)) cause.erase(0, name.size());
-    throw base::Error(base::ErrorCode::io, file.string(), "cannot open the library for images: " + cause);
+    const bool served = std::getenv(held) != nullptr;  // clients do not learn the server's folders
+    throw base::Error(base::ErrorCode::io, served ? SHADOWBENCH_IMAGES_NAME : file.string(),
+                      "cannot open the library for images: " + cause);
+}
+
+// "0.2.0 0123456789ab 2049:77 /proc/1234/fd/5": the build, and which file it is. A launcher starts jobs by the name of
+// the program, which may be another build by then, or on another machine, where that name may be any file. Empty for
+// what cannot be read.
+std::string note_of(const std::string& name) {
+    struct stat file;
+    if (::stat(name.c_str(), &file) != 0) return "";
+    const results::Program program = results::this_program();
+    return program.version + " " + program.commit + " " + std::to_string(file.st_dev) + ":" +
+           std::to_string(file.st_ino) + " " + name;
 }
 
 const Images& open_images() {
@@ -50,9 +65,10 @@ const Images& images() {
 }  // namespace
 
 fs::path images_library() {
-    if (const char* file = std::getenv(held)) {
-        std::error_code ignored;
-        if (fs::exists(file, ignored)) return file;  // else on another machine
+    if (const char* value = std::getenv(held)) {
+        const std::string_view note = value;
+        const std::string name(note.substr(note.rfind(' ') + 1));
+        if (!note.empty() && note_of(name) == note) return name;
     }
     std::error_code failed;
     const fs::path folder = fs::read_symlink("/proc/self/exe", failed).parent_path();
@@ -63,9 +79,9 @@ fs::path images_library() {
 
 void hold_images() {
     const int file = ::open(images_library().c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) return;
+    // Where there is none, the note of a name that does not exist is empty.
     const std::string name = "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(file);
-    ::setenv(held, name.c_str(), 1);
+    ::setenv(held, note_of(name).c_str(), 1);
 }
 
 }  // namespace shadowbench::service

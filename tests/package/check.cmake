@@ -62,8 +62,8 @@ file(GLOB images_library "${prefix}/lib*/shadowbench/*.so" "${prefix}/lib*/*/sha
 
 # --- the libraries of an image: service/container -----------------------------------------------------------------------
 # What is collected is all that the program and its library load, apart from the C library and its like.
-run("${CMAKE_COMMAND}" -E env COLLECT=list "${CMAKE_CURRENT_LIST_DIR}/../../service/container/collect" -
-    "${prefix}/bin/shadowbench" ${images_library})
+run("${CMAKE_COMMAND}" -E env COLLECT=list "${CMAKE_CURRENT_LIST_DIR}/../../service/container/collect"
+    "${prefix}")
 string(REGEX MATCHALL "[^\n]+" collected "${text}")
 set(image "${WORK}/image")
 file(MAKE_DIRECTORY "${image}")
@@ -79,9 +79,13 @@ endforeach()
 if(all GREATER 440000000)
   message(FATAL_ERROR "The libraries of an image of service/container take ${all} bytes: more than 440 MB")
 endif()
-run(/lib64/ld-linux-x86-64.so.2 --inhibit-cache --library-path "${image}" --list ${images_library})
-expect("${text}" "${image}/libOpenImageIO.so")
-string(REGEX MATCHALL "[^\n]+" loaded "${text}")
+set(loaded "")
+foreach(file IN ITEMS "${prefix}/bin/shadowbench" ${images_library})
+  run(/lib64/ld-linux-x86-64.so.2 --inhibit-cache --library-path "${image}" --list "${file}")
+  string(REGEX MATCHALL "[^\n]+" lines "${text}")
+  list(APPEND loaded ${lines})
+endforeach()
+expect("${loaded}" "${image}/libOpenImageIO.so")
 foreach(line IN LISTS loaded)
   if(line MATCHES "=>" AND NOT line MATCHES "=> ${image}/"
      AND NOT line MATCHES "(libc|libm|libdl|librt|libpthread|libresolv|libgcc_s|ld-linux-x86-64)\\.so")

@@ -27,8 +27,9 @@ using nlohmann::json;
 class KeptTrials : public ::testing::Test {
 protected:
     std::unique_ptr<Trials> trials(Measure measure = Measure::rms, const json& document = two_layers(),
-                                   int threads = 2) const {
+                                   int threads = 2, bench::MemoryLimits limits = {}) const {
         bench::RunOptions options;
+        options.limits = limits;
         options.only = {"deep", "pcf"};
         options.threads = threads;
         auto made = std::make_unique<Trials>(document, options, "", measure, bench::ProgressCallback{});
@@ -97,6 +98,8 @@ TEST_F(KeptTrials, OfAnotherMachineOrQuestionDoNotCount) {
     EXPECT_EQ(trials(Measure::p99)->others(), 2u);
     EXPECT_EQ(trials(Measure::rms, other_scenario)->others(), 2u);
     EXPECT_EQ(trials(Measure::rms, two_layers(), 1)->others(), 2u) << "threads share caches";
+    const bench::MemoryLimits less{std::size_t{1} << 30, std::size_t{1} << 29};
+    EXPECT_EQ(trials(Measure::rms, two_layers(), 2, less)->others(), 2u) << "it decides which maps fail";
     const auto back = trials();
     EXPECT_EQ(back->measure(point(*back, 0)).cost, here.cost);
 }

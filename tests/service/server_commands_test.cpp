@@ -137,19 +137,36 @@ TEST_F(ServerCommands, JobsStartThroughTheLauncher) {
         << "no file that only this machine sees: " << read(path("asked"));
 }
 
+// With its own library for images, since that of another build would not fit.
 TEST_F(ServerCommands, JobsAndHelpersAreRunByTheProgramThatServes) {
     program_ = path("program");
+    const fs::path images = folder_ / fs::path(SHADOWBENCH_IMAGES).filename();
     fs::copy_file(SHADOWBENCH_PROGRAM, program_);
+    fs::copy_file(SHADOWBENCH_IMAGES, images);
     serve();
     const std::string next = write("next", "#!/bin/sh\nexit 70\n");
     fs::permissions(next, fs::perms::owner_all);
     fs::rename(next, program_);
+    fs::rename(write("next.so", "no library"), images);
     const std::vector<std::string> submit{"submit", path("tiny.json"), "--server", url_, "--wait", "--fresh"};
     const Outcome replaced = cli(submit);
     EXPECT_EQ(replaced.code, 0) << replaced.err;
     fs::remove(program_);
+    fs::remove(images);
     const Outcome removed = cli(submit);
     EXPECT_EQ(removed.code, 0) << removed.err;
+}
+
+// Clients do not learn where the server is installed.
+TEST_F(ServerCommands, WithoutTheLibraryForImagesAJobNamesItWithoutItsFolder) {
+    program_ = path("program");
+    fs::copy_file(SHADOWBENCH_PROGRAM, program_);
+    serve();
+    const Outcome failed = cli({"submit", path("tiny.json"), "--server", url_, "--wait"});
+    EXPECT_NE(failed.code, 0);
+    const std::string name = fs::path(SHADOWBENCH_IMAGES).filename().string();
+    EXPECT_THAT(failed.err, ::testing::HasSubstr(name));
+    EXPECT_THAT(failed.err, ::testing::Not(::testing::HasSubstr("/" + name)));
 }
 
 TEST_F(ServerCommands, TechniquesFromOutsideComeFromItsFolderAndMayCrash) {

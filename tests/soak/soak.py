@@ -131,8 +131,9 @@ class Soak:
             if status in (0, 503):
                 self.counts["busy"] += 1
                 return
-            if status == 404:
-                self.fault(f"job {job} ({self.jobs[job]['key']}) is gone, and was never seen to end")
+            if status != 200 or answer is None:
+                gone = "is gone, and was never seen to end" if status == 404 else f"answers {status}"
+                self.fault(f"job {job} ({self.jobs[job]['key']}) {gone}")
                 self.open.discard(job)
                 continue
             state = answer["state"]
@@ -319,13 +320,18 @@ class Soak:
             if last[-1] > 1.2 * last[len(last) // 4] + 2**23:
                 self.fault("the server's memory grew by more than a fifth and 8 MiB over three quarters of its life")
         print("soak:", f"{len(self.faults)} faults" if self.faults else "nothing lost, nothing doubled")
+        if self.faults:
+            print("soak: the log is", self.log)
+
+    def close(self):
+        """Ends the server and gives back the disk, whatever happened; the folder with the log stays after a fault."""
+        if self.server and self.server.poll() is None:
+            self.server.kill()
+            self.server.wait()
         if self.mounted:
             subprocess.run(["umount", self.disk])
         if not self.faults:
             shutil.rmtree(self.base, ignore_errors=True)
-        else:
-            print("soak: the log is", self.log)
-        return 1 if self.faults else 0
 
     def listed(self):
         found, cursor = set(), ""
@@ -349,9 +355,11 @@ def main():
     soak = Soak(parser.parse_args())
     try:
         soak.run()
+    except BaseException:
+        soak.faults.append("the soak itself ended early")
+        raise
     finally:
-        if soak.server and soak.server.poll() is None:
-            soak.server.kill()
+        soak.close()
     sys.exit(1 if soak.faults else 0)
 
 

@@ -30,7 +30,8 @@ std::optional<AlphaTexture> read_gltf_image(const GltfModel& model, std::size_t 
     const GltfImage& image = model.images[number];
     const std::string at = fmt::format("/images/{}", number), where = fmt::format("{}: {}", model.file.string(), at);
     if (!image.view && image.uri.empty()) fail(model, at, "\"uri\" or \"bufferView\" is missing");
-    if (!image.view && !is_data_uri(image.uri)) return read_alpha_channel(file_of_uri(model.file, image.uri, where + "/uri"));
+    if (!image.view && !is_data_uri(image.uri))
+        return read_alpha_channel(file_of_uri(model.file, image.uri, where + "/uri"));
     // The checks that images need before a library reads them are for files.
     const std::vector<char> bytes = embedded_bytes(model, image, at);
     const base::TemporaryFolder folder;
