@@ -26,12 +26,14 @@ struct RenderOptions {
 };
 
 inline constexpr int usual_width = 512, usual_rays_per_side = 2, usual_media_lookups = 64;
+inline constexpr double most_enlarged = 4.0;
 
 // The options of pictures for the eye: enlarged, antialiased, with joined lookups.
 RenderOptions usual_options(const bench::RunOptions& run);
 
-// A size that is `usual_width` wide, or twice as high if it is so high first, in the proportions of `size`; `size` if
-// that is larger.
+// The size in the same proportions that is `usual_width` wide, unless it is then more than twice as high, or more than
+// `most_enlarged` times `size`, which a scenario chose to be quick: the largest that is neither. `size` if that is
+// larger.
 base::Vec2i enlarged(base::Vec2i size);
 
 // Errors over all pixels and channels, in linear values; FLIP is computed on the pictures as a display shows them
