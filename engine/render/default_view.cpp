@@ -9,7 +9,6 @@
 
 #include "rays/tracer.h"
 #include "render/shading.h"
-#include "scene/scenario.h"
 
 namespace shadowbench::render {
 namespace {
@@ -104,8 +103,8 @@ scene::Camera default_camera(const scene::Scene& scene) {
 
 scene::Camera camera_of_shadows(const scene::Scenario& scenario, base::Vec2i size, const rays::Tracer& tracer) {
     scene::Camera camera = default_camera(scenario.scene);
-    if (scenario.lights.empty()) return camera;
     const base::Box3d casters = scene::bounds(scenario.scene, true);
+    if (scenario.lights.empty() || casters.isEmpty()) return camera;
     std::vector<Vec3d> places = corners_of(casters);
     for (const scene::Light& light : scenario.lights) add_shadows(light, casters, tracer, places);
     base::Box3d all;

@@ -4,9 +4,6 @@
 #include "base/vec.h"
 #include "scene/scene.h"
 
-namespace shadowbench::scene {
-struct Scenario;
-}
 namespace shadowbench::rays {
 class Tracer;
 }
