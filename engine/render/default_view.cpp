@@ -44,6 +44,7 @@ void add_shadows(const scene::Light& light, const base::Box3d& casters, const ra
     std::vector<rays::SurfaceHit> hits;
     for (const Vec3d& corner : corners_of(casters)) {
         const Vec3d direction = -towards(light, corner);
+        if (direction == Vec3d(0.0)) continue;  // the light is at the corner
         const Vec3d start = corner + direction * (way_inside(casters, corner, direction) + 1e-6 * size);
         if (tracer.surfaces(start, direction, hits, scene::mid_shutter))
             places.push_back(start + direction * std::min(hits.back().t, furthest_shadow * size));
@@ -64,7 +65,7 @@ Vec3d way_to_eye(const Vec3d& travels) {
 void fit(std::span<const Vec3d> places, const Vec3d& to_eye, double aspect, scene::Camera& camera) {
     const Vec3d right = camera.up.cross(to_eye).normalized(), up = to_eye.cross(right);
     const double half_y = std::tan(0.5 * camera.fov * std::numbers::pi / 180.0), half_x = half_y * aspect;
-    for (int round = 0; round < rounds; ++round) {
+    for (int turn = 0; turn < rounds; ++turn) {
         double distance = 1e-6;
         for (const Vec3d& place : places) {
             const Vec3d p = place - camera.target;
@@ -72,7 +73,7 @@ void fit(std::span<const Vec3d> places, const Vec3d& to_eye, double aspect, scen
             distance = std::max(distance, p.dot(to_eye) + wanted);
         }
         camera.position = camera.target + to_eye * distance;
-        if (round + 1 == rounds) return;
+        if (turn + 1 == rounds) return;
         double low[2], high[2];
         std::fill(low, low + 2, std::numeric_limits<double>::infinity());
         std::fill(high, high + 2, -std::numeric_limits<double>::infinity());
