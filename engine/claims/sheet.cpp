@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "claims/panels.h"
+#include "render/exposure.h"
 #include "render/image_file.h"
 #include "render/render.h"
 
@@ -21,8 +22,8 @@ Sheet picture_sheet(const Context& context, const std::string& name, const std::
     const render::Rendering rendering = render::render(document, options, context.progress);
 
     const render::Image& reference = rendering.reference.shaded;
-    const double exposure = print_exposure(reference, rendering.seen);
-    std::vector<Panel> panels{{on_grey(reference, rendering.seen, exposure), rendering.reference.shadow}};
+    const double exposure = render::exposure_of(reference, rendering.seen);
+    std::vector<Panel> panels{{render::on_grey(reference, rendering.seen, exposure), rendering.reference.shadow}};
     Sheet sheet;
     sheet.name = context.report->id + suffix;
     sheet.caption = fmt::format("Above, from left to right: {}: 1 reference", name);
@@ -33,7 +34,7 @@ Sheet picture_sheet(const Context& context, const std::string& name, const std::
             continue;
         }
         const render::Image& shaded = pictures.picture.shaded;
-        panels.push_back({on_grey(shaded, rendering.seen, exposure),
+        panels.push_back({render::on_grey(shaded, rendering.seen, exposure),
                           dark_on_white(render::difference_times_four(shaded, reference))});
         sheet.caption += fmt::format("; {} {} (rms {:.2g}, FLIP {:.2g})", panels.size(), label, pictures.shaded.rms,
                                      pictures.shaded.flip_mean);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/render.h"
+#include "render/default_view.h"
 
 namespace shadowbench::claims::volume {
 

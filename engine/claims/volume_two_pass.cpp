@@ -7,6 +7,8 @@
 #include "claims/volume.h"
 #include "claims/volume_map.h"
 #include "claims/volume_rays.h"
+#include "render/default_view.h"
+#include "render/exposure.h"
 #include "render/render.h"
 #include "render/two_pass.h"
 
@@ -92,7 +94,7 @@ void add_pictures(const VolumeMap& map, const render::ColourPass& pass, const sc
                   exact = render::exact_opacities(rays, exact_steps, map.scenario.scene, map.view, pass);
     std::vector<float> seen;
     for (const BoxRay& ray : rays) seen.push_back(ray.meets() ? 1.0f : 0.0f);
-    const double exposure = print_exposure(render::grey_picture(colour, size), seen);
+    const double exposure = render::exposure_of(render::grey_picture(colour, size), seen);
     const auto exposed = [&](const Numbers& opacities) {
         render::Image image = render::grey_picture(render::darkened(colour, opacities), size);
         for (base::Vec3f& pixel : image.pixels) pixel *= static_cast<float>(exposure);

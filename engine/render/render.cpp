@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +18,7 @@
 #include "document/document.h"
 #include "metrics/statistics.h"
 #include "rays/capture.h"
+#include "render/default_view.h"
 #include "render/heat_map.h"
 #include "render/point_queries.h"
 
@@ -145,24 +145,28 @@ Rendering describe(const scene::Scenario& scenario, const document::Variant& var
     result.settings = variant.settings;
     result.notes = scene::notes(scenario);
     result.default_camera = !scenario.receivers.camera;
-    result.camera = result.default_camera ? default_camera(scenario.scene) : *scenario.receivers.camera;
-    result.size = options.size.value_or(scenario.receivers.resolution);
+    const base::Vec2i own = scenario.receivers.resolution;
+    result.size = options.size.value_or(options.enlarge ? enlarged(own) : own);
     result.rays_per_side = options.rays_per_side;
+    result.joined = options.joined;
     const scene::RaySettings truth = bench::reference_settings(scenario);
     const bench::RaySets sets = bench::ray_sets(scenario.scene, truth);
     result.reference_samples = sets.sets * sets.samples_per_pixel;
     return result;
 }
 
-ShadingPoints see(const scene::Scenario& scenario, const RenderOptions& options, const Rendering& result,
+ShadingPoints see(const scene::Scenario& scenario, const RenderOptions& options, Rendering& result,
                   const bench::ProgressCallback& progress) {
+    const rays::Tracer all(scenario.scene, false);
+    result.camera =
+        scenario.receivers.camera ? *scenario.receivers.camera : camera_of_shadows(scenario, result.size, all);
     ViewSettings settings;
     settings.camera = result.camera;
     settings.size = result.size;
     settings.media_lookups = options.media_lookups;
     settings.rays_per_side = options.rays_per_side;
+    settings.joined = options.joined;
     settings.memory_limit = options.run.limits.all / 2;
-    const rays::Tracer all(scenario.scene, false);
     std::vector<scene::Light> lights = scenario.lights;
     lights.insert(lights.end(), scenario.fills.begin(), scenario.fills.end());
     ShadingPoints points =
@@ -176,14 +180,21 @@ ShadingPoints see(const scene::Scenario& scenario, const RenderOptions& options,
 
 }  // namespace
 
-scene::Camera default_camera(const scene::Scene& scene) {
-    const base::Box3d box = scene::bounds(scene, true);
-    scene::Camera camera;
-    camera.target = box.center();
-    const double radius = 0.5 * box.size().length();
-    const double distance = 1.05 * radius / std::sin(camera.fov * std::numbers::pi / 360.0);
-    camera.position = camera.target + Vec3d(3.0, 2.5, 4.0).normalized() * std::max(distance, 1e-6);
-    return camera;
+RenderOptions usual_options(const bench::RunOptions& run) {
+    RenderOptions options;
+    options.run = run;
+    options.enlarge = true;
+    options.rays_per_side = usual_rays_per_side;
+    options.joined = true;
+    options.media_lookups = usual_media_lookups;
+    return options;
+}
+
+base::Vec2i enlarged(base::Vec2i size) {
+    const double width = usual_width, factor = std::min({width / size.x, 2.0 * width / size.y, most_enlarged});
+    if (factor <= 1.0) return size;
+    const auto scaled = [factor](int side) { return std::max(static_cast<int>(std::lround(factor * side)), 1); };
+    return {scaled(size.x), scaled(size.y)};
 }
 
 Rendering render(const nlohmann::json& document, const RenderOptions& options,

@@ -19,11 +19,25 @@ namespace shadowbench::render {
 struct RenderOptions {
     bench::RunOptions run;
     std::optional<base::Vec2i> size;  // pixels; absent: as in the scenario
+    bool enlarge = false;             // without a size, to usual_width pixels if the scenario's picture is narrower
     int rays_per_side = 1;            // 1 to 8; its square is the number of view rays a pixel
+    bool joined = false;              // view rays of a pixel that see one place share a lookup: see join_points()
     int media_lookups = 128;          // 1 to 256, for a view ray through all media: see ViewSettings
 };
 
-// Errors over all pixels and channels, in linear values; FLIP is computed on the pictures as a display shows them.
+inline constexpr int usual_width = 512, usual_rays_per_side = 2, usual_media_lookups = 64;
+inline constexpr double most_enlarged = 4.0;
+
+// The options of pictures for the eye: enlarged, antialiased, with joined lookups.
+RenderOptions usual_options(const bench::RunOptions& run);
+
+// The size in the same proportions that is `usual_width` wide, unless it is then more than twice as high, or more than
+// `most_enlarged` times `size`, which a scenario chose to be quick: the largest that is neither. `size` if that is
+// larger.
+base::Vec2i enlarged(base::Vec2i size);
+
+// Errors over all pixels and channels, in linear values; FLIP is computed on the pictures as a display shows them
+// without exposure.
 struct PictureErrors {
     double max = 0.0, rms = 0.0;
     double flip_mean = 0.0, flip_weighted_median = 0.0, flip_max = 0.0;
@@ -44,7 +58,8 @@ struct Rendering {
     bool default_camera = false;
     base::Vec2i size{0, 0};
     int rays_per_side = 1;
-    std::size_t points = 0;  // number of points at which each technique looks up each light
+    bool joined = false;
+    std::size_t points = 0;   // number of points at which each technique looks up each light
     std::vector<float> seen;  // share of each pixel that shows something, mean of the channels
     Picture reference;
     int reference_samples = 0;              // rays a map pixel
@@ -53,9 +68,6 @@ struct Rendering {
     std::vector<LightMap> lights;           // of each light
     std::vector<TechniquePictures> techniques;
 };
-
-// A camera that looks from the direction (3, 2.5, 4) at the middle of the casters, far enough away to see all of them.
-scene::Camera default_camera(const scene::Scene& scene);
 
 // Renders the first variant of a document with sweeps. Throws what bench::run throws, and Error{bad_input} for a deep
 // image, which has no world for a camera.

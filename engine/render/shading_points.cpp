@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "bench/queries.h"
 #include "rays/image_plane.h"
+#include "render/join_points.h"
 #include "render/shading.h"
 #include "render/view_march.h"
 #include "scene/cube_face.h"
@@ -51,13 +52,12 @@ struct Eye {
     rays::ImagePlane plane;  // each of its pixels is a view ray
     double step;
     bool media;
+    int rays_per_side;
+    bool joined;
 };
 
-void add_place(const bench::CameraPoint& point, Row& row) {
-    row.place.push_back(point.position);
-    row.across.push_back(Vec3f(point.across));
-    row.down.push_back(Vec3f(point.down));
-    row.normal.push_back(Vec3f(point.normal));
+SeenPoint seen_point(SeenPoint::Kind kind, double t, const bench::CameraPoint& point, const Vec3d& share) {
+    return {kind, t, point.position, Vec3f(point.across), Vec3f(point.down), Vec3f(point.normal), Vec3f(share)};
 }
 
 // A face of a point light lights only its part of the world.
@@ -65,24 +65,23 @@ bool lights_place(const scene::Light& light, const Vec3d& place) {
     return !light.face || scene::cube_face(place - light.position) == *light.face;
 }
 
-void add_medium_point(const Eye& eye, const Vec3d& place, const Vec3d& share, Row& row) {
-    row.coverage.push_back(Vec3f(share));
+void add_medium_light(const Eye& eye, const Vec3d& place, const Vec3d& share, PixelPoints& pixel) {
     for (const scene::Light& light : eye.lights)
-        row.radiance.push_back(lights_place(light, place) ? Vec3f(share * medium_albedo * Vec3d(light.colour))
-                                                          : Vec3f(0.0f));
+        pixel.radiance.push_back(lights_place(light, place) ? Vec3f(share * medium_albedo * Vec3d(light.colour))
+                                                            : Vec3f(0.0f));
 }
 
-void add_surface_point(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d& to_eye, const Vec3d& share, Row& row) {
-    row.coverage.push_back(Vec3f(share));
+void add_surface_light(const Eye& eye, const rays::SurfaceHit& hit, const Vec3d& to_eye, const Vec3d& share,
+                       PixelPoints& pixel) {
     for (const scene::Light& light : eye.lights) {
         if (!lights_place(light, hit.position)) {
-            row.radiance.emplace_back(0.0f);
+            pixel.radiance.emplace_back(0.0f);
             continue;
         }
         const Vec3d to_light = towards(light, hit.position);
         const bool hair = hit.tangent != Vec3d(0.0);
         const double shade = hair ? shade_hair(hit.tangent, to_light, to_eye) : shade_surface(hit.normal, to_light);
-        row.radiance.push_back(Vec3f(share * shade * Vec3d(light.colour)));
+        pixel.radiance.push_back(Vec3f(share * shade * Vec3d(light.colour)));
     }
 }
 
@@ -91,12 +90,13 @@ struct Scratch {
     std::vector<rays::SurfaceHit> surfaces;
     std::vector<rays::TracedSegment> segments;
     ViewMarch march;
+    PixelPoints pixel;
 };
 
 // Adds the view ray through position (x, y) of the plane, which covers the share `part` of its pixel.
-void trace(const Eye& eye, double x, double y, double part, Scratch& scratch, Row& row) {
+void trace(const Eye& eye, double x, double y, double part, Scratch& scratch) {
     const Vec3d through = eye.plane.through(x, y), direction = through.normalized();
-    auto& [surfaces, segments, march] = scratch;
+    auto& [surfaces, segments, march, pixel] = scratch;
     const bool ends = eye.tracer.surfaces(eye.plane.origin, direction, surfaces, scene::mid_shutter);
     segments.clear();
     if (eye.media) {
@@ -105,27 +105,48 @@ void trace(const Eye& eye, double x, double y, double part, Scratch& scratch, Ro
     }
     march_view_ray(segments, surfaces, eye.step, march);
     for (const ViewStep& step : march.steps) {
-        const Vec3d place = eye.plane.origin + direction * step.t;
-        add_place(bench::camera_point(eye.plane, through, place, direction), row);
-        add_medium_point(eye, place, step.share * part, row);
+        const Vec3d place = eye.plane.origin + direction * step.t, share = step.share * part;
+        pixel.points.push_back(seen_point(SeenPoint::Kind::medium, step.t,
+                                          bench::camera_point(eye.plane, through, place, direction), share));
+        add_medium_light(eye, place, share, pixel);
     }
     for (std::size_t i = 0; i < march.surfaces.size(); ++i) {
         if (march.surfaces[i] == Vec3d(0.0)) continue;
-        add_place(bench::camera_point(eye.plane, through, surfaces[i]), row);
-        add_surface_point(eye, surfaces[i], -direction, march.surfaces[i] * part, row);
+        const bool hair = surfaces[i].tangent != Vec3d(0.0);
+        const Vec3d share = march.surfaces[i] * part;
+        pixel.points.push_back(seen_point(hair ? SeenPoint::Kind::hair : SeenPoint::Kind::surface, surfaces[i].t,
+                                          bench::camera_point(eye.plane, through, surfaces[i]), share));
+        add_surface_light(eye, surfaces[i], -direction, share, pixel);
     }
 }
 
-Row trace_row(const Eye& eye, int y, int width, int rays_per_side) {
+void add_pixel(const PixelPoints& pixel, Row& row) {
+    for (const SeenPoint& point : pixel.points) {
+        row.place.push_back(point.place);
+        row.across.push_back(point.across);
+        row.down.push_back(point.down);
+        row.normal.push_back(point.normal);
+        row.coverage.push_back(point.coverage);
+    }
+    row.radiance.insert(row.radiance.end(), pixel.radiance.begin(), pixel.radiance.end());
+    row.count.push_back(static_cast<std::uint32_t>(pixel.points.size()));
+}
+
+Row trace_row(const Eye& eye, int y, int width) {
     Row row;
     Scratch scratch;
-    const double part = 1.0 / (rays_per_side * rays_per_side);
+    const int side = eye.rays_per_side;
+    const double part = 1.0 / (side * side);
     for (int x = 0; x < width; ++x) {
-        const std::size_t before = row.place.size();
-        for (int j = 0; j < rays_per_side; ++j)
-            for (int i = 0; i < rays_per_side; ++i)
-                trace(eye, x * rays_per_side + i + 0.5, y * rays_per_side + j + 0.5, part, scratch, row);
-        row.count.push_back(static_cast<std::uint32_t>(row.place.size() - before));
+        scratch.pixel.clear();
+        for (int j = 0; j < side; ++j)
+            for (int i = 0; i < side; ++i) trace(eye, x * side + i + 0.5, y * side + j + 0.5, part, scratch);
+        if (eye.joined && side > 1) {
+            const double width_at_1 =
+                side * eye.plane.across.length() / eye.plane.through((x + 0.5) * side, (y + 0.5) * side).length();
+            join_points({eye.lights.size(), side, width_at_1, eye.step}, scratch.pixel);
+        }
+        add_pixel(scratch.pixel, row);
     }
     return row;
 }
@@ -151,7 +172,7 @@ ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const sce
                                   const ViewSettings& settings, const rays::Tracer& tracer, const ViewWatch& watch) {
     const double step = step_length(scene, settings.media_lookups);
     const rays::ImagePlane plane = rays::make_image_plane(settings.camera, settings.size * settings.rays_per_side);
-    const Eye eye{lights, tracer, plane, step, std::isfinite(step)};
+    const Eye eye{lights, tracer, plane, step, std::isfinite(step), settings.rays_per_side, settings.joined};
     ShadingPoints points;
     points.size = settings.size;
     for (const scene::Light& light : lights) points.lamps += light.face ? 1.0 / scene::cube_faces.size() : 1.0;
@@ -161,7 +182,7 @@ ShadingPoints find_shading_points(const scene::Scene& scene, std::span<const sce
     for (std::size_t first = 0; first < height; first += rows_at_a_time) {
         std::vector<Row> rows(std::min(rows_at_a_time, height - first));
         base::parallel_for(rows.size(), [&](std::size_t i) {
-            rows[i] = trace_row(eye, static_cast<int>(first + i), settings.size.x, settings.rays_per_side);
+            rows[i] = trace_row(eye, static_cast<int>(first + i), settings.size.x);
         });
         std::size_t count = points.points();
         for (const Row& row : rows) count += row.place.size();

@@ -19,7 +19,8 @@ struct ShadingPoints {
     base::Vec2i size{0, 0};
     std::vector<std::uint32_t> begin;  // pixels + 1 offsets into the points; pixels in image order
     std::vector<base::Vec3d> place;    // world; for each view ray first media, then surfaces, each from front to back
-    std::vector<base::Vec3f> across;   // edges of a view ray's footprint at its point, as in bench::CameraPoint
+    std::vector<base::Vec3f> across;   // edges of a view ray's footprint at its point, as in bench::CameraPoint; of
+                                       // the pixel's at a joined point
     std::vector<base::Vec3f> down;
     std::vector<base::Vec3f> normal;    // as in bench::CameraPoint
     std::vector<base::Vec3f> coverage;  // share of the pixel that shows the point; a pixel's sum is at most 1
@@ -40,6 +41,7 @@ struct ViewSettings {
     int media_lookups = 128;
     int rays_per_side =
         1;  // its square is the number of view rays a pixel, on a regular grid; more rays smooth edges and hair
+    bool joined = false;  // the view rays of a pixel that see one place share a point: see join_points()
     std::size_t memory_limit = std::size_t{8} << 30;  // bytes
 };
 

@@ -9,6 +9,7 @@
 
 #include "base/write_files.h"
 #include "metrics/flip.h"
+#include "render/exposure.h"
 #include "render/heat_map.h"
 #include "render/image_file.h"
 #include "render/shading.h"
@@ -119,6 +120,8 @@ json to_json(const Rendering& rendering) {
               {"fov", rendering.camera.fov},
               {"of_scenario", !rendering.default_camera}}},
             {"view_rays_per_pixel", rendering.rays_per_side * rendering.rays_per_side},
+            {"joined_lookups", rendering.joined},
+            {"exposure", exposure_of(rendering.reference.shaded, rendering.seen)},
             {"shading", shading_json()},
             {"lookups", rendering.points},
             {"reference",
@@ -135,18 +138,23 @@ json to_json(const Rendering& rendering) {
 void write_pictures(const fs::path& folder, const Rendering& rendering) {
     const std::vector<std::string> labels = file_labels(rendering);
     std::vector<base::NewFile> files;
-    const auto add = [&](const std::string& name, const Image& image) {
-        files.push_back({folder / (name + ".exr"), encode_exr(image)});
-        files.push_back({folder / (name + ".png"), encode_png(image)});
+    const auto add_both = [&](const std::string& name, const Image& values, const Image& shown) {
+        files.push_back({folder / (name + ".exr"), encode_exr(values)});
+        files.push_back({folder / (name + ".png"), encode_png(shown)});
+    };
+    const auto add = [&](const std::string& name, const Image& image) { add_both(name, image, image); };
+    const double exposure = exposure_of(rendering.reference.shaded, rendering.seen);
+    const auto add_shaded = [&](const std::string& label, const Image& image) {
+        add_both(label + ".shaded", image, on_grey(image, rendering.seen, exposure));
     };
     for (std::size_t l = 0; l < rendering.lights.size(); ++l)
         add(light_label(l) + ".through", rendering.lights[l].through);
-    add("reference.shaded", rendering.reference.shaded);
+    add_shaded("reference", rendering.reference.shaded);
     add("reference.shadow", rendering.reference.shadow);
     for (std::size_t t = 0; t < labels.size(); ++t) {
         const TechniquePictures& pictures = rendering.techniques[t];
         if (pictures.cell.status == results::CellStatus::failed) continue;
-        add(labels[t] + ".shaded", pictures.picture.shaded);
+        add_shaded(labels[t], pictures.picture.shaded);
         add(labels[t] + ".shadow", pictures.picture.shadow);
         add(labels[t] + ".difference", difference_times_four(pictures.picture.shaded, rendering.reference.shaded));
         add(labels[t] + ".heat", heat_map(pixel_errors(pictures.picture.shadow, rendering.reference.shadow),

@@ -22,8 +22,9 @@ std::string to_table(const Rendering& rendering);
 
 // Writes images.json and pictures, each as EXR (linear, half) and PNG (sRGB): reference.shaded and reference.shadow;
 // for every technique <label>.shaded, .shadow (average visibility), .difference (|shaded - reference| times four) and
-// .heat (|shadow - reference| with its legend); light_<index>.through for every light. All files or none. Throws
-// Error{io}.
+// .heat
+// (|shadow - reference| with its legend); light_<index>.through for every light. The PNG files of shaded pictures have
+// the exposure of the reference, and grey where nothing is seen. All files or none. Throws Error{io}.
 void write_pictures(const std::filesystem::path& folder, const Rendering& rendering);
 
 }  // namespace shadowbench::render

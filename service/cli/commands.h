@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,10 @@ struct RunArguments : JobArguments {
 };
 
 struct RenderArguments : ScenarioArguments {
-    std::string out;          // folder; empty: results/images/<scenario name>
-    std::string size;         // WIDTHxHEIGHT; empty: the scenario's own
-    int rays_per_side = 1;    // its square is the number of view rays per pixel
-    int media_lookups = 128;  // lookups per view ray, over all media
+    std::string out;                   // folder; empty: results/images/<scenario name>
+    std::string size;                  // WIDTHxHEIGHT; empty: the scenario's own, enlarged if it is small
+    std::optional<int> rays_per_side;  // its square is the number of view rays per pixel; absent: as usual
+    std::optional<int> media_lookups;  // lookups per view ray, over all media; absent: as usual
 };
 
 struct ExportArguments : ScenarioArguments {

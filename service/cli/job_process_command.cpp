@@ -100,9 +100,7 @@ JobFraction make_fraction(const std::vector<document::Variant>& variants, bool p
 void draw(const nlohmann::json& document, const bench::RunOptions& run, const fs::path& folder,
           const std::vector<HiddenFolder>& hidden, const bench::ProgressCallback& progress) {
     try {
-        render::RenderOptions options;
-        options.run = run;
-        render::write_pictures(folder, render::render(document, options, progress));
+        render::write_pictures(folder, render::render(document, render::usual_options(run), progress));
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_input) throw;
         base::write_files({{folder / "error.json", error_line(hide(error, hidden)) + "\n"}});

@@ -162,21 +162,22 @@ void add_render(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<RenderArguments>();
     CLI::App* render = app.add_subcommand("render", "Render the camera's view with every technique's shadows");
     set_help(*render, command_groups::measure,
-             {"render quickstart --size 512x384 --out pictures", "render hairball --only deep --view-rays 2"},
+             {"render quickstart --size 1024x768 --out pictures", "render hairball --only deep --view-rays 4"},
              "Writes EXR and PNG pictures, and images.json, which lists them.");
     add_scenario_options(*render, *arguments);
     add_only_option(*render, *arguments);
     add_folder_option(*render, arguments->out,
                       "Folder of the pictures [results/images/<scenario name>, in the current folder]");
-    render->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels [the scenario's own]");
-    render->add_option("--view-rays", arguments->rays_per_side, "N x N view rays per pixel, for smooth edges and hair")
-        ->check(CLI::Range(1, 8))
-        ->capture_default_str();
+    render->add_option("--size", arguments->size,
+                       "WIDTHxHEIGHT in pixels [the scenario's own, enlarged to a width of 512]");
+    render
+        ->add_option("--view-rays", arguments->rays_per_side,
+                     "N x N view rays per pixel, for smooth edges and hair [2]")
+        ->check(CLI::Range(1, 8));
     render
         ->add_option("--media-lookups", arguments->media_lookups,
-                     "Lookups per view ray, over all media that it crosses")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
+                     "Lookups per view ray, over all media that it crosses [64]")
+        ->check(CLI::Range(1, 256));
     commands.push_back({render, [arguments](std::ostream& out, std::ostream& err) {
                             return render_command(*arguments, out, err) ? 0 : promise_broken;
                         }});

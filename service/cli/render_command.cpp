@@ -47,11 +47,10 @@ bool all_ok(const render::Rendering& rendering) {
 
 bool render_command(const RenderArguments& arguments, std::ostream& out, std::ostream& err) {
     const Job job = read_job(arguments);
-    render::RenderOptions options;
-    options.run = job.options;
+    render::RenderOptions options = render::usual_options(job.options);
     if (!arguments.size.empty()) options.size = read_size(arguments.size);
-    options.rays_per_side = arguments.rays_per_side;
-    options.media_lookups = arguments.media_lookups;
+    if (arguments.rays_per_side) options.rays_per_side = *arguments.rays_per_side;
+    if (arguments.media_lookups) options.media_lookups = *arguments.media_lookups;
     const fs::path folder = output_folder(arguments.out, "results/images", *job.document);
     base::Undo made;  // a rendering that fails leaves no new folder
     base::make_writable(folder, made);

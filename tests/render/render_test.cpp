@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "render/exposure.h"
 #include "render/shading.h"
 #include "render/write_pictures.h"
 #include "temporary_folder.h"
@@ -243,6 +245,45 @@ TEST(Render, with_more_view_rays_a_pixel_averages_them) {
     EXPECT_EQ(few.points, many.points);
 }
 
+// The picture of four lookups a pixel, from little more than one.
+TEST(Render, with_joined_lookups_shows_the_same_from_fewer) {
+    RenderOptions apart;
+    apart.rays_per_side = 2;
+    RenderOptions joined = apart;
+    joined.joined = true;
+    const Rendering all = render(quad_over_plane(), apart, {}), few = render(quad_over_plane(), joined, {});
+    EXPECT_GE(4 * few.points, all.points);
+    EXPECT_LT(static_cast<double>(4 * few.points), 1.2 * static_cast<double>(all.points));
+    EXPECT_LT(compare(few.reference.shaded, all.reference.shaded).rms, 0.03);
+    std::size_t mixed = 0;
+    for (int y = 12; y < 28; ++y)
+        for (int x = 0; x < 80; ++x) {
+            const float expected = all.reference.shaded.at(x, y).y;
+            const double plane = world_x(x, 0.0), quad = world_x(x, 1.0);
+            if (std::abs(plane) > 2.9 || std::min(std::abs(plane - 1.0), std::abs(plane + 1.0)) < 0.15) continue;
+            EXPECT_NEAR(few.reference.shaded.at(x, y).y, expected, 1e-4 * expected + 1e-6) << x << " " << y;
+            mixed += std::abs(quad) < 0.1 || std::abs(quad + 2.0) < 0.1;
+        }
+    EXPECT_GT(mixed, 20u) << "edges, where a pixel sees two surfaces, were compared too";
+}
+
+TEST(Render, enlarges_a_small_picture_in_its_proportions) {
+    EXPECT_EQ(enlarged({256, 192}), base::Vec2i(512, 384));
+    EXPECT_EQ(enlarged({384, 288}), base::Vec2i(512, 384));
+    EXPECT_EQ(enlarged({600, 20}), base::Vec2i(600, 20));
+    EXPECT_EQ(enlarged({1, 8192}), base::Vec2i(1, 8192)) << "not 4 million pixels high";
+    EXPECT_EQ(enlarged({100, 1000}), base::Vec2i(102, 1024));
+    EXPECT_EQ(enlarged({300, 1}), base::Vec2i(512, 2));
+    EXPECT_EQ(enlarged({16, 12}), base::Vec2i(64, 48)) << "few pixels are meant to be quick";
+    RenderOptions options = usual_options({});
+    options.rays_per_side = 1;
+    json document = quad_over_plane();
+    document["rays"]["resolution"] = 16;
+    EXPECT_EQ(render(document, options, {}).size, base::Vec2i(320, 160));
+    options.size = base::Vec2i(30, 20);
+    EXPECT_EQ(render(document, options, {}).size, base::Vec2i(30, 20)) << "as asked";
+}
+
 // On a plane seen obliquely, the edges lead from one view ray's point to those of its neighbours.
 TEST(ShadingPoints, have_the_edges_of_a_view_rays_footprint) {
     scene::Mesh plane;
@@ -298,7 +339,17 @@ TEST(Render, is_the_same_on_one_thread_and_on_two) {
     EXPECT_LT(a.techniques.back().shadow.rms, a.techniques.front().shadow.rms) << "ray_traced against shadow_map";
 }
 
-TEST(Render, finds_a_camera_that_sees_all_casters) {
+// Where a camera sees a place: 1 at the right and upper border of its picture.
+base::Vec2d seen_at(const scene::Camera& camera, double aspect, const base::Vec3d& place) {
+    const base::Vec3d forward = (camera.target - camera.position).normalized();
+    const base::Vec3d right = forward.cross(camera.up).normalized(), up = right.cross(forward);
+    const base::Vec3d p = place - camera.position;
+    const double half = std::tan(0.5 * camera.fov * 3.14159265358979 / 180.0) * p.dot(forward);
+    return {p.dot(right) / (half * aspect), p.dot(up) / half};
+}
+
+// The quad and its shadow, which falls beside it. A camera of the casters alone would show neither whole.
+TEST(Render, finds_a_camera_that_sees_the_casters_and_their_shadows_large) {
     json document = quad_over_plane();
     document["receivers"] = {{"type", "probes"}, {"bias", 0.01}};
     RenderOptions options;
@@ -306,12 +357,18 @@ TEST(Render, finds_a_camera_that_sees_all_casters) {
     const Rendering result = render(document, options, {});
     EXPECT_TRUE(result.default_camera);
     EXPECT_EQ(result.size, base::Vec2i(60, 40));
-    const scene::Camera& camera = result.camera;
-    const base::Vec3d forward = (camera.target - camera.position).normalized();
-    for (const base::Vec3d& corner : {base::Vec3d(-2, 1, -2), base::Vec3d(0, 1, 2), base::Vec3d(-2, 1, 2)}) {
-        const double cosine = (corner - camera.position).normalized().dot(forward);
-        EXPECT_LT(std::acos(cosine) * 180.0 / 3.14159265, 0.5 * camera.fov);
-    }
+    double furthest = 0.0;
+    for (const double x : {-2.0, 0.0})
+        for (const double z : {-2.0, 2.0})
+            for (const base::Vec3d& place : {base::Vec3d(x, 1, z), base::Vec3d(x + 1.0, 0, z)}) {
+                const base::Vec2d at = seen_at(result.camera, 1.5, place);
+                furthest = std::max({furthest, std::abs(at.x), std::abs(at.y)});
+            }
+    EXPECT_LE(furthest, 0.93);
+    EXPECT_GE(furthest, 0.91);
+    std::size_t dark = 0;
+    for (const Vec3f& pixel : result.reference.shadow.pixels) dark += pixel.y < 0.5f;
+    EXPECT_GT(dark, 60u * 40 / 20) << "the shadow is seen";
 }
 
 base::Error error_of(const json& document, const RenderOptions& options) {
@@ -369,6 +426,7 @@ TEST(WritePictures, writes_exactly_the_files_that_images_json_names) {
     EXPECT_TRUE(found.contains("uncompressed_2.heat.png"));
     EXPECT_EQ(written["techniques"][1]["shadow"]["rms"], result.techniques[1].shadow.rms);
     EXPECT_EQ(written["techniques"][0]["status"], "ok");
+    EXPECT_EQ(written["exposure"], exposure_of(result.reference.shaded, result.seen));
     EXPECT_EQ(written["lights"][0]["map"], json({256, 256}));
 }
 

@@ -13,13 +13,19 @@ function precise(value, digits) {
   return Number(`${value < 0 ? '-' : ''}${kept}e${exponent}`);
 }
 
+// The nearest whole number, by the same rule: 1000.5 is 1000.
+function whole(value) {
+  return Math.abs(value % 1) === 0.5 ? 2 * Math.round(value / 2) : Math.round(value);
+}
+
 // A number with significant digits and thin separators; without an exponent where it is readable.
 export function significant(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return none;
   if (value === 0) return '0';
   const size = Math.abs(value);
-  if (size < 1e-4 || size >= 1e7) return precise(value, digits).toExponential().replace('e+', 'e');
-  if (size >= 10 ** digits) return Math.round(value).toLocaleString('en-GB');
+  // An exponent has two digits, as in the texts of the program.
+  if (size < 1e-4 || size >= 1e7) return precise(value, digits).toExponential().replace('e+', 'e').replace(/e(-?)(\d)$/, 'e$10$2');
+  if (size >= 10 ** digits) return whole(value).toLocaleString('en-GB');
   return String(precise(value, digits));
 }
 
@@ -32,7 +38,7 @@ export function bytes(value, digits = 3) {
   const units = ['B', 'KiB', 'MiB', 'GiB', 'TiB'];
   let unit = 0;
   for (; value >= 1024 && unit + 1 < units.length; ++unit) value /= 1024;
-  return `${significant(value, digits)} ${units[unit]}`;
+  return `${value >= 10 ** digits ? whole(value) : significant(value, digits)} ${units[unit]}`;
 }
 
 export function nanoseconds(value) {
@@ -45,9 +51,9 @@ export function nanoseconds(value) {
 export function seconds(value) {
   if (!Number.isFinite(value)) return none;
   if (value < 60) return `${significant(value, value < 1 ? 2 : 3)} s`;
-  const whole = Math.round(value);
-  return whole < 3600 ? `${Math.floor(whole / 60)} min ${whole % 60} s`
-    : `${Math.floor(whole / 3600)} h ${Math.floor((whole % 3600) / 60)} min`;
+  const all = Math.round(value);
+  return all < 3600 ? `${Math.floor(all / 60)} min ${all % 60} s`
+    : `${Math.floor(all / 3600)} h ${Math.floor((all % 3600) / 60)} min`;
 }
 
 export function percent(fraction) {

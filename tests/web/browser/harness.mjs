@@ -70,9 +70,8 @@ async function drawn(page) {
 
 // Every control has a name and shows when it has the focus, every picture and plot a text, ids are there once, plots stand
 // where they belong, their labels cover neither marks nor each other, and the page does not scroll sideways.
-// `axe`: with axe-core's rules and the focus of each control, which take the longest and are needed once a state, as colours
-// do not change them.
-export async function assertAccessible(page, {axe: rules = true} = {}) {
+// `axe`: with axe-core's rules, `focus`: with the focus of each control. These take the longest.
+export async function assertAccessible(page, {axe: rules = true, focus: every = rules} = {}) {
   await drawn(page);
   const faults = await page.evaluate((focus) => {
     const found = [];
@@ -107,7 +106,7 @@ export async function assertAccessible(page, {axe: rules = true} = {}) {
     const {scrollWidth} = document.scrollingElement;
     if (scrollWidth > innerWidth) found.push(`wider than the window: ${scrollWidth} > ${innerWidth}`);
     return found;
-  }, rules);
+  }, every);
   assert.deepEqual(faults, []);
   if (rules) await assertAxe(page);
 }

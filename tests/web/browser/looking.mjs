@@ -140,8 +140,8 @@ looking['pictures: pixels, shadows alone, and all errors on one scale'] = async 
   await open(given);
   await page.waitForFunction(() => [...document.querySelectorAll('#compare img')].every((image) => image.naturalWidth > 0));
   await page.click('#compare button:has-text("1 : 1")');
-  const wide = () => page.locator('#compare .frame-content img').evaluateAll((all) => all.map((image) => image.getBoundingClientRect().width));
-  assert.ok((await wide()).every((w) => Math.abs(w - 96) < 0.5), `a pixel of the picture is one of the screen: ${await wide()}`);
+  const sizes = await page.locator('#compare .frame-content img').evaluateAll((all) => all.map((image) => [image.getBoundingClientRect().width * devicePixelRatio, image.naturalWidth]));
+  assert.ok(sizes.every(([shown, own]) => Math.abs(shown - own) < 0.5), `a pixel of the picture is one of the screen: ${sizes}`);
   assert.equal(await text(page, '#compare output'), '1 : 1');
   await page.click('#compare button:has-text("Whole")');
   await holds(page, 'zoom', '');
