@@ -1,8 +1,10 @@
-// Maps that grow together share the means of a pixel's rays; each must be the map that grows by itself.
+// Maps that grow together share the functions of rays in media and the means of a pixel's rays; each must be the map
+// that grows by itself.
 #include "bench/shared_tile.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,7 +19,7 @@ namespace shadowbench::bench {
 namespace {
 
 // Its add() fails and its add_means() only counts, so that all the time of its build is that of the shared means.
-class MeansMap final : public techniques::Map {
+class MeansMap : public techniques::Map {
 public:
     static inline int added = 0;
     static inline std::vector<const techniques::MeanRays*> given = {};
@@ -36,26 +38,47 @@ public:
     void stored(int, int, int, std::span<const float>, curves::Curve& out) const override { out.clear(); }
 };
 
-Contender of_means() {
+// The same for the functions of single rays.
+class FunctionsMap final : public MeansMap {
+public:
+    static inline std::vector<const curves::RayFunctions*> handed = {};
+
+    techniques::RayNeeds needs() const override { return {.functions = true}; }
+    void add_functions(const rays::LightRays&, const curves::RayFunctions& functions) override {
+        handed.push_back(&functions);
+    }
+};
+
+template <class Made>
+Contender counting() {
     static const techniques::Technique row{
-        .id = "means", .create = [](const techniques::ParameterValues&) -> std::unique_ptr<techniques::Map> {
-            return std::make_unique<MeansMap>();
+        .id = "counts", .create = [](const techniques::ParameterValues&) -> std::unique_ptr<techniques::Map> {
+            return std::make_unique<Made>();
         }};
     Contender contender;
     contender.row = &row;
-    contender.needs = MeansMap().needs();
+    contender.needs = Made().needs();
     return contender;
 }
+Contender of_means() {
+    return counting<MeansMap>();
+}
+Contender of_functions() {
+    return counting<FunctionsMap>();
+}
 
-// A medium with hair before it, a channel or three.
+// A medium with hair before it and beside it, a channel or three.
 class SharedTiles : public ::testing::Test {
 protected:
     void light(int samples, bool coloured) {
         constexpr int resolution = 24;  // one tile
         MeansMap::added = 0;
         MeansMap::given.clear();
+        FunctionsMap::handed.clear();
         scene_.objects.resize(2);
-        scene_.objects[0].shape = rays::testing::slab();
+        scene::GridVolume slab = rays::testing::slab();
+        slab.upper.x = 0.1f;  // some pixels have hair only
+        scene_.objects[0].shape = slab;
         if (coloured) scene_.objects[0].extinction = {1.0f, 0.5f, 0.25f};
         scene_.objects[1] = rays::testing::curly_hair(40, 12, 0.02f, 5);
         scene_.objects[1].opacity = {0.6f, 0.6f, 0.6f};
@@ -136,6 +159,62 @@ TEST_F(SharedTiles, hand_the_same_means_to_every_map) {
     EXPECT_EQ(MeansMap::added, 0);
 }
 
+// Without sharing, each map would composite the rays itself. Means are made of the same functions.
+TEST_F(SharedTiles, hand_the_same_functions_to_every_map) {
+    light(4, false);
+    std::vector<Contender> contenders;
+    contenders.push_back(of_functions());
+    contenders.push_back(of_means());
+    contenders.push_back(of_functions());
+    build_all(contenders, *source_, input(), MemoryLimits{}.all, {});
+    ASSERT_EQ(FunctionsMap::handed.size(), 2u);
+    EXPECT_EQ(FunctionsMap::handed[0], FunctionsMap::handed[1]);
+    EXPECT_EQ(MeansMap::given.size(), 1u);
+    EXPECT_EQ(MeansMap::added, 0);
+}
+
+// They are what composite() makes, for every ray of a pixel that touches a medium, and nothing for other pixels.
+TEST_F(SharedTiles, have_the_functions_of_rays_in_media) {
+    light(4, false);
+    const rays::LightRays tile = capture_->tile(0);
+    const curves::RayFunctions functions(tile);
+    curves::OpenMedia open;
+    std::vector<curves::Node> alone;
+    std::size_t made = 0, left_out = 0;
+    for (std::size_t ray = 0; ray < tile.rays(); ++ray) {
+        curves::composite(tile, ray, 0, open, alone);
+        const std::size_t first = ray / 4 * 4;
+        bool media = false;
+        for (std::size_t s = tile.begin[first]; s < tile.begin[first + 4]; ++s)
+            media = media || tile.z_back[s] > tile.z_front[s];
+        const std::span<const curves::Node> shared = functions.of(ray);
+        if (!media) {
+            EXPECT_TRUE(shared.empty());
+            left_out += !alone.empty();
+            continue;
+        }
+        made += !alone.empty();
+        EXPECT_TRUE(std::ranges::equal(shared, alone, [](const curves::Node& a, const curves::Node& b) {
+            return a.z == b.z && a.value == b.value;
+        })) << ray;
+    }
+    EXPECT_GT(made, 100u);
+    EXPECT_GT(left_out, 10u);
+}
+
+// Those of a tile of surfaces are not worth their memory, and those of a tile with very many segments would not fit.
+TEST_F(SharedTiles, make_no_functions_of_surfaces_or_of_very_large_tiles) {
+    light(4, false);
+    const Maps maps = begin_maps(*of_functions().row, {}, input());
+    rays::LightRays tile = capture_->tile(0);
+    EXPECT_TRUE(reads_functions(maps, tile));
+    tile.z_front.resize((std::size_t{1} << 19) + 1);
+    EXPECT_FALSE(reads_functions(maps, tile));
+    tile.z_front.resize(1);
+    tile.z_back.clear();
+    EXPECT_FALSE(reads_functions(maps, tile));
+}
+
 // One ray is not its own mean to the bit.
 TEST_F(SharedTiles, make_no_means_of_one_ray_a_pixel) {
     light(1, false);
@@ -165,6 +244,23 @@ TEST_F(SharedTiles, charge_the_means_to_every_build_that_reads_them) {
         EXPECT_GT(seconds[2][0], 0.5 * seconds[0][0]);
         EXPECT_GT(seconds[0][0], 0.5 * seconds[2][0]);
     }
+}
+
+// As with means.
+TEST_F(SharedTiles, charge_the_functions_to_every_build_that_reads_them) {
+    light(16, false);
+    std::vector<Contender> contenders;
+    contenders.push_back(of_functions());
+    contenders.push_back(of_means());
+    contenders.push_back(of_functions());
+    std::vector<std::vector<double>> seconds(contenders.size());
+    results::TimedPasses passes;
+    time_builds(contenders, *source_, input(), seconds, passes);
+    EXPECT_EQ(FunctionsMap::handed.size(), 2u);
+    EXPECT_EQ(MeansMap::given.size(), 1u);
+    for (const std::vector<double>& of_one : seconds) ASSERT_EQ(of_one.size(), 1u);
+    EXPECT_GT(seconds[2][0], 0.5 * seconds[0][0]);
+    EXPECT_GT(seconds[0][0], 0.5 * seconds[2][0]);
 }
 
 // Maps that share means exist a second time, all of them, while their builds are timed.
