@@ -22,10 +22,15 @@ namespace {
 class MeansMap : public techniques::Map {
 public:
     static inline int added = 0;
+    static inline int begun = 0, most = 0;  // maps that were begun and still exist, and the most at a time
     static inline std::vector<const techniques::MeanRays*> given = {};
 
+    ~MeansMap() override { begun -= begun_; }
     techniques::RayNeeds needs() const override { return {.means = true}; }
-    void begin(const techniques::BuildInput&) override {}
+    void begin(const techniques::BuildInput&) override {
+        begun_ = true;
+        most = std::max(most, ++begun);
+    }
     void add(const rays::LightRays&) override { ++added; }
     void add_means(const techniques::MeanRays& means) override { given.push_back(&means); }
     void finish() override {}
@@ -36,6 +41,9 @@ public:
     techniques::NodeStats nodes() const override { return {}; }
     techniques::Cells cells() const override { return techniques::Cells::pixel; }
     void stored(int, int, int, std::span<const float>, curves::Curve& out) const override { out.clear(); }
+
+private:
+    bool begun_ = false;
 };
 
 // The same for the functions of single rays.
@@ -263,16 +271,50 @@ TEST_F(SharedTiles, charge_the_functions_to_every_build_that_reads_them) {
     EXPECT_GT(seconds[0][0], 0.5 * seconds[2][0]);
 }
 
-// Maps that share means exist a second time, all of them, while their builds are timed.
-TEST_F(SharedTiles, count_together_against_the_memory_limit) {
+// Maps that grow together exist a second time, all of them. Near the memory limit they must not.
+TEST_F(SharedTiles, grow_together_only_where_there_is_room) {
     light(4, false);
-    const auto least = [&](int count) {
-        std::vector<Contender> contenders;
-        for (int i = 0; i < count; ++i) contenders.push_back(make_contender({"avsm", "{}", ""}, ""));
-        return least_bytes(layout_, layout_, contenders, {});
-    };
-    const double one = static_cast<double>(layout_.width) * layout_.height * 16 * sizeof(float);
-    EXPECT_DOUBLE_EQ(least(3) - least(1), 2.0 * 2.0 * one);
+    for (const std::size_t kept : {std::size_t{1} << 30, std::size_t{0}}) {
+        const RaySource source(*capture_, layout_, kept, {});
+        const auto most_at_a_time = [&](std::size_t room) {
+            std::vector<Contender> contenders;
+            for (int i = 0; i < 5; ++i) {
+                contenders.push_back(of_means());
+                contenders.back().cell.working_bytes = 100;
+            }
+            std::vector<std::vector<double>> seconds(contenders.size());
+            results::TimedPasses passes;
+            MeansMap::most = 0;
+            time_builds(contenders, source, input(), seconds, passes, room);
+            for (const std::vector<double>& of_one : seconds) EXPECT_EQ(of_one.size(), 1u);
+            return MeansMap::most;
+        };
+        EXPECT_EQ(most_at_a_time(500), 5);
+        EXPECT_EQ(most_at_a_time(499), 4);
+        EXPECT_EQ(most_at_a_time(200), 2);
+        EXPECT_EQ(most_at_a_time(0), 1);
+    }
+}
+
+// Kept rays take room that the second map of a timed build needs.
+TEST_F(SharedTiles, drop_kept_rays_that_leave_no_room) {
+    light(4, false);
+    std::vector<Contender> contenders(1);
+    contenders[0].cell.bytes = 1000;
+    contenders[0].cell.working_bytes = 1500;
+    const std::size_t kept = source_->kept_bytes();
+    ASSERT_GT(kept, 0u);
+    make_room(contenders, *source_, {.all = kept + 2500});
+    EXPECT_TRUE(source_->kept());
+    EXPECT_EQ(room_beside(contenders, *source_, {.all = kept + 2500}), 1500u);
+    make_room(contenders, *source_, {.all = kept + 2499});
+    EXPECT_FALSE(source_->kept());
+    EXPECT_EQ(source_->kept_bytes(), 0u);
+    std::size_t tiles = 0;
+    source_->for_each_batch(0, [&](RaySource::Batch batch) { tiles += batch.size(); });
+    EXPECT_EQ(tiles, static_cast<std::size_t>(layout_.tiles()));
+    EXPECT_FALSE(source_->kept());  // the pass must not keep them again
+    EXPECT_EQ(room_beside(contenders, *source_, {.all = 999}), 0u);
 }
 
 }  // namespace
