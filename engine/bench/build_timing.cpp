@@ -1,5 +1,6 @@
 #include "bench/build_timing.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -61,18 +62,20 @@ TimedBuild begin_timed(std::span<Contender> contenders, std::size_t i, const tec
     return build;
 }
 
-// The means are made and timed once, and each build that reads them is charged their time.
+// Functions and means are made and timed once, and each build that reads them is charged their time.
 void add_timed(std::span<TimedBuild> builds, std::span<Contender> contenders, const rays::LightRays& rays) {
     SharedTile tile(rays);
-    std::array<std::optional<Spent>, 3> means;  // of each channel
+    std::array<std::optional<Spent>, 3> functions, means;  // of each channel
+    const auto charge = [](TimedBuild& build, std::optional<Spent>& spent, const auto& make) {
+        if (!spent) spent = time_part(make);
+        build.spent.add(*spent);
+    };
     for (TimedBuild& build : builds)
         attempt(contenders[build.contender], [&] {
             for (std::size_t p = 0; p < build.maps.parts.size(); ++p) {
                 prepare_part(build.maps, p, tile);
-                if (reads_means(build.maps, rays)) {
-                    if (!means[p]) means[p] = time_part([&] { tile.means(p); });
-                    build.spent.add(*means[p]);
-                }
+                if (reads_functions(build.maps, rays)) charge(build, functions[p], [&] { tile.functions(p); });
+                if (reads_means(build.maps, rays)) charge(build, means[p], [&] { tile.means(p); });
                 build.spent.add(time_part([&] { add_part(build.maps, p, tile); }));
             }
         });
@@ -88,18 +91,25 @@ void finish_timed(TimedBuild& build, Contender& contender, std::vector<std::vect
     build.maps = {};
 }
 
-// The contenders of an apron whose maps grow together, in order: those that read the means of the same rays, or all if
-// each pass over the rays captures them again.
+// The contenders of an apron whose maps grow together, in order: those that share functions or means of the same rays,
+// or all if each pass over the rays captures them again; but no more than `room` bytes hold.
 std::vector<std::vector<std::size_t>> groups_of(std::span<const Contender> contenders, int apron, bool kept,
-                                                const rays::MapLayout& layout) {
+                                                const rays::MapLayout& layout, std::size_t room) {
     std::vector<std::vector<std::size_t>> groups;
     std::optional<std::size_t> shared;
+    std::size_t left = 0;  // of the room, beside the shared group
     for (std::size_t i = 0; i < contenders.size(); ++i) {
         if (!contenders[i].ok() || contenders[i].needs.apron != apron) continue;
-        const bool shares = !kept || (contenders[i].needs.means && layout.samples() > 1);
-        if (!shares || !shared) groups.emplace_back();
-        if (shares && !shared) shared = groups.size() - 1;
-        (shares ? groups[*shared] : groups.back()).push_back(i);
+        const bool together = !kept || shares(contenders[i].needs, layout);
+        const std::size_t bytes = contenders[i].cell.working_bytes;
+        const bool joins = together && shared && bytes <= left;
+        if (!joins) groups.emplace_back();
+        if (together && !joins) {
+            shared = groups.size() - 1;
+            left = room;
+        }
+        if (together) left -= std::min(left, bytes);
+        (joins ? groups[*shared] : groups.back()).push_back(i);
     }
     return groups;
 }
@@ -107,9 +117,10 @@ std::vector<std::vector<std::size_t>> groups_of(std::span<const Contender> conte
 }  // namespace
 
 void time_builds(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
-                 std::vector<std::vector<double>>& seconds, results::TimedPasses& passes) {
+                 std::vector<std::vector<double>>& seconds, results::TimedPasses& passes, std::size_t room) {
     for (const int apron : aprons_of(contenders))
-        for (const std::vector<std::size_t>& group : groups_of(contenders, apron, source.kept(apron), input.layout)) {
+        for (const std::vector<std::size_t>& group :
+             groups_of(contenders, apron, source.kept(apron), input.layout, room)) {
             std::vector<TimedBuild> builds;
             for (const std::size_t i : group) builds.push_back(begin_timed(contenders, i, input));
             source.for_each_batch(apron, [&](RaySource::Batch batch) {

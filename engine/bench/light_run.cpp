@@ -75,7 +75,7 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
     const Stopwatch setup;
     const rays::Capture capture(scene, view, layout);
     const double setup_seconds = setup.seconds();
-    const RaySource source(capture, layout, job.limits.kept_rays, stage(job, "capture", layout));
+    RaySource source(capture, layout, job.limits.kept_rays, stage(job, "capture", layout));
     report_capture(source, setup_seconds, result);
     if (job.casters) result.agreement = compare_with_tracer(capture, layout, view, *job.casters, agreement_rays);
 
@@ -83,7 +83,10 @@ results::LightResult run_light(const LightJob& job, std::vector<Contender> conte
     check_functions(contenders, source, layout, stage(job, "check", layout));
     check_lookups(contenders, judged.asked(), truth);
     if (results::sees_nothing(result)) check_lit(contenders);
-    if (job.times) result.timing = time_light(job, contenders, source, input, set.asked());
+    if (job.times) {
+        make_room(contenders, source, job.limits);
+        result.timing = time_light(job, contenders, source, input, set.asked());
+    }
 
     for (Contender& contender : contenders) {
         judge(contender.cell, contender.promises, result.reference.noise_tolerance);

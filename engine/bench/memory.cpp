@@ -33,7 +33,7 @@ double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& referen
                    std::span<const Contender> contenders, const MemoryLimits& limits) {
     const double rays = static_cast<double>(layout.width) * layout.height * layout.samples();
     const double kept = std::min(rays * ray_bytes, static_cast<double>(limits.kept_rays));
-    double maps = 0.0, largest = 0.0, of_means = 0.0;
+    double maps = 0.0, largest = 0.0;
     rays::MapLayout one_channel = layout;
     one_channel.channels = 1;
     for (const Contender& contender : contenders) {
@@ -42,10 +42,8 @@ double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& referen
                 ? static_cast<double>(contender.row->least_bytes(contender.values, layout))
                 : layout.channels * static_cast<double>(contender.row->least_bytes(contender.values, one_channel));
         maps += map_bytes;
-        if (contender.needs.means && layout.samples() > 1) of_means += map_bytes;
-        largest = std::max(largest, map_bytes);
+        largest = std::max(largest, map_bytes);  // one map at least exists a second time while builds are timed
     }
-    largest = std::max(largest, of_means);  // of the maps that exist a second time while builds are timed
     // The truth is found before any map is built.
     const double building = in_flight_bytes(layout) + maps + largest;
     const double judging = in_flight_bytes(reference) + all_tiles_bytes(reference);
@@ -66,6 +64,20 @@ double check_memory(const scene::Scenario& scenario, const rays::LightView& view
                                   layout.width, layout.height, layout.samples(),
                                   reference.samples() * ray_sets(scenario.scene, judging).sets, need / gib,
                                   static_cast<double>(limits.all) / gib));
+}
+
+std::size_t room_beside(std::span<const Contender> contenders, const RaySource& source, const MemoryLimits& limits) {
+    std::size_t held = source.kept_bytes();
+    for (const Contender& contender : contenders)
+        if (contender.ok()) held += contender.cell.bytes;
+    return limits.all > held ? limits.all - held : 0;
+}
+
+void make_room(std::span<const Contender> contenders, RaySource& source, const MemoryLimits& limits) {
+    std::size_t largest = 0;
+    for (const Contender& contender : contenders)
+        if (contender.ok()) largest = std::max(largest, contender.cell.working_bytes);
+    if (room_beside(contenders, source, limits) < largest) source.drop_kept();
 }
 
 }  // namespace shadowbench::bench

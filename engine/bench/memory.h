@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bench/contender.h"
+#include "bench/ray_source.h"
 #include "rays/light_rays.h"
 #include "rays/light_view.h"
 #include "scene/scene.h"
@@ -25,5 +26,11 @@ double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& referen
 // The least bytes that a scenario needs. Throws Error{bad_input} at `where` if they exceed the limit.
 double check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
                     const MemoryLimits& limits, const std::string& where);
+
+// The bytes that maps may take which are built once more, beside the finished maps and the light rays that are kept.
+std::size_t room_beside(std::span<const Contender> contenders, const RaySource& source, const MemoryLimits& limits);
+
+// Drops the kept light rays if they leave no room to build the largest of these finished maps once more.
+void make_room(std::span<const Contender> contenders, RaySource& source, const MemoryLimits& limits);
 
 }  // namespace shadowbench::bench

@@ -43,6 +43,18 @@ void RaySource::count(Batch batch) const {
     }
 }
 
+std::size_t RaySource::kept_bytes() const {
+    std::size_t sum = 0;
+    for (const auto& [apron, tiles] : tiles_)
+        for (const rays::LightRays& tile : tiles) sum += tile.bytes();
+    return sum;
+}
+
+void RaySource::drop_kept() {
+    tiles_.clear();
+    budget_ = 0;
+}
+
 void RaySource::for_each_batch(int apron, const std::function<void(Batch)>& body) const {
     if (single_pass_)
         capture_all(apron, [&](std::vector<rays::LightRays>& batch) {

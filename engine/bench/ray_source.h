@@ -31,6 +31,9 @@ public:
     void for_each_batch(int apron, const std::function<void(Batch)>& body) const;
 
     bool kept(int apron = 0) const { return tiles_.contains(apron); }
+    std::size_t kept_bytes() const;
+    // From now on every pass captures the tiles again.
+    void drop_kept();
     std::uint64_t rays() const { return rays_; }
     std::uint64_t segments() const { return segments_; }
     std::uint64_t bytes() const { return bytes_; }     // of all tiles

@@ -10,6 +10,7 @@
 #include "bench/clock.h"
 #include "bench/disturbance.h"
 #include "bench/lookup_timing.h"
+#include "bench/memory.h"
 #include "bench/repeat.h"
 #include "results/settled.h"
 
@@ -44,11 +45,12 @@ constexpr double longest_warm_builds = 0.5;  // seconds of a round: of longer on
 
 // Builds all techniques, untimed: the caches and the allocator are then as one build leaves them to the next. Returns
 // the seconds that this took.
-double warm_builds(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input) {
+double warm_builds(std::span<Contender> contenders, const RaySource& source, const techniques::BuildInput& input,
+                   std::size_t room) {
     const Stopwatch stopwatch;
     BuildSeconds seconds(contenders.size());
     results::TimedPasses passes;
-    time_builds(contenders, source, input, seconds, passes);
+    time_builds(contenders, source, input, seconds, passes, room);
     return stopwatch.seconds();
 }
 
@@ -80,10 +82,11 @@ results::TimingReport time_light(const LightJob& job, std::span<Contender> conte
     std::vector<LookupMeasurement> plans = plan_all(job, contenders, asked);
     const RepeatRule rule{static_cast<std::size_t>(timing.repetitions),
                           static_cast<std::size_t>(timing.most_repetitions), timing.seconds};
-    const bool warm = warm_builds(contenders, source, input) <= longest_warm_builds;
+    const std::size_t room = room_beside(contenders, source, job.limits);
+    const bool warm = warm_builds(contenders, source, input, room) <= longest_warm_builds;
     const auto builds = [&](std::size_t r) {
-        if (warm && r > 0) warm_builds(contenders, source, input);
-        time_builds(contenders, source, input, seconds, report.builds);
+        if (warm && r > 0) warm_builds(contenders, source, input, room);
+        time_builds(contenders, source, input, seconds, report.builds, room);
         if (job.watch) job.watch("timing builds", r + 1, rule.most);
     };
     const auto lookups = [&](std::size_t r) {

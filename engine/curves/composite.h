@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "curves/curve.h"
@@ -29,6 +30,6 @@ struct Node {
 void composite(const rays::LightRays& rays, std::size_t ray, int channel, OpenMedia& open, std::vector<Node>& out);
 
 // Adds nodes so that joining neighbours by lines errs by at most `linearisation`; appends vertices to `out`.
-void linearise(const std::vector<Node>& nodes, double linearisation, Curve& out);
+void linearise(std::span<const Node> nodes, double linearisation, Curve& out);
 
 }  // namespace shadowbench::curves

@@ -63,7 +63,7 @@ void subdivide(const Node& a, const Node& b, double error, Curve& out) {
 
 }  // namespace
 
-void linearise(const std::vector<Node>& nodes, double linearisation, Curve& out) {
+void linearise(std::span<const Node> nodes, double linearisation, Curve& out) {
     const double error = std::max(linearisation, 0x1p-24);  // finer than floats can resolve
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (i > 0 && nodes[i].z > nodes[i - 1].z && linearisation < 1.0) subdivide(nodes[i - 1], nodes[i], error, out);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "curves/depth_sort.h"
+#include "curves/ray_functions.h"
 #include "curves/sweep_surfaces.h"
 #include "rays/light_rays.h"
 
@@ -135,21 +136,35 @@ void weighted_sum(std::span<const WeightedCurve> terms, SweepScratch& scratch, C
 
 namespace {
 
-// The function of the rays ray(0) to ray(count - 1), with weights weight(i).
-template <class Ray, class Weight>
-void sweep_rays(const rays::LightRays& rays, std::size_t count, const Ray& ray, const Weight& weight, int channel,
-                double linearisation, SweepScratch& scratch, Curve& out) {
+// The function of the rays ray(0) to ray(count - 1), with weights weight(i). nodes_of(ray) is the function of one ray.
+template <class Ray, class Weight, class NodesOf>
+void sweep_rays(const rays::LightRays& rays, std::size_t count, const Ray& ray, const Weight& weight,
+                const NodesOf& nodes_of, double linearisation, SweepScratch& scratch, Curve& out) {
     Extent extent;
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t s = rays.begin[ray(i)]; s < rays.begin[ray(i) + 1]; ++s) extent.add(rays.z_front[s]);
     Sweep sweep(count, extent.origin(), scratch);
     for (std::size_t i = 0; i < count; ++i) {
-        composite(rays, ray(i), channel, scratch.media, scratch.nodes);
         scratch.ray.clear();
-        linearise(scratch.nodes, linearisation, scratch.ray);
+        linearise(nodes_of(ray(i)), linearisation, scratch.ray);
         sweep.add_term(i, scratch.ray, weight(i));
     }
     sweep.run(out);
+}
+
+auto composited(const rays::LightRays& rays, int channel, SweepScratch& scratch) {
+    return [&rays, channel, &scratch](std::size_t ray) {
+        composite(rays, ray, channel, scratch.media, scratch.nodes);
+        return std::span<const Node>(scratch.nodes);
+    };
+}
+
+template <class NodesOf>
+void sweep_equal(const rays::LightRays& rays, std::size_t first, std::size_t count, const NodesOf& nodes_of,
+                 double linearisation, SweepScratch& scratch, Curve& out) {
+    sweep_rays(
+        rays, count, [&](std::size_t i) { return first + i; },
+        [&](std::size_t) { return 1.0 / static_cast<double>(count); }, nodes_of, linearisation, scratch, out);
 }
 
 }  // namespace
@@ -159,9 +174,16 @@ void visibility(const rays::LightRays& rays, std::size_t first, std::size_t coun
     out.clear();
     if (count == 0) return;
     if (surfaces_only(rays, first, count)) return visibility_of_surfaces(rays, first, count, channel, scratch, out);
-    sweep_rays(
-        rays, count, [&](std::size_t i) { return first + i; },
-        [&](std::size_t) { return 1.0 / static_cast<double>(count); }, channel, linearisation, scratch, out);
+    sweep_equal(rays, first, count, composited(rays, channel, scratch), linearisation, scratch, out);
+}
+
+void visibility(const rays::LightRays& rays, const RayFunctions& functions, std::size_t first, std::size_t count,
+                double linearisation, SweepScratch& scratch, Curve& out) {
+    out.clear();
+    if (count == 0) return;
+    if (surfaces_only(rays, first, count)) return visibility_of_surfaces(rays, first, count, 0, scratch, out);
+    sweep_equal(
+        rays, first, count, [&](std::size_t ray) { return functions.of(ray); }, linearisation, scratch, out);
 }
 
 void visibility(const rays::LightRays& rays, std::span<const WeightedRay> chosen, double linearisation,
@@ -171,7 +193,8 @@ void visibility(const rays::LightRays& rays, std::span<const WeightedRay> chosen
     if (surfaces_only(rays, chosen)) return visibility_of_surfaces(rays, chosen, channel, scratch, out);
     sweep_rays(
         rays, chosen.size(), [&](std::size_t i) { return chosen[i].ray; },
-        [&](std::size_t i) { return chosen[i].weight; }, channel, linearisation, scratch, out);
+        [&](std::size_t i) { return chosen[i].weight; }, composited(rays, channel, scratch), linearisation, scratch,
+        out);
 }
 
 }  // namespace shadowbench::curves

@@ -17,6 +17,8 @@ struct LightRays;
 
 namespace shadowbench::curves {
 
+class RayFunctions;
+
 // One transmittance function as a term of a weighted sum.
 struct WeightedCurve {
     CurveView curve;
@@ -56,6 +58,10 @@ void weighted_sum(std::span<const WeightedCurve> terms, SweepScratch& scratch, C
 // lines errs by at most `linearisation` (> 0; infinity: only segment ends, as published).
 void visibility(const rays::LightRays& rays, std::size_t first, std::size_t count, double linearisation,
                 SweepScratch& scratch, Curve& out, int channel = 0);
+
+// The same, to the bit, for a tile of one channel whose functions are made already.
+void visibility(const rays::LightRays& rays, const RayFunctions& functions, std::size_t first, std::size_t count,
+                double linearisation, SweepScratch& scratch, Curve& out);
 
 // The same for rays with weights above 0, which should sum to 1. If the rays hit only surfaces, the weights are scaled
 // to sum to 1.

@@ -20,7 +20,8 @@ void append_segments(const curves::Curve& mean, rays::LightRays& out) {
 
 }  // namespace
 
-const rays::LightRays& MeanRays::of(const rays::LightRays& tile) {
+const rays::LightRays& MeanRays::of(const rays::LightRays& tile, const curves::RayFunctions* functions) {
+    functions_bytes_ = functions ? functions->scratch_bytes() : 0;
     result_.tile = tile.tile;
     result_.x0 = tile.x0;
     result_.y0 = tile.y0;
@@ -33,7 +34,10 @@ const rays::LightRays& MeanRays::of(const rays::LightRays& tile) {
     const auto samples = static_cast<std::size_t>(tile.samples);
     for (std::size_t first = 0; first < tile.rays(); first += samples) {
         if (tile.begin[first] < tile.begin[first + samples]) {
-            curves::visibility(tile, first, samples, linearisation, scratch_, mean_);
+            if (functions)
+                curves::visibility(tile, *functions, first, samples, linearisation, scratch_, mean_);
+            else
+                curves::visibility(tile, first, samples, linearisation, scratch_, mean_);
             append_segments(mean_, result_);
         }
         result_.begin.push_back(static_cast<std::uint32_t>(result_.segments()));
@@ -45,7 +49,7 @@ const rays::LightRays& MeanRays::of(const rays::LightRays& tile) {
 }
 
 std::size_t MeanRays::bytes() const {
-    return scratch_.bytes() + mean_.capacity() * sizeof(curves::Vertex) + result_.bytes();
+    return functions_bytes_ + scratch_.bytes() + mean_.capacity() * sizeof(curves::Vertex) + result_.bytes();
 }
 
 }  // namespace shadowbench::techniques

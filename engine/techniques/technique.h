@@ -23,6 +23,10 @@ class Tracer;
 struct LightView;
 }  // namespace shadowbench::rays
 
+namespace shadowbench::curves {
+class RayFunctions;
+}
+
 namespace shadowbench::techniques {
 
 class MeanRays;
@@ -80,6 +84,7 @@ struct RayNeeds {
     int apron = 0;            // pixels around a tile that its LightRays cover too (clipped to the map)
     bool submission = false;  // LightRays::submission
     bool means = false;       // only the mean of each pixel's rays, where it has several: see Map::add_means
+    bool functions = false;   // the functions of single rays, where there are media: see Map::add_functions
 };
 
 // The source of the light rays; all of it outlives the map.
@@ -150,6 +155,9 @@ public:
     // channel of this map. Whoever builds several such maps makes the means of a tile once and hands them to each;
     // add() makes them itself. The time of a build includes that of the means, whoever made them.
     virtual void add_means(const MeanRays&) {}
+    // Only for maps that need `functions`: does what add() does, from a tile of one channel and the functions of its
+    // rays. They are handed over and charged as means are.
+    virtual void add_functions(const rays::LightRays& tile, const curves::RayFunctions&) { add(tile); }
 };
 
 // What a technique promises for every stored function in every scene (only in opaque scenes if opaque_only).

@@ -215,14 +215,14 @@ TEST(Linearise, ErrsNoMoreInMediaAFewFloatsThick) {
 // end. Equal pieces of optical depth would be 71.
 TEST(Linearise, SpendsVerticesWhereTheFunctionBends) {
     Curve curve;
-    linearise({{0.0, 1.0}, {1.0, std::exp(-20.0)}}, 0.01, curve);
+    linearise(std::vector<Node>{{0.0, 1.0}, {1.0, std::exp(-20.0)}}, 0.01, curve);
     EXPECT_LE(curve.size(), 10u);
     EXPECT_LE(chord_error({{0.0, 1.0}, {1.0, std::exp(-20.0)}}, curve), 0.01);
 }
 
 TEST(Linearise, WithoutALimitKeepsOnlyTheNodes) {
     Curve curve{{-1.0f, 1.0f}};  // existing vertices stay
-    linearise({{0.0, 1.0}, {1.0, 0.01}}, std::numeric_limits<double>::infinity(), curve);
+    linearise(std::vector<Node>{{0.0, 1.0}, {1.0, 0.01}}, std::numeric_limits<double>::infinity(), curve);
     ASSERT_EQ(curve.size(), 3u);
     EXPECT_EQ(curve[2].value, 0.01f);
 }
@@ -230,7 +230,7 @@ TEST(Linearise, WithoutALimitKeepsOnlyTheNodes) {
 // Between 1e6 and 1e6 + 1/4 lie three floats: no more vertices fit, and no two may be at one depth.
 TEST(Linearise, StopsWhereNoFloatIsLeftBetween) {
     Curve curve;
-    linearise({{1e6, 1.0}, {1e6 + 0.25, 0.0}}, 1e-4, curve);
+    linearise(std::vector<Node>{{1e6, 1.0}, {1e6 + 0.25, 0.0}}, 1e-4, curve);
     EXPECT_LE(curve.size(), 5u);
     for (std::size_t i = 1; i < curve.size(); ++i) EXPECT_LT(curve[i - 1].z, curve[i].z);
     EXPECT_TRUE(is_visibility(curve));
@@ -256,7 +256,7 @@ TEST(Linearise, ErrsByNoMoreWhereFloatsAreFew) {
 
 TEST(Linearise, AnErrorOfZeroStillEnds) {
     Curve curve;
-    linearise({{0.0, 1.0}, {1.0, 0.0}}, 0.0, curve);
+    linearise(std::vector<Node>{{0.0, 1.0}, {1.0, 0.0}}, 0.0, curve);
     EXPECT_LT(curve.size(), 5000u);
 }
 

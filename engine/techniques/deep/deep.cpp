@@ -29,7 +29,7 @@ public:
         store();
     }
 
-    RayNeeds needs() const override { return {.apron = map_.filter.apron()}; }
+    RayNeeds needs() const override { return {.apron = map_.filter.apron(), .functions = map_.filter.is_pixel()}; }
     void begin(const BuildInput& input) override {
         map_.compression.tolerance = static_cast<float>(tolerance_of(values_, input.layout.samples()));
         map_.begin(input.layout);
@@ -38,6 +38,9 @@ public:
         notes_.z_max = input.layout.z_max;
     }
     void add(const rays::LightRays& tile) override { map_.add(tile); }
+    void add_functions(const rays::LightRays& tile, const curves::RayFunctions& functions) override {
+        map_.add(tile, &functions);
+    }
     void finish() override {
         map_.finish();
         store();

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "curves/ray_functions.h"
 #include "techniques/deep/mip.h"
 
 namespace shadowbench::techniques {
@@ -15,9 +16,11 @@ struct TileScratch {
     PixelScratch pixel;
     std::vector<curves::WeightedRay> chosen;
     std::vector<RayOffset> offsets;
+    const curves::RayFunctions* made = nullptr;  // of the tile's rays
 
     std::size_t bytes() const {
-        return pixel.bytes() + chosen.capacity() * sizeof(curves::WeightedRay) + offsets.capacity() * sizeof(RayOffset);
+        return pixel.bytes() + chosen.capacity() * sizeof(curves::WeightedRay) +
+               offsets.capacity() * sizeof(RayOffset) + (made ? made->scratch_bytes() : 0);
     }
 };
 
@@ -38,6 +41,10 @@ int make_functions(const PixelFilter& filter, const rays::LightRays& tile, const
     const std::size_t count = static_cast<std::size_t>(tile.samples);
     if (filter.is_pixel()) {
         const std::size_t first = first_ray(tile, x, y);
+        if (scratch.made) {
+            curves::visibility(tile, *scratch.made, first, count, linearisation, scratch.pixel.sweep, functions[0]);
+            return 1;
+        }
         const int channels = tile.channels == 1 || is_grey(tile, first, count) ? 1 : 3;
         for (int c = 0; c < channels; ++c)
             curves::visibility(tile, first, count, linearisation, scratch.pixel.sweep, functions[c], c);
@@ -102,7 +109,7 @@ void DeepMap::append(std::size_t tile, PixelScratch& scratch, int functions, con
     techniques::append(runs_[tile], scratch, functions, how);
 }
 
-void DeepMap::add(const rays::LightRays& tile) {
+void DeepMap::add(const rays::LightRays& tile, const curves::RayFunctions* functions) {
     const auto number = static_cast<std::size_t>(tile.tile);
     const int x0 = tile.tile % layout_.tiles_x() * layout_.tile_width;
     const int y0 = tile.tile / layout_.tiles_x() * layout_.tile_height;
@@ -110,6 +117,7 @@ void DeepMap::add(const rays::LightRays& tile) {
     place(number, x0, y0, width, layout_.channels);
     const Compression rest = after_lines();
     TileScratch scratch;
+    scratch.made = functions;
     const auto offset_of = [&](std::size_t ray) { return scratch.offsets[ray]; };
     if (!filter.is_pixel())
         for (std::size_t ray = 0; ray < tile.rays(); ++ray) scratch.offsets.push_back(ray_offset(layout_, tile, ray));

@@ -23,7 +23,9 @@ struct DeepMap {
 
     // Throws Error{bad_input} if the layout's apron is narrower than the filter's.
     void begin(const rays::MapLayout& map_layout);
-    void add(const rays::LightRays& tile);
+    // `functions`: of the tile's rays, if they are made already, for a tile of one channel and a filter of one pixel; or
+    // null.
+    void add(const rays::LightRays& tile, const curves::RayFunctions* functions = nullptr);
     void finish();
     // Replaces those three calls: makes a map one pixel high from given functions.
     void make(std::span<const curves::Curve> functions);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "curves/composite.h"
+#include "curves/ray_functions.h"
 #include "techniques/store/cells.h"
 #include "techniques/store/most_bytes.h"
 #include "techniques/store/texels.h"
@@ -44,42 +45,16 @@ class Uncompressed final : public Map {
 public:
     explicit Uncompressed(const ParameterValues& values) : filter_(read_filter(values)) {}
 
+    RayNeeds needs() const override { return {.functions = true}; }
     void begin(const BuildInput& input) override {
         layout_ = input.layout;
         cells_ = make_cells(layout_, Cells::sample);
         tiles_.assign(layout_.tiles(), {});
     }
 
-    void add(const rays::LightRays& rays) override {
-        TileFunctions& tile = tiles_[rays.tile];
-        tile.x0 = rays.x0;
-        tile.y0 = rays.y0;
-        tile.width = rays.width;
-        if (!layout_.media) {
-            tile.begin = rays.begin;
-            tile.nodes.resize(rays.segments());
-            for (std::size_t r = 0; r < rays.rays(); ++r) {
-                double through = 1.0;
-                for (std::uint32_t s = rays.begin[r]; s < rays.begin[r + 1]; ++s) {
-                    through *= rays.transmittance[s];
-                    tile.nodes[s] = {rays.z_front[s], static_cast<float>(through)};
-                }
-            }
-            return;
-        }
-        std::vector<curves::Node> nodes;
-        curves::OpenMedia open;
-        tile.begin.assign(1, 0);
-        for (std::size_t r = 0; r < rays.rays(); ++r) {
-            curves::composite(rays, r, 0, open, nodes);
-            for (std::size_t i = 0; i < nodes.size(); ++i) {
-                if (i > 0) add_where_floats_end(nodes[i - 1], nodes[i], tile.nodes);
-                tile.nodes.push_back({static_cast<float>(nodes[i].z), static_cast<float>(nodes[i].value)});
-            }
-            tile.begin.push_back(static_cast<std::uint32_t>(tile.nodes.size()));
-        }
-        tile.nodes.shrink_to_fit();
-        scratch_.add(nodes.capacity() * sizeof(curves::Node) + open.bytes());
+    void add(const rays::LightRays& rays) override { fill(rays, nullptr); }
+    void add_functions(const rays::LightRays& rays, const curves::RayFunctions& functions) override {
+        fill(rays, &functions);
     }
 
     void finish() override {}
@@ -156,6 +131,45 @@ public:
     }
 
 private:
+    // `made`: the functions of the rays, or null.
+    void fill(const rays::LightRays& rays, const curves::RayFunctions* made) {
+        TileFunctions& tile = tiles_[rays.tile];
+        tile.x0 = rays.x0;
+        tile.y0 = rays.y0;
+        tile.width = rays.width;
+        if (!layout_.media) {
+            tile.begin = rays.begin;
+            tile.nodes.resize(rays.segments());
+            for (std::size_t r = 0; r < rays.rays(); ++r) {
+                double through = 1.0;
+                for (std::uint32_t s = rays.begin[r]; s < rays.begin[r + 1]; ++s) {
+                    through *= rays.transmittance[s];
+                    tile.nodes[s] = {rays.z_front[s], static_cast<float>(through)};
+                }
+            }
+            return;
+        }
+        std::vector<curves::Node> nodes;
+        curves::OpenMedia open;
+        tile.begin.assign(1, 0);
+        for (std::size_t r = 0; r < rays.rays(); ++r) {
+            std::span<const curves::Node> ray;
+            if (made) ray = made->of(r);
+            if (ray.empty()) {
+                curves::composite(rays, r, 0, open, nodes);
+                ray = nodes;
+            }
+            for (std::size_t i = 0; i < ray.size(); ++i) {
+                if (i > 0) add_where_floats_end(ray[i - 1], ray[i], tile.nodes);
+                tile.nodes.push_back({static_cast<float>(ray[i].z), static_cast<float>(ray[i].value)});
+            }
+            tile.begin.push_back(static_cast<std::uint32_t>(tile.nodes.size()));
+        }
+        tile.nodes.shrink_to_fit();
+        const std::size_t most_nodes = std::max(nodes.capacity(), made ? made->scratch_nodes() : 0);
+        scratch_.add(most_nodes * sizeof(curves::Node) + open.bytes() + (made ? made->media_bytes() : 0));
+    }
+
     // The position of a ray's function.
     struct Place {
         const TileFunctions& tile;
