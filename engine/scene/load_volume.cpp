@@ -30,6 +30,23 @@ void read_box(const json& from, const std::string& where, Vec3d& lower, Vec3d& u
                    fmt::format("every coordinate of upper must be above that of lower, by {} at least", min_length));
 }
 
+// Sets the box around a volume in the world.
+void fit(GridVolume& volume, const Box3d& box) {
+    if (!volume.frame) {
+        volume.lower = box.min;
+        volume.upper = box.max;
+        return;
+    }
+    const Box3d before = world_box(volume);
+    if (before == box) return;
+    base::Matrix4d stretch;
+    for (int axis = 0; axis < 3; ++axis) {
+        stretch[axis][axis] = (box.max[axis] - box.min[axis]) / (before.max[axis] - before.min[axis]);
+        stretch[3][axis] = box.min[axis] - stretch[axis][axis] * before.min[axis];
+    }
+    place(volume, stretch);
+}
+
 void check_voxels(const Vec3i& size, const std::string& where) {
     const double voxels = static_cast<double>(size.x) * size.y * size.z;
     if (voxels > static_cast<double>(max_voxels))
@@ -106,7 +123,8 @@ GridVolume load_raw(const json& from, const std::filesystem::path& file, const s
         read(from, "lower", volume.lower);
         read(from, "spacing", spacing);
         volume.upper = volume.lower + spacing * Vec3d(format.size);
-        if (const std::optional<std::string> fault = box_fault(volume)) refuse(where + "/spacing", *fault);
+        if (const std::optional<std::string> fault = box_fault(volume.lower, volume.upper))
+            refuse(where + "/spacing", *fault);
     }
     return volume;
 }
@@ -187,7 +205,11 @@ GridVolume load_volume(const json& from, const SearchPath& path, const std::stri
         refuse_keys(from, where, {"lower", "upper"},
                     fmt::format("a {} file has its own; remove this key", file.extension().string()));
     GridVolume volume = load_file(from, file, kind, where);
-    if (!placed) read_box(from, where, volume.lower, volume.upper);
+    if (!placed) {
+        Box3d box = world_box(volume);
+        read_box(from, where, box.min, box.max);
+        fit(volume, box);
+    }
     return volume;
 }
 

@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -9,6 +10,7 @@
 
 #include "base/limits.h"
 #include "base/printable.h"
+#include "scene/cube_face.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -179,19 +181,58 @@ std::vector<std::string> read_notes(const Scene& scene) {
 
 namespace {
 
-// What is known before the lookups: widths as lengths or in receiver pixels depend on the receiver.
+// The width of a lookup of a face at planar depth z, as a share of the shorter side of the map.
+double length_share(const Scenario& scenario, const Light& face, double length, double z) {
+    const Vec2i resolution = scenario.rays.resolution;
+    const double side = 2.0 * (1.0 + face.border) * z;  // of the map, at this depth
+    return length / side * resolution.x / std::min(resolution.x, resolution.y);
+}
+
+// The planar depth of a receiver whose lookup, as wide as `length`, surely reaches over the map of a light's face: of
+// given points the nearest such one; else, if the farthest place of the scene is one, that. Infinite if none is known.
+double cut_depth(const Scenario& scenario, const Light& face, double length) {
+    constexpr double beyond = 1.05;  // spread receivers reach a little behind the casters
+    constexpr double none = std::numeric_limits<double>::infinity();
+    if (scenario.receivers.camera || scenario.receivers.points.empty()) {
+        const Box3d box = bounds(scenario.scene, false);
+        if (box.isEmpty()) return none;
+        double farthest = 0.0;
+        for (int axis = 0; axis < 3; ++axis)
+            farthest = std::max({farthest, std::abs(box.min[axis] - face.position[axis]),
+                                 std::abs(box.max[axis] - face.position[axis])});
+        return farthest * beyond;
+    }
+    double nearest = none;
+    for (const Vec3d& point : scenario.receivers.points) {
+        const Vec3d way = point - face.position;
+        const int on = cube_face(way);
+        const bool has_map = std::any_of(scenario.lights.begin(), scenario.lights.end(), [&](const Light& light) {
+            return light.where == face.where && light.face == on;
+        });
+        std::array<double, 3> along{std::abs(way.x), std::abs(way.y), std::abs(way.z)};
+        std::sort(along.begin(), along.end());
+        const double z = along[2], half = length_share(scenario, face, length, z) * (1.0 + face.border);
+        if (has_map && along[1] / z + half > 1.0 + face.border) nearest = std::min(nearest, z);
+    }
+    return nearest;
+}
+
+// What is known before the lookups; a width in receiver pixels is not.
 std::string border_note(const Scenario& scenario, const Light& face) {
     const FilterWidth width = face.softness.value_or(scenario.receivers.filter_width);
     const Vec2i resolution = scenario.rays.resolution;
-    const double pixels = width.unit == WidthUnit::share        ? width.value * resolution.x
-                          : width.unit == WidthUnit::map_pixels ? width.value
-                                                                : 0.0;
-    const double share = pixels / std::min(resolution.x, resolution.y), room = face.border / (1.0 + face.border);
+    const double shorter = std::min(resolution.x, resolution.y), room = face.border / (1.0 + face.border);
+    const bool as_length = width.unit == WidthUnit::length;
+    const double share = as_length ? length_share(scenario, face, width.value, cut_depth(scenario, face, width.value))
+                         : width.unit == WidthUnit::share      ? width.value * resolution.x / shorter
+                         : width.unit == WidthUnit::map_pixels ? width.value / shorter
+                                                               : 0.0;
     if (!(share > room * (1.0 + 1e-9))) return "";
-    constexpr double widest = 10.0 / 11.0;  // that a border of 10, the most, has room for
+    constexpr double widest = 10.0;  // border
+    const double border = as_length ? share * (1.0 + face.border) : share < 1.0 ? share / (1.0 - share) : 2.0 * widest;
     const std::string remedy =
-        share > widest ? "make them narrower"
-                       : fmt::format("give it a border of {} or more", std::ceil(1e3 * share / (1.0 - share)) / 1e3);
+        border > widest ? "make them narrower"
+                        : fmt::format("give it a border of {} or more", std::ceil(1e3 * border - 1e-6) / 1e3);
     return fmt::format(
         "{}: lookups are {:.3g} of a map wide and its border has room for {:.3g}, so at seams a part is cut off: {}",
         face.where, share, room, remedy);

@@ -136,6 +136,30 @@ TEST(LoadLight, NotesFacesWithoutMapsAndBordersThatAreTooNarrow) {
     EXPECT_THAT(notes(scenario)[2], testing::HasSubstr("make them narrower"));
 }
 
+// A lookup 1 wide, at planar depth z, reaches 1 / (2 z) of the face over its edge: over a border of 1/8 if z is
+// below 4.
+TEST(LoadLight, NotesBordersThatAreTooNarrowForLengthsWhereTheyAreKnownToBe) {
+    Scenario scenario = load(R"([{"type": "point", "name": "a", "position": [0, 0, 0], "softness": {"length": 1}}])");
+    scenario.scene.objects.clear();
+    scenario.rays.resolution = {64, 64};
+    EXPECT_TRUE(notes(scenario).empty()) << "nothing is known of receivers";
+    scenario.receivers.points = {{2, 0, 0}, {5, 4.9, 0}};  // in the middle of a face; beside an edge, but far
+    EXPECT_TRUE(notes(scenario).empty());
+    scenario.receivers.points.emplace_back(0, 1.9, -2);  // 1/4 over an edge
+    ASSERT_EQ(notes(scenario).size(), 1u);
+    EXPECT_THAT(notes(scenario)[0], testing::HasSubstr("lookups are 0.222 of a map wide"));
+    EXPECT_THAT(notes(scenario)[0], testing::HasSubstr("a border of 0.25 or more"));
+    for (Light& light : scenario.lights) light.border = 0.25;
+    EXPECT_TRUE(notes(scenario).empty());
+    // Everything that a camera could see is nearer than 4.
+    scenario.receivers.points.clear();
+    scenario.scene.objects.emplace_back().shape = Spheres{{Vec3f(0, 0, -1)}, {0.5f}};
+    ASSERT_EQ(notes(scenario).size(), 1u);
+    EXPECT_THAT(notes(scenario)[0], testing::HasSubstr("at seams a part is cut off"));
+    scenario.scene.objects[0].shape = Spheres{{Vec3f(0, 0, -9)}, {0.5f}};
+    EXPECT_TRUE(notes(scenario).empty());
+}
+
 TEST(LoadLight, RefusesFacesThatAreNone) {
     EXPECT_EQ(place(R"([{"type": "point", "position": [1, 2, 3], "faces": []}])"), "/lights/0/faces");
     EXPECT_EQ(place(R"([{"type": "point", "position": [1, 2, 3], "faces": ["x"]}])"), "/lights/0/faces/0");

@@ -96,6 +96,21 @@ TEST(LoadVolumeFiles, FilesWithABoxHaveItUnlessTheScenarioGivesOne) {
     }
 }
 
+// Set in the grid's own space, the box would be turned with it.
+TEST(LoadVolumeFiles, ABoxOfTheScenarioLiesInTheWorldAroundATurnedGrid) {
+    const std::string turned = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 1\nencoding: raw\n"
+                               "space directions: (3,4,0) (-4,3,0) (0,0,5)\n\nabcd";
+    const GridVolume own = load("a.nrrd", turned, ""),
+                     given = load("a.nrrd", turned, R"(, "lower": [-1, -1, -1], "upper": [1, 6, 0])");
+    ASSERT_TRUE(own.frame && given.frame);
+    EXPECT_DOUBLE_EQ(own.step, 2.5) << "half of a voxel's edge";
+    for (int a = 0; a < 3; ++a) {
+        EXPECT_NEAR(world_box(own).max[a], a == 2 ? 5.0 : 14.0, 1e-12);
+        EXPECT_NEAR(world_box(given).min[a], -1.0, 1e-12);
+        EXPECT_NEAR(world_box(given).max[a], Vec3d(1, 6, 0)[a], 1e-12);
+    }
+}
+
 TEST(LoadVolumeFiles, DensitiesBelow0AreRefusedIfTheScenarioSaysSo) {
     const std::string negative = R"(, "negative": "refuse")", below = bytes_of(1.0f, -1.0f);
     const std::string head = "NRRD0001\ntype: float\nendian: little\ndimension: 3\nsizes: 2 1 1\nencoding: raw\n\n";

@@ -247,27 +247,28 @@ TEST(ReadNrrd, NamesTheFaultsOfAHeader) {
     EXPECT_EQ(error_of([] { read_nrrd("/nowhere/a.nrrd"); }).code(), base::ErrorCode::no_such_file);
 }
 
-// Scanners write such directions. Without the turn the box would be 2 x 2 x 1 voxels.
-TEST(ReadNrrd, SamplesATurnedGridAlongTheWorldsAxes) {
-    const std::string turned = "space directions: (3,4,0) (-4,3,0) (0,0,5)\n", four = "\xff\xff\xff\xff";
-    const GridVolume volume = read(header("uchar", "2 2 1", turned + "space origin: (10,20,30)\n") + four).volume;
-    // Of points 5 apart from the origin, those at which the density is above 0, or could be.
-    EXPECT_EQ(volume.size, Vec3i(4, 4, 1));
-    EXPECT_EQ(volume.lower, Vec3d(-2.5, 12.5, 27.5));
-    EXPECT_EQ(volume.upper, Vec3d(17.5, 32.5, 32.5));
-    ASSERT_EQ(volume.density.size(), 16u);
-    // The density is 1 between the voxel centres, and falls to 0 over the voxel outside.
-    const auto along = [](double i) { return std::clamp(std::min(1.0 + i, 2.0 - i), 0.0, 1.0); };
-    for (int y = 0; y < 4; ++y)
-        for (int x = 0; x < 4; ++x) {
-            const double right = x - 2, up = y - 1, i = 0.6 * right + 0.8 * up, j = -0.8 * right + 0.6 * up;
-            EXPECT_NEAR(volume.density[static_cast<std::size_t>(4 * y + x)], along(i) * along(j), 1e-6)
-                << x << ", " << y;
-        }
-    EXPECT_THAT(volume.notes.lines, ElementsAre(HasSubstr("its 2 x 2 x 1 voxels are sampled")));
-    const GridVolume unplaced = read(header("uchar", "2 2 1", turned) + four).volume;
-    EXPECT_EQ(unplaced.lower, Vec3d(0, 0, 0));
-    EXPECT_EQ(unplaced.upper, Vec3d(20, 20, 5));
+// Scanners write such directions. Without the turn the box would be 2 x 2 x 1 voxels along the axes.
+TEST(ReadNrrd, KeepsTheVoxelsOfATurnedGrid) {
+    const std::string turned = "space directions: (3,4,0) (-4,3,0) (0,0,5)\n", four("\x33\x66\x99\xff", 4);
+    const GridFile file = read(header("uchar", "2 2 1", turned + "space origin: (10,20,30)\n") + four);
+    const GridVolume& volume = file.volume;
+    EXPECT_THAT(file.facts, testing::Contains("its axes run along (0.6, 0.8, 0), (-0.8, 0.6, 0), (0, 0, 1)"));
+    EXPECT_EQ(volume.size, Vec3i(2, 2, 1));
+    EXPECT_THAT(volume.density, ElementsAre(0.2f, 0.4f, 0.6f, 1.0f));
+    EXPECT_TRUE(volume.notes.lines.empty());
+    EXPECT_EQ(volume.upper - volume.lower, Vec3d(10, 10, 5)) << "edges of voxels as in the world";
+    ASSERT_TRUE(volume.frame);
+    const auto expect_at = [&](const Vec3d& own, const Vec3d& world) {
+        const Vec3d at = base::map_point(volume.frame->to_world, own);
+        for (int a = 0; a < 3; ++a) EXPECT_NEAR(at[a], world[a], 1e-12);
+    };
+    expect_at(volume.lower + Vec3d(2.5, 2.5, 2.5), Vec3d(10, 20, 30));
+    expect_at(volume.lower + Vec3d(7.5, 2.5, 2.5), Vec3d(13, 24, 30));
+    expect_at(volume.lower + Vec3d(2.5, 7.5, 2.5), Vec3d(6, 23, 30));
+    // Without an origin the box around it begins at the world's.
+    const Box3d unplaced = world_box(read(header("uchar", "2 2 1", turned) + four).volume);
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(unplaced.min[a], 0.0, 1e-12);
+    for (int a = 0; a < 3; ++a) EXPECT_NEAR(unplaced.max[a], a == 2 ? 5.0 : 14.0, 1e-12);
 }
 
 // None of these may take the memory or the time that its header asks for.

@@ -250,6 +250,13 @@ TEST(ReadPbrt, RefusesFilesThatLeadOutAndEndlessOnes) {
     PbrtLimits small;
     small.bytes = many.size() + 10;
     EXPECT_THAT(error_of([&] { read(many, small); }).message(), HasSubstr("bytes, of all files together"));
+    // A small file that is read again and again, also by another name, would cost the time of all limits at once.
+    PbrtLimits repeats;
+    repeats.repeats = 19 * std::string("Identity").size();
+    EXPECT_NO_THROW(read(many, repeats));
+    for (const char* name : {"leaf.pbrt", "./leaf.pbrt"})
+        EXPECT_THAT(error_of([&] { read(many + "Include \"" + name + "\"", repeats); }).message(),
+                    HasSubstr("reads over 152 bytes again"));
     PbrtLimits elements;
     elements.elements = 10;
     const std::string object = "ObjectBegin \"o\" " + triangle + "ObjectEnd ObjectInstance \"o\" ";

@@ -77,7 +77,10 @@ void expect_same_field(const openvdb::FloatGrid& grid, const GridVolume& volume,
     for (int n = 0; n < 300; ++n) {
         openvdb::Vec3d index;
         for (int a = 0; a < 3; ++a) index[a] = first[a] + random.uniform(0.001, size[a] - 1.001);
-        const openvdb::Vec3d world = grid.transform().indexToWorld(index);
+        const openvdb::Vec3d there = grid.transform().indexToWorld(index);
+        Vec3d world(there.x(), there.y(), there.z());
+        ASSERT_TRUE(world_box(volume).intersects(world));
+        if (volume.frame) world = base::map_point(volume.frame->to_grid, world);
         std::array<double, 3> place{};
         for (int a = 0; a < 3; ++a)
             place[static_cast<std::size_t>(a)] = (world[a] - volume.lower[a]) / extent[a] * volume.size[a] - 0.5;
@@ -140,73 +143,34 @@ openvdb::math::Mat4d skewed(const std::array<double, 3>& edges, double angle, do
     return matrix;
 }
 
-// The density of a voxel is linear in the world, which trilinear interpolation keeps: at points inside the grid the
-// volume has that very density. Sampled through a wrong matrix, or half a voxel off, it would not.
-TEST(ReadVdbAxes, SamplesALinearDensityExactlyThroughAnyTransform) {
+// Sampled at other points than its voxels, the field would differ between them by up to thousands.
+TEST(ReadVdbAxes, TurnedAndShearedGridsKeepTheirVoxels) {
     for (const double angle : {0.5, -2.0, 0.001, std::numbers::pi / 2.0 + 1e-4})
         for (const double shear : {0.0, 0.2}) {
             SCOPED_TRACE(testing::Message() << "angle " << angle << " shear " << shear);
             const openvdb::FloatGrid::Ptr grid = grid_with(skewed({0.5, 0.25, 0.3}, angle, shear));
-            const auto density = [](const openvdb::Vec3d& world) {
-                return 100.0 + 2.0 * world.x() - world.y() + 0.5 * world.z();
-            };
-            for (auto voxel = grid->beginValueOn(); voxel; ++voxel)
-                voxel.setValue(static_cast<float>(density(grid->indexToWorld(voxel.getCoord()))));
             const GridVolume volume = written_and_read(grid);
-            EXPECT_THAT(volume.notes.lines, testing::ElementsAre(HasSubstr("sampled along the world's axes")));
-            const Vec3d extent = volume.upper - volume.lower;
-            std::size_t inside = 0;
-            for (std::size_t v = 0; v < volume.density.size(); ++v) {
-                const auto across = static_cast<std::size_t>(volume.size.x),
-                           down = static_cast<std::size_t>(volume.size.y);
-                const Vec3d at(static_cast<double>(v % across), static_cast<double>(v / across % down),
-                               static_cast<double>(v / across / down));
-                openvdb::Vec3d world;
-                for (int a = 0; a < 3; ++a) world[a] = volume.lower[a] + (at[a] + 0.5) / volume.size[a] * extent[a];
-                const openvdb::Vec3d index = grid->worldToIndex(world);
-                bool within = true, outside = false;
-                for (int a = 0; a < 3; ++a) {
-                    within = within && index[a] >= first[a] && index[a] <= first[a] + size[a] - 1;
-                    outside = outside || index[a] <= first[a] - 1 || index[a] >= first[a] + size[a];
-                }
-                if (within) {
-                    ASSERT_NEAR(volume.density[v], density(world), 1e-4) << "voxel " << v;
-                } else if (outside) {
-                    ASSERT_NEAR(volume.density[v], 0.0, 1e-3) << "voxel " << v;
-                }
-                inside += within;
-            }
-            EXPECT_GT(inside, 300u);
+            ASSERT_TRUE(volume.frame);
+            EXPECT_TRUE(volume.notes.lines.empty());
+            EXPECT_EQ(volume.size, Vec3i(size.x(), size.y(), size.z()));
+            EXPECT_EQ(volume.density[1], 2.0f) << "x fastest";
+            expect_same_field(*grid, volume, 1e-6);  // of values up to 181,005
         }
 }
 
-// What a light meets is the integral of the density. Cut off at the outermost voxel centres, or kept up to the box of
-// the turned grid, it would differ by a tenth or more.
-TEST(ReadVdbAxes, SamplingKeepsTheIntegralOfTheDensity) {
-    for (const double angle : {0.3, std::numbers::pi / 4.0, 3.0}) {
-        const openvdb::FloatGrid::Ptr grid = grid_with(skewed({0.5, 0.25, 0.3}, angle, 0.1));
-        const GridVolume volume = written_and_read(grid);
-        double wanted = 0.0, got = 0.0;
-        for (auto voxel = grid->cbeginValueOn(); voxel; ++voxel) wanted += 0.5 * 0.25 * 0.3 * double{voxel.getValue()};
-        const Vec3d extent = volume.upper - volume.lower;
-        for (const float density : volume.density)
-            got += double{density} * extent.x * extent.y * extent.z / static_cast<double>(volume.density.size());
-        EXPECT_NEAR(got / wanted, 1.0, 0.01) << angle;
-    }
-}
-
-TEST(ReadVdbAxes, RefusesMoreSamplesThanTheLimitAndFlatGrids) {
+TEST(ReadVdbAxes, RefusesMoreVoxelsThanTheLimitAndFlatGrids) {
     const openvdb::FloatGrid::Ptr grid = grid_with(skewed({0.5, 0.5, 0.5}, 0.5, 0.0));
     const std::filesystem::path path = test::fresh_path("a.vdb");
     openvdb::io::File file(path.string());
     file.write({grid});
     file.close();
-    EXPECT_THAT(error_of([&] { read_vdb(path, "density", Negative::clamp, 1100); }).message(),
-                testing::AllOf(HasSubstr("right angles"), HasSubstr("the limit is 1100")));
-    // A long grid that is sheared across its thin axis.
-    openvdb::math::Mat4d sheared = matrix_of({0, 1, 2}, {1000.0, 1e-6, 0.5});
-    sheared[0][1] = 500.0;
-    EXPECT_THAT(error_of([&] { written_and_read(grid_with(sheared)); }).message(), HasSubstr("the limit is"));
+    EXPECT_THAT(error_of([&] { read_vdb(path, "density", Negative::clamp, 1044); }).message(),
+                HasSubstr("the limit is 1044"));
+    EXPECT_NO_THROW(read_vdb(path, "density", Negative::clamp, 1045));
+    // A long step all but along another axis.
+    openvdb::math::Mat4d flat = matrix_of({0, 1, 2}, {1.0, 1.0, 0.5});
+    flat[0][1] = 1e7;
+    EXPECT_THAT(error_of([&] { written_and_read(grid_with(flat)); }).message(), HasSubstr("flattens it"));
 }
 
 // Constant boxes are tiles in the file; a box of leaves, tiles and nothing keeps them apart.

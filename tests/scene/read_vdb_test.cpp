@@ -92,7 +92,7 @@ TEST(ReadVdb, TakesAGridByItsNumberAndRefusesANameThatSeveralHave) {
         EXPECT_THAT(error_of([&] { read_vdb(file, several); }).message(),
                     AllOf(HasSubstr("2 grids are called \"density\""), HasSubstr("density[0], velocity, density[1]")));
     EXPECT_THAT(error_of([&] { read_vdb(file, 1); }).message(), HasSubstr("not float"));
-    // Named as the library would ask for another grid.
+    // Named as another grid is shown.
     openvdb::GridPtrVec grids = several_grids();
     openvdb::FloatGrid::Ptr fourth = small_grid();
     fourth->setName("density[1]");
@@ -101,8 +101,7 @@ TEST(ReadVdb, TakesAGridByItsNumberAndRefusesANameThatSeveralHave) {
     const auto confusing = write(grids);
     EXPECT_EQ(read_vdb(confusing, 0).density[1], 2.0f);
     EXPECT_EQ(read_vdb(confusing, 3).density[1], 70.0f);
-    EXPECT_THAT(error_of([&] { read_vdb(confusing, 2); }).message(),
-                HasSubstr("has a name that other grids share or hide"));
+    EXPECT_EQ(read_vdb(confusing, 2).density[1], 50.0f);
     for (const int number : {-1, 4})
         EXPECT_THAT(error_of([&] { read_vdb(confusing, number); }).message(), HasSubstr("no grid number"));
 }

@@ -42,12 +42,30 @@ struct ActiveBox {
 
 // Visits a tree in the same way, and writes the values inside a box to their places among the densities of that box.
 struct BoxFilling {
+    static constexpr std::int32_t leaf_side = 8;  // voxels
+
     const ActiveBox& box;
     const TurnedSteps steps;
     std::vector<float>& density;
 
     void tile(const Vec3i& corner, std::int32_t side, float value, bool) {
-        std::array<std::int64_t, 3> from{}, to{};
+        fill(corner, side, [value](const Place&) { return value; });
+    }
+    void voxel(const Vec3i& place, float value, bool active) { tile(place, 1, value, active); }
+    // All values of a leaf, z fastest.
+    void leaf(const Vec3i& corner, const float* values) {
+        const Place first{corner.x - box.lower[0], corner.y - box.lower[1], corner.z - box.lower[2]};
+        fill(corner, leaf_side, [&](const Place& at) {
+            return values[((at[0] - first[0]) * leaf_side + at[1] - first[1]) * leaf_side + at[2] - first[2]];
+        });
+    }
+
+private:
+    using Place = std::array<std::int64_t, 3>;  // in the box
+
+    template <class Value>
+    void fill(const Vec3i& corner, std::int32_t side, const Value& value) {
+        Place from{}, to{};
         for (std::size_t a = 0; a < 3; ++a) {
             const std::int64_t first = corner[static_cast<int>(a)];
             from[a] = std::max(first, box.lower[a]) - box.lower[a];
@@ -58,9 +76,8 @@ struct BoxFilling {
             for (std::int64_t j = from[1]; j <= to[1]; ++j)
                 for (std::int64_t i = from[0]; i <= to[0]; ++i)
                     density[static_cast<std::size_t>(steps.first + i * steps.step[0] + j * steps.step[1] +
-                                                     k * steps.step[2])] = value;
+                                                     k * steps.step[2])] = value(Place{i, j, k});
     }
-    void voxel(const Vec3i& place, float value, bool active) { tile(place, 1, value, active); }
 };
 
 }  // namespace shadowbench::scene

@@ -95,31 +95,4 @@ void note_grid(const VdbGridName& grid, std::span<const std::string> passed_over
             "the grid's background is {}, but outside the box of its active voxels there is no density", background));
 }
 
-// File::findDescriptor takes the first grid with the given name or, if there is none, the first with that name up to
-// its suffix. Only "name[number]" makes it look at the number too, unless a grid has exactly that name.
-std::optional<std::string> library_name(std::span<const VdbGridName> grids, std::size_t grid) {
-    const VdbGridName& wanted = grids[grid];
-    for (std::size_t i = 0; i < grids.size(); ++i)
-        if (i != grid && grids[i].unique_name == wanted.unique_name) return std::nullopt;
-    if (wanted.name == wanted.unique_name) {
-        for (std::size_t i = 0; i < grid; ++i)
-            if (grids[i].name == wanted.name) return std::nullopt;
-        return wanted.name;
-    }
-    const std::string number = wanted.unique_name.substr(wanted.name.size() + 1);
-    const bool digits = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
-    const std::string asked = fmt::format("{}[{}]", wanted.name, number);
-    const bool taken = std::any_of(grids.begin(), grids.end(), [&](const auto& each) { return each.name == asked; });
-    if (!digits || taken || wanted.name.find_first_of("[]") != std::string::npos) return std::nullopt;
-    return asked;
-}
-
-std::size_t library_parent(std::span<const VdbGridName> grids, const std::string& unique_name) {
-    const std::string name = unique_name.substr(0, unique_name.find(vdb_suffix));
-    std::size_t first = 0;
-    while (first < grids.size() && grids[first].name != name) ++first;
-    const bool found = first < grids.size() && grids[first].unique_name == unique_name && !unique_name.ends_with(']');
-    return found ? first : grids.size();
-}
-
 }  // namespace shadowbench::scene

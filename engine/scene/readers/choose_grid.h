@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,12 +33,5 @@ std::size_t choose_grid(const std::filesystem::path& file, std::span<const VdbGr
 // Notes which grid is read, if others are passed over (as shown to people) or it has not the usual name; and a
 // background that reaches beyond the box of the active voxels, where no density is taken.
 void note_grid(const VdbGridName& grid, std::span<const std::string> passed_over, float background, ReadNotes& notes);
-
-// The name with which File::readGrid (OpenVDB 10) finds this grid and no other; nothing if no name surely does.
-std::optional<std::string> library_name(std::span<const VdbGridName> grids, std::size_t grid);
-
-// The grid in which File::readGrid looks for the tree that others share under this unique name; grids.size() if there
-// is none or it has another name.
-std::size_t library_parent(std::span<const VdbGridName> grids, const std::string& unique_name);
 
 }  // namespace shadowbench::scene

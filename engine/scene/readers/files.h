@@ -69,7 +69,7 @@ using GridChoice = std::variant<std::monostate, std::string, int>;
 // An OpenVDB float fog volume: the box of its active voxels. Inactive voxels in the box have the values that the file
 // gives them; the density outside is 0. A voxel's edges may differ in length. Axes may be swapped and mirrored, which
 // is exact; with a transform that shears, or turns by other than right angles, by more than the rounding of a float
-// matrix, the grid is sampled (place_grid.h). A small file can hold a large box of equal voxels: more than
+// matrix, the volume has a frame (place_grid.h). A small file can hold a large box of equal voxels: more than
 // `most_voxels` are bad input.
 GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, Negative negative = Negative::clamp,
                     std::uint64_t most_voxels = max_voxels);

@@ -88,9 +88,9 @@ void set_box(GridVolume& volume, const GridAxes& axes, const std::array<Vec3d, 3
     }
 }
 
-std::optional<std::string> box_fault(const GridVolume& volume) {
+std::optional<std::string> box_fault(const Vec3d& from, const Vec3d& to) {
     for (int axis = 0; axis < 3; ++axis) {
-        const double lower = volume.lower[axis], upper = volume.upper[axis];
+        const double lower = from[axis], upper = to[axis];
         if (!(std::abs(lower) <= max_coordinate) || !(std::abs(upper) <= max_coordinate) ||
             !(upper - lower >= min_length))
             return fmt::format(

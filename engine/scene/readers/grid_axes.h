@@ -55,6 +55,6 @@ void set_box(GridVolume& volume, const GridAxes& axes, const std::array<Vec3d, 3
              const std::optional<Vec3d>& first);
 
 // What is wrong with the box of a volume, if anything: it is not finite, too large, or has no length.
-std::optional<std::string> box_fault(const GridVolume& volume);
+std::optional<std::string> box_fault(const Vec3d& lower, const Vec3d& upper);
 
 }  // namespace shadowbench::scene

@@ -1,8 +1,8 @@
 // Readers of volumes that are read_voxels() behind a header; errors as in files.h. Densities are those of the file if
 // its values are floating-point numbers; integers are divided by the largest of their type. The box is that of the
 // file, or begins at the origin; the caller sets the step. Values may be packed by gzip or zlib. Axes may be swapped
-// and mirrored, which is exact; turned otherwise, or sheared, they are sampled (place_grid.h). A volume of more than
-// `most_voxels` is bad input.
+// and mirrored, which is exact; turned otherwise, or sheared, the volume has a frame (place_grid.h). A volume of more
+// than `most_voxels` is bad input.
 #pragma once
 
 #include <cstdint>

@@ -19,6 +19,7 @@ struct PbrtLimits {
     std::uint64_t voxels = max_voxels;             // of all media together
     std::uint64_t bytes = std::uint64_t{1} << 32;  // of all files that are read, unpacked
     std::uint64_t files = 65536;
+    std::uint64_t repeats = std::uint64_t{1} << 29;  // bytes of files that were read before; their text is read again
 };
 
 struct PbrtMedium {

@@ -115,7 +115,7 @@ void read_grid(const PbrtStatement& statement, const Matrix& place, std::uint64_
     }
     clamp_negatives(volume.density, volume.notes);
     set_box(volume, *axes, steps, transform_point(place, first));
-    if (const std::optional<std::string> fault = box_fault(volume)) statement.fail(*fault);
+    if (const std::optional<std::string> fault = box_fault(volume.lower, volume.upper)) statement.fail(*fault);
     volume.notes.lines.push_back("it fills its own box: the shapes whose inside it is do not cut it");
     medium.grid = std::move(volume);
 }

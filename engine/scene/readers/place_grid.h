@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -18,16 +17,17 @@ struct GridPlace {
     std::optional<Vec3d> first;
 };
 
-// Sets the box of a volume with the densities of a grid.
+// The world directions of a grid's axes, for people: "x, -z, y" of those of find_axes(), empty if they are as they are;
+// without them vectors of length 1.
+std::string text_of(const std::optional<GridAxes>& axes, const GridPlace& place);
+
+// Sets where a volume with the size and densities of a grid lies.
 //
-// With axes, those of find_axes(), the densities stand in the world's order already. Without them, they stand in the
-// grid's, x fastest, and are sampled at points along the world's axes: trilinear between voxel centres, falling to 0
-// over the width of a voxel outside the outermost ones, which keeps the integral of the density. One step between
-// points moves by one voxel in the grid; the centre of the first voxel is a point. A note says so. The densities are
-// then held twice for a while.
+// With axes, those of find_axes(), the densities stand in the world's order already, and the volume's box stands along
+// the world's axes. Without them, they stand in the grid's, x fastest, and rays enter the grid's own space: the volume
+// gets a frame, and no density changes.
 //
-// Returns what is wrong with the transform, if anything, or that there are more than `most_voxels` points.
-std::optional<std::string> place_grid(GridVolume& volume, const std::optional<GridAxes>& axes, const GridPlace& place,
-                                      std::uint64_t most_voxels);
+// Returns what is wrong with the transform, if anything.
+std::optional<std::string> place_grid(GridVolume& volume, const std::optional<GridAxes>& axes, const GridPlace& place);
 
 }  // namespace shadowbench::scene

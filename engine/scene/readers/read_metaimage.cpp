@@ -160,8 +160,9 @@ GridFile read_metaimage(const std::filesystem::path& file, Negative negative, st
     read_begin(data, fields, layout, voxels);
 
     GridFile result{read_voxels(data, layout, negative, Rest::noted), {text_of(layout)}};
-    if (!layout.axes.as_they_are()) result.facts.push_back("its axes run along " + text_of(layout.axes));
-    if (const std::optional<std::string> fault = place_grid(result.volume, axes, place, most_voxels))
+    if (const std::string along = text_of(axes, place); !along.empty())
+        result.facts.push_back("its axes run along " + along);
+    if (const std::optional<std::string> fault = place_grid(result.volume, axes, place))
         fields.fail(axes ? size_field : *find_first(fields, {"transformmatrix", "rotation", "orientation"}), *fault);
     return result;
 }

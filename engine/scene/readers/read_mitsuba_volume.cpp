@@ -47,7 +47,7 @@ void read_box(FileReader& file, GridVolume& volume) {
         for (int axis = 0; axis < 3; ++axis) corner[axis] = static_cast<double>(file.value<float>("header"));
     volume.lower = corners[0];
     volume.upper = corners[1];
-    if (!box_fault(volume)) return;
+    if (!box_fault(volume.lower, volume.upper)) return;
     volume.lower = Vec3d(0, 0, 0);
     volume.upper = Vec3d(1, 1, 1);
     volume.notes.lines.push_back("the file states no box that has a size: the unit cube is taken");

@@ -234,7 +234,7 @@ GridVolume convert(const FileReader& file, NanoVdbGrid& grid, const Wanted& want
     const GridAxes axes = found.value_or(GridAxes());
     facts.grid = shown(grid.name);
     facts.active = box.count;
-    if (!axes.as_they_are()) facts.axes = text_of(axes);
+    facts.axes = text_of(found, place);
 
     GridVolume volume;
     note_grid(grid.name, grid.passed_over, walk.background(), volume.notes);
@@ -244,7 +244,7 @@ GridVolume convert(const FileReader& file, NanoVdbGrid& grid, const Wanted& want
     walk.run(filling);
     grid.blocks = std::vector<NanoVdbGrid::Block>();  // their memory may be needed for what follows
     check_densities(volume, wanted.negative, wanted.file);
-    if (const std::optional<std::string> fault = place_grid(volume, found, place, wanted.most_voxels))
+    if (const std::optional<std::string> fault = place_grid(volume, found, place))
         file.fail(grid.begin, *fault + ": mend its transform");
     return volume;
 }

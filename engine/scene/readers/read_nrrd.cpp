@@ -241,9 +241,9 @@ void read_begin(FileReader& data, const HeaderFields& fields, VoxelLayout& layou
     layout.begin = data.size() - length;
 }
 
-std::vector<std::string> facts_of(const HeaderFields& fields, const VoxelLayout& layout) {
+std::vector<std::string> facts_of(const HeaderFields& fields, const VoxelLayout& layout, const std::string& axes) {
     std::vector<std::string> facts{text_of(layout)};
-    if (!layout.axes.as_they_are()) facts.push_back("its axes run along " + text_of(layout.axes));
+    if (!axes.empty()) facts.push_back("its axes run along " + axes);
     for (const char* name : {"space", "spaceunits", "units"})
         if (const HeaderField* field = fields.find(name))
             facts.push_back(fmt::format("{}: {:.100}", name == std::string_view("spaceunits") ? "space units" : name,
@@ -281,11 +281,11 @@ GridFile read_nrrd(const std::filesystem::path& file, Negative negative, std::ui
     if (other_file) other.emplace(file_beside(file, fields, *other_file));
     FileReader& data = other ? *other : reader;
     read_begin(data, fields, layout, voxels);
-    GridFile result{read_voxels(data, layout, negative, Rest::noted), facts_of(fields, layout)};
+    GridFile result{read_voxels(data, layout, negative, Rest::noted), facts_of(fields, layout, text_of(axes, place))};
     if (fields.find("axismins") || fields.find("axismaxs"))
         result.volume.notes.lines.push_back(
             "its axis mins and maxs are passed over: spacings or directions give the box");
-    if (const std::optional<std::string> fault = place_grid(result.volume, axes, place, most_voxels))
+    if (const std::optional<std::string> fault = place_grid(result.volume, axes, place))
         fields.fail(axes ? sizes_field : fields.need("spacedirections"), *fault);
     return result;
 }

@@ -5,6 +5,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -82,6 +83,11 @@ private:
             throw Error(ErrorCode::bad_input, name.string(),
                         fmt::format("the scene reads over {} files or {} bytes, of all files together", limits_.files,
                                     limits_.bytes));
+        if (!fault && !known_files_.insert(fs::canonical(name, fault)).second && (repeats_ += bytes) > limits_.repeats)
+            throw Error(ErrorCode::bad_input, name.string(),
+                        fmt::format("the scene reads over {} bytes again, of files that it has read before: repeat "
+                                    "shapes by ObjectInstance",
+                                    limits_.repeats));
     }
 
     fs::path find(const Statement& s, const std::string& name) const {
@@ -290,7 +296,8 @@ private:
 
     const fs::path& scene_file_;
     const PbrtLimits limits_;
-    std::uint64_t bytes_ = 0, files_ = 0, voxels_ = 0;
+    std::uint64_t bytes_ = 0, files_ = 0, voxels_ = 0, repeats_ = 0;
+    std::set<fs::path> known_files_;
     std::uint64_t repeated_ = 0;  // elements of all objects
     int nested_ = 0;
     PbrtStatements* reading_ = nullptr;  // the innermost file

@@ -166,7 +166,7 @@ GridFile read_slc(const std::filesystem::path& file, std::uint64_t most_voxels) 
     GridVolume& volume = result.volume;
     volume.size = header.size;
     volume.upper = Vec3d(header.size) * header.spacing;
-    if (const std::optional<std::string> fault = box_fault(volume)) reader.fail(spacing_at, *fault);
+    if (const std::optional<std::string> fault = box_fault(volume.lower, volume.upper)) reader.fail(spacing_at, *fault);
     pass_icon(reader, text);
     read_slices(reader, text, header, volume.density);
     result.facts = {fmt::format("values of uint8{}, divided by 255", header.packed ? ", packed" : ""),

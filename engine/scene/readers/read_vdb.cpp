@@ -1,7 +1,6 @@
 // The only file that includes OpenVDB, which takes long to compile.
-#include <openvdb/io/File.h>
+#include <openvdb/io/io.h>
 #include <openvdb/openvdb.h>
-#include <openvdb/tools/Dense.h>
 
 #include <algorithm>
 #include <array>
@@ -9,16 +8,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <fstream>
 #include <mutex>
 #include <new>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "scene/limits.h"
+#include "scene/readers/active_box.h"
 #include "scene/readers/densities.h"
 #include "scene/readers/files.h"
 #include "scene/readers/grid_axes.h"
@@ -36,6 +34,12 @@ using base::ErrorCode;
     throw Error(ErrorCode::bad_input, file.string(), message);
 }
 
+struct Wanted {
+    const std::filesystem::path& file;
+    Negative negative;
+    std::uint64_t most_voxels;
+};
+
 // The number of voxels in a box; throws if it is over the limit.
 double check_box(const openvdb::CoordBBox& box, std::uint64_t most_voxels, const std::filesystem::path& file) {
     double voxels = 1.0;
@@ -45,15 +49,38 @@ double check_box(const openvdb::CoordBBox& box, std::uint64_t most_voxels, const
     return voxels;
 }
 
-openvdb::FloatGrid::Ptr read_grid(const std::filesystem::path& file, const VdbGrid& grid) {
-    openvdb::io::File vdb(file.string());
-    vdb.open(false);
-    const openvdb::FloatGrid::Ptr result = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(grid.library_name));
-    if (!result) fail(file, fmt::format("the grid \"{}\" is not float", shown(grid)));
-    if (result->getGridClass() == openvdb::GRID_LEVEL_SET)
-        fail(file, fmt::format("the grid \"{}\" is a level set, not a fog volume", shown(grid)));
-    return result;
-}
+// A file of which check_vdb() has checked every count and size. The library's own class for files reads a whole grid at
+// once; here its leaves are read one after the other.
+class VdbStream {
+public:
+    VdbStream(const std::filesystem::path& file, const VdbGrid& grid) : stream_(file, std::ios::binary) {
+        if (!stream_) throw Error(ErrorCode::io, file.string(), "the file cannot be opened");
+        stream_.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+        openvdb::io::setStreamMetadataPtr(stream_, facts_);
+        openvdb::io::setVersion(stream_, {grid.library_major, grid.library_minor}, grid.format);
+    }
+
+    // Reads the facts of the grid that begins at a byte; its tree follows.
+    openvdb::FloatGrid::Ptr front(std::uint64_t begin) {
+        stream_.seekg(static_cast<std::streamoff>(begin));
+        std::uint32_t compression = 0;
+        stream_.read(reinterpret_cast<char*>(&compression), sizeof compression);
+        openvdb::io::setDataCompression(stream_, compression);
+        openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create();
+        grid->readMeta(stream_);
+        grid->readTransform(stream_);
+        return grid;
+    }
+
+    VdbStream(const VdbStream&) = delete;
+    VdbStream& operator=(const VdbStream&) = delete;
+
+    std::istream& stream() { return stream_; }
+
+private:
+    openvdb::io::StreamMetadata::Ptr facts_{new openvdb::io::StreamMetadata};  // the stream keeps its address
+    std::ifstream stream_;
+};
 
 GridPlace place_of(const openvdb::math::Transform& transform, const openvdb::Coord& lower,
                    const std::filesystem::path& file) {
@@ -72,53 +99,66 @@ GridPlace place_of(const openvdb::math::Transform& transform, const openvdb::Coo
     return place;
 }
 
-// Copies densities, x fastest along the world's axes, one slab of the grid at a time, so that turning it needs little
-// memory.
-void copy_densities(const openvdb::FloatGrid& grid, const openvdb::CoordBBox& box, const GridAxes& axes,
-                    GridVolume& volume) {
-    using Dense = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
-    if (axes.as_they_are()) {
-        Dense dense(box, volume.density.data());
-        openvdb::tools::copyToDense(grid, dense);
-        return;
-    }
-    const openvdb::Coord size = box.dim();
-    const auto [first, step] = turned_steps(Vec3i(size.x(), size.y(), size.z()), axes);
-    constexpr int thick = 8;  // voxels, the thickness of a leaf
-    std::vector<float> slab;
-    for (int z = 0; z < size.z(); z += thick) {
-        const int layers = std::min(thick, size.z() - z);
-        const openvdb::Coord lower = box.min().offsetBy(0, 0, z);
-        slab.resize(static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y()) *
-                    static_cast<std::size_t>(layers));
-        Dense dense({lower, {box.max().x(), box.max().y(), lower.z() + layers - 1}}, slab.data());
-        openvdb::tools::copyToDense(grid, dense);
-        const float* from = slab.data();
-        for (int k = z; k < z + layers; ++k)
-            for (int j = 0; j < size.y(); ++j)
-                for (int i = 0; i < size.x(); ++i)
-                    volume.density[static_cast<std::size_t>(first + i * step[0] + j * step[1] + k * step[2])] = *from++;
+// Reads the values of all leaves, in the order of the file, and frees each when it is copied.
+void fill_from_leaves(std::istream& stream, openvdb::FloatTree& tree, bool half, BoxFilling& filling) {
+    using Buffer = openvdb::FloatTree::LeafNodeType::Buffer;
+    for (auto leaf = tree.beginLeaf(); leaf; ++leaf) {
+        leaf->readBuffers(stream, half);
+        Buffer values(openvdb::PartialCreate(), 0.0f);
+        leaf->swap(values);
+        const openvdb::Coord corner = leaf->origin();
+        filling.leaf({corner.x(), corner.y(), corner.z()}, values.data());
     }
 }
 
-void convert(openvdb::FloatGrid::Ptr grid, Negative negative, std::uint64_t most_voxels,
-             const std::filesystem::path& file, GridVolume& volume, VdbFacts& facts) {
+// Values that hold for whole nodes, a block as large as a leaf at a time.
+void fill_from_tiles(const openvdb::FloatTree& tree, BoxFilling& filling) {
+    constexpr std::int32_t side = BoxFilling::leaf_side;
+    const ActiveBox& box = filling.box;
+    const openvdb::tree::ValueAccessor<const openvdb::FloatTree> at(tree);
+    for (std::int64_t x = box.lower[0] & -side; x <= box.upper[0]; x += side)
+        for (std::int64_t y = box.lower[1] & -side; y <= box.upper[1]; y += side)
+            for (std::int64_t z = box.lower[2] & -side; z <= box.upper[2]; z += side) {
+                const Vec3i corner(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z));
+                const openvdb::Coord place(corner.x, corner.y, corner.z);
+                if (at.probeConstLeaf(place)) continue;
+                const float value = at.getValue(place);
+                if (value != tree.background()) filling.tile(corner, side, value, true);
+            }
+}
+
+void convert(VdbStream& file_of, const VdbGrid& chosen, const Wanted& wanted, GridVolume& volume, VdbFacts& facts) {
+    const std::filesystem::path& file = wanted.file;
+    const openvdb::FloatGrid::Ptr front = file_of.front(chosen.begin);
+    if (front->getGridClass() == openvdb::GRID_LEVEL_SET)
+        fail(file, fmt::format("the grid \"{}\" is a level set, not a fog volume", shown(chosen)));
+    const openvdb::FloatGrid::Ptr grid = chosen.tree_begin == chosen.begin ? front : file_of.front(chosen.tree_begin);
+    openvdb::FloatTree& tree = grid->tree();
+    tree.readTopology(file_of.stream(), chosen.half);
+    note_grid(chosen, chosen.passed_over, tree.background(), volume.notes);
     const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
     if (box.empty()) fail(file, "the grid has no active voxels");
-    const double voxels = check_box(box, most_voxels, file);
-    const openvdb::Coord size = box.dim();
-    const GridPlace place = place_of(grid->transform(), box.min(), file);
-    const std::optional<GridAxes> found = find_axes(place.steps, Vec3i(size.x(), size.y(), size.z()));
+    const double voxels = check_box(box, wanted.most_voxels, file);
+    const openvdb::Coord dim = box.dim();
+    const Vec3i size(dim.x(), dim.y(), dim.z());
+    const GridPlace place = place_of(front->transform(), box.min(), file);
+    const std::optional<GridAxes> found = find_axes(place.steps, size);
     const GridAxes axes = found.value_or(GridAxes());
     facts.active = grid->activeVoxelCount();
-    if (!axes.as_they_are()) facts.axes = text_of(axes);
+    facts.axes = text_of(found, place);
 
-    for (std::size_t i = 0; i < 3; ++i) volume.size[axes.to[i]] = size[static_cast<int>(i)];
-    volume.density.resize(static_cast<std::size_t>(voxels));
-    copy_densities(*grid, box, axes, volume);
-    grid.reset();  // its memory may be needed for what follows
-    check_densities(volume, negative, file);
-    if (const std::optional<std::string> fault = place_grid(volume, found, place, most_voxels))
+    volume.size = turned(size, axes);
+    volume.density.assign(static_cast<std::size_t>(voxels), tree.background());
+    ActiveBox bounds;
+    for (int i = 0; i < 3; ++i) {
+        bounds.lower[static_cast<std::size_t>(i)] = box.min()[i];
+        bounds.upper[static_cast<std::size_t>(i)] = box.max()[i];
+    }
+    BoxFilling filling{bounds, turned_steps(size, axes), volume.density};
+    fill_from_tiles(tree, filling);
+    fill_from_leaves(file_of.stream(), tree, chosen.half, filling);
+    check_densities(volume, wanted.negative, file);
+    if (const std::optional<std::string> fault = place_grid(volume, found, place))
         fail(file, *fault + ": mend its transform");
 }
 
@@ -141,10 +181,9 @@ GridVolume read_vdb(const std::filesystem::path& file, const GridChoice& grid, N
         fail(file, "the file is empty");
     try {
         const VdbGrid chosen = check_vdb(file, grid);
-        openvdb::FloatGrid::Ptr source = read_grid(file, chosen);
+        VdbStream stream(file, chosen);
         GridVolume volume;
-        note_grid(chosen, chosen.passed_over, source->background(), volume.notes);
-        convert(std::move(source), negative, most_voxels, file, volume, facts);
+        convert(stream, chosen, {file, negative, most_voxels}, volume, facts);
         facts.grid = shown(chosen);
         return volume;
     } catch (const Error&) {

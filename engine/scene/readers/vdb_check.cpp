@@ -77,13 +77,11 @@ public:
         read_header();
         const std::size_t chosen = choose_grid(file_, names_, choice);
         check_grid(chosen);
-        if (!grids_[chosen].parent.empty()) check_grid(parent_of(chosen));
-        const std::optional<std::string> asked = library_name(names_, chosen);
-        if (!asked)
-            reader_.fail(grids_[chosen].begin, fmt::format("the grid \"{}\" has a name that other grids share or "
-                                                           "hide; rename it in the program that wrote it",
-                                                           shown(names_[chosen])));
-        VdbGrid result{names_[chosen], *asked, {}};
+        const std::size_t with_tree = grids_[chosen].parent.empty() ? chosen : parent_of(chosen);
+        if (with_tree != chosen) check_grid(with_tree);
+        VdbGrid result{
+            names_[chosen],        {}, format_, library_[0], library_[1], grids_[chosen].begin, grids_[with_tree].begin,
+            grids_[with_tree].half};
         for (std::size_t i = 0; i < grids_.size(); ++i)
             if (i != chosen) result.passed_over.push_back(shown(names_[i]));
         return result;
@@ -95,7 +93,8 @@ private:
     }
 
     std::size_t parent_of(std::size_t grid) const {
-        const std::size_t parent = library_parent(names_, grids_[grid].parent);
+        std::size_t parent = 0;
+        while (parent < names_.size() && names_[parent].unique_name != grids_[grid].parent) ++parent;
         if (parent == names_.size() || !grids_[parent].parent.empty())
             reader_.fail(grids_[grid].begin,
                          fmt::format("the file is damaged: the grid \"{}\" shares the tree of another, and there is no "
@@ -150,15 +149,15 @@ private:
 
     void read_header() {
         if (reader_.value<std::int64_t>("header") != magic) reader_.fail(0, "not an OpenVDB file");
-        const auto version = reader_.value<std::uint32_t>("header");
-        if (version > last_version)
-            reader_.fail(8, fmt::format("version {} of the format is not supported; versions up to {} are", version,
+        format_ = reader_.value<std::uint32_t>("header");
+        if (format_ > last_version)
+            reader_.fail(8, fmt::format("version {} of the format is not supported; versions up to {} are", format_,
                                         last_version));
-        if (version < first_version)
+        if (format_ < first_version)
             reader_.fail(8, fmt::format("version {} of the format, written before 2013; save it with OpenVDB 1.2 or "
                                         "later",
-                                        version));
-        skip(8, "header");  // version of the library
+                                        format_));
+        library_ = reader_.value<std::array<std::uint32_t, 2>>("header");
         if (reader_.value<char>("header") == 0)
             reader_.fail(20, "the file was written as a stream, without the places of its grids");
         skip(uuid_bytes, "header");
@@ -292,6 +291,8 @@ private:
     FileReader reader_;
     std::vector<Grid> grids_;
     std::vector<VdbGridName> names_;  // of each grid
+    std::uint32_t format_ = 0;
+    std::array<std::uint32_t, 2> library_{};  // its version, major and minor
     std::uint32_t compression_ = 0;
     bool half_ = false;
     std::uint64_t leaves_ = 0;

@@ -2,6 +2,7 @@
 // a file, allocates memory for them and does not check whether its reads succeed.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,8 +12,11 @@
 namespace shadowbench::scene {
 
 struct VdbGrid : VdbGridName {
-    std::string library_name;              // for File::readGrid
-    std::vector<std::string> passed_over;  // the file's other grids, as shown to people
+    std::vector<std::string> passed_over;                // the file's other grids, as shown to people
+    std::uint32_t format = 0;                            // version of the file
+    std::uint32_t library_major = 0, library_minor = 0;  // that wrote it
+    std::uint64_t begin = 0, tree_begin = 0;             // the bytes at which it and the grid whose tree it has begin
+    bool half = false;                                   // that tree's values are float16
 };
 
 // Walks over all headers and over the nodes of the chosen grid, which it returns. Throws Error: no_such_file, io, the

@@ -13,7 +13,7 @@ namespace shadowbench::scene {
 struct VdbFacts {
     std::string grid;          // its name, as shown to people
     std::uint64_t active = 0;  // voxels
-    std::string axes;  // the world axes along which the grid's x, y and z run, as in "x, -z, y"; empty: the same ones
+    std::string axes;          // the world's directions of the grid's x, y and z: text_of() of place_grid.h
 };
 
 // As the functions of files.h; they set `facts`.
