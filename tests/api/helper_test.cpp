@@ -59,14 +59,19 @@ TEST(HelperProcess, OfThisProgramExaminesAScenario) {
 }
 
 TEST(HelperProcess, OfThisProgramGivesCurves) {
+    int started = 0;
     CurveCache cache(
-        [](const std::vector<std::string>& arguments) { return start_process(SHADOWBENCH_PROGRAM, arguments, enough); },
+        [&](const std::vector<std::string>& arguments) {
+            ++started;
+            return start_process(SHADOWBENCH_PROGRAM, arguments, enough);
+        },
         {"curves"}, 120, 8);
     const auto scenario = [] { return tiny_scenario().dump(); };
     const nlohmann::json curves = take_answer(cache.curves({"j-1", "", 0, 4, 4}, scenario));
     EXPECT_EQ(curves["light"], "sun") << "the first";
     EXPECT_EQ(curves["exact"]["v"].back(), 0.25) << "in and out of a sphere that lets half through";
     EXPECT_EQ(take_answer(cache.curves({"j-1", "", 0, 3, 4}, scenario))["x"], 3);
+    EXPECT_EQ(started, 1) << "the process stays: a pixel costs no start";
     EXPECT_EQ(take_answer(cache.curves({"j-1", "sun", 0, 4, 4}, scenario)), curves);
     EXPECT_EQ(code_of([&] { cache.curves({"j-1", "sun", 0, 8, 8}, scenario); }), ErrorCode::usage);
 }
