@@ -1,7 +1,9 @@
 #include "bench/run.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -17,13 +19,14 @@
 namespace shadowbench::bench {
 namespace {
 
-void add_cost(const scene::Scenario& scenario, const PreparedLight& light, std::size_t techniques,
-              Validated& validated) {
+void add_cost(const scene::Scenario& scenario, const PreparedLight& light, std::span<const Contender> contenders,
+              Validated& validated, std::vector<LightWork>& works) {
     const rays::MapLayout& layout = light.layout;
     validated.largest_side = std::max({validated.largest_side, layout.width, layout.height});
     validated.most_samples = std::max({validated.most_samples, layout.samples(), scenario.reference.samples_per_pixel});
     validated.least_bytes = std::max(validated.least_bytes, light.least_bytes);
-    validated.seconds += estimate_seconds(scenario, layout, techniques);
+    works.push_back(count_work(scenario, layout, light.view, contenders));
+    validated.seconds += estimate_seconds(works.back(), scenario.timing, base::thread_count());
 }
 
 }  // namespace
@@ -54,15 +57,18 @@ Validated validate(const nlohmann::json& document, const RunOptions& options, co
         const std::vector<Contender> contenders = make_contenders(scenario, variant);
         add_notes(scenario, validated.notes);
         add_files(variant, scenario.scene, validated.files);
+        std::vector<LightWork> works;
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) {
             const PreparedLight light = prepare_light(scenario, l, contenders, options.limits);
             const std::string& name = scenario.lights[l].name;
             const bool known = std::count(validated.blind.begin(), validated.blind.end(), name) > 0;
             if (!known && rays::misses_all(light.view, scenario.scene)) validated.blind.push_back(name);
-            add_cost(scenario, light, contenders.size(), validated);
+            add_cost(scenario, light, contenders, validated, works);
             if (scenario.scene.deep_image) check_served(contenders, {light.layout, light.view, nullptr});
         }
+        validated.seconds += estimate_loading(scenario, base::thread_count());
         if (validated.variants++ > 0) continue;
+        validated.picture_seconds = estimate_pictures(scenario, works, base::thread_count());
         validated.name = scenario.name;
         validated.lights = scenario.lights.size();
         validated.techniques = contenders.size();

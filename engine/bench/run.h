@@ -34,6 +34,7 @@ struct Validated {
     int largest_side = 0, most_samples = 0;                // of the maps: pixels; rays a pixel, including the truth's
     double least_bytes = 0.0;                              // of the variant that needs the most
     double seconds = 0.0;                                  // estimate for the whole run: see estimate.h
+    double picture_seconds = 0.0;                          // the same for the pictures of the first variant
 };
 
 // Makes all checks that run() makes before it works: the document, its files, what its lights see, the memory limit,

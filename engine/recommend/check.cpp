@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "bench/estimate.h"
 #include "bench/load.h"
 #include "bench/one_light.h"
@@ -63,7 +64,8 @@ bench::Validated check(const nlohmann::json& document, const bench::RunOptions& 
                     "which are explored");
     bench::ScenarioLoader loader(options.data);
     const scene::Scenario& scenario = loader.load(variants.front());
-    const std::size_t index = asked_at(where + "/light", [&] { return chosen_light(bench::names_of(scenario.lights), request.light); });
+    const std::size_t index =
+        asked_at(where + "/light", [&] { return chosen_light(bench::names_of(scenario.lights), request.light); });
     const Space space = asked_at(where + "/only", [&] { return Space(scenario, request.only); });
     const bench::PreparedLight light = bench::prepare_light(scenario, index, {}, options.limits);
     if (rays::misses_all(light.view, scenario.scene))
@@ -80,7 +82,9 @@ bench::Validated check(const nlohmann::json& document, const bench::RunOptions& 
     checked.largest_side = std::max(light.layout.width, light.layout.height);
     checked.most_samples = std::max(light.layout.samples(), scenario.reference.samples_per_pixel);
     checked.least_bytes = light.least_bytes;
-    checked.seconds = bench::estimate_seconds(scenario, light.layout, 0) + request.goal.budget;
+    checked.seconds = bench::estimate_seconds(bench::count_work(scenario, light.layout, light.view, {}),
+                                              scenario.timing, base::thread_count()) +
+                      bench::estimate_loading(scenario, base::thread_count()) + request.goal.budget;
     return checked;
 }
 

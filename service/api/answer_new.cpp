@@ -14,7 +14,7 @@ constexpr std::size_t most_listed = 1000;
 }  // namespace
 
 ApiResponse list_files(Context& context, const Call&) {
-    const DataFiles found = data_files(context.options.data, most_listed);
+    const DataFiles found = data_files(context.options.data, most_listed, context.options.state);
     nlohmann::json files = nlohmann::json::array();
     for (const NamedFile& file : found.files) files.push_back({{"name", file.name}, {"bytes", file.bytes}});
     return json_answer(200, nlohmann::json{{"files", std::move(files)}, {"more", found.more}});

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/hash_text.h"
+#include "bench/pace.h"
 #include "bench/pixel_curves.h"
 #include "bench/run.h"
 #include "document/document.h"
@@ -65,6 +66,8 @@ bench::RunOptions options_for(const std::vector<fs::path>& data) {
     return options;
 }
 
+constexpr double process_start = 0.4;  // seconds: the libraries, and what a job writes at its end
+
 std::uint64_t seed_of(const json& document) {
     return document.value(json::json_pointer("/rays/seed"), std::uint64_t{1});
 }
@@ -82,6 +85,7 @@ bench::Validated validate(const json& document, const std::string& recommend, co
 json facts_of(const json& document, const std::string& recommend, const std::vector<fs::path>& data,
               const Hidden& hidden) {
     const bench::Validated v = validate(document, recommend, options_for(data));
+    static const double pace = bench::measure_pace();  // of this machine, when the first scenario comes
     json notes = json::array();
     for (const std::string& note : v.notes) notes.push_back(hide(note, hidden));
     for (const std::string& light : v.blind)
@@ -94,7 +98,8 @@ json facts_of(const json& document, const std::string& recommend, const std::vec
             {"techniques", v.techniques},
             {"notes", notes},
             {"estimate",
-             {{"seconds", v.seconds},
+             {{"seconds", process_start + v.seconds * pace},
+              {"picture_seconds", v.picture_seconds * pace},
               {"bytes", v.least_bytes},
               {"resolution", v.largest_side},
               {"samples_per_pixel", v.most_samples}}}};

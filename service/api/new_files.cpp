@@ -83,7 +83,7 @@ std::vector<std::string_view> fitting_techniques(std::span<const scene::DataFile
     return types;
 }
 
-DataFiles data_files(const std::vector<fs::path>& folders, std::size_t most) {
+DataFiles data_files(const std::vector<fs::path>& folders, std::size_t most, const fs::path& apart) {
     DataFiles found;
     std::size_t seen = 0;
     for (const fs::path& folder : folders) {
@@ -96,6 +96,10 @@ DataFiles data_files(const std::vector<fs::path>& folders, std::size_t most) {
             }
             if (it.depth() >= deepest_folder) it.disable_recursion_pending();
             std::error_code ignored;
+            if (!apart.empty() && it->is_directory(ignored) && fs::equivalent(it->path(), apart, ignored)) {
+                it.disable_recursion_pending();
+                continue;
+            }
             if (!is_read(it->path()) || !it->is_regular_file(ignored)) continue;
             if (it->is_symlink(ignored) && !scene::lies_in(it->path(), folder)) continue;
             const std::uintmax_t bytes = it->file_size(ignored);

@@ -28,8 +28,9 @@ struct DataFiles {
 };
 
 // The files of the folders, and of the folders in them, that `new` reads. Names that are not UTF-8 and files outside
-// the folders, to which a link leads, are left out.
-DataFiles data_files(const std::vector<std::filesystem::path>& folders, std::size_t most);
+// the folders, to which a link leads, are left out, and so is the folder `apart`, such as the server's state.
+DataFiles data_files(const std::vector<std::filesystem::path>& folders, std::size_t most,
+                     const std::filesystem::path& apart = {});
 
 // `request`: {"files": [NAME, ...], "up": "y" or "z"}, of which only files are required. The scenario around these
 // files of the folders, as JSON on one line. Throws Error: bad_input, with the place in the request or the file; and as

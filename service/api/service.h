@@ -28,6 +28,7 @@ struct CostLimits {
 struct ServiceOptions {
     std::vector<std::filesystem::path> data;       // folders with files that scenarios may name
     std::vector<std::filesystem::path> scenarios;  // folders with the scenarios that /v1/scenarios lists
+    std::filesystem::path state;                   // of the jobs: its files are no data, even inside a data folder
     CostLimits limits;
     StartHelper start_helper;        // starts a subcommand of this program
     double helper_seconds = 20.0;    // longest wait for one answer of a helper

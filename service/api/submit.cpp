@@ -61,9 +61,11 @@ std::variant<PostedScenario, ApiResponse> read_options(const json& options, Post
 }
 
 // The limits that the estimate exceeds. `time`: what decides about the seconds.
-std::vector<ProblemPart> over_limits(const json& estimate, const CostLimits& limits, const char* time) {
+std::vector<ProblemPart> over_limits(const json& estimate, bool pictures, const CostLimits& limits, const char* time) {
     std::vector<ProblemPart> over;
-    const double bytes = estimate.at("bytes").get<double>(), seconds = estimate.at("seconds").get<double>();
+    const double bytes = estimate.at("bytes").get<double>(),
+                 drawing = pictures ? estimate.value("picture_seconds", 0.0) : 0.0,
+                 seconds = estimate.at("seconds").get<double>() + drawing;
     if (const int side = estimate.at("resolution").get<int>(); side > limits.resolution)
         over.push_back({"/rays/resolution",
                         fmt::format("the map has {} pixels a side; this server accepts {}", side, limits.resolution)});
@@ -76,8 +78,9 @@ std::vector<ProblemPart> over_limits(const json& estimate, const CostLimits& lim
         over.push_back({"/rays", fmt::format("it needs at least {:.3g} GiB of memory; this server allows {:.3g}",
                                              bytes / gib, limits.bytes / gib)});
     if (seconds > limits.seconds)
-        over.push_back(
-            {time, fmt::format("it would run for about {:.3g} s; this server allows {:.3g}", seconds, limits.seconds)});
+        over.push_back({time, fmt::format("it would run for about {:.3g} s{}; this server allows {:.3g}", seconds,
+                                          drawing > 0.0 ? fmt::format(", {:.3g} s of it for pictures", drawing) : "",
+                                          limits.seconds)});
     return over;
 }
 
@@ -149,8 +152,8 @@ std::variant<json, ApiResponse> examine_posted(Context& context, const PostedSce
     if (!faults.empty()) return problem_of(faults);
     json& facts = std::get<json>(examined);
     const json& estimate = facts.at("estimate");
-    const std::vector<ProblemPart> over =
-        over_limits(estimate, context.options.limits, posted.recommend.empty() ? "" : "/recommend/budget");
+    const std::vector<ProblemPart> over = over_limits(estimate, posted.pictures, context.options.limits,
+                                                      posted.recommend.empty() ? "" : "/recommend/budget");
     if (over.empty()) return std::move(facts);
     return problem(422, "The scenario costs more than this server allows: " + over[0].detail + ".", over,
                    {{"estimate", estimate}});

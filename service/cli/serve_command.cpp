@@ -103,6 +103,7 @@ ServiceOptions service_options(const ServeArguments& arguments, const std::strin
     ServiceOptions options;
     options.data = folders_of(arguments.data);
     options.scenarios = scenario_folders();
+    options.state = fs::absolute(arguments.state);
     options.limits.body = static_cast<std::size_t>(arguments.body * mib);
     options.limits.resolution = arguments.resolution;
     options.limits.samples_per_pixel = arguments.samples;

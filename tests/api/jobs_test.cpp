@@ -170,6 +170,21 @@ TEST_F(JobsApi, RefusesWhatCostsTooMuchAndGivesTheEstimate) {
     EXPECT_EQ(jobs_->count(JobState::queued), 0u);
 }
 
+// Else a job whose pictures take hours would be accepted, since its map is small.
+TEST_F(JobsApi, CountsPicturesAgainstTheLimitOfSeconds) {
+    nlohmann::json scenario = tiny_scenario();
+    scenario["receivers"] = {
+        {"type", "camera"}, {"position", {0, 0, 9}}, {"target", {0, 0, 0}}, {"resolution", {2048, 2048}}};
+    const nlohmann::json estimate = json(post("/v1/validate", scenario.dump()), 200)["estimate"];
+    const double run = estimate["seconds"], pictures = estimate["picture_seconds"];
+    EXPECT_GT(pictures, run);
+    ServiceOptions options = standard_options();
+    options.limits.seconds = run + 0.3 * pictures;
+    start(options);
+    refused(post("/v1/jobs", scenario.dump()), 422, "of it for pictures");
+    json(post("/v1/jobs", nlohmann::json{{"scenario", scenario}, {"options", {{"pictures", false}}}}.dump()), 202);
+}
+
 TEST_F(JobsApi, HonoursAnIdempotencyKey) {
     const std::vector<Field> key = {{"idempotency-key", "once"}};
     const nlohmann::json first = json(post("/v1/jobs", tiny_scenario().dump(), key), 202);

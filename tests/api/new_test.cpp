@@ -41,6 +41,24 @@ TEST(DataFiles, AreThoseThatNewReadsByNameAndInsideTheFolders) {
     EXPECT_TRUE(data_files({data, second}, 2).more);
 }
 
+// Else the results of all jobs would be listed as data, and the data behind some thousand jobs not at all.
+TEST(DataFiles, LeaveTheStateOfTheServerOut) {
+    const TemporaryFolder temporary;
+    const fs::path data = temporary.path() / "data", state = data / "state";
+    write_mesh(data / "a.obj");
+    write_mesh(state / "jobs" / "j-1" / "images" / "b.obj");
+    write_mesh(data / "states" / "c.obj");
+    fs::create_directory_symlink(state, temporary.path() / "link");
+    EXPECT_EQ(data_files({data}, 10).files.size(), 3u) << "where no folder is apart";
+    for (const fs::path& name : {state, state / "", data / ".." / "data" / "state", temporary.path() / "link"}) {
+        const DataFiles found = data_files({data}, 10, name);
+        ASSERT_EQ(found.files.size(), 2u) << name;
+        EXPECT_EQ(found.files[0].name, "a.obj");
+        EXPECT_EQ(found.files[1].name, "states/c.obj");
+    }
+    EXPECT_EQ(data_files({data}, 10, data / "not yet").files.size(), 3u);
+}
+
 class NewApi : public ApiTest {};
 
 TEST_F(NewApi, ListsFilesAndMakesAScenarioAroundThem) {

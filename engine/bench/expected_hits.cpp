@@ -1,0 +1,218 @@
+#include "bench/expected_hits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <type_traits>
+#include <variant>
+
+namespace shadowbench::bench {
+namespace {
+
+using base::Vec2d;
+using base::Vec3d;
+using base::Vec3f;
+
+constexpr std::size_t most_looked_at = 20'000;  // primitives of an object
+constexpr double little_left = 1e-4;            // of the light: what is behind is not seen
+
+// An area on the map and the rectangle around it, in map pixels.
+struct Area {
+    double pixels = 0.0;
+    Vec2d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}, high = -low;
+
+    void add(const Vec3d& place, double reach) {
+        low = {std::min(low.x, place.x - reach), std::min(low.y, place.y - reach)};
+        high = {std::max(high.x, place.x + reach), std::max(high.y, place.y + reach)};
+    }
+};
+
+// The share of a stretch that lies in [0, size].
+double share_inside(double low, double high, double size) {
+    if (!(high > low)) return low >= 0.0 && low <= size ? 1.0 : 0.0;
+    return std::max(0.0, std::min(high, size) - std::max(low, 0.0)) / (high - low);
+}
+
+// Projects places of a scene into the map.
+class Projection {
+public:
+    explicit Projection(const rays::LightView& view) : view_(view) {}
+
+    bool before(const Vec3d& light) const { return !view_.perspective || light.z > std::max(view_.z_near, 0.0); }
+    Vec3d place(const Vec3d& world) const { return rays::to_light(view_, world); }
+    // A world length at this depth, in map pixels: the geometric mean of both axes.
+    double pixels(double length, double z) const {
+        return length / std::sqrt(view_.pixel.x * view_.pixel.y) / (view_.perspective ? z : 1.0);
+    }
+    double map() const { return static_cast<double>(view_.resolution.x) * view_.resolution.y; }
+    // The part of the map that the area covers; of an area that reaches beyond the map, its share of the rectangle.
+    double covered(const Area& area) const {
+        return area.pixels / map() * share_inside(area.low.x, area.high.x, view_.resolution.x) *
+               share_inside(area.low.y, area.high.y, view_.resolution.y);
+    }
+
+    double disc(const Vec3f& centre, float radius) const {
+        const Vec3d at = place(Vec3d(centre));
+        if (!before(at)) return 0.0;
+        const double r = pixels(static_cast<double>(radius), at.z);
+        Area area{std::numbers::pi * r * r};
+        area.add(at, r);
+        return covered(area);
+    }
+
+    double triangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+        const Vec3d p = place(a), q = place(b), r = place(c);
+        if (!before(p) || !before(q) || !before(r)) return behind_corner({p, q, r});
+        Area area{0.5 * std::abs((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x))};
+        for (const Vec3d& corner : {p, q, r}) area.add(corner, 0.0);
+        return covered(area);
+    }
+
+    double ribbon(const Vec3f& a, const Vec3f& b, float radius) const {
+        const Vec3d p = place(Vec3d(a)), q = place(Vec3d(b));
+        if (!before(p) || !before(q)) return 0.0;
+        const double r = pixels(static_cast<double>(radius), 0.5 * (p.z + q.z));
+        Area area{2.0 * r * std::hypot(q.x - p.x, q.y - p.y)};
+        for (const Vec3d& end : {p, q}) area.add(end, r);
+        return covered(area);
+    }
+
+private:
+    // What reaches behind the light may cover the whole map.
+    double behind_corner(std::initializer_list<Vec3d> corners) const {
+        return std::any_of(corners.begin(), corners.end(), [&](const Vec3d& corner) { return before(corner); }) ? 0.5
+                                                                                                                : 0.0;
+    }
+
+    const rays::LightView& view_;
+};
+
+// The sum over all of `count` primitives of what `of` gives for each.
+template <class Of>
+double sum(std::size_t count, const Of& of) {
+    const std::size_t looked_at = std::min(count, most_looked_at);
+    double all = 0.0;
+    for (std::size_t i = 0; i < looked_at; ++i) all += of(i * count / looked_at);
+    return looked_at ? all * static_cast<double>(count) / static_cast<double>(looked_at) : 0.0;
+}
+
+// The part of the map that a box covers: each ray through it enters one face and leaves by another.
+double covered(const Projection& in, const base::Box3d& box, const scene::GridFrame* frame) {
+    if (box.isEmpty()) return 0.0;
+    const auto corner = [&](int i) {
+        const Vec3d at(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z);
+        return frame ? base::map_point(frame->to_world, at) : at;
+    };
+    constexpr int faces[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
+    double twice = 0.0;
+    for (const auto& f : faces)
+        twice += in.triangle(corner(f[0]), corner(f[1]), corner(f[2])) +
+                 in.triangle(corner(f[0]), corner(f[2]), corner(f[3]));
+    return std::min(1.0, 0.5 * twice);
+}
+
+double crossings(const Projection& in, const scene::Mesh& mesh) {
+    return sum(mesh.triangles.size(), [&](std::size_t i) {
+        const base::Vec3i& corners = mesh.triangles[i];
+        const auto corner = [&](int c) { return Vec3d(mesh.positions[static_cast<std::size_t>(c)]); };
+        return in.triangle(corner(corners.x), corner(corners.y), corner(corners.z));
+    });
+}
+
+double crossings(const Projection& in, const scene::Spheres& spheres) {
+    return 2.0 *
+           sum(spheres.centres.size(), [&](std::size_t i) { return in.disc(spheres.centres[i], spheres.radii[i]); });
+}
+
+double crossings(const Projection& in, const scene::Particles& particles) {
+    return sum(particles.centres.size(),
+               [&](std::size_t i) { return in.disc(particles.centres[i], particles.radii[i]); });
+}
+
+double crossings(const Projection& in, const scene::Hair& hair) {
+    if (hair.points.size() < 2) return 0.0;
+    const std::size_t strands = hair.strand_begin.size() - 1;
+    const double ribbons = sum(hair.points.size() - 1, [&](std::size_t i) {
+        return in.ribbon(hair.points[i], hair.points[i + 1], 0.5f * (hair.radii[i] + hair.radii[i + 1]));
+    });
+    // What joins the end of a strand to the next was looked at too: about as long as others, for what an estimate
+    // needs.
+    return ribbons * static_cast<double>(hair.points.size() - std::min(strands, hair.points.size())) /
+           static_cast<double>(hair.points.size() - 1);
+}
+
+// Steps or cells of a ray through the middle of the box, where there is density.
+double segments_through(const scene::GridVolume& grid, bool cells) {
+    const Vec3d size = grid.upper - grid.lower;
+    const double chord = std::cbrt(size.x * size.y * size.z);
+    const double count = static_cast<double>(grid.size.x) * grid.size.y * grid.size.z;
+    const double filled = sum(grid.density.size(), [&](std::size_t i) { return grid.density[i] > 0.0f ? 1.0 : 0.0; }) /
+                          std::max(count, 1.0);
+    return filled * (cells ? 2.0 * std::cbrt(count) : chord / grid.step);
+}
+
+double mean(const Vec3f& channels) {
+    return (static_cast<double>(channels.x) + static_cast<double>(channels.y) + static_cast<double>(channels.z)) / 3.0;
+}
+
+// Adds an object that a share of the rays meets, `crossed` times a ray of the map.
+void add_seen(double crossed, double share, double opacity, ExpectedHits& hits) {
+    if (!(share > 0.0)) return;
+    const double through = -std::log(std::max(1.0 - opacity, little_left));
+    const double before_dark = through > 0.0 ? std::ceil(-std::log(little_left) / through) : crossed / share;
+    hits.seen += share * std::min(std::max(crossed / share, 0.0), before_dark);
+}
+
+void add(const Projection& in, const scene::Object& object, bool cells, ExpectedHits& hits) {
+    if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {
+        const double share = covered(in, {grid->lower, grid->upper}, grid->frame ? &*grid->frame : nullptr);
+        hits.segments += share * segments_through(*grid, cells);
+        hits.media = std::min(1.0, hits.media + share);
+        return;
+    }
+    const double share = covered(in, scene::bounds(object), nullptr);
+    double crossed = 0.0;
+    std::visit(
+        [&](const auto& shape) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, scene::GridVolume>)
+                crossed = crossings(in, shape);
+        },
+        object.shape);
+    hits.segments += crossed;
+    if (std::holds_alternative<scene::Particles>(object.shape))
+        hits.media = std::min(1.0, hits.media + std::min(share, crossed));
+    else
+        add_seen(crossed, std::min(1.0, std::max(share, 0.0)), mean(object.opacity), hits);
+}
+
+}  // namespace
+
+ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& view, bool casters_only, bool cells) {
+    ExpectedHits hits;
+    if (scene.deep_image) {
+        const double pixels = static_cast<double>(scene.deep_image->width) * scene.deep_image->height;
+        hits.segments = hits.seen = static_cast<double>(scene.deep_image->z_front.size()) / pixels;
+        return hits;
+    }
+    const Projection projection(view);
+    for (const scene::Object& object : scene.objects)
+        if (object.casts_shadow || !casters_only) add(projection, object, cells, hits);
+    return hits;
+}
+
+rays::LightView camera_view(const scene::Camera& camera, base::Vec2i resolution) {
+    rays::LightView view;
+    view.perspective = true;
+    view.origin = camera.position;
+    view.forward = (camera.target - camera.position).normalized();
+    view.right = view.forward.cross(camera.up).normalized();
+    view.up = view.right.cross(view.forward);
+    view.resolution = resolution;
+    const double side = 2.0 * std::tan(camera.fov * std::numbers::pi / 360.0) / resolution.y;
+    view.pixel = {side, side};
+    view.lower = {-0.5 * side * resolution.x, -0.5 * side * resolution.y};
+    return view;
+}
+
+}  // namespace shadowbench::bench

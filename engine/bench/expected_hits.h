@@ -1,0 +1,23 @@
+// How often a ray meets a scene on average, from the projected areas of its primitives, before any ray is traced.
+#pragma once
+
+#include "rays/light_view.h"
+#include "scene/scene.h"
+
+namespace shadowbench::bench {
+
+struct ExpectedHits {
+    double segments = 0.0;  // of a ray of the map, on average: crossings of surfaces, and steps or cells of media
+    double seen = 0.0;      // of these, those before almost nothing of the light is left
+    double media = 0.0;     // share of the rays that pass through media
+};
+
+// For rays spread evenly over the view's map. Of each object at most some ten thousand primitives are looked at, spread
+// evenly. `casters_only`: objects without shadows count as absent. `cells`: grid volumes have a segment for each voxel
+// cell, else for each step.
+ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& view, bool casters_only, bool cells);
+
+// The view of a camera, as if it were a light with one ray a pixel.
+rays::LightView camera_view(const scene::Camera& camera, base::Vec2i resolution);
+
+}  // namespace shadowbench::bench
