@@ -111,18 +111,18 @@ void fill_from_leaves(std::istream& stream, openvdb::FloatTree& tree, bool half,
     }
 }
 
-// Values that hold for whole nodes, a block as large as a leaf at a time.
+// Values that hold for whole nodes, a block as large as a leaf at a time. Not by an accessor of the library: it would give
+// every leaf its values as it passes, before they are read.
 void fill_from_tiles(const openvdb::FloatTree& tree, BoxFilling& filling) {
     constexpr std::int32_t side = BoxFilling::leaf_side;
     const ActiveBox& box = filling.box;
-    const openvdb::tree::ValueAccessor<const openvdb::FloatTree> at(tree);
     for (std::int64_t x = box.lower[0] & -side; x <= box.upper[0]; x += side)
         for (std::int64_t y = box.lower[1] & -side; y <= box.upper[1]; y += side)
             for (std::int64_t z = box.lower[2] & -side; z <= box.upper[2]; z += side) {
                 const Vec3i corner(static_cast<int>(x), static_cast<int>(y), static_cast<int>(z));
                 const openvdb::Coord place(corner.x, corner.y, corner.z);
-                if (at.probeConstLeaf(place)) continue;
-                const float value = at.getValue(place);
+                if (tree.probeConstLeaf(place)) continue;
+                const float value = tree.getValue(place);
                 if (value != tree.background()) filling.tile(corner, side, value, true);
             }
 }
