@@ -1,6 +1,7 @@
 // Adaptive volumetric shadow maps: Salvi, Vidimce, Lauritzen, Lefohn, Adaptive Volumetric Shadow Maps, 2010.
 #include "base/error.h"
-#include "techniques/avsm/filling.h"
+#include "techniques/avsm/order.h"
+#include "techniques/avsm/stream.h"
 #include "techniques/avsm/texel.h"
 #include "techniques/store/texel_map.h"
 
@@ -24,6 +25,7 @@ const Parameter parameters[] = {
     averaged_cells_parameter,
 };
 
+enum class Order { sorted, captured, shuffled };
 Order read_order(const ParameterValues& values) {
     const std::string& word = values.word("order");
     return word == "sorted" ? Order::sorted : word == "captured" ? Order::captured : Order::shuffled;
@@ -33,7 +35,7 @@ Sampling read_sampling(const ParameterValues& values) {
 }
 
 // A texel is 2 * nodes floats: depths, then values. Each is made by streaming its ray's segments through one curve of a
-// fixed size and is written once: see filling.h.
+// fixed size and is written once: besides the map, no memory grows with the scene.
 class Avsm final : public TexelMap<Avsm> {
 public:
     explicit Avsm(const ParameterValues& values)
@@ -56,12 +58,13 @@ public:
         layout.width = static_cast<int>(functions.size());
         layout.z_max = far_plane;
         allocate(layout);
-        Streams streams;
-        for (std::size_t f = 0; f < functions.size(); ++f) {
-            streams.clear(0, nodes_, far_plane);
-            for (const curves::Vertex& v : functions[f]) streams.append(0, nodes_, v.z, v.value);
-            streams.store(0, nodes_, texels_.at(f));
-        }
+        with_stream([&](auto& stream) {
+            for (std::size_t f = 0; f < functions.size(); ++f) {
+                stream.clear(far_plane);
+                for (const curves::Vertex& v : functions[f]) stream.append(v.z, v.value);
+                store(stream, texels_.at(f));
+            }
+        });
     }
 
     RayNeeds needs() const override {
@@ -74,12 +77,16 @@ public:
         if (order_ == Order::captured && rays.submission.size() != rays.segments())
             throw base::Error(base::ErrorCode::internal, "/techniques",
                               "avsm: the light rays do not hold the order of their segments");
-        Filling filling(rays, nodes_, sampling_, order_, layout_.z_max);
-        for_each_texel(rays, [&](float* texel, std::size_t cell, std::size_t ray) {
-            if (rays.begin[ray] == rays.begin[ray + 1]) return store_empty(texel);
-            filling.add(texel, ray, base::hash(seed_, cell));
+        with_stream([&](auto& stream) {
+            for_each_texel(rays, [&](float* texel, std::size_t cell, std::size_t ray) {
+                if (rays.begin[ray] == rays.begin[ray + 1]) return store_empty(texel);
+                stream.clear(layout_.z_max);
+                for_each_segment(rays, ray, cell, [&](std::uint32_t s) {
+                    stream.insert(rays.z_front[s], rays.back(s), rays.transmittance[s]);
+                });
+                store(stream, texel);
+            });
         });
-        filling.finish();
     }
 
     float prepare(float z) const { return z; }
@@ -107,9 +114,62 @@ public:
     }
 
 private:
+    // Visits the segment numbers of a ray in the order of insertion.
+    template <class Visit>
+    void for_each_segment(const rays::LightRays& rays, std::size_t ray, std::size_t cell, const Visit& visit) const {
+        const std::uint32_t begin = rays.begin[ray], end = rays.begin[ray + 1];
+        if (order_ == Order::sorted) {
+            for (std::uint32_t s = begin; s < end; ++s) visit(s);
+        } else if (order_ == Order::captured) {
+            for (std::uint32_t s = begin; s < end; ++s) visit(rays.submission[s]);
+        } else {
+            const Shuffle shuffle(base::hash(seed_, cell), end - begin);
+            for (std::uint32_t k = 0; k < end - begin; ++k) visit(begin + shuffle(k));
+        }
+    }
+
     void store_empty(float* t) const {
         std::fill_n(t, nodes_, layout_.z_max);
         std::fill_n(t + nodes_, nodes_, 1.0f);
+    }
+
+    // Unused nodes are at the far plane with the last value.
+    template <class Stream>
+    void store(const Stream& stream, float* t) const {
+        int i = 0;
+        stream.for_each([&](float depth, float value) {
+            t[i] = depth;
+            t[nodes_ + i] = value;
+            ++i;
+        });
+        for (const int last = i - 1; i < nodes_; ++i) {
+            t[i] = t[last];
+            t[nodes_ + i] = t[nodes_ + last];
+        }
+    }
+
+    // Calls work(stream) with a stream of the smallest sufficient size.
+    template <class Work>
+    void with_stream(const Work& work) {
+        if (sampling_ == Sampling::linear)
+            with_sampled_stream<Sampling::linear>(work);
+        else
+            with_sampled_stream<Sampling::exponential>(work);
+    }
+    template <Sampling sampling, class Work>
+    void with_sampled_stream(const Work& work) {
+        const auto run = [&]<int size>() {
+            TransmittanceStream<size, sampling> stream(nodes_, layout_.z_max);
+            work(stream);
+        };
+        if (nodes_ <= 4)
+            run.template operator()<4>();
+        else if (nodes_ <= 8)
+            run.template operator()<8>();
+        else if (nodes_ <= 16)
+            run.template operator()<16>();
+        else
+            run.template operator()<64>();
     }
 
     int nodes_;
@@ -129,12 +189,12 @@ Technique avsm() {
     traits.trades = {{"nodes", Trade::Scale::logarithmic, 2, 64},
                      {.parameter = "sampling", .choices = {"linear", "exponential"}},
                      filter_trade};
-    traits.segment_rounding = 0x1p-24;                           // see streams.h
+    traits.segment_rounding = 0x1p-24;                           // see stream.h
     traits.order_free = {{"order", "sorted"}, {"nodes", 64.0}};  // once a node is dropped, the order counts
     return {.id = "avsm",
             .title = "adaptive volumetric shadow map: a fixed number of nodes a texel",
             .paper = "Salvi et al. 2010",
-            .version = 4,
+            .version = 3,
             .parameters = parameters,
             .create = create_map<Avsm>,
             .from_curves = [](const ParameterValues& values, std::span<const curves::Curve> functions)
