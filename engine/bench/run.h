@@ -35,6 +35,7 @@ struct Validated {
     double least_bytes = 0.0;                              // of the variant that needs the most
     double seconds = 0.0;                                  // estimate for the whole run: see estimate.h
     double picture_seconds = 0.0;                          // the same for the pictures of the first variant
+    double budget = 0.0;                                   // seconds that are asked for, on whatever machine
 };
 
 // Makes all checks that run() makes before it works: the document, its files, what its lights see, the memory limit,

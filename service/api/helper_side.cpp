@@ -98,7 +98,7 @@ json facts_of(const json& document, const std::string& recommend, const std::vec
             {"techniques", v.techniques},
             {"notes", notes},
             {"estimate",
-             {{"seconds", process_start + v.seconds * pace},
+             {{"seconds", process_start + v.seconds * pace + v.budget},
               {"picture_seconds", v.picture_seconds * pace},
               {"bytes", v.least_bytes},
               {"resolution", v.largest_side},

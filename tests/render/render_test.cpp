@@ -254,7 +254,11 @@ TEST(Render, with_joined_lookups_shows_the_same_from_fewer) {
     const Rendering all = render(quad_over_plane(), apart, {}), few = render(quad_over_plane(), joined, {});
     EXPECT_GE(4 * few.points, all.points);
     EXPECT_LT(static_cast<double>(4 * few.points), 1.2 * static_cast<double>(all.points));
-    EXPECT_LT(compare(few.reference.shaded, all.reference.shaded).rms, 0.03);
+    // One lookup for four that disagree errs by at most 3/4 of the light; four that agree are answered as before.
+    std::size_t split = 0;
+    for (const base::Vec3f& shadow : all.reference.shadow.pixels) split += shadow.y > 1e-6f && shadow.y < 1.0f - 1e-6f;
+    EXPECT_LT(compare(few.reference.shaded, all.reference.shaded).rms,
+              0.75 * std::sqrt(static_cast<double>(split) / static_cast<double>(all.reference.shadow.pixels.size())));
     std::size_t mixed = 0;
     for (int y = 12; y < 28; ++y)
         for (int x = 0; x < 80; ++x) {
