@@ -3,6 +3,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_group.h>
 
 #ifdef __SANITIZE_THREAD__
 #include <algorithm>
@@ -41,8 +42,12 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
     if (error) std::rethrow_exception(error);
 }
 #else
+// By default a task rounds as the first thread did that gave TBB work. That may be Embree, which flushes denormal floats
+// to zero: then numbers would depend on what ran before.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-    tbb::parallel_for(std::size_t{0}, count, body);
+    using Context = tbb::task_group_context;
+    Context as_this_thread(Context::bound, Context::default_traits | Context::fp_settings);
+    tbb::parallel_for(std::size_t{0}, count, body, as_this_thread);
 }
 #endif
 

@@ -3,7 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <limits>
+#include <thread>
 #include <vector>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
 
 #include "base/error.h"
 
@@ -15,6 +21,24 @@ TEST(ParallelFor, CallsTheBodyOnceForEveryIndex) {
     parallel_for(calls.size(), [&](std::size_t i) { ++calls[i]; });
     for (const auto& count : calls) ASSERT_EQ(count, 1);
 }
+
+#if defined(__SSE2__)
+// As Embree does while it builds: then all later work would lose its smallest numbers.
+TEST(ParallelFor, RoundsAsItsCallerAndNotAsTheFirstOne) {
+    std::thread([] {
+        const unsigned usual = _mm_getcsr();
+        _mm_setcsr(usual | 0x8040);  // denormal floats become zero
+        parallel_for(100, [](std::size_t) {});
+        _mm_setcsr(usual);
+        std::atomic<int> lost = 0;
+        parallel_for(100, [&](std::size_t) {
+            volatile float least = std::numeric_limits<float>::min();
+            lost += least / 4.0f == 0.0f;
+        });
+        EXPECT_EQ(lost, 0);
+    }).join();
+}
+#endif
 
 TEST(ParallelFor, OfNothingDoesNothing) {
     parallel_for(0, [](std::size_t) { FAIL(); });
