@@ -99,13 +99,16 @@ class Soak:
         print("soak: FAULT", self.faults[-1], flush=True)
 
     # --- jobs
+    def post(self, key, scenario):
+        body = dict(SCENARIO, reference=dict(SCENARIO["reference"], seed=scenario + 1))
+        return self.ask("POST", "/v1/jobs", {"scenario": body, "options": {
+            "cache": "fresh", "pictures": False, "labels": [f"s{scenario}"]}}, key)
+
     def send(self):
         number = self.counts["sent"]
         scenario = number % SCENARIOS
-        body = dict(SCENARIO, reference=dict(SCENARIO["reference"], seed=scenario + 1))
         key = f"soak-{number}"
-        status, answer = self.ask("POST", "/v1/jobs", {"scenario": body, "options": {
-            "cache": "fresh", "pictures": False, "labels": [f"s{scenario}"]}}, key)
+        status, answer = self.post(key, scenario)
         if status in (200, 202):
             self.took(key, answer["id"], scenario)
             self.counts["sent"] += 1
@@ -167,12 +170,10 @@ class Soak:
         chance = self.random.random()
         if chance < 0.03 and self.keys:
             key = self.random.choice(list(self.keys)[-200:])
-            job = self.jobs[self.keys[key]]
-            body = dict(SCENARIO, reference=dict(SCENARIO["reference"], seed=job["scenario"] + 1))
-            status, answer = self.ask("POST", "/v1/jobs", {"scenario": body, "options": {
-                "cache": "fresh", "pictures": False, "labels": [f"s{job['scenario']}"]}}, key)
+            scenario = self.jobs[self.keys[key]]["scenario"]
+            status, answer = self.post(key, scenario)
             if status in (200, 202):
-                self.took(key, answer["id"], job["scenario"])
+                self.took(key, answer["id"], scenario)
                 self.counts["repeated"] += 1
         elif chance < 0.05 and self.open:
             job = self.random.choice(sorted(self.open))
