@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "base/random.h"
+#include "base/simd_path.h"
 #include "techniques/deep/deep_lookup.h"
 #include "techniques/deep_levels.h"
-#include "techniques/store/simd_path.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -56,7 +56,7 @@ float expected_at(const DeepLevel& level, const Query& q) {
 
 class DeepBlocks : public ::testing::TestWithParam<int> {  // the most nodes of a function
 protected:
-    ~DeepBlocks() override { set_simd_path(simd_paths().back()); }
+    ~DeepBlocks() override { base::set_simd_path(base::simd_paths().back()); }
 
     const DeepLevel level_ = testing::random_level(width, height, 1, static_cast<std::uint64_t>(GetParam()),
                                                    static_cast<std::uint64_t>(GetParam()));
@@ -65,8 +65,8 @@ protected:
 TEST_P(DeepBlocks, OfSinglePixelsAreTheirFunctions) {
     const float narrow[] = {0.0f};
     const std::vector<Query> queries = places(level_, narrow, 1);
-    for (const SimdPath path : simd_paths()) {
-        set_simd_path(path);
+    for (const base::SimdPath path : base::simd_paths()) {
+        base::set_simd_path(path);
         for (const Kernel kernel : {Kernel::box, Kernel::pixels}) {
             const std::vector<float> found = answers(level_, {.kernel = kernel}, queries, queries.size());
             for (std::size_t i = 0; i < queries.size(); ++i)
@@ -81,8 +81,8 @@ TEST_P(DeepBlocks, AnswerAsLookupsOneByOne) {
         for (const Kernel kernel : {Kernel::box, Kernel::tent, Kernel::pixels}) {
             const std::vector<Query> queries = places(level_, widths, 2);
             const std::vector<float> one_by_one = answers(level_, {.kernel = kernel}, queries, 1);
-            for (const SimdPath path : simd_paths()) {
-                set_simd_path(path);
+            for (const base::SimdPath path : base::simd_paths()) {
+                base::set_simd_path(path);
                 const std::vector<float> found = answers(level_, {.kernel = kernel}, queries, queries.size());
                 for (std::size_t i = 0; i < queries.size(); ++i)
                     EXPECT_EQ(found[i], one_by_one[i]) << static_cast<int>(path) << ", query " << i;

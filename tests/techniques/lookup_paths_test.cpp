@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "base/random.h"
+#include "base/simd_path.h"
 #include "techniques/any_rays.h"
 #include "techniques/built.h"
-#include "techniques/store/simd_path.h"
 #include "techniques/variants.h"
 
 namespace shadowbench::techniques {
@@ -15,8 +15,8 @@ namespace {
 
 // Sets the path, and the best one again.
 struct OnPath {
-    explicit OnPath(SimdPath path) { set_simd_path(path); }
-    ~OnPath() { set_simd_path(simd_paths().back()); }
+    explicit OnPath(base::SimdPath path) { base::set_simd_path(path); }
+    ~OnPath() { base::set_simd_path(base::simd_paths().back()); }
 };
 
 // Places in the map and around it, with footprints of these widths.
@@ -56,11 +56,11 @@ TEST_P(LookupPaths, AnswerAsLookupsOneByOne) {
             const std::vector<Query> queries = places(widths, size, widths.size());
             std::vector<float> expected(queries.size()), answers(queries.size());
             {
-                const OnPath path(SimdPath::baseline);
+                const OnPath path(base::SimdPath::baseline);
                 for (std::size_t i = 0; i < queries.size(); ++i)
                     built.map->lookup(std::span(queries).subspan(i, 1), std::span(expected).subspan(i, 1));
             }
-            for (const SimdPath p : simd_paths()) {
+            for (const base::SimdPath p : base::simd_paths()) {
                 const OnPath path(p);
                 built.map->lookup(queries, answers);
                 for (std::size_t i = 0; i < queries.size(); ++i)

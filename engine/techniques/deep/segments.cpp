@@ -5,8 +5,8 @@
 #include <cstring>
 #include <span>
 
+#include "base/simd_path.h"
 #include "techniques/store/before.h"
-#include "techniques/store/simd_path.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -173,7 +173,7 @@ void find_segments(const DeepLevel& map, Segments& segments) {
     const Numbers numbers = load_ranges(map, segments);
     if (is_large(map)) prefetch(map, numbers, segments);
 #if defined(__x86_64__)
-    if (simd_path() == SimdPath::avx512) {
+    if (base::simd_path() == base::SimdPath::avx512) {
         search_avx512<true>(map, numbers.short_ones(), segments);
         return search_avx512<false>(map, numbers.long_ones(), segments);
     }
@@ -183,7 +183,7 @@ void find_segments(const DeepLevel& map, Segments& segments) {
 }
 
 void mean_of(const Segments& segments, const double* weights, float* means) {
-    on_simd_path([&s = segments, weights, means]() SHADOWBENCH_SIMD_LOOP {
+    base::on_simd_path([&s = segments, weights, means]() SHADOWBENCH_SIMD_LOOP {
         alignas(64) std::array<float, Segments::most> values;
         join(s, values.data());
         if (s.slots == 1)  // needs no weights

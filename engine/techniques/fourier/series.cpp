@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "techniques/store/simd_path.h"
+#include "base/simd_path.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -154,7 +154,8 @@ SHADOWBENCH_SIMD_LOOP inline float exponential(float x) {
 
 void make_weights(double d, int terms, Weights& weights) {
     float* of = weights.of.data();
-    on_simd_path([=, scale = weight_scales().data()]() SHADOWBENCH_SIMD_LOOP { weights_at(d, terms, scale, of); });
+    base::on_simd_path([=, scale = weight_scales().data()]()
+                           SHADOWBENCH_SIMD_LOOP { weights_at(d, terms, scale, of); });
     of[0] = static_cast<float>(0.5 * d);
     std::fill(of + 2 * terms, of + padded(terms), 0.0f);
 }
@@ -166,7 +167,7 @@ float transmittance(const float* texel, const Weights& weights, int floats, floa
 }
 
 void transmittances(Reads& reads, const std::array<Weights, block_queries>& weights, int floats, float highest) {
-    on_simd_path([&reads, &weights, floats, highest]() SHADOWBENCH_SIMD_LOOP {
+    base::on_simd_path([&reads, &weights, floats, highest]() SHADOWBENCH_SIMD_LOOP {
         constexpr std::size_t half = lanes / 2;
         std::array<float, half * Reads::most> halves;
         for (std::size_t r = 0; r < reads.count; ++r)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "techniques/store/simd_path.h"
+#include "base/simd_path.h"
 
 namespace shadowbench::techniques {
 namespace {
@@ -90,7 +90,7 @@ private:
 
 void cover(const CellGrid& grid, std::span<const Query> queries, Cover& out) {
     const FullBlock block(queries);
-    on_simd_path([&]() SHADOWBENCH_SIMD_LOOP {
+    base::on_simd_path([&]() SHADOWBENCH_SIMD_LOOP {
         Places places;
         find_places(grid, block.data(), places, out);
         side_of(places.x.data(), places.width.data(), grid.per_pixel_x, grid.width, out.across);
@@ -105,7 +105,7 @@ void cover_nearest(const CellGrid& grid, std::span<const Query> queries, Cover& 
         side->last.fill(1.0);
         side->longest = 1;
     }
-    on_simd_path([&]() SHADOWBENCH_SIMD_LOOP {
+    base::on_simd_path([&]() SHADOWBENCH_SIMD_LOOP {
         Places places;
         find_places(grid, block.data(), places, out);
         nearest_of(places.x.data(), grid.per_pixel_x, out.across);
@@ -114,7 +114,7 @@ void cover_nearest(const CellGrid& grid, std::span<const Query> queries, Cover& 
 }
 
 void four_cells(const Cover& cover, int width, CellSlots& cells) {
-    on_simd_path([&cover, row = static_cast<std::uint32_t>(width), to = cells.data()]() SHADOWBENCH_SIMD_LOOP {
+    base::on_simd_path([&cover, row = static_cast<std::uint32_t>(width), to = cells.data()]() SHADOWBENCH_SIMD_LOOP {
         std::size_t* __restrict cell = to;
         for (std::size_t k = 0; k < block_queries; ++k) {
             // Widened products of what is not negative: an index may have more than 32 bits.

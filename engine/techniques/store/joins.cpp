@@ -1,11 +1,11 @@
 #include "techniques/store/joins.h"
 
-#include "techniques/store/simd_path.h"
+#include "base/simd_path.h"
 
 namespace shadowbench::techniques {
 
 void join(const Joins& joins, std::size_t count, float* values) {
-    on_simd_path([&j = joins, count, to_values = values]() SHADOWBENCH_SIMD_LOOP {
+    base::on_simd_path([&j = joins, count, to_values = values]() SHADOWBENCH_SIMD_LOOP {
         float* __restrict out = to_values;
         for (std::size_t i = 0; i < count; ++i) {
             const double z = j.z[i], left = j.left_z[i], right = j.right_z[i];

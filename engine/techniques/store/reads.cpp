@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "techniques/store/simd_path.h"
+#include "base/simd_path.h"
 
 namespace shadowbench::techniques {
 void Reads::begin(std::size_t number_of_slots) {
@@ -14,7 +14,7 @@ void Reads::begin(std::size_t number_of_slots) {
 }
 
 void set_weights(const Cover& cover, double* weights) {
-    on_simd_path([&cover, weights]() SHADOWBENCH_SIMD_LOOP {
+    base::on_simd_path([&cover, weights]() SHADOWBENCH_SIMD_LOOP {
         double* __restrict weight = weights;
         for (std::size_t k = 0; k < block_queries; ++k) {
             const double second_x = cover.across.end[k] - cover.across.begin[k] == 2 ? cover.across.last[k] : 0.0;
@@ -35,7 +35,7 @@ void average(const Reads& reads, const std::array<bool, block_queries>& inside, 
         return;
     }
     std::array<float, block_queries> mean;
-    on_simd_path([&reads, highest, means = mean.data()]() SHADOWBENCH_SIMD_LOOP {
+    base::on_simd_path([&reads, highest, means = mean.data()]() SHADOWBENCH_SIMD_LOOP {
         for (std::size_t k = 0; k < block_queries; ++k) {
             double sum = 0.0, weights = 0.0;
             for (std::size_t s = 0; s < Reads::most_slots; ++s) {
