@@ -239,6 +239,11 @@ TEST(ReadVdb, RefusesClaimsBeforeMemoryIsTakenForThem) {
                 HasSubstr("2147483647 nodes"));
 }
 
+TEST(ReadVdb, RefusesTwoNodesAtOnePlace) {
+    EXPECT_THAT(message_with(test::bytes_of(1, 0.0f, 0u, 2u, -4096, 0, 0), test::bytes_of(1, 0.0f, 0u, 2u, 0, 0, 0)),
+                HasSubstr("same place"));
+}
+
 // The library trusts the sizes in a file: if a chunk is larger than its node, it would read over the memory behind the
 // node, and it would allocate memory for any count of children.
 TEST(ReadVdb, SurvivesEveryBitFlipped) {

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -82,6 +83,45 @@ private:
     std::ifstream stream_;
 };
 
+// Reads an internal node and those below it as the library does, and keeps nothing.
+template <class Node>
+void try_node(std::istream& stream, bool half) {
+    typename Node::NodeMaskType children, active;
+    children.load(stream);
+    active.load(stream);
+    std::vector<float> values(Node::NUM_VALUES);
+    openvdb::io::readCompressedValues(stream, values.data(), Node::NUM_VALUES, active, half);
+    for (auto child = children.beginOn(); child; ++child) {
+        if constexpr (Node::LEVEL > 1)
+            try_node<typename Node::ChildNodeType>(stream, half);
+        else
+            typename Node::ChildNodeType::NodeMaskType().load(stream);
+    }
+}
+
+// Reads all nodes of a tree, and the values of none of its leaves. The library loses the memory of a child of the root
+// that cannot be unpacked, so the nodes are tried first.
+void read_topology(std::istream& stream, bool half, openvdb::FloatTree& tree) {
+    using Child = openvdb::FloatTree::RootNodeType::ChildNodeType;
+    const auto take = [&]<class Value>(Value value) {
+        stream.read(reinterpret_cast<char*>(&value), sizeof value);
+        return value;
+    };
+    const std::istream::pos_type begin = stream.tellg();
+    take(std::int32_t());  // the number of buffers
+    const float background = take(float());
+    openvdb::io::setGridBackgroundValuePtr(stream, &background);
+    const auto tiles = take(std::uint32_t()), children = take(std::uint32_t());
+    constexpr std::uint64_t tile_bytes = 12 + 4 + 1;
+    stream.seekg(static_cast<std::streamoff>(tiles * tile_bytes), std::ios::cur);
+    for (std::uint32_t i = 0; i < children; ++i) {
+        take(openvdb::Vec3i());  // the child's place
+        try_node<Child>(stream, half);
+    }
+    stream.seekg(begin);
+    tree.readTopology(stream, half);
+}
+
 GridPlace place_of(const openvdb::math::Transform& transform, const openvdb::Coord& lower,
                    const std::filesystem::path& file) {
     if (!transform.isLinear()) fail(file, "the grid is not a box in the world: its transform is a frustum");
@@ -134,7 +174,7 @@ void convert(VdbStream& file_of, const VdbGrid& chosen, const Wanted& wanted, Gr
         fail(file, fmt::format("the grid \"{}\" is a level set, not a fog volume", shown(chosen)));
     const openvdb::FloatGrid::Ptr grid = chosen.tree_begin == chosen.begin ? front : file_of.front(chosen.tree_begin);
     openvdb::FloatTree& tree = grid->tree();
-    tree.readTopology(file_of.stream(), chosen.half);
+    read_topology(file_of.stream(), chosen.half, tree);
     note_grid(chosen, chosen.passed_over, tree.background(), volume.notes);
     const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
     if (box.empty()) fail(file, "the grid has no active voxels");

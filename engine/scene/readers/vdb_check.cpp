@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -248,8 +249,11 @@ private:
             damaged(fmt::format("it claims {} nodes and {} tiles", children, tiles));
         skip(tiles * tile_bytes, "tiles");
         leaves_ = 0;
+        std::set<std::array<std::int32_t, 3>> places;
         for (std::uint32_t i = 0; i < children; ++i) {
-            skip(12, "node");
+            // The library would keep the last of them, and lose the memory of the others.
+            if (!places.insert(reader_.value<std::array<std::int32_t, 3>>("node")).second)
+                damaged("two nodes of the tree have the same place");
             for (std::uint64_t below = internal_node<5>(); below > 0; --below) {
                 const std::uint64_t leaves = internal_node<4>();
                 skip(leaves * sizeof(Node<3>::Mask), "leaves");
