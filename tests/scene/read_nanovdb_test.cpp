@@ -267,8 +267,8 @@ TEST(ReadNanoVdb, RefusesNodesThatLeadOutOrHaveSeveralParents) {
     EXPECT_THAT(message(test::write_file("doubled.nvdb", doubled)), HasSubstr("a node at no place"));
 }
 
-// The grid, packed or not, would be held beside its densities, which take as much. What is held of it here is a quarter
-// of these few densities, and as much with more of them.
+// The grid, packed or not, would be held beside its densities, which take as much. The parts of it that are held take
+// 2.5 MB, whatever its size.
 TEST(ReadNanoVdb, HoldsNoGridBesideItsDensities) {
     constexpr int side = 128;
     nanovdb::GridBuilder<float> builder(0.0f, nanovdb::GridClass::FogVolume);
