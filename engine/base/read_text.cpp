@@ -1,7 +1,8 @@
 #include "base/read_text.h"
 
+#include <array>
+#include <cstdint>
 #include <fstream>
-#include <iterator>
 
 #include "base/error.h"
 #include "base/utf8.h"
@@ -16,11 +17,17 @@ std::string read_bytes(const std::filesystem::path& file) {
         throw Error(ErrorCode::io, file.string(), "a folder cannot be read as a file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw Error(ErrorCode::io, file.string(), "cannot open the file");
-    try {
-        return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    } catch (const std::ios_base::failure&) {  // from the buffer, whatever the stream's exceptions() are
-        throw Error(ErrorCode::io, file.string(), "cannot read the file");
-    }
+    // A string that grows would hold the file twice at times. A pipe has no size, and some files state 0.
+    std::error_code no_size;
+    const std::uintmax_t size = std::filesystem::file_size(file, no_size);
+    std::string content(no_size ? 0 : static_cast<std::size_t>(size), '\0');
+    stream.read(content.data(), static_cast<std::streamsize>(content.size()));
+    content.resize(static_cast<std::size_t>(stream.gcount()));
+    std::array<char, 4096> more;
+    while (stream.read(more.data(), std::streamsize{more.size()}) || stream.gcount() > 0)
+        content.append(more.data(), static_cast<std::size_t>(stream.gcount()));
+    if (stream.bad()) throw Error(ErrorCode::io, file.string(), "cannot read the file");
+    return content;
 }
 
 std::string read_text(const std::filesystem::path& file) {

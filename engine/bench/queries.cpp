@@ -204,6 +204,23 @@ QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& l
                                                      set.dropped, light.name, remedy(receivers, light, seen)));
 }
 
+CutLookups cut_at_seams(std::span<const Query> queries, const rays::LightView& view) {
+    CutLookups cut;
+    for (const Query& q : queries) {
+        const double half = 0.5 * static_cast<double>(q.width), x = static_cast<double>(q.x),
+                     y = static_cast<double>(q.y);
+        const bool inside =
+            x - half >= 0.0 && y - half >= 0.0 && x + half <= view.resolution.x && y + half <= view.resolution.y;
+        if (inside || !std::isfinite(half)) continue;
+        ++cut.count;
+        // The face reaches from slope -1 to 1.
+        const double slope = std::max(std::abs(view.lower.x + x * view.pixel.x) + half * view.pixel.x,
+                                      std::abs(view.lower.y + y * view.pixel.y) + half * view.pixel.y);
+        cut.border = std::max(cut.border, slope - 1.0);
+    }
+    return cut;
+}
+
 QuerySet judged_queries(const scene::Scenario& scenario, const QuerySet& set) {
     const scene::Reference& reference = scenario.reference;
     return pick(set.asked(),

@@ -54,6 +54,14 @@ QuerySet probe_queries(const scene::Receivers& receivers, const rays::LightView&
 QuerySet scenario_queries(const scene::Scenario& scenario, const scene::Light& light, std::span<const CameraPoint> seen,
                           const rays::LightView& view);
 
+// Lookups that reach over the map of a face of a point light, so that a part of them is cut off at the seams of the
+// cube. Those of unbounded width, which cover the whole map, do not count.
+struct CutLookups {
+    std::uint64_t count = 0;
+    double border = 0.0;  // with which none of them would be cut
+};
+CutLookups cut_at_seams(std::span<const techniques::Query> queries, const rays::LightView& view);
+
 // The queries that are compared with the truth.
 QuerySet judged_queries(const scene::Scenario& scenario, const QuerySet& set);
 

@@ -1,6 +1,8 @@
 #include "bench/variant_runs.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "base/parallel.h"
 #include "bench/camera_points.h"
 #include "bench/light_run.h"
+#include "rays/light_view.h"
 #include "results/machine.h"
 #include "results/program.h"
 #include "scene/file_lines.h"
@@ -37,8 +40,12 @@ std::vector<document::Variant> variants_of(const nlohmann::json& document, const
     return variants;
 }
 
+void add_notes(std::vector<std::string> lines, std::vector<std::string>& notes) {
+    add_missing(std::move(lines), notes);
+}
+
 void add_notes(const scene::Scenario& scenario, std::vector<std::string>& notes) {
-    add_missing(scene::notes(scenario), notes);
+    add_notes(scene::notes(scenario), notes);
 }
 
 void add_files(const document::Variant& variant, const scene::Scene& scene, std::vector<std::string>& files) {
@@ -96,6 +103,37 @@ results::LightResult VariantRuns::measure(std::size_t light, const ProgressCallb
     for (const Contender& contender : contenders_) fresh.push_back(unbuilt(contender));
     return run_light({*scenario_, light, casters_.get(), seen_, options_.limits, watch, options_.times},
                      std::move(fresh));
+}
+
+std::vector<std::string> VariantRuns::seam_notes() const {
+    struct Seams {
+        CutLookups cut;
+        std::size_t lookups = 0;
+    };
+    std::map<std::string, Seams> of;  // by the light's place in the document
+    for (const scene::Light& light : scenario_->lights) {
+        const scene::FilterWidth width = light.softness.value_or(scenario_->receivers.filter_width);
+        if (!light.face || width.unit != scene::WidthUnit::receiver_pixels) continue;
+        const rays::LightView view =
+            rays::make_light_view(light, scenario_->scene, scenario_->rays.resolution, light.where);
+        const QuerySet set = scenario_queries(*scenario_, light, seen_, view);
+        const CutLookups cut = cut_at_seams(set.queries, view);
+        Seams& seams = of[light.where];
+        seams.cut.count += cut.count;
+        seams.cut.border = std::max(seams.cut.border, cut.border);
+        seams.lookups += set.queries.size();
+    }
+    constexpr double widest = 10.0;  // border
+    std::vector<std::string> notes;
+    for (const auto& [where, seams] : of)
+        if (seams.cut.count > 0)
+            notes.push_back(fmt::format(
+                "{}: {} of {} lookups reach over the border of their map, so at seams a part of them is cut off: {}",
+                where, seams.cut.count, seams.lookups,
+                seams.cut.border > widest
+                    ? "make them narrower"
+                    : fmt::format("with a border of {} none is", std::ceil(1e3 * seams.cut.border) / 1e3)));
+    return notes;
 }
 
 }  // namespace shadowbench::bench

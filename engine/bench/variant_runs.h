@@ -24,6 +24,7 @@ std::vector<document::Variant> variants_of(const nlohmann::json& document, const
 
 // Adds the notes of the file readers that are not there yet: variants may share a scene.
 void add_notes(const scene::Scenario& scenario, std::vector<std::string>& notes);
+void add_notes(std::vector<std::string> lines, std::vector<std::string>& notes);
 
 // The same for the lines of its data files.
 void add_files(const document::Variant& variant, const scene::Scene& scene, std::vector<std::string>& files);
@@ -46,6 +47,10 @@ public:
 
     // Captures, checks and times one light of the variant that was loaded last. Throws what run_light() throws.
     results::LightResult measure(std::size_t light, const ProgressCallback& progress) const;
+
+    // What only lookups in receiver pixels show: how many reach over the borders of a point light's maps. A line for
+    // each such light. Throws what measure() throws if a map has no receiver.
+    std::vector<std::string> seam_notes() const;
 
 private:
     std::shared_ptr<const nlohmann::json> document_;

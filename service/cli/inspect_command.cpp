@@ -12,6 +12,7 @@
 #include "scene/new_scenario.h"
 #include "service/cli/deep_file_text.h"
 #include "service/cli/file_commands.h"
+#include "service/cli/progress_bar.h"
 #include "techniques/deep/deep_file.h"
 
 namespace shadowbench::service {
@@ -89,9 +90,18 @@ std::string describe(const DeepFile& file, const std::string& name) {
 }
 
 void inspect_command(const FileArguments& arguments, std::ostream& out, std::ostream& err) {
-    for (const std::string& file : arguments.files)
-        out << (is_deep_map(file) ? describe(DeepFile(file), file)
-                                  : describe_data(read_data(arguments, file, err), file));
+    for (const std::string& file : arguments.files) {
+        if (is_deep_map(file)) {
+            out << describe(DeepFile(file), file);
+            continue;
+        }
+        const scene::DataFile data = read_data(arguments, file, err);
+        ProgressBar bar(err);
+        bar.show({std::filesystem::path(file).filename().string(), "look over", 0, 0});
+        const std::string text = describe_data(data, file);
+        bar.end();
+        out << text;
+    }
 }
 
 }  // namespace shadowbench::service

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "base/random.h"
 #include "bench/queries.h"
 #include "bench/reference.h"
+#include "bench/variant_runs.h"
 #include "scene/cube_face.h"
 #include "scene/scenario.h"
 
@@ -159,6 +161,47 @@ TEST(PointLight, SpreadsProbesOverTheFaceWithoutItsBorder) {
         const Vec3d away = world - lamp;
         EXPECT_LE(std::max(std::abs(away.y), std::abs(away.z)), away.x * (1.0 + 1e-5)) << "it belongs to a neighbour";
     }
+}
+
+// A map of 64 pixels with a border of 1/8: a pixel is 9/256 of slope, the face begins at pixel 32/9.
+TEST(PointLight, CountsLookupsThatReachOverTheBorder) {
+    const scene::Scenario made = scenario(wall(0.0));
+    const rays::LightView view =
+        rays::make_light_view(made.lights[0], made.scene, made.rays.resolution, made.lights[0].where);
+    const auto cut = [&](const std::vector<techniques::Query>& queries) { return cut_at_seams(queries, view); };
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(cut({{4.0f, 32.0f, 5.0f, 8.0f}, {32.0f, 60.0f, 5.0f, 8.0f}, {32.0f, 32.0f, 5.0f, 64.0f}}).count, 0u);
+    EXPECT_EQ(cut({{32.0f, 32.0f, 5.0f, infinite}}).count, 0u);
+    // Slopes -9/8 - 2 pixels, and 9/8 + 12 pixels.
+    const CutLookups over = cut({{4.0f, 32.0f, 5.0f, 12.0f}, {32.0f, 32.0f, 5.0f, 8.0f}, {32.0f, 60.0f, 5.0f, 32.0f}});
+    EXPECT_EQ(over.count, 2u);
+    EXPECT_NEAR(over.border, 0.125 + 12.0 * 9.0 / 256.0, 1e-12);
+    EXPECT_NEAR(cut({{4.0f, 32.0f, 5.0f, 12.0f}}).border, 0.125 + 2.0 * 9.0 / 256.0, 1e-12);
+}
+
+// The widths of lookups in receiver pixels are known only where they are asked for.
+TEST(PointLight, RunsNoteABorderThatIsTooNarrowForReceiverPixels) {
+    const auto notes = [](double pixels) {
+        // A floor 2 below the lamp, in its face -y, of which a camera 5 above sees slopes to 0.91, in pixels of 0.11.
+        nlohmann::json document{{"name", "lamp"}, {"techniques", {{{"type", "deep"}}}}};
+        document["scene"]["objects"] = {
+            {{"type", "quad"}, {"corner", {-1.9, -2, -1.9}}, {"edge_u", {3.8, 0, 0}}, {"edge_v", {0, 0, 3.8}}}};
+        document["lights"] = {{{"type", "point"}, {"position", {0, 0, 0}}, {"faces", {"-y"}}, {"border", border}}};
+        document["rays"] = {{"resolution", resolution}};
+        document["receivers"] = {{"type", "camera"},
+                                 {"position", {0, 3, 0.1}},
+                                 {"target", {0, -2, 0}},
+                                 {"resolution", {16, 16}},
+                                 {"footprint", {{"receiver_pixels", pixels}}}};
+        VariantRuns runs(document, {});
+        runs.load(0, {});
+        return runs.seam_notes();
+    };
+    EXPECT_TRUE(notes(0.1).empty());
+    ASSERT_EQ(notes(8.0).size(), 1u);
+    EXPECT_NE(notes(8.0)[0].find("/lights/0: "), std::string::npos);
+    EXPECT_NE(notes(8.0)[0].find("reach over the border of their map"), std::string::npos);
+    EXPECT_NE(notes(8.0)[0].find("with a border of "), std::string::npos);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "scene/readers/files.h"
 #include "scene/support.h"
+#include "techniques/live_bytes.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -310,6 +311,67 @@ TEST_P(ReadRealDeepImage, HasItsSamplesSorted) {
 INSTANTIATE_TEST_SUITE_P(Data, ReadRealDeepImage,
                          testing::Values(Real{"deep/representative_deep_image.exr", 150, 100, 191482, 227},
                                          Real{"deep/leaves.exr", 1024, 576, 291861, 2}));
+
+// Rows are read a few at a time, with and without tiles: each pixel must keep its own samples.
+TEST(ReadDeepImage, TakesTheRowsOfEveryPart) {
+    constexpr int width = 5, height = 37;
+    for (const int tile : {0, 16}) {
+        const std::filesystem::path file = test::fresh_path("rows.exr");
+        OIIO::ImageSpec spec(width, height, 2, OIIO::TypeDesc::FLOAT);
+        spec.deep = true;
+        spec.channelnames = {"A", "Z"};
+        spec.x = 3;
+        spec.y = -7;  // where the data window begins
+        if (tile > 0) spec.tile_width = spec.tile_height = tile;
+        OIIO::DeepData data;
+        data.init(spec);
+        for (int pixel = 0; pixel < width * height; ++pixel) data.set_samples(pixel, pixel % 3);
+        for (int pixel = 0; pixel < width * height; ++pixel)
+            for (int sample = 0; sample < pixel % 3; ++sample) {
+                data.set_deep_value(pixel, 0, sample, 0.5f);
+                data.set_deep_value(pixel, 1, sample, static_cast<float>(10 * pixel + sample));
+            }
+        const auto output = OIIO::ImageOutput::create(file.string());
+        ASSERT_TRUE(output && output->open(file.string(), spec));
+        ASSERT_TRUE(output->write_deep_image(data)) << output->geterror();
+        output->close();
+        const DeepImage image = read_deep_image(file);
+        ASSERT_EQ(image.begin.size(), static_cast<std::size_t>(width * height + 1));
+        for (std::size_t pixel = 0; pixel + 1 < image.begin.size(); ++pixel) {
+            ASSERT_EQ(image.begin[pixel + 1] - image.begin[pixel], pixel % 3) << pixel;
+            for (std::size_t sample = 0; sample < pixel % 3; ++sample)
+                ASSERT_EQ(image.z_front[image.begin[pixel] + sample], static_cast<float>(10 * pixel + sample));
+        }
+    }
+}
+
+// OpenImageIO would hold all channels of all samples beside the image that is made of them, twice as much.
+TEST(ReadDeepImage, HoldsAFewRowsBesideTheImage) {
+    constexpr int side = 128, samples = 16;
+    const std::filesystem::path file = test::fresh_path("large.exr");
+    OIIO::ImageSpec spec(side, side, 6, OIIO::TypeDesc::FLOAT);
+    spec.deep = true;
+    spec.channelnames = {"R", "G", "B", "A", "Z", "ZBack"};
+    spec.attribute("compression", "none");
+    {
+        OIIO::DeepData data;
+        data.init(spec);
+        data.set_all_samples(std::vector<unsigned>(side * side, samples));
+        for (int pixel = 0; pixel < side * side; ++pixel)
+            for (int sample = 0; sample < samples; ++sample)
+                for (int channel = 3; channel < 6; ++channel) data.set_deep_value(pixel, channel, sample, 0.5f);
+        const auto output = OIIO::ImageOutput::create(file.string());
+        ASSERT_TRUE(output && output->open(file.string(), spec));
+        ASSERT_TRUE(output->write_deep_image(data)) << output->geterror();
+        output->close();
+    }
+    techniques::testing::forget_peak();
+    const std::size_t before = techniques::testing::live_bytes();
+    const DeepImage image = read_deep_image(file);
+    ASSERT_EQ(image.z_front.size(), std::size_t{side} * side * samples);
+    const double kept = 12.0 * side * side * samples;
+    EXPECT_LT(static_cast<double>(techniques::testing::peak_bytes() - before), 2.2 * kept);
+}
 
 }  // namespace
 }  // namespace shadowbench::scene

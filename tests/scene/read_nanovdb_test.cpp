@@ -18,6 +18,7 @@
 
 #include "scene/readers/files.h"
 #include "scene/support.h"
+#include "techniques/live_bytes.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -264,6 +265,43 @@ TEST(ReadNanoVdb, RefusesNodesThatLeadOutOrHaveSeveralParents) {
     EXPECT_THAT(message(test::write_file("doubled.nvdb", doubled)), HasSubstr("two nodes at one place"));
     doubled[tiles_at + tile + 2] = 0x10;  // a bit of the key between those of z and of y
     EXPECT_THAT(message(test::write_file("doubled.nvdb", doubled)), HasSubstr("a node at no place"));
+}
+
+// The grid, packed or not, would be held beside its densities, which take as much. The parts of it that are held take
+// 2.5 MB, whatever its size.
+TEST(ReadNanoVdb, HoldsNoGridBesideItsDensities) {
+    constexpr int side = 128;
+    nanovdb::GridBuilder<float> builder(0.0f, nanovdb::GridClass::FogVolume);
+    builder([](const nanovdb::Coord& p) { return 1.0f + 0.01f * static_cast<float>(p[0] + 2 * p[1] + 3 * p[2]); },
+            nanovdb::CoordBBox(nanovdb::Coord(0), nanovdb::Coord(side - 1)));
+    Handle handle = builder.getHandle<>(plain, "density");
+    std::vector<float> first_densities;
+    for (const Codec codec : {Codec::NONE, Codec::ZIP, Codec::BLOSC}) {
+        const auto file = write(std::vector<Handle*>{&handle}, codec);
+        techniques::testing::forget_peak();
+        const std::size_t before = techniques::testing::live_bytes();
+        const std::vector<float> densities = read_nanovdb(file, {}).density;
+        const std::size_t bytes = sizeof(float) * side * side * side;
+        EXPECT_LT(static_cast<double>(techniques::testing::peak_bytes() - before), 1.4 * static_cast<double>(bytes));
+        ASSERT_EQ(densities.size() * sizeof(float), bytes);
+        if (codec == Codec::NONE) first_densities = densities;
+        EXPECT_EQ(densities, first_densities);
+    }
+    EXPECT_EQ(first_densities[(std::size_t{7} * side + 5) * side + 3], 1.0f + 0.01f * (3 + 10 + 21));
+}
+
+// More than one block of BLOSC and more than one window, the last of each in part.
+TEST(ReadNanoVdb, UnpacksLargeGridsOfNodesOfAllLevels) {
+    nanovdb::GridBuilder<float> builder(0.0f, nanovdb::GridClass::FogVolume);
+    auto accessor = builder.getAccessor();
+    for (int i = 0; i < 1000; ++i) accessor.setValue(nanovdb::Coord(5 * i, 3, 7), static_cast<float>(i));
+    Handle handle = builder.getHandle<>(plain, "density");
+    for (const Codec codec : {Codec::NONE, Codec::ZIP, Codec::BLOSC}) {
+        const GridVolume volume = read_nanovdb(write(std::vector<Handle*>{&handle}, codec), {});
+        ASSERT_EQ(volume.size, Vec3i(4996, 1, 1));
+        for (std::size_t x = 0; x < volume.density.size(); ++x)
+            ASSERT_EQ(volume.density[x], x % 5 == 0 ? static_cast<float>(x / 5) : 0.0f) << x;
+    }
 }
 
 }  // namespace

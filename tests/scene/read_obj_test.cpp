@@ -213,6 +213,29 @@ TEST(ReadObj, ACommentDoesNotGoOn) {
     EXPECT_EQ(read("# C:\\models\\\n" + corners + "f 1 2 3 4\n").positions.size(), 4u);
 }
 
+// More than the reader takes at a time.
+std::string many_faces() {
+    std::string text = corners;
+    for (int i = 0; i < 150000; ++i) text += "f 1 2 3 4\n";
+    return text;
+}
+
+TEST(ReadObj, KeepsTheOrderOfFacesThatStandBeforeTheirVertices) {
+    const Mesh mesh = read(many_faces() + "f 1 2 5\nf 4 3 2 1\nv 2 2 0\nf -1 1 2\n");
+    ASSERT_EQ(mesh.positions.size(), 5u);
+    ASSERT_EQ(mesh.triangles.size(), 300004u);
+    EXPECT_EQ(mesh.triangles[299999], Vec3i(0, 2, 3));
+    EXPECT_EQ(mesh.triangles[300000], Vec3i(0, 1, 4));
+    EXPECT_EQ(mesh.triangles[300001], Vec3i(3, 2, 1));
+    EXPECT_EQ(mesh.triangles[300003], Vec3i(4, 0, 1));
+}
+
+TEST(ReadObj, NamesTheLineOfAFaultFarDown) {
+    EXPECT_THAT(error_of([] { read(many_faces() + "f 1 3 2 4\n"); }).where(), testing::EndsWith(":150005"));
+    EXPECT_THAT(error_of([] { read(many_faces() + "f 1 2 3 4\nf 1 2 9\nv 2 2 0\n"); }).where(),
+                testing::EndsWith(":150006"));
+}
+
 TEST(ReadObj, CountsWhatItPassesOver) {
     EXPECT_THAT(passed_over(corners + "f 1 2 3 4\nf 1 2\nf 1/1 2/1\nf 7\nf\nl 1 2 3\nl 1 2\np 1\n"),
                 UnorderedElementsAre(Pair("faces of fewer than 3 corners", 4), Pair("lines", 2), Pair("points", 1)));

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "scene/packed_volume.h"
 #include "scene/readers/files.h"
+#include "scene/readers/read_mesh.h"
 #include "scene/support.h"
 
 namespace shadowbench::scene {
@@ -258,6 +262,38 @@ TEST(ReadPly, DoesNotCountElementsWithoutProperties) {
     std::string bytes = ascii;
     bytes.insert(bytes.find("element vertex"), many);
     EXPECT_EQ(read(bytes).triangles.size(), 2u);
+}
+
+// More text than the reader holds at a time: numbers lie across the ends of its parts.
+TEST(ReadPly, ReadsLongTexts) {
+    constexpr int vertices = 40000;
+    std::string text = header("ascii", std::to_string(vertices), std::to_string(vertices));
+    for (int i = 0; i < vertices; ++i) text += fmt::format("{} 0.5 -{} 9\n", i, i);
+    for (int i = 0; i < vertices; ++i) text += fmt::format("3 {} {} {}\n", i, (i + 1) % vertices, (i + 2) % vertices);
+    const Mesh mesh = read(text);
+    ASSERT_EQ(mesh.triangles.size(), static_cast<std::size_t>(vertices));
+    for (int i = 0; i < vertices; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        ASSERT_EQ(mesh.positions[at], Vec3f(static_cast<float>(i), 0.5f, -static_cast<float>(i)));
+        ASSERT_EQ(mesh.triangles[at], Vec3i(i, (i + 1) % vertices, (i + 2) % vertices));
+    }
+    // The header has 11 lines.
+    text.replace(text.size() - 2, 1, "x");
+    EXPECT_THAT(error_of([&] { read(text); }).where(), testing::EndsWith(fmt::format(":{}", 11 + 2 * vertices)));
+}
+
+TEST(ReadPly, UnpacksFiles) {
+    const auto read_packed = [](const std::string& bytes) {
+        return read_ply(test::write_file("a.ply.gz", bytes)).mesh;
+    };
+    const std::string packed = test::packed(ascii + std::string(1 << 20, ' '), 16 + 15);
+    EXPECT_THAT(read_packed(packed).triangles, ElementsAre(Vec3i(0, 1, 2), Vec3i(0, 2, 3)));
+    std::string damaged = packed;  // in the sum of what follows the faces
+    damaged[damaged.size() - 8] = static_cast<char>(damaged[damaged.size() - 8] ^ 1);
+    EXPECT_EQ(error_of([&] { read_packed(damaged); }).code(), base::ErrorCode::bad_input);
+    std::string more = packed;
+    more.replace(more.size() - 4, 4, bytes_of(static_cast<std::uint32_t>(ascii.size())));
+    EXPECT_THAT(error_of([&] { read_packed(more); }).message(), HasSubstr("more content"));
 }
 
 }  // namespace

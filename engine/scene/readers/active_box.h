@@ -31,7 +31,6 @@ struct ActiveBox {
             upper[a] = std::max(upper[a], from + side - 1);
         }
     }
-    void voxel(const Vec3i& place, float value, bool active) { tile(place, 1, value, active); }
 
     double voxels() const {
         double product = 1.0;
@@ -51,7 +50,6 @@ struct BoxFilling {
     void tile(const Vec3i& corner, std::int32_t side, float value, bool) {
         fill(corner, side, [value](const Place&) { return value; });
     }
-    void voxel(const Vec3i& place, float value, bool active) { tile(place, 1, value, active); }
     // All values of a leaf, z fastest.
     void leaf(const Vec3i& corner, const float* values) {
         const Place first{corner.x - box.lower[0], corner.y - box.lower[1], corner.z - box.lower[2]};

@@ -2,6 +2,7 @@
 // before the file is known to be long enough for it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -60,5 +61,18 @@ private:
     std::uint64_t size_ = 0;
     std::uint64_t position_ = 0;
 };
+
+// Reads `count` values a block at a time, of a number that 12 divides, since the values may be vectors of 2, 3 or 4.
+// Calls take(values, offset of the first one).
+template <typename T, class Take>
+void for_each_block(FileReader& file, std::uint64_t count, const char* what, const Take& take) {
+    constexpr std::uint64_t most_at_once = 12 << 14;
+    file.need(count, sizeof(T), what);
+    for (std::uint64_t left = count; left > 0;) {
+        const std::uint64_t at = file.position(), here = std::min(left, most_at_once);
+        take(file.array<T>(here, what), at);
+        left -= here;
+    }
+}
 
 }  // namespace shadowbench::scene

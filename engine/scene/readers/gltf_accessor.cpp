@@ -143,17 +143,20 @@ Elements elements_of(const GltfModel& model, std::size_t number) {
     return elements;
 }
 
+// Appends the values.
 template <typename Value>
-std::vector<Value> read_all(const GltfModel& model, std::size_t number, const Value& zero,
-                            const std::function<Value(std::uint64_t number, const char* bytes)>& convert) {
+void read_all(const GltfModel& model, std::size_t number, const Value& zero,
+              const std::function<Value(std::uint64_t number, const char* bytes)>& convert,
+              std::vector<Value>& values) {
     const GltfAccessor& accessor = model.accessors[number];
     const Elements elements = elements_of(model, number);
     const std::string& at = elements.at;
     const std::uint64_t bytes = elements.bytes;
-    std::vector<Value> values(static_cast<std::size_t>(accessor.count), zero);
-    const auto keep = [&](std::uint64_t i, const char* from) { values[i] = convert(i, from); };
+    const std::size_t first = values.size();
+    values.resize(first + static_cast<std::size_t>(accessor.count), zero);
+    const auto keep = [&](std::uint64_t i, const char* from) { values[first + i] = convert(i, from); };
     if (accessor.view) each_element(model, elements, keep);
-    if (!accessor.sparse) return values;
+    if (!accessor.sparse) return;
 
     const GltfSparse& sparse = *accessor.sparse;
     if (!is_whole(sparse.indices_type)) fail(model, at + "/sparse/indices", "indices must be whole numbers");
@@ -170,18 +173,17 @@ std::vector<Value> read_all(const GltfModel& model, std::size_t number, const Va
             fail(model, places.at, fmt::format("names element {} of {}", targets[i], accessor.count));
     });
     each_element(model, replaced, [&](std::uint64_t i, const char* from) { keep(targets[i], from); });
-    return values;
 }
 
 template <typename Vector>
-std::vector<Vector> read_vectors(const GltfModel& model, std::size_t number, double most, const char* what) {
+void read_vectors(const GltfModel& model, std::size_t number, double most, const char* what, std::vector<Vector>& to) {
     const GltfAccessor& accessor = model.accessors[number];
     constexpr int components = static_cast<int>(Vector::dimensions());
     const std::string at = fmt::format("/accessors/{}", number);
     if (accessor.components != components)
         fail(model, at, fmt::format("{} components; {} have {}", accessor.components, what, components));
     const std::uint64_t bytes = bytes_each(accessor.type);
-    return read_all<Vector>(model, number, Vector(0.0f), [&](std::uint64_t i, const char* from) {
+    const auto convert = [&](std::uint64_t i, const char* from) {
         Vector value(0.0f);
         for (int axis = 0; axis < components; ++axis) {
             const float given =
@@ -191,7 +193,8 @@ std::vector<Vector> read_vectors(const GltfModel& model, std::size_t number, dou
             value[axis] = given;
         }
         return value;
-    });
+    };
+    read_all<Vector>(model, number, Vector(0.0f), convert, to);
 }
 
 }  // namespace
@@ -200,20 +203,46 @@ void check_gltf_accessor(const GltfModel& model, std::size_t accessor) {
     elements_of(model, accessor);
 }
 
-std::vector<Vec3f> read_gltf_points(const GltfModel& model, std::size_t accessor) {
-    return read_vectors<Vec3f>(model, accessor, max_coordinate, "positions");
+void add_gltf_points(const GltfModel& model, std::size_t accessor, std::vector<Vec3f>& to) {
+    read_vectors<Vec3f>(model, accessor, max_coordinate, "positions", to);
 }
 
 std::vector<Vec2f> read_gltf_uvs(const GltfModel& model, std::size_t accessor) {
-    return read_vectors<Vec2f>(model, accessor, max_coordinate, "texture coordinates");
+    std::vector<Vec2f> uvs;
+    read_vectors<Vec2f>(model, accessor, max_coordinate, "texture coordinates", uvs);
+    return uvs;
 }
 
-std::vector<std::uint32_t> read_gltf_indices(const GltfModel& model, std::size_t number) {
-    const GltfAccessor& accessor = model.accessors[number];
-    if (accessor.components != 1 || !is_whole(accessor.type))
-        fail(model, fmt::format("/accessors/{}", number), "indices must be SCALAR, of whole numbers from 0 on");
-    return read_all<std::uint32_t>(model, number, 0,
-                                   [&](std::uint64_t, const char* from) { return whole(from, accessor.type); });
+GltfIndices::GltfIndices(const GltfModel& model, std::size_t accessor) : model_(model), accessor_(accessor) {
+    const GltfAccessor& indices = model.accessors[accessor];
+    if (indices.components != 1 || !is_whole(indices.type))
+        fail(model, fmt::format("/accessors/{}", accessor), "indices must be SCALAR, of whole numbers from 0 on");
+    if (indices.count == 0) return;
+    if (indices.sparse)
+        read_all<std::uint32_t>(
+            model, accessor, 0, [&](std::uint64_t, const char* from) { return whole(from, indices.type); }, held_);
+    else
+        load(0);
+    first_ = held_[0];
+}
+
+std::uint32_t GltfIndices::operator[](std::uint64_t number) {
+    if (number == 0) return first_;
+    if (number < begin_ || number - begin_ >= held_.size()) load(number);
+    return held_[static_cast<std::size_t>(number - begin_)];
+}
+
+void GltfIndices::load(std::uint64_t first) {
+    constexpr std::uint64_t most_at_once = 1 << 18;
+    const GltfAccessor& indices = model_.accessors[accessor_];
+    Elements elements = elements_of(model_, accessor_);
+    elements.offset += first * elements.stride;
+    elements.count = std::min(elements.count - first, most_at_once);
+    begin_ = first;
+    held_.assign(static_cast<std::size_t>(elements.count), 0);
+    if (indices.view)
+        each_element(model_, elements,
+                     [&](std::uint64_t i, const char* from) { held_[i] = whole(from, indices.type); });
 }
 
 std::vector<char> read_gltf_view(const GltfModel& model, std::size_t number) {

@@ -2,8 +2,6 @@
 // each grid, and the grids' bytes, packed or not.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -14,22 +12,20 @@
 
 namespace shadowbench::scene {
 
-struct NanoVdbGrid {
-    // Structures of NanoVDB lie at multiples of 32 bytes.
-    struct alignas(32) Block {
-        std::array<std::byte, 32> bytes;
-    };
+enum class NanoVdbCodec : std::uint16_t { none, zip, blosc };
 
+struct NanoVdbGrid {
     VdbGridName name;
     std::vector<std::string> passed_over;  // the file's other grids, as shown to people
-    std::uint64_t begin = 0;               // the byte of the file at which the grid begins
-    std::uint64_t size = 0;                // bytes of the grid
-    std::vector<Block> blocks;             // hold them
+    NanoVdbCodec codec = NanoVdbCodec::none;
+    std::uint64_t begin = 0;          // the byte of the file at which the grid begins, packed or not
+    std::uint64_t bytes_in_file = 0;  // from there on
+    std::uint64_t size = 0;           // bytes of the grid, unpacked; nanovdb_bytes.h reads them
 };
 
 // The grid that the choice names. Throws Error: the errors of choose_grid, or bad_input, also if the grid has more than
-// `most_bytes`.
-NanoVdbGrid read_nanovdb_grid(FileReader& file, const std::filesystem::path& name, const GridChoice& choice,
+// `most_bytes`, or more than its bytes in the file can hold.
+NanoVdbGrid find_nanovdb_grid(FileReader& file, const std::filesystem::path& name, const GridChoice& choice,
                               std::uint64_t most_bytes);
 
 }  // namespace shadowbench::scene

@@ -77,8 +77,8 @@ std::string_view without_comment(std::string_view line) {
     return line.substr(0, line.find('#'));
 }
 
-// Whether the line continues in the next one; removes the mark of continuation and blanks after it. The comment has been
-// removed, so comments do not continue.
+// Whether the line continues in the next one; removes the mark of continuation and blanks after it. The comment has
+// been removed, so comments do not continue.
 bool take_continuation(std::string_view& line) {
     const std::size_t last = line.find_last_not_of(" \t");
     if (last == std::string_view::npos || line[last] != '\\') return false;
@@ -107,8 +107,10 @@ public:
         }
     }
 
-    // Faces may stand before their vertices, so only the end shows whether all of these exist.
-    ObjLines finish() {
+    // Those checked so far.
+    ObjLines& lines() { return result_; }
+
+    void finish() const {
         if (vertices_ == 0 && unknown_ > 0)
             throw Error(ErrorCode::bad_input, name_.string(),
                         fmt::format("not a Wavefront OBJ file: no line begins with v, and {} with words that OBJ does "
@@ -118,7 +120,6 @@ public:
             throw Error(ErrorCode::bad_input, name_.string(), fmt::format("over {} vertices", max_mesh_elements));
         vertex_.check(vertices_, "vertex", *this);
         uv_.check(uvs_, "texture coordinate", *this);
-        return std::move(result_);
     }
 
 private:
@@ -132,15 +133,16 @@ private:
             index = named;
             line = at;
         }
-        void check(std::int64_t count, const char* what, LineCheck& lines) const {
-            if (index <= count) return;
-            lines.number_ = line;
-            lines.fail(fmt::format("a face names {} {}, but there are {}", what, index, count));
+        void check(std::int64_t count, const char* what, const LineCheck& lines) const {
+            if (index > count)
+                lines.fail_at(line, fmt::format("a face names {} {}, but there are {}", what, index, count));
         }
     };
 
-    [[noreturn]] void fail(const std::string& message) const {
-        throw Error(ErrorCode::bad_input, fmt::format("{}:{}", name_.string(), number_), message);
+    [[noreturn]] void fail(const std::string& message) const { fail_at(number_, message); }
+
+    [[noreturn]] void fail_at(std::size_t line, const std::string& message) const {
+        throw Error(ErrorCode::bad_input, fmt::format("{}:{}", name_.string(), line), message);
     }
 
     void pass(std::string_view keyword) {
@@ -219,8 +221,14 @@ private:
 
 }  // namespace
 
-ObjLines check_obj(const std::string& text, const std::filesystem::path& name, MeshFile& file) {
+void check_obj(const std::string& text, const std::filesystem::path& name, MeshFile& file,
+               const std::function<void(ObjLines& lines)>& take) {
+    constexpr std::size_t enough = 1 << 20;
     LineCheck check(name, file);
+    const auto pass_on = [&] {
+        take(check.lines());
+        check.lines() = {};
+    };
     std::string joined;
     std::size_t number = 0, first = 0;
     for (std::string_view left = text; !left.empty();) {
@@ -232,8 +240,10 @@ ObjLines check_obj(const std::string& text, const std::filesystem::path& name, M
         if (goes_on && !left.empty()) continue;
         check.check(joined.empty() ? line : std::string_view(joined), first);
         joined.clear();
+        if (check.lines().kept.size() >= enough) pass_on();
     }
-    return check.finish();
+    pass_on();
+    check.finish();
 }
 
 }  // namespace shadowbench::scene

@@ -15,8 +15,6 @@
 #include "base/utf8.h"
 #include "scene/limits.h"
 #include "scene/readers/extension.h"
-#include "scene/readers/file_reader.h"
-#include "scene/readers/unpacked_bytes.h"
 
 namespace shadowbench::scene {
 namespace {
@@ -90,45 +88,76 @@ bool is_space(char c) {
 
 }  // namespace
 
-PlySource::PlySource(const std::filesystem::path& file) : file_(file.string()) {
-    if (extension_of(file) == ".gz") {
-        bytes_ = unpacked_file(file);
-    } else {
-        FileReader reader(file);
-        bytes_ = reader.text(reader.size(), "file");
-    }
+PlySource::PlySource(const std::filesystem::path& file)
+    : file_(file.string()),
+      reader_(file),
+      packed_(extension_of(file) == ".gz"),
+      size_(packed_ ? gzip_bytes(file) : reader_.size()),
+      bytes_(reader_, 0, packed_ ? Packing::deflate : Packing::none) {
+    bytes_.need(size_, "content");
     read_header();
 }
 
 void PlySource::fail(const std::string& message) const {
-    const bool is_text = in_header_ || encoding_ == Encoding::ascii;
-    const auto before = bytes_.begin() + static_cast<std::ptrdiff_t>(last_);
-    throw base::Error(base::ErrorCode::bad_input,
-                      is_text ? fmt::format("{}:{}", file_, 1 + std::count(bytes_.begin(), before, line_end_))
-                              : fmt::format("{}: byte {}", file_, position_),
-                      message);
+    const auto before = window_.begin() + static_cast<std::ptrdiff_t>(last_);
+    throw base::Error(
+        base::ErrorCode::bad_input,
+        is_text() ? fmt::format("{}:{}", file_,
+                                1 + lines_ + static_cast<std::uint64_t>(std::count(window_.begin(), before, line_end_)))
+                  : fmt::format("{}: byte {}", file_, begin_ + position_),
+        message);
+}
+
+bool PlySource::fill() {
+    constexpr std::uint64_t most_at_once = 1 << 18;
+    const std::uint64_t end = begin_ + window_.size();
+    if (end == size_) return false;
+    const std::size_t passed = is_text() ? last_ : position_;
+    if (is_text())
+        lines_ += static_cast<std::uint64_t>(
+            std::count(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(passed), line_end_));
+    window_.erase(0, passed);
+    begin_ += passed;
+    position_ -= passed;
+    last_ = is_text() ? 0 : last_;
+    const std::size_t kept = window_.size(), more = static_cast<std::size_t>(std::min(size_ - end, most_at_once));
+    window_.resize(kept + more);
+    bytes_.read({reinterpret_cast<std::uint8_t*>(window_.data()) + kept, more}, "content");
+    return true;
+}
+
+template <class Wanted>
+std::size_t PlySource::find(const Wanted& wanted) {
+    for (std::size_t searched = 0;;) {
+        const auto from = window_.begin() + static_cast<std::ptrdiff_t>(position_ + searched);
+        const auto found = std::find_if(from, window_.end(), wanted);
+        searched = static_cast<std::size_t>(found - window_.begin()) - position_;
+        if (found != window_.end() || !fill()) return position_ + searched;
+    }
 }
 
 // The first line shows how lines end. Numbers in binary may begin with the byte of an LF, so a CR ends a line without
 // a look at the byte that follows.
 void PlySource::find_line_end() {
-    const std::size_t end = bytes_.find_first_of("\r\n", position_);
-    if (end != std::string::npos && bytes_[end] == '\r' && bytes_.compare(end, 2, "\r\n") != 0) line_end_ = '\r';
+    const std::size_t end = find([](char c) { return c == '\r' || c == '\n'; });
+    if (end + 1 == window_.size()) fill();  // nothing has been passed, so `end` stays its place
+    if (end < window_.size() && window_[end] == '\r' && window_.compare(end, 2, "\r\n") != 0) line_end_ = '\r';
 }
 
 std::string PlySource::line() {
     last_ = position_;
-    const std::size_t end = bytes_.find(line_end_, position_);
-    if (end == std::string::npos) fail("the file ends inside its header");
-    std::string text = bytes_.substr(position_, end - position_);
+    const std::size_t end = find([&](char c) { return c == line_end_; });
+    if (end == window_.size()) fail("the file ends inside its header");
+    std::string text = window_.substr(position_, end - position_);
     if (!text.empty() && text.back() == '\r') text.pop_back();
     position_ = end + 1;
     return text;
 }
 
 void PlySource::read_header() {
-    position_ = bytes_.size() - base::without_mark(bytes_, file_).size();
-    if (bytes_.compare(position_, 3, "ply") != 0) fail("the file does not begin with ply");
+    fill();
+    position_ = window_.size() - base::without_mark(window_, file_).size();
+    if (window_.compare(position_, 3, "ply") != 0) fail("the file does not begin with ply");
     find_line_end();
     line();
     bool has_format = false;
@@ -200,24 +229,36 @@ void PlySource::check_length(const PlyElement& element) const {
         fail(fmt::format("the file is too short for {} elements \"{}\"", element.count, element.name));
 }
 
+std::uint64_t PlySource::most_of(const PlyElement& element, std::uint64_t items) const {
+    std::uint64_t bytes = 0;
+    for (const PlyProperty& property : element.properties)
+        bytes += property.is_list ? least_bytes(property.count_type) + items * least_bytes(property.type)
+                                  : least_bytes(property.type);
+    return std::min(element.count, (left() + 1) / std::max<std::uint64_t>(bytes, 1));
+}
+
 double PlySource::value(PlyType type) {
     if (encoding_ == Encoding::ascii) {
-        while (position_ < bytes_.size() && is_space(bytes_[position_])) ++position_;
-        last_ = position_;
-        const char* begin = bytes_.data() + position_;
-        const char* end = std::find_if(begin, static_cast<const char*>(bytes_.data() + bytes_.size()), is_space);
+        do {
+            while (position_ < window_.size() && is_space(window_[position_])) ++position_;
+            last_ = position_;
+        } while (position_ == window_.size() && fill());
+        const std::size_t after = find(is_space);
+        const char* begin = window_.data() + position_;
+        const char* end = window_.data() + after;
         if (begin == end) fail("the file ends inside its numbers");
         double result = 0.0;
         const auto [stop, fault] = std::from_chars(*begin == '+' ? begin + 1 : begin, end, result);
         if (fault != std::errc() || stop != end)
             fail(fmt::format("\"{}\" is not a number", std::string(begin, std::min(end, begin + 40))));
-        position_ += static_cast<std::size_t>(end - begin);
+        position_ = after;
         return result;
     }
     const std::uint64_t size = size_of(type);
-    if (left() < size) fail("the file ends inside its numbers");
+    while (window_.size() - position_ < size)
+        if (!fill()) fail("the file ends inside its numbers");
     std::array<char, 8> raw{};
-    std::memcpy(raw.data(), bytes_.data() + position_, size);
+    std::memcpy(raw.data(), window_.data() + position_, size);
     if (encoding_ == Encoding::big_endian) std::reverse(raw.data(), raw.data() + size);
     position_ += size;
     return decode(type, raw.data());
@@ -234,6 +275,13 @@ std::uint64_t PlySource::list_size(const PlyProperty& property) {
 void PlySource::skip(const PlyProperty& property) {
     const std::uint64_t count = property.is_list ? list_size(property) : 1;
     for (std::uint64_t i = 0; i < count; ++i) value(property.type);
+}
+
+void PlySource::finish() {
+    if (!packed_) return;
+    do position_ = last_ = window_.size();
+    while (fill());
+    if (!bytes_.at_end()) bytes_.fail(size_, "more content than the end of the file states");
 }
 
 }  // namespace shadowbench::scene

@@ -188,51 +188,88 @@ void drop_equal_channels(DeepImage& image) {
     image.channels = 1;
 }
 
-DeepImage convert(const OIIO::DeepData& data, const OIIO::ImageSpec& spec, const DeepChannels& channels,
-                  const std::filesystem::path& file) {
-    const bool coloured = channels.alpha[0] != channels.alpha[1] || channels.alpha[0] != channels.alpha[2];
-    DeepImage image;
-    image.width = spec.width;
-    image.height = spec.height;
-    image.channels = coloured ? 3 : 1;
-    image.begin.push_back(0);
-    const std::int64_t pixels = static_cast<std::int64_t>(spec.width) * spec.height;
-    std::uint64_t total = 0;
-    for (std::int64_t pixel = 0; pixel < pixels; ++pixel) total += static_cast<std::uint64_t>(data.samples(pixel));
-    if (total > max_deep_samples)
-        refuse_image(file, fmt::format("{} samples; the limit is {}", total, max_deep_samples));
-    image.begin.reserve(static_cast<std::size_t>(pixels) + 1);
-    image.z_front.reserve(total);
-    image.z_back.reserve(total);
-    image.transmittance.reserve(total * static_cast<std::uint64_t>(image.channels));
+// Rows that are packed together.
+int rows_at_once(const OIIO::ImageSpec& spec) {
+    constexpr int most_in_a_block = 16;  // of an OpenEXR file without tiles
+    return spec.tile_height > 0 ? spec.tile_height : most_in_a_block;
+}
 
-    Mender mender;
-    std::vector<Sample> samples;
-    for (std::int64_t pixel = 0; pixel < pixels; ++pixel) {
-        samples.clear();
-        for (int i = 0; i < data.samples(pixel); ++i) {
-            Sample sample = read_sample(data, channels, pixel, i);
-            if (const std::string fault = fault_of(sample); !fault.empty())
-                refuse_image(file, fmt::format("pixel ({}, {}), sample {}: {}", pixel % spec.width, pixel / spec.width,
-                                               i, fault));
-            mender.mend(sample);
-            samples.push_back(sample);
+// `y` is a row of the image, 0 at its top.
+void read_rows(OIIO::ImageInput& input, int part, const OIIO::ImageSpec& spec, int y, int rows, OIIO::DeepData& data,
+               const std::filesystem::path& file) {
+    const int begin = spec.y + y, end = begin + rows;
+    const bool sound = spec.tile_width > 0
+                           ? input.read_native_deep_tiles(part, 0, spec.x, spec.x + spec.width, begin, end, spec.z,
+                                                          spec.z + spec.depth, 0, spec.nchannels, data)
+                           : input.read_native_deep_scanlines(part, 0, begin, end, 0, 0, spec.nchannels, data);
+    if (!sound) refuse_image(file, "damaged or cut short: " + input.geterror());
+}
+
+// Reads a few rows at a time, since OpenImageIO holds all channels of what it reads.
+class DeepReader {
+public:
+    DeepReader(const std::filesystem::path& file, const OIIO::ImageSpec& spec, const DeepChannels& channels)
+        : file_(file), spec_(spec), channels_(channels) {
+        const bool coloured = channels.alpha[0] != channels.alpha[1] || channels.alpha[0] != channels.alpha[2];
+        image_.width = spec.width;
+        image_.height = spec.height;
+        image_.channels = coloured ? 3 : 1;
+        image_.begin.reserve(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) + 1);
+        image_.begin.push_back(0);
+    }
+
+    DeepImage read(OIIO::ImageInput& input, int part) {
+        for (int y = 0; y < spec_.height; y += rows_at_once(spec_)) {
+            const int rows = std::min(rows_at_once(spec_), spec_.height - y);
+            OIIO::DeepData data;
+            read_rows(input, part, spec_, y, rows, data, file_);
+            take(data, y, rows);
         }
-        std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
+        if (image_.channels == 3) drop_equal_channels(image_);
+        mender_.note(image_.z_front.size(), image_.notes);
+        return std::move(image_);
+    }
+
+private:
+    void take(const OIIO::DeepData& data, int y, int rows) {
+        const std::int64_t pixels = static_cast<std::int64_t>(spec_.width) * rows;
+        for (std::int64_t pixel = 0; pixel < pixels; ++pixel) {
+            const auto count = static_cast<std::uint64_t>(data.samples(pixel));
+            if (image_.z_front.size() + count > max_deep_samples)
+                refuse_image(file_, fmt::format("over {} samples, the limit", max_deep_samples));
+            take_pixel(data, pixel, y);
+        }
+    }
+
+    void take_pixel(const OIIO::DeepData& data, std::int64_t pixel, int y) {
+        samples_.clear();
+        for (int i = 0; i < data.samples(pixel); ++i) {
+            Sample sample = read_sample(data, channels_, pixel, i);
+            if (const std::string fault = fault_of(sample); !fault.empty())
+                refuse_image(file_, fmt::format("pixel ({}, {}), sample {}: {}", pixel % spec_.width,
+                                                y + pixel / spec_.width, i, fault));
+            mender_.mend(sample);
+            samples_.push_back(sample);
+        }
+        std::stable_sort(samples_.begin(), samples_.end(), [](const Sample& a, const Sample& b) {
             return a.z_front < b.z_front || (a.z_front == b.z_front && a.z_back < b.z_back);
         });
-        for (const Sample& sample : samples) {
-            image.z_front.push_back(sample.z_front);
-            image.z_back.push_back(sample.z_back);
-            image.transmittance.insert(image.transmittance.end(), sample.transmittance.begin(),
-                                       sample.transmittance.begin() + image.channels);
+        for (const Sample& sample : samples_) {
+            image_.z_front.push_back(sample.z_front);
+            image_.z_back.push_back(sample.z_back);
+            image_.transmittance.insert(image_.transmittance.end(), sample.transmittance.begin(),
+                                        sample.transmittance.begin() + image_.channels);
         }
-        image.begin.push_back(image.z_front.size());
+        image_.begin.push_back(image_.z_front.size());
     }
-    if (coloured) drop_equal_channels(image);
-    mender.note(image.z_front.size(), image.notes);
-    return image;
-}
+
+    const std::filesystem::path& file_;
+    const OIIO::ImageSpec& spec_;
+    const DeepChannels& channels_;
+    DeepImage image_;
+    Mender mender_;
+    std::vector<Sample> samples_;  // of a pixel
+};
 
 }  // namespace
 
@@ -255,10 +292,7 @@ DeepImage read_deep_image(const std::filesystem::path& file, const DeepChoice& c
         const int part = choose_part(*input, choice, file, notes);
         const OIIO::ImageSpec spec = open_part(*input, part, file);
         const DeepChannels channels = find_deep_channels(spec.channelnames, choice.layer, file, notes);
-        OIIO::DeepData data;
-        if (!input->read_native_deep_image(part, 0, data))
-            refuse_image(file, "damaged or cut short: " + input->geterror());
-        DeepImage image = convert(data, spec, channels, file);
+        DeepImage image = DeepReader(file, spec, channels).read(*input, part);
         image.notes.lines.insert(image.notes.lines.begin(), notes.lines.begin(), notes.lines.end());
         return image;
     } catch (const base::Error&) {

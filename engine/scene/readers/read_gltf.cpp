@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -24,14 +25,6 @@ namespace {
 
 // A small file can name the same arrays many times.
 constexpr std::uint64_t most_values = 4 * max_mesh_elements;
-
-// A mesh of the file, in its own space.
-struct Local {
-    std::vector<Vec3f> positions;
-    std::vector<Vec3i> triangles;
-    std::vector<Vec2f> corner_uv;
-    std::vector<std::uint32_t> materials;  // one a triangle
-};
 
 struct Place {
     std::size_t node = 0;
@@ -165,26 +158,38 @@ private:
         return cost;
     }
 
+    // Reads a mesh into the place of the first node that shows it, and copies it from there for the others, since a
+    // file's largest mesh may be all of it.
     void add_mesh(std::size_t number) {
-        const Local local = read_mesh_of(number);
-        for (const Place& place : places_[number]) {
-            const auto first = static_cast<int>(file_.mesh.positions.size());
-            for (const Vec3f& position : local.positions) {
-                const Vec3d at = apply(place.transform, Vec3d(position));
-                if (!in_range(at.x) || !in_range(at.y) || !in_range(at.z))
-                    fail(model_, fmt::format("/nodes/{}", place.node),
-                         fmt::format("it moves a vertex beyond {}", max_coordinate));
-                file_.mesh.positions.emplace_back(at);
-            }
-            for (const Vec3i& triangle : local.triangles)
-                file_.mesh.triangles.push_back(triangle + Vec3i(first, first, first));
-            file_.mesh.corner_uv.insert(file_.mesh.corner_uv.end(), local.corner_uv.begin(), local.corner_uv.end());
-            materials_.insert(materials_.end(), local.materials.begin(), local.materials.end());
+        Mesh& mesh = file_.mesh;
+        const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangles.size(),
+                          uvs = mesh.corner_uv.size(), materials = materials_.size();
+        read_mesh_of(number);
+        const std::size_t vertices_end = mesh.positions.size(), triangles_end = mesh.triangles.size(),
+                          uvs_end = mesh.corner_uv.size(), materials_end = materials_.size();
+        const std::vector<Place>& places = places_[number];
+        for (std::size_t i = 1; i < places.size(); ++i) {
+            const auto offset = static_cast<int>(mesh.positions.size() - vertices);
+            for (std::size_t v = vertices; v < vertices_end; ++v)
+                mesh.positions.push_back(moved(mesh.positions[v], places[i]));
+            for (std::size_t t = triangles; t < triangles_end; ++t)
+                mesh.triangles.push_back(mesh.triangles[t] + Vec3i(offset, offset, offset));
+            for (std::size_t c = uvs; c < uvs_end; ++c) mesh.corner_uv.push_back(mesh.corner_uv[c]);
+            for (std::size_t t = materials; t < materials_end; ++t) materials_.push_back(materials_[t]);
         }
+        for (std::size_t v = vertices; v < vertices_end; ++v) mesh.positions[v] = moved(mesh.positions[v], places[0]);
     }
 
-    Local read_mesh_of(std::size_t number) {
-        Local local;
+    Vec3f moved(const Vec3f& position, const Place& place) const {
+        const Vec3d at = apply(place.transform, Vec3d(position));
+        if (!in_range(at.x) || !in_range(at.y) || !in_range(at.z))
+            fail(model_, fmt::format("/nodes/{}", place.node),
+                 fmt::format("it moves a vertex beyond {}", max_coordinate));
+        return Vec3f(at);
+    }
+
+    // Appends it in its own space.
+    void read_mesh_of(std::size_t number) {
         std::map<std::size_t, std::size_t> first_of;       // vertex, by the accessor of the positions
         std::map<std::size_t, std::vector<Vec2f>> uvs_of;  // by their accessor
         for (std::size_t i = 0; i < model_.meshes[number].size(); ++i) {
@@ -199,16 +204,12 @@ private:
                 pass_over(file_, "primitives without positions");
                 continue;
             }
-            const auto [first, added] = first_of.try_emplace(*primitive.positions, local.positions.size());
-            if (added) {
-                const std::vector<Vec3f> points = read_gltf_points(model_, *primitive.positions);
-                local.positions.insert(local.positions.end(), points.begin(), points.end());
-            }
+            const auto [first, added] = first_of.try_emplace(*primitive.positions, file_.mesh.positions.size());
+            if (added) add_gltf_points(model_, *primitive.positions, file_.mesh.positions);
             const std::vector<Vec2f>* uvs = nullptr;
             if (keeps_uv_) uvs = uvs_for(primitive, at, uvs_of);
-            add_primitive(primitive, at, first->second, uvs, local);
+            add_primitive(primitive, at, first->second, uvs);
         }
-        return local;
     }
 
     // Null if the primitive has none that matter.
@@ -233,14 +234,14 @@ private:
     }
 
     void add_primitive(const GltfPrimitive& primitive, const std::string& at, std::size_t first,
-                       const std::vector<Vec2f>* uvs, Local& local) {
+                       const std::vector<Vec2f>* uvs) {
         if (!is_opaque(primitive) && primitive.colours && model_.accessors[*primitive.colours].components == 4)
             pass_over(file_, "alphas of vertices (COLOR_0)");
         const std::uint64_t vertices = model_.accessors[*primitive.positions].count, corners = corners_of(primitive);
-        std::vector<std::uint32_t> indices;
-        if (primitive.indices) indices = read_gltf_indices(model_, *primitive.indices);
+        std::optional<GltfIndices> indices;
+        if (primitive.indices) indices.emplace(model_, *primitive.indices);
         const auto corner = [&](std::uint64_t number) {
-            const std::uint64_t vertex = primitive.indices ? indices[number] : number;
+            const std::uint64_t vertex = indices ? (*indices)[number] : number;
             if (vertex >= vertices)
                 fail(model_, at, fmt::format("corner {} names vertex {}, but there are {}", number, vertex, vertices));
             return vertex;
@@ -268,12 +269,12 @@ private:
                 if (primitive.mode != GltfMode::strip) pass_over(file_, without_area);
                 continue;
             }
-            local.triangles.emplace_back(static_cast<int>(first + vertex_a), static_cast<int>(first + vertex_b),
-                                         static_cast<int>(first + vertex_c));
+            file_.mesh.triangles.emplace_back(static_cast<int>(first + vertex_a), static_cast<int>(first + vertex_b),
+                                              static_cast<int>(first + vertex_c));
             if (!keeps_uv_) continue;
-            local.materials.push_back(material);
+            materials_.push_back(material);
             for (const std::uint64_t vertex : {vertex_a, vertex_b, vertex_c})
-                local.corner_uv.push_back(uvs ? (*uvs)[vertex] : Vec2f(0.0f, 0.0f));
+                file_.mesh.corner_uv.push_back(uvs ? (*uvs)[vertex] : Vec2f(0.0f, 0.0f));
         }
     }
 

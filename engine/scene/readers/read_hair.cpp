@@ -31,6 +31,7 @@ struct Header {
     char information[88];
 };
 static_assert(sizeof(Header) == 128);
+constexpr std::uint64_t default_thickness_at = 20;
 
 // Counts all arrays that the header announces, including those that are not read, to detect a file cut anywhere.
 void check_size(const FileReader& reader, const Header& header) {
@@ -77,26 +78,30 @@ Hair read_hair(const std::filesystem::path& file, float radius) {
     Hair hair;
     hair.strand_begin = read_strands(reader, header);
 
-    const std::uint64_t points_at = reader.position();
-    const std::vector<float> points = reader.array<float>(std::uint64_t{3} * header.points, "points");
-    reader.check_finite(points, points_at, "points");
     hair.points.reserve(header.points);
-    for (std::size_t i = 0; i < points.size(); i += 3)
-        hair.points.emplace_back(points[i], points[i + 1], points[i + 2]);
-
-    const std::uint64_t thickness_at = header.bits & has_thickness ? reader.position() : 20;
-    std::vector<float> thickness{header.default_thickness};
-    if (header.bits & has_thickness) thickness = reader.array<float>(header.points, "thickness");
+    for_each_block<float>(reader, std::uint64_t{3} * header.points, "points",
+                          [&](const std::vector<float>& points, std::uint64_t at) {
+                              reader.check_finite(points, at, "points");
+                              for (std::size_t i = 0; i < points.size(); i += 3)
+                                  hair.points.emplace_back(points[i], points[i + 1], points[i + 2]);
+                          });
+    hair.radii.reserve(header.points);
+    const auto take_thickness = [&](const std::vector<float>& thickness, std::uint64_t at) {
+        reader.check_finite(thickness, at, "thickness");
+        for (std::size_t i = 0; i < thickness.size(); ++i) {
+            if (thickness[i] < 0.0f) reader.fail(at + 4 * i, "a thickness is below 0");
+            hair.radii.push_back(0.5f * thickness[i]);
+        }
+    };
     if (radius > 0.0f) {
         hair.radii.assign(header.points, radius);
-        return hair;
+    } else if (header.bits & has_thickness) {
+        for_each_block<float>(reader, header.points, "thickness", take_thickness);
+    } else {
+        take_thickness({header.default_thickness}, default_thickness_at);
+        const float half_width = hair.radii[0];
+        hair.radii.assign(header.points, half_width);
     }
-    reader.check_finite(thickness, thickness_at, "thickness");
-    for (std::size_t i = 0; i < thickness.size(); ++i)
-        if (thickness[i] < 0.0f) reader.fail(thickness_at + 4 * i, "a thickness is below 0");
-    hair.radii.reserve(header.points);
-    for (std::size_t i = 0; i < header.points; ++i)
-        hair.radii.push_back(0.5f * (thickness.size() == 1 ? thickness[0] : thickness[i]));
     return hair;
 }
 

@@ -37,6 +37,7 @@ class StrandPoints {
 public:
     explicit StrandPoints(CurveBasis basis) : basis_(basis) {}
 
+    void reserve(std::uint64_t points) { strands_.reserve(points); }
     void next_strand() { given_ = 0; }
 
     void add(const StrandPoint& point) {
@@ -110,6 +111,30 @@ HairFile read_text_strands(const std::filesystem::path& file, float radius, Curv
     return result;
 }
 
+// The floats of a file up to its end, a block at a time.
+class Floats {
+public:
+    explicit Floats(FileReader& reader) : reader_(reader) {}
+
+    bool at_end() {
+        if (next_ < block_.size()) return false;
+        constexpr std::uint64_t most_at_once = 1 << 16;
+        const std::uint64_t left = (reader_.size() - reader_.position()) / sizeof(float);
+        block_ = reader_.array<float>(std::min(left, most_at_once), "points");
+        next_ = 0;
+        return block_.empty();
+    }
+    float peek() const { return block_[next_]; }
+    float take() { return block_[next_++]; }
+    // Of the next one in the file.
+    std::uint64_t position() const { return reader_.position() - (block_.size() - next_) * sizeof(float); }
+
+private:
+    FileReader& reader_;
+    std::vector<float> block_;
+    std::size_t next_ = 0;
+};
+
 // An infinite number stands in front of the first point of each strand but the first.
 HairFile read_binary_strands(FileReader& reader, float radius, CurveBasis basis) {
     reader.seek(binary_magic.size(), "number of points");
@@ -118,20 +143,22 @@ HairFile read_binary_strands(FileReader& reader, float radius, CurveBasis basis)
         reader.fail(binary_magic.size(), fmt::format("{} points of hair; the limit is {}", count, max_hair_points));
     reader.need(count, 3 * sizeof(float), "points");
     const std::uint64_t begin = reader.position();
-    const std::vector<float> values = reader.array<float>((reader.size() - begin) / sizeof(float), "points");
+    Floats values(reader);
     StrandPoints strands(basis);
-    std::size_t at = 0;
+    if (basis == CurveBasis::linear) strands.reserve(count);
     for (std::uint32_t i = 0; i < count; ++i) {
-        if (at < values.size() && std::isinf(values[at])) {
+        if (!values.at_end() && std::isinf(values.peek())) {
             strands.next_strand();
-            ++at;
+            values.take();
         }
-        if (at + 3 > values.size()) reader.fail(reader.size(), "the file ends inside its points");
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (!(std::abs(values[at + axis]) <= static_cast<float>(max_coordinate)))
-                reader.fail(begin + (at + axis) * sizeof(float), "a position is not finite");
-        strands.add({Vec3d(Vec3f(values[at], values[at + 1], values[at + 2])), static_cast<double>(radius)});
-        at += 3;
+        Vec3f point(0.0f);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (values.at_end()) reader.fail(reader.size(), "the file ends inside its points");
+            if (!(std::abs(values.peek()) <= static_cast<float>(max_coordinate)))
+                reader.fail(values.position(), "a position is not finite");
+            point[axis] = values.take();
+        }
+        strands.add({Vec3d(point), static_cast<double>(radius)});
         if (strands.points() > max_hair_points)
             reader.fail(begin, fmt::format("over {} points of hair", max_hair_points));
     }

@@ -36,6 +36,7 @@ std::vector<Vec2f> read_vertices(PlySource& source, const PlyElement& element, s
     const bool textured = uv_at[0] != none && uv_at[1] != none;
     std::vector<Vec2f> uvs;
     positions.reserve(element.count);
+    if (textured) uvs.reserve(element.count);
     std::vector<double> row(element.properties.size());
     for (std::uint64_t i = 0; i < element.count; ++i) {
         for (std::size_t p = 0; p < element.properties.size(); ++p) {
@@ -116,6 +117,11 @@ void read_faces(PlySource& source, const PlyElement& element, bool strips, const
                 MeshFile& file) {
     const std::size_t at = find(element, {"vertex_indices", "vertex_index"});
     if (at == none || !element.properties[at].is_list) source.fail(element.name + " needs the list vertex_indices");
+    if (!strips) {
+        const auto triangles = static_cast<std::size_t>(source.most_of(element, 3));
+        file.mesh.triangles.reserve(triangles);
+        if (!uvs.empty()) file.mesh.corner_uv.reserve(3 * triangles);
+    }
     for (std::uint64_t i = 0; i < element.count; ++i)
         for (std::size_t p = 0; p < element.properties.size(); ++p) {
             const PlyProperty& property = element.properties[p];
@@ -154,6 +160,7 @@ MeshFile read_ply(const std::filesystem::path& file) {
         }
     }
     if (!uvs) source.fail("there are no vertices");
+    source.finish();
     return result;
 }
 

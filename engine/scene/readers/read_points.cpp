@@ -130,6 +130,7 @@ PointFile read_points(const std::filesystem::path& name, float radius) {
             for (const PlyProperty& property : element.properties) source.skip(property);
     }
     if (!found) source.fail("there are no vertices");
+    source.finish();
     return file;
 }
 

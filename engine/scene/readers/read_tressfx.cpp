@@ -37,17 +37,18 @@ Hair read_tressfx(const std::filesystem::path& file, float radius) {
         if (offset < version_4_header) reader.fail(12, fmt::format("positions at byte {} overlap the header", offset));
     }
     reader.seek(offset, "positions");
-    const std::vector<float> values = reader.array<float>(count * words, "positions");
+    reader.need(count * words, sizeof(float), "positions");
 
     Hair hair;
     hair.points.reserve(count);
-    for (std::uint64_t i = 0; i < count; ++i) {
-        const float* at = values.data() + i * words;
-        for (std::uint64_t axis = 0; axis < 3; ++axis)
-            if (!(std::abs(at[axis]) <= static_cast<float>(max_coordinate)))
-                reader.fail(offset + (i * words + axis) * sizeof(float), "a position is not finite");
-        hair.points.emplace_back(at[0], at[1], at[2]);
-    }
+    for_each_block<float>(reader, count * words, "positions", [&](const std::vector<float>& values, std::uint64_t at) {
+        for (std::size_t i = 0; i < values.size(); i += words) {
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                if (!(std::abs(values[i + axis]) <= static_cast<float>(max_coordinate)))
+                    reader.fail(at + (i + axis) * sizeof(float), "a position is not finite");
+            hair.points.emplace_back(values[i], values[i + 1], values[i + 2]);
+        }
+    });
     hair.radii.assign(count, radius);
     hair.strand_begin.reserve(strands + std::size_t{1});
     for (std::uint64_t s = 0; s <= strands; ++s)

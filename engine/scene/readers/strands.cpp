@@ -42,6 +42,11 @@ StrandPoint point_on(const CubicCurve& c, double u) {
     return mix(begin, 1.0, end, 1.0);
 }
 
+void Strands::reserve(std::uint64_t points) {
+    hair_.points.reserve(static_cast<std::size_t>(points));
+    hair_.radii.reserve(static_cast<std::size_t>(points));
+}
+
 void Strands::begin(const StrandPoint& first) {
     hair_.strand_begin.push_back(static_cast<std::uint32_t>(hair_.points.size()));
     open_ = true;

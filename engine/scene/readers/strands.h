@@ -23,6 +23,7 @@ StrandPoint point_on(const CubicCurve& curve, double u);
 
 class Strands {
 public:
+    void reserve(std::uint64_t points);
     void begin(const StrandPoint& first);
     void line_to(const StrandPoint& to);
 
