@@ -42,19 +42,21 @@ struct DxgiFormat {
     int texel_bytes;
     std::array<int, 4> byte;
 };
+constexpr std::uint32_t bc2_number = 74;
 constexpr DxgiFormat dxgi_formats[] = {
     {28, false, 4, {0, 1, 2, 3}},     // R8G8B8A8_UNORM
     {49, false, 2, {0, 1, -1, -1}},   // R8G8_UNORM
     {61, false, 1, {0, 0, 0, -1}},    // R8_UNORM
     {65, false, 1, {-1, -1, -1, 0}},  // A8_UNORM
+    {bc2_number, true, 0, {}},        // BC2_UNORM
     {77, true, 0, {}},                // BC3_UNORM
     {87, false, 4, {2, 1, 0, 3}},     // B8G8R8A8_UNORM
     {88, false, 4, {2, 1, 0, -1}},    // B8G8R8X8_UNORM
 };
 
 constexpr const char* what_is_read =
-    "DXT5 (BC3) blocks, and red, green, blue, alpha or luminance of 8 bits each without compression, are read: save it "
-    "in one of these";
+    "DXT3 (BC2) and DXT5 (BC3) blocks, and red, green, blue, alpha or luminance of 8 bits each without compression, are "
+    "read: save it in one of these";
 
 // The byte of a texel that a mask covers.
 int byte_of(const FileReader& file, std::uint32_t mask, int texel_bytes) {
@@ -81,7 +83,8 @@ void read_masks(const FileReader& file, const Header& header, DdsLayout& layout)
 void read_format(FileReader& file, const Header& header, DdsLayout& layout, bool& is_volume) {
     is_volume = header.caps[1] & volume;
     if (!(header.pixel_flags & has_code)) return read_masks(file, header, layout);
-    if (header.pixel_code == four_characters("DXT5")) {
+    layout.bc2 = header.pixel_code == four_characters("DXT3");
+    if (layout.bc2 || header.pixel_code == four_characters("DXT5")) {
         layout.blocks = true;
         return;
     }
@@ -94,6 +97,7 @@ void read_format(FileReader& file, const Header& header, DdsLayout& layout, bool
         file.fail(sizeof(Header), fmt::format("the DXGI format {}; {}", extra.format, what_is_read));
     is_volume = is_volume || extra.dimension == texture_3d;
     layout.blocks = format->blocks;
+    layout.bc2 = format->number == bc2_number;
     layout.texel_bytes = format->texel_bytes;
     layout.byte = format->byte;
 }
