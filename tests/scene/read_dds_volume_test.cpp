@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "scene/readers/files.h"
+#include "scene/readers/kinds.h"
 #include "scene/support.h"
 
 namespace shadowbench::scene {
@@ -132,6 +133,14 @@ TEST(ReadDdsVolume, ReadsSlicesOneAfterTheOtherAndCutsBlocksAtTheBorder) {
     ASSERT_EQ(grid.density.size(), 30u);
     for (std::size_t i = 0; i < 30; ++i)
         EXPECT_FLOAT_EQ(grid.density[i], 0.2f + (i % 5 == 4 ? 0.2f : 0.0f) + (i >= 15 ? 0.4f : 0.0f)) << i;
+}
+
+// As old tools write them.
+TEST(ReadDdsVolume, ReadsADepthWithoutTheFlagOfVolumes) {
+    const auto file = test::write_file("old.dds", header({4, 4, 2}, {}, 0) + flat_block(255) + flat_block(0));
+    EXPECT_TRUE(is_dds_volume(file));
+    EXPECT_EQ(read_dds_volume(file).density[31], 0.0f);
+    EXPECT_FALSE(is_dds_volume(test::write_file("flat.dds", header({4, 4, 1}, {}, 0) + flat_block(255))));
 }
 
 TEST(ReadDdsVolume, ReadsTheLargestMipLevelAndSaysSo) {

@@ -18,7 +18,7 @@ constexpr std::uint32_t four_characters(const char (&text)[5]) {
     return code;
 }
 
-constexpr std::uint32_t has_mip_levels = 0x20000;  // flag of the header
+constexpr std::uint32_t has_mip_levels = 0x20000, has_depth = 0x800000;  // flags of the header
 constexpr std::uint32_t has_alpha = 0x1, only_alpha = 0x2, has_code = 0x4, rgb = 0x40,
                         luminance = 0x20000;  // flags of the texels
 constexpr std::uint32_t volume = 0x200000;    // flag of the second caps
@@ -30,6 +30,11 @@ struct Header {
     std::uint32_t caps[4], reserved_too;
 };
 static_assert(sizeof(Header) == 128);
+
+// Old tools leave out the flag of volumes.
+bool is_volume_of(const Header& header) {
+    return (header.caps[1] & volume) || ((header.flags & has_depth) && header.depth > 1);
+}
 
 struct ExtraHeader {
     std::uint32_t format, dimension, flags, array_size, more_flags;
@@ -81,7 +86,7 @@ void read_masks(const FileReader& file, const Header& header, DdsLayout& layout)
 }
 
 void read_format(FileReader& file, const Header& header, DdsLayout& layout, bool& is_volume) {
-    is_volume = header.caps[1] & volume;
+    is_volume = is_volume_of(header);
     if (!(header.pixel_flags & has_code)) return read_masks(file, header, layout);
     layout.bc2 = header.pixel_code == four_characters("DXT3");
     if (layout.bc2 || header.pixel_code == four_characters("DXT5")) {
@@ -107,7 +112,7 @@ void read_format(FileReader& file, const Header& header, DdsLayout& layout, bool
 bool is_dds_volume(const std::filesystem::path& file) {
     FileReader reader(file);
     const auto header = reader.value<Header>("header");
-    if (header.caps[1] & volume) return true;
+    if (is_volume_of(header)) return true;
     const bool more = (header.pixel_flags & has_code) && header.pixel_code == four_characters("DX10");
     return more && reader.value<ExtraHeader>("header").dimension == texture_3d;
 }
