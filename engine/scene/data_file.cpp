@@ -44,11 +44,14 @@ void read_mesh_file(DataFile& data) {
     add_object(data, std::move(file.mesh), std::move(file.passed_over));
 }
 
-// Of hair without a width.
+// Of hair without a width; see guessed_radius.
 float guess_radius(const Hair& hair) {
     Box3d box;
     for (const Vec3f& point : hair.points) box.extendBy(Vec3d(point));
-    return box.isEmpty() ? 0.0f : static_cast<float>(to_digits(box.size().length() / 2000.0, 1));
+    if (box.isEmpty()) return 0.0f;
+    const auto strands = static_cast<double>(hair.strand_begin.size() - 1);
+    const double share = std::clamp(0.05 / std::sqrt(strands), 1.0 / 2000.0, 1.0 / 50.0);
+    return static_cast<float>(to_digits(box.size().length() * share, 1));
 }
 
 void read_hair_file(DataFile& data) {

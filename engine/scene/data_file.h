@@ -47,8 +47,9 @@ struct DataFile {
     std::uint64_t bytes = 0;
     // One object, which may hold nothing that casts a shadow; or several, whose media have names; or a deep image.
     Scene scene;
-    // The file has no width of its hair or points. A 2000th of the diagonal stands in for that of hair, and for that of
-    // points half the distance at which as many would be spread over a sphere of that size.
+    // The file has no width of its hair or points. For that of n strands, 1 / (20 sqrt(n)) of the diagonal stands in, a
+    // 2000th at least and a 50th at most, so that few strands are seen too; for that of points, half the distance at
+    // which as many would be spread over a sphere of that size.
     bool guessed_radius = false;
     std::uint64_t short_strands = 0;  // hair: strands without length, which are left out
     bool no_box = false;              // volume: the file has no box

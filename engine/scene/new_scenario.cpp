@@ -24,7 +24,7 @@ using base::Error;
 using base::ErrorCode;
 using nlohmann::ordered_json;
 
-constexpr double optical_depth = 2.0;  // through the densest column of a volume
+constexpr double optical_depth = 2.0;  // of a volume: see densest_column()
 constexpr double hair_opacity = 0.6;
 constexpr int surface_rays = 16, media_rays = 4;  // a pixel
 
@@ -238,13 +238,21 @@ ordered_json ground_quad(const Stage& stage) {
             {"casts_shadow", false}};
 }
 
-ordered_json camera_of(const Stage& stage, bool media) {
+bool any_mesh(std::span<const DataFile> files) {
+    const std::vector<const Object*> objects = objects_of(files);
+    return std::any_of(objects.begin(), objects.end(),
+                       [](const Object* object) { return std::holds_alternative<Mesh>(object->shape); });
+}
+
+// A surface shadows itself where its depth changes over a map pixel.
+ordered_json camera_of(const Stage& stage, bool media, bool surfaces) {
     ordered_json camera{
         {"type", "camera"}, {"position", point(stage.camera.position)}, {"target", point(stage.camera.target)}};
     if (stage.camera.up != Vec3d(0, 1, 0)) camera["up"] = point(stage.camera.up);
     camera["resolution"] = {384, 288};
     if (media) camera["media_lookups"] = 32;
     camera["bias"] = number(stage.bias);
+    if (surfaces) camera["slope_bias"] = 1;
     return camera;
 }
 
@@ -275,7 +283,7 @@ ordered_json object_scenario(std::span<const DataFile> files, std::span<const st
     return {{"scene", {{"objects", std::move(objects)}}},
             {"lights", ordered_json::array({sun})},
             {"rays", rays_for(files)},
-            {"receivers", camera_of(stage, any_media(files))}};
+            {"receivers", camera_of(stage, any_media(files), any_mesh(files))}};
 }
 
 }  // namespace

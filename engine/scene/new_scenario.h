@@ -14,8 +14,8 @@
 namespace shadowbench::scene {
 
 // What loads the file in a scenario, which calls it `name`: the objects that cast shadows, or the value of
-// "deep_image". Hair is translucent. The optical depth is about 2 through a volume's densest column and through the
-// middle of a point, except of media whose file states their extinction.
+// "deep_image". Hair is translucent. The optical depth is about 2 through a volume's densest column, along the axis
+// where that is least, and through the middle of a point, except of media whose file states their extinction.
 std::vector<nlohmann::ordered_json> scene_objects(const DataFile& data, const std::string& name);
 
 // Whether only opaque surfaces cast shadows in a scenario around the files.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -29,21 +30,40 @@ Vec3d on_grid(const Vec3d& point, double size) {
     return {on_grid(point.x, size), on_grid(point.y, size), on_grid(point.z, size)};
 }
 
-constexpr double gap = 0.02;          // between the box and the ground, of the diagonal
-constexpr double margin = 1.05;       // of the sphere that the camera sees, which covers the rounding
-constexpr double ground_radii = 4.0;  // half the side of the ground, in radii of that sphere
+constexpr double gap = 0.02;         // between the box and the ground, of the diagonal
+constexpr double ground_size = 4.0;  // the side of the ground, of the diagonal of the box and its shadow
+constexpr double margin = 1.1;       // of what the camera sees, to each side; it covers the rounding
 const Vec3d light_direction(-0.5, -1.0, 0.35);
 const Vec3d towards_camera(0.5, 0.45, 0.8);  // the shadow falls before the box, on its other side
 
-// The box together with its shadow on the ground.
-Box3d with_shadow(const Box3d& box, double ground) {
-    const double height = box.max.y - ground;
-    Box3d seen = box;
-    for (const Vec3d& corner : {box.min, box.max}) {
-        const Vec3d shadow = corner + light_direction * height;
-        seen.extendBy(Vec3d(shadow.x, ground, shadow.z));
+// The corners of the box and of its shadow on the ground.
+std::vector<Vec3d> to_be_seen(const Box3d& box, double ground) {
+    std::vector<Vec3d> points;
+    for (int i = 0; i < 8; ++i) {
+        const Vec3d corner((i & 1 ? box.max : box.min).x, (i & 2 ? box.max : box.min).y, (i & 4 ? box.max : box.min).z);
+        points.push_back(corner);
+        points.push_back(corner + light_direction * (corner.y - ground));
     }
-    return seen;
+    return points;
+}
+
+// The nearest place from which a camera that looks along `forward` sees all points, `slope` to each side for each step
+// away from it, and those of an axis in the middle.
+Vec3d nearest_view(const std::vector<Vec3d>& points, const Vec3d& forward, double slope) {
+    const Vec3d right = forward.cross(Vec3d(0, 1, 0)).normalized(), upwards = right.cross(forward);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double depth = infinity;
+    Vec3d place(0, 0, 0);
+    for (const Vec3d& axis : {right, upwards}) {
+        double least = infinity, most = -infinity;
+        for (const Vec3d& point : points) {
+            least = std::min(least, point.dot(axis) + slope * point.dot(forward));
+            most = std::max(most, point.dot(axis) - slope * point.dot(forward));
+        }
+        depth = std::min(depth, (least - most) / (2.0 * slope));
+        place += axis * (0.5 * (least + most));
+    }
+    return place + forward * depth;
 }
 
 }  // namespace
@@ -54,10 +74,11 @@ Stage stage_around(const Box3d& world_box, UpAxis up) {
     box.extendBy(from_world(world_box.max, up));
     const double size = box.size().length();
     const double ground = box.min.y - gap * size;
-    const Box3d seen = with_shadow(box, ground);
-    const double radius = margin * 0.5 * seen.size().length();
+    const std::vector<Vec3d> points = to_be_seen(box, ground);
+    Box3d seen;
+    for (const Vec3d& point : points) seen.extendBy(point);
     const Vec3d middle = seen.center();
-    const double side = 2.0 * ground_radii * radius;
+    const double side = ground_size * seen.size().length();
     const auto placed = [&](const Vec3d& point) { return on_grid(to_world(point, up), size); };
 
     Stage stage;
@@ -65,9 +86,11 @@ Stage stage_around(const Box3d& world_box, UpAxis up) {
     stage.ground_u = placed(Vec3d(0, 0, side));
     stage.ground_v = placed(Vec3d(side, 0, 0));
     stage.light = to_world(light_direction, up);
-    const double distance = radius / std::sin(0.5 * stage.camera.fov * std::numbers::pi / 180.0);
-    stage.camera.target = placed(middle);
-    stage.camera.position = placed(middle + towards_camera.normalized() * distance);
+    const Vec3d forward = -towards_camera.normalized();
+    const double slope = std::tan(0.5 * stage.camera.fov * std::numbers::pi / 180.0) / margin;
+    const Vec3d position = nearest_view(points, forward, slope);
+    stage.camera.position = placed(position);
+    stage.camera.target = placed(position + forward * (middle - position).dot(forward));
     stage.camera.up = to_world(Vec3d(0, 1, 0), up);
     stage.bias = to_digits(1e-3 * size, 1);
     return stage;
@@ -100,7 +123,7 @@ double densest_column(const GridVolume& volume) {
         take_most(most.z);
     }
     const Vec3d extent = volume.upper - volume.lower;
-    return std::max(
+    return std::min(
         {most.x * extent.x / volume.size.x, most.y * extent.y / volume.size.y, most.z * extent.z / volume.size.z});
 }
 

@@ -18,7 +18,8 @@ struct Stage {
 // The diagonal of the box must be above 0, and the box finite.
 Stage stage_around(const Box3d& box, UpAxis up);
 
-// The largest optical depth, for an extinction of 1, through a whole column of voxels along an axis.
+// The optical depth, for an extinction of 1, through the densest column of voxels along the axis where that is least. So
+// a slab, or a column of smoke, is seen from all sides.
 double densest_column(const GridVolume& volume);
 
 // The number with this many digits that is nearest; 0 stays 0.

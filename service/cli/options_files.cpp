@@ -50,10 +50,10 @@ void add_new(CLI::App& app, Commands& commands) {
              {"new tree.obj --out tree.json", "new leaves.obj leaves.png trunk.obj --out tree.json",
               "new scan.stl --up z --out scan.json"},
              std::string("Places a ground, a light and a camera by the boxes of the files, and takes techniques that "
-                         "fit them. The optical depth through a volume's densest column, or through a point of a "
-                         "cloud, is about 2, but media of pbrt keep theirs; the opacity of hair is 0.6. An image "
-                         "becomes the alpha texture of the mesh before it, if that has texture "
-                         "coordinates, and else a quad. A deep image stands alone.\n") +
+                         "fit them. The optical depth is about 2 through a volume's densest column, along the axis "
+                         "where that is least, and through a point of a cloud; media of pbrt keep theirs. The opacity "
+                         "of hair is 0.6. An image becomes the alpha texture of the mesh before it, if that has "
+                         "texture coordinates, and else a quad. A deep image stands alone.\n") +
                  data_formats);
     add_data_options(*made, *arguments, "Data files");
     made->add_option("--out", arguments->out,

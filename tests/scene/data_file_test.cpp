@@ -167,10 +167,24 @@ TEST(DataFile, HairWithoutAWidthGetsOneOfItsSize) {
     bytes += bytes_of(0.0f, 0.0f, 0.0f, 6.0f, 8.0f, 0.0f, 1.0f, 1.0f, 0.0f, 1.0f, 1.0f, 0.0f);
     const DataFile hair = read_data_file(test::write_file("a.TFX", bytes), {});
     EXPECT_TRUE(hair.guessed_radius);
-    EXPECT_EQ(std::get<Hair>(hair.scene.objects[0].shape).radii[0], 0.005f);
+    EXPECT_EQ(std::get<Hair>(hair.scene.objects[0].shape).radii[0], 0.2f);
     EXPECT_THAT(describe_file(hair),
                 AllOf(HasSubstr("a.TFX: TressFX hair, 344 B\n"), HasSubstr("  1 strand, 2 points; 2 a strand\n"),
-                      HasSubstr("a half-width of 0.005 is a guess"), HasSubstr("left out: 1 strand without length\n")));
+                      HasSubstr("a half-width of 0.2 is a guess"), HasSubstr("left out: 1 strand without length\n")));
+}
+
+// Two strands as thin as those of a head of hair would not be seen.
+TEST(DataFile, TheGuessOfAWidthFallsWithTheNumberOfStrands) {
+    const auto guess = [](std::uint32_t strands) {
+        std::string bytes = bytes_of(3.0f, strands, 2u);
+        bytes.resize(296, '\0');
+        for (std::uint32_t i = 0; i < strands; ++i) bytes += bytes_of(0.0f, 0.0f, 0.0f, 6.0f, 8.0f, 0.0f);
+        const DataFile hair = read_data_file(test::write_file("b.tfx", bytes), {});
+        return std::get<Hair>(hair.scene.objects[0].shape).radii[0];
+    };
+    EXPECT_EQ(guess(1), 0.2f);
+    EXPECT_EQ(guess(100), 0.05f);
+    EXPECT_EQ(guess(30'000), 0.005f);
 }
 
 TEST(DataFile, MeshesAreDescribedWithWhatIsPassedOver) {

@@ -66,7 +66,7 @@ struct Dense {
 // Any other extinction makes a cloud of smoke that is a wall, or nothing at all.
 TEST(NewScenario, TheDensestColumnOfAVolumeHasAnOpticalDepthOf2) {
     for (const Dense& dense :
-         {Dense{"noname.vdb", 1.0, 16, 0.5}, Dense{"tile.vdb", 1.0, 64, 0.5}, Dense{"nonuniform.vdb", 0.3, 16, 0.5}}) {
+         {Dense{"noname.vdb", 1.0, 16, 0.5}, Dense{"tile.vdb", 1.0, 64, 0.5}, Dense{"nonuniform.vdb", 0.1, 16, 0.5}}) {
         const Scenario scenario = loaded(made_from({case_file(dense.file)}), case_file(dense.file).parent_path());
         const double depth = scenario.scene.objects[0].extinction.x * dense.edge * dense.voxels * dense.density;
         EXPECT_NEAR(depth, 2.0, 0.1) << dense.file;  // two digits
@@ -180,6 +180,12 @@ TEST(NewScenario, ZIsUpWhereItIsSaid) {
     for (const Vec3f& corner : std::get<Mesh>(scenario.scene.objects[1].shape).positions) EXPECT_LT(corner.z, 2.0f);
     EXPECT_EQ(scenario.receivers.camera->up, Vec3d(0, 0, 1));
     EXPECT_LT(scenario.lights[0].direction.z, 0.0);
+}
+
+// Without a slope, the light would fall through meshes in stripes.
+TEST(NewScenario, OnlyMeshesGetASlopeBias) {
+    EXPECT_EQ(made_from({case_file("bom.obj")})["receivers"]["slope_bias"], 1);
+    EXPECT_FALSE(made_from({case_file("noname.vdb")})["receivers"].contains("slope_bias"));
 }
 
 TEST(NewScenario, OnlyMeshesAreOpaque) {

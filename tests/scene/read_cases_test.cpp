@@ -72,17 +72,21 @@ TEST(ReadCases, ARampIsTheSameInEveryFormat) {
         EXPECT_EQ(volume.upper, Vec3d(4, 8, 2));
         EXPECT_TRUE(volume.notes.lines.empty());
     }
-    const GridVolume grid = read_nanovdb(case_file("ramp.nvdb"), {}), slices = read_slc(case_file("ramp.slc")).volume;
-    for (const GridVolume* volume : {&grid, &slices}) {
+    const GridVolume grid = read_nanovdb(case_file("ramp.nvdb"), {}), slices = read_slc(case_file("ramp.slc")).volume,
+                     bytes = read_pvm(case_file("ramp.pvm")), texture = read_dds_volume(case_file("ramp.dds"));
+    for (const GridVolume* volume : {&grid, &slices, &bytes}) {
         EXPECT_EQ(volume->size, Vec3i(4, 4, 4));
         EXPECT_EQ(volume->lower, Vec3d(0, 0, 0));
         EXPECT_EQ(volume->upper, Vec3d(4, 8, 2));
     }
     for (std::size_t v = 0; v < 64; ++v) {
         EXPECT_EQ(grid.density[v], static_cast<float>(v) / 64.0f);
-        EXPECT_EQ(slices.density[v], static_cast<float>(v) / 255.0f);
+        for (const GridVolume* volume : {&slices, &bytes, &texture})
+            EXPECT_EQ(volume->density[v], static_cast<float>(v) / 255.0f);
     }
-    EXPECT_EQ(read_raw_volume(case_file("ramp_4x4x4_float32.raw"), {4, 4, 4}, "float32").density[63], 63.0f / 64.0f);
+    EXPECT_EQ(texture.size, Vec3i(4, 4, 4));
+    for (const char* name : {"ramp_4x4x4_float32.raw", "ramp_4x4x4_float32.raw.gz"})
+        EXPECT_EQ(read_raw_volume(case_file(name), {4, 4, 4}, "float32").density, grid.density) << name;
 }
 
 TEST(ReadCases, DeepSamplesKeepTheirDepths) {

@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "scene/readers/files.h"
+#include "scene/readers/kinds.h"
 #include "scene/support.h"
 
 namespace shadowbench::scene {
@@ -90,10 +91,11 @@ TEST(ReadDdsVolume, InterpolatesTheChosenColour) {
 }
 
 // OpenImageIO reads the first slice of a volume, rounded to 8 bits.
-TEST(ReadDdsVolume, AgreesWithAnotherDecoderOnRandomBlocks) {
+void expect_agreement_on_random_blocks(const char* name) {
+    SCOPED_TRACE(name);
     base::Random random(11);
     const Vec3i size(16, 8, 1);
-    std::string bytes = header(size, {});
+    std::string bytes = header(size, {code, name});
     for (int i = 0; i < 4 * 2 * 16; ++i) bytes += static_cast<char>(random.below(256));
     const auto file = test::write_file("random.dds", bytes);
     const auto input = OIIO::ImageInput::open(file.string());
@@ -109,6 +111,20 @@ TEST(ReadDdsVolume, AgreesWithAnotherDecoderOnRandomBlocks) {
     }
 }
 
+TEST(ReadDdsVolume, AgreesWithAnotherDecoderOnRandomBlocks) {
+    expect_agreement_on_random_blocks("DXT5");
+    expect_agreement_on_random_blocks("DXT3");
+}
+
+// Taken as BC3, the first byte would be the alpha of the first two texels.
+TEST(ReadDdsVolume, ReadsFourBitsOfAlphaFromABlockOfTheOtherFormat) {
+    const std::string bytes = std::string("\x0f\xf0\x63\x36\x00\x00\xff\xff", 8) + std::string(8, '\0');
+    const auto expected = ElementsAre(1.0f, 0.0f, 0.0f, 1.0f, 0.2f, 0.4f, 0.4f, 0.2f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f,
+                                      1.0f, 1.0f);
+    EXPECT_THAT(read(header({4, 4, 1}, {code, "DXT3"}) + bytes).density, expected);
+    EXPECT_THAT(read(header_10({4, 4, 1}, 74) + bytes).density, expected);
+}
+
 TEST(ReadDdsVolume, ReadsSlicesOneAfterTheOtherAndCutsBlocksAtTheBorder) {
     // 5 x 3 x 2 texels: two blocks a slice.
     const GridVolume grid =
@@ -117,6 +133,14 @@ TEST(ReadDdsVolume, ReadsSlicesOneAfterTheOtherAndCutsBlocksAtTheBorder) {
     ASSERT_EQ(grid.density.size(), 30u);
     for (std::size_t i = 0; i < 30; ++i)
         EXPECT_FLOAT_EQ(grid.density[i], 0.2f + (i % 5 == 4 ? 0.2f : 0.0f) + (i >= 15 ? 0.4f : 0.0f)) << i;
+}
+
+// As old tools write them.
+TEST(ReadDdsVolume, ReadsADepthWithoutTheFlagOfVolumes) {
+    const auto file = test::write_file("old.dds", header({4, 4, 2}, {}, 0) + flat_block(255) + flat_block(0));
+    EXPECT_TRUE(is_dds_volume(file));
+    EXPECT_EQ(read_dds_volume(file).density[31], 0.0f);
+    EXPECT_FALSE(is_dds_volume(test::write_file("flat.dds", header({4, 4, 1}, {}, 0) + flat_block(255))));
 }
 
 TEST(ReadDdsVolume, ReadsTheLargestMipLevelAndSaysSo) {
@@ -170,7 +194,7 @@ TEST(ReadDdsVolume, NamesTheFaultsOfAHeader) {
     EXPECT_THAT(message(header({4, 4, 1}, {}, 0) + flat_block(0)), HasSubstr("a flat texture"));
     EXPECT_THAT(message(header({4, 4, 0}, {})), HasSubstr("4 x 4 x 0 voxels"));
     EXPECT_THAT(message(header({2000, 2000, 2000}, {})), HasSubstr("1 to 1000000000 are read"));
-    EXPECT_THAT(message(header({4, 4, 1}, {code, "DXT3"})), HasSubstr("DXT5 (BC3) blocks"));
+    EXPECT_THAT(message(header({4, 4, 1}, {code, "DXT1"})), HasSubstr("DXT5 (BC3) blocks"));
     EXPECT_THAT(message(header({4, 4, 1}, {rgb, none, 16, {0xf800, 0x7e0, 0x1f, 0}})), HasSubstr("bit mask 0xf800"));
     EXPECT_THAT(message(header({4, 4, 1}, {rgb, none, 12, {}})), HasSubstr("texels of 12 bits"));
     EXPECT_THAT(message(header({4, 4, 1}, {0x80000, none, 8, {0xff, 0, 0, 0}})), HasSubstr("of the kind 0x80000"));

@@ -145,6 +145,17 @@ TEST(ReadNrrd, LeavesOutAxesOfOneValue) {
     EXPECT_THAT(message(lines + "dimension: 99\nsizes: 2 2\n\nabcd"), HasSubstr("99 dimensions"));
 }
 
+// A coloured picture would be read as a volume of three slices.
+TEST(ReadNrrd, RefusesAxesThatAreNotPlaces) {
+    EXPECT_THAT(message(header("uchar", "3 1 1", "kinds: RGB-color domain domain\n") + "abc"),
+                AllOf(HasSubstr("axis 0"), HasSubstr("rgb-color"), HasSubstr("unu slice")));
+    EXPECT_NO_THROW(read(header("uchar", "3 1 1", "kinds: space domain list\n") + "abc"));
+    EXPECT_NO_THROW(read(header("uchar", "3 1 1", "kinds: none ??? time\n") + "abc"));
+    // Such an axis of one value is left out.
+    EXPECT_NO_THROW(read("NRRD0004\ntype: uchar\nencoding: raw\ndimension: 4\nsizes: 1 3 1 2\n"
+                         "kinds: vector space space space\n\nabcdef"));
+}
+
 TEST(ReadNrrd, SkipsLinesAndBytes) {
     for (const auto& [skip, front] : {std::pair{"byte skip: 3\n", "xyz"},
                                       {"line skip: 2\n", "one\ntwo\n"},

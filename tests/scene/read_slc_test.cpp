@@ -53,10 +53,18 @@ TEST(ReadSlc, UnpacksRunsAndValuesThatDoNotRepeat) {
     EXPECT_EQ(read(header("10 1 1", 1) + "12 X" + blanks).volume.density[1], '1' / 255.0f);
 }
 
+// Woolz packs slices so. Refusing these would refuse all of its files.
+TEST(ReadSlc, TakesSlicesWithoutTheirLastVoxel) {
+    const std::string short_runs("\x03\xff\x00", 3), all("\x04\xff\x00", 3);
+    const GridVolume volume = read(header("2 2 2", 1) + "3 X" + short_runs + "3 X" + all).volume;
+    EXPECT_THAT(volume.density, ElementsAre(1.0f, 1.0f, 1.0f, 0.0f, 1.0f, 1.0f, 1.0f, 1.0f));
+    EXPECT_THAT(volume.notes.lines, ElementsAre("the last voxel of 1 of 2 slices is missing: 0 is taken"));
+}
+
 TEST(ReadSlc, RefusesRunsThatAreNotASlice) {
     EXPECT_THAT(message(header("2 2 1", 1) + "3 X" + std::string("\x05\xff\x00", 3)), HasSubstr("more voxels than"));
-    EXPECT_THAT(message(header("2 2 1", 1) + "3 X" + std::string("\x03\xff\x00", 3)),
-                HasSubstr("a slice of 4 voxels has 3"));
+    EXPECT_THAT(message(header("2 2 1", 1) + "3 X" + std::string("\x02\xff\x00", 3)),
+                HasSubstr("a slice of 4 voxels has 2"));
     EXPECT_THAT(message(header("2 2 1", 1) + "2 X" + std::string("\x04\xff", 2)), HasSubstr("ends inside its runs"));
     EXPECT_THAT(message(header("2 2 1", 1) + "2 X" + std::string("\x84\xff", 2)), HasSubstr("ends inside its runs"));
     EXPECT_THAT(message(header("2 2 1", 1) + "0 X"), HasSubstr("ends inside its runs"));

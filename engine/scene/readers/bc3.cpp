@@ -47,4 +47,10 @@ std::array<float, 16> bc3_colour(Bc3Block block, int channel) {
                   little_endian(block, 12, 4), 2);
 }
 
+std::array<float, 16> bc2_alpha(Bc3Block block) {
+    std::array<float, 16> values;
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i) / 15.0f;
+    return choose(values, little_endian(block, 0, 8), 4);
+}
+
 }  // namespace shadowbench::scene

@@ -19,4 +19,7 @@ std::array<float, 16> bc3_alpha(Bc3Block block);
 // Red (0), green (1) or blue (2), likewise.
 std::array<float, 16> bc3_colour(Bc3Block block, int channel);
 
+// The alpha of a block in the format BC2, which DDS files call DXT3: 4 bits a texel. Its colour is as in BC3.
+std::array<float, 16> bc2_alpha(Bc3Block block);
+
 }  // namespace shadowbench::scene

@@ -18,7 +18,7 @@ constexpr std::uint32_t four_characters(const char (&text)[5]) {
     return code;
 }
 
-constexpr std::uint32_t has_mip_levels = 0x20000;  // flag of the header
+constexpr std::uint32_t has_mip_levels = 0x20000, has_depth = 0x800000;  // flags of the header
 constexpr std::uint32_t has_alpha = 0x1, only_alpha = 0x2, has_code = 0x4, rgb = 0x40,
                         luminance = 0x20000;  // flags of the texels
 constexpr std::uint32_t volume = 0x200000;    // flag of the second caps
@@ -31,6 +31,11 @@ struct Header {
 };
 static_assert(sizeof(Header) == 128);
 
+// Old tools leave out the flag of volumes.
+bool is_volume_of(const Header& header) {
+    return (header.caps[1] & volume) || ((header.flags & has_depth) && header.depth > 1);
+}
+
 struct ExtraHeader {
     std::uint32_t format, dimension, flags, array_size, more_flags;
 };
@@ -42,19 +47,21 @@ struct DxgiFormat {
     int texel_bytes;
     std::array<int, 4> byte;
 };
+constexpr std::uint32_t bc2_number = 74;
 constexpr DxgiFormat dxgi_formats[] = {
     {28, false, 4, {0, 1, 2, 3}},     // R8G8B8A8_UNORM
     {49, false, 2, {0, 1, -1, -1}},   // R8G8_UNORM
     {61, false, 1, {0, 0, 0, -1}},    // R8_UNORM
     {65, false, 1, {-1, -1, -1, 0}},  // A8_UNORM
+    {bc2_number, true, 0, {}},        // BC2_UNORM
     {77, true, 0, {}},                // BC3_UNORM
     {87, false, 4, {2, 1, 0, 3}},     // B8G8R8A8_UNORM
     {88, false, 4, {2, 1, 0, -1}},    // B8G8R8X8_UNORM
 };
 
 constexpr const char* what_is_read =
-    "DXT5 (BC3) blocks, and red, green, blue, alpha or luminance of 8 bits each without compression, are read: save it "
-    "in one of these";
+    "DXT3 (BC2) and DXT5 (BC3) blocks, and red, green, blue, alpha or luminance of 8 bits each without compression, are "
+    "read: save it in one of these";
 
 // The byte of a texel that a mask covers.
 int byte_of(const FileReader& file, std::uint32_t mask, int texel_bytes) {
@@ -79,9 +86,10 @@ void read_masks(const FileReader& file, const Header& header, DdsLayout& layout)
 }
 
 void read_format(FileReader& file, const Header& header, DdsLayout& layout, bool& is_volume) {
-    is_volume = header.caps[1] & volume;
+    is_volume = is_volume_of(header);
     if (!(header.pixel_flags & has_code)) return read_masks(file, header, layout);
-    if (header.pixel_code == four_characters("DXT5")) {
+    layout.bc2 = header.pixel_code == four_characters("DXT3");
+    if (layout.bc2 || header.pixel_code == four_characters("DXT5")) {
         layout.blocks = true;
         return;
     }
@@ -94,6 +102,7 @@ void read_format(FileReader& file, const Header& header, DdsLayout& layout, bool
         file.fail(sizeof(Header), fmt::format("the DXGI format {}; {}", extra.format, what_is_read));
     is_volume = is_volume || extra.dimension == texture_3d;
     layout.blocks = format->blocks;
+    layout.bc2 = format->number == bc2_number;
     layout.texel_bytes = format->texel_bytes;
     layout.byte = format->byte;
 }
@@ -103,7 +112,7 @@ void read_format(FileReader& file, const Header& header, DdsLayout& layout, bool
 bool is_dds_volume(const std::filesystem::path& file) {
     FileReader reader(file);
     const auto header = reader.value<Header>("header");
-    if (header.caps[1] & volume) return true;
+    if (is_volume_of(header)) return true;
     const bool more = (header.pixel_flags & has_code) && header.pixel_code == four_characters("DX10");
     return more && reader.value<ExtraHeader>("header").dimension == texture_3d;
 }

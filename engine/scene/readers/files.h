@@ -57,8 +57,8 @@ GridVolume read_pvm(const std::filesystem::path& file, std::uint64_t most_voxels
 // Luminance is red, green and blue.
 enum class DdsChannel { usual, red, green, blue, alpha };
 
-// The largest mip level of a DDS volume texture: BC3 blocks (DXT5), or channels of 8 bits without compression. Values
-// are scaled to [0, 1]. The caller sets the box and step.
+// The largest mip level of a DDS volume texture: BC2 or BC3 blocks (DXT3, DXT5), or channels of 8 bits without
+// compression. Values are scaled to [0, 1]. The caller sets the box and step.
 GridVolume read_dds_volume(const std::filesystem::path& file, DdsChannel channel = DdsChannel::usual,
                            std::uint64_t most_voxels = max_voxels);
 

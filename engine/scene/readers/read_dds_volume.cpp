@@ -37,11 +37,14 @@ int choose_channel(const FileReader& file, const DdsLayout& layout, DdsChannel w
 using Row = std::vector<std::uint8_t>;
 
 // Copies the texels of a row of blocks that are inside the slice; `density` is that of the row's first texel.
-void unpack_blocks(const Row& row, const Vec3i& size, int y, int channel, float* density) {
+void unpack_blocks(const Row& row, const DdsLayout& layout, int y, int channel, float* density) {
+    const Vec3i& size = layout.size;
     const int rows = std::min(bc3_side, size.y - y);
     for (int x = 0; x < size.x; x += bc3_side) {
         const Bc3Block block(row.data() + static_cast<std::size_t>(x / bc3_side) * bc3_bytes, bc3_bytes);
-        const std::array<float, 16> texels = channel == alpha ? bc3_alpha(block) : bc3_colour(block, channel);
+        const std::array<float, 16> texels = channel != alpha ? bc3_colour(block, channel)
+                                             : layout.bc2     ? bc2_alpha(block)
+                                                              : bc3_alpha(block);
         const int columns = std::min(bc3_side, size.x - x);
         for (int j = 0; j < rows; ++j)
             std::copy_n(texels.begin() + j * bc3_side, columns, density + std::ptrdiff_t{j} * size.x + x);
@@ -71,7 +74,7 @@ GridVolume read_dds_volume(const std::filesystem::path& file, DdsChannel wanted,
         for (int y = 0; y < size.y; y += rows_at_once) {
             const Row row = reader.array<std::uint8_t>(row_bytes, "voxels");
             if (layout.blocks) {
-                unpack_blocks(row, size, y, channel, density);
+                unpack_blocks(row, layout, y, channel, density);
             } else {
                 const std::uint8_t* from = row.data() + layout.byte[static_cast<std::size_t>(channel)];
                 for (int x = 0; x < size.x; ++x) density[x] = static_cast<float>(from[x * layout.texel_bytes]) / 255.0f;

@@ -53,6 +53,7 @@ constexpr TypeName type_names[] = {
 };
 
 constexpr int most_dimensions = 16;
+constexpr std::string_view kinds_of_places[] = {"domain", "space", "time", "list", "none", "???", "stub", "scalar"};
 constexpr const char* three_numbers = "vectors of three numbers are needed, as (1,0,0)";
 
 // The axes of the file that are the volume's.
@@ -184,6 +185,24 @@ Kept keep_axes(const HeaderFields& fields, const std::vector<std::int64_t>& size
     return {axes[0], axes[1], axes[2]};
 }
 
+// A picture of three colours, say, has three axes too. Axes whose kind is not given may be anything.
+void check_kinds(const HeaderFields& fields, const Kept& kept) {
+    const HeaderField* field = fields.find("kinds");
+    if (!field) return;
+    std::string_view rest = field->value;
+    std::size_t axis = 0;
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest), ++axis) {
+        const std::string kind = lower_case(word);
+        const bool places =
+            std::find(std::begin(kinds_of_places), std::end(kinds_of_places), kind) != std::end(kinds_of_places);
+        if (!places && std::find(kept.begin(), kept.end(), axis) != kept.end())
+            fields.fail(*field,
+                        fmt::format("axis {} of the file has the kind \"{:.100}\", which is not one of places: save one "
+                                    "of its values, as unu slice does",
+                                    axis, kind));
+    }
+}
+
 // Per axis; those that the file leaves open ("nan", or no field) are 1.
 double spacing_of(const HeaderFields& fields, std::size_t axis) {
     const HeaderField* field = fields.find("spacings");
@@ -265,6 +284,7 @@ GridFile read_nrrd(const std::filesystem::path& file, Negative negative, std::ui
     const std::vector<std::int64_t> sizes = fields.integers(sizes_field, static_cast<std::size_t>(dimensions));
     const Directions directions = read_directions(fields, sizes.size());
     const Kept kept = keep_axes(fields, sizes, directions);
+    check_kinds(fields, kept);
 
     VoxelLayout layout;
     layout.size = size_of(fields, sizes_field, {sizes[kept[0]], sizes[kept[1]], sizes[kept[2]]});

@@ -107,8 +107,8 @@ void pass_icon(FileReader& file, SlcText& text) {
 }
 
 // Runs: a byte whose lower seven bits are a number n of voxels, 0 at the end; then n bytes if its highest bit is set,
-// and else one for all n.
-void unpack_runs(const FileReader& file, std::uint64_t begin, std::span<const std::uint8_t> packed,
+// and else one for all n. Whether the last voxel is missing: Woolz packs all others, and VTK takes that.
+bool unpack_runs(const FileReader& file, std::uint64_t begin, std::span<const std::uint8_t> packed,
                  std::span<float> density) {
     std::size_t at = 0, done = 0;
     const auto next = [&] {
@@ -125,12 +125,14 @@ void unpack_runs(const FileReader& file, std::uint64_t begin, std::span<const st
             density[done++] = static_cast<float>(value) / 255.0f;
         }
     }
-    if (done < density.size())
+    if (done + 1 < density.size())
         file.fail(begin + at - 1,
                   fmt::format("the file is damaged: a slice of {} voxels has {}", density.size(), done));
+    return done < density.size();
 }
 
-void read_slices(FileReader& file, SlcText& text, const SlcHeader& header, std::vector<float>& density) {
+void read_slices(FileReader& file, SlcText& text, const SlcHeader& header, GridVolume& volume) {
+    std::vector<float>& density = volume.density;
     const std::uint64_t left = file.size() - file.position(),
                         least = header.packed ? header.voxels / most_run : header.voxels;
     if (least > left)
@@ -138,6 +140,7 @@ void read_slices(FileReader& file, SlcText& text, const SlcHeader& header, std::
                   fmt::format("the file is too short: {} voxels begin here, and {} bytes follow", header.voxels, left));
     density.resize(static_cast<std::size_t>(header.voxels));
     const std::size_t slice = density.size() / static_cast<std::size_t>(header.size.z);
+    int without_last = 0;
     for (std::size_t from = 0; from < density.size(); from += slice) {
         const std::span<float> to = std::span(density).subspan(from, slice);
         std::uint64_t bytes = slice;
@@ -148,11 +151,14 @@ void read_slices(FileReader& file, SlcText& text, const SlcHeader& header, std::
         const std::uint64_t begin = file.position();
         const std::vector<std::uint8_t> values = file.array<std::uint8_t>(bytes, "slice");
         if (header.packed)
-            unpack_runs(file, begin, values, to);
+            without_last += unpack_runs(file, begin, values, to);
         else
             std::transform(values.begin(), values.end(), to.begin(),
                            [](std::uint8_t v) { return static_cast<float>(v) / 255.0f; });
     }
+    if (without_last > 0)
+        volume.notes.lines.push_back(
+            fmt::format("the last voxel of {} of {} slices is missing: 0 is taken", without_last, header.size.z));
 }
 
 }  // namespace
@@ -168,7 +174,7 @@ GridFile read_slc(const std::filesystem::path& file, std::uint64_t most_voxels) 
     volume.upper = Vec3d(header.size) * header.spacing;
     if (const std::optional<std::string> fault = box_fault(volume.lower, volume.upper)) reader.fail(spacing_at, *fault);
     pass_icon(reader, text);
-    read_slices(reader, text, header, volume.density);
+    read_slices(reader, text, header, volume);
     result.facts = {fmt::format("values of uint8{}, divided by 255", header.packed ? ", packed" : ""),
                     fmt::format("unit of its spacing: number {} of VolVis", header.unit)};
     if (reader.position() < reader.size()) volume.notes.lines.push_back("what follows its last voxel is passed over");
