@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {answersAt, firstBudget} from '../../../service/web/page/result/answers.js';
-import {around, differenceOf} from '../../../service/web/page/result/functions.js';
+import {around, differenceOf, thinned} from '../../../service/web/page/result/functions.js';
 import {named} from '../../../service/web/page/result/names.js';
 import {ownFronts, pointsAt, settingsOf} from '../../../service/web/page/result/settings.js';
 import {overTime, pointsOfAll} from '../../../service/web/page/result/several.js';
@@ -105,6 +105,17 @@ test('the difference of functions has the steps of both', () => {
   assert.deepEqual(differenceOf(a, b, 0, 4), [[0, 0], [1, 0], [2, 0.5], [2, 0], [3, 0.5], [4, 0.5]]);
   assert.deepEqual(differenceOf({z: [], v: []}, {z: [2, 2], v: [1, 0.25]}, 0, 4), [[0, 0], [2, 0], [2, 0.75], [4, 0.75]], 'an empty function lets all through');
   assert.deepEqual(around({z: [2, 2, 2], v: [1, 0.5, 0.25]}, 2), [1, 0.25]);
+});
+
+test('fewer vertices draw the same lines, and keep every step', () => {
+  const at = (z, v) => ({z, v}), curve = [at(0, 1), at(1, 0.9), at(1, 0.5), at(4, 0.5)];
+  assert.deepEqual(thinned(curve, 1e-3), curve);
+  assert.deepEqual(thinned([at(0, 1)], 1e-3), [at(0, 1)]);
+  assert.deepEqual(thinned([at(0, 1), at(1, 0.75), at(2, 0.5), at(3, 0.5)], 1e-3), [at(0, 1), at(2, 0.5), at(3, 0.5)]);
+  const medium = Array.from({length: 900}, (_, i) => at(i / 100, Math.exp(-i / 300) - (i > 450 ? 0.01 : 0)));
+  const fewer = thinned(medium, 1e-3), columns = {z: fewer.map((p) => p.z), v: fewer.map((p) => p.v)};
+  assert.ok(fewer.length < 60, `${fewer.length} of 900`);
+  for (const {z, v} of medium) assert.ok(Math.abs(around(columns, z)[0] - v) <= 1e-3 + 1e-12, `at ${z}`);
 });
 
 test('a recommendation draws what worked, and no bytes of what has no map', () => {
