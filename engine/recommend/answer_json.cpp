@@ -64,7 +64,8 @@ ordered_json answer_json(const Recommendation& recommendation, const Goal& goal)
             {"without_map", choice_or_null(recommendation, found.without_map)},
             {"closest", choice_or_null(recommendation, found.closest)},
             {"missed", std::move(missed)},
-            {"broken", std::move(broken)}};
+            {"broken", std::move(broken)},
+            {"cut", found.cut}};
 }
 
 }  // namespace shadowbench::recommend

@@ -37,6 +37,12 @@ function fileLink(text, address, name) {
   }}, text);
 }
 
+// The rays of a recommendation's first answer, as settings of a variant.
+function firstOf({recommendation}) {
+  const {answer} = recommendation ?? {}, rays = (answer?.cheapest[0] ?? answer?.closest)?.part.rays ?? {};
+  return Object.fromEntries(Object.entries(rays).map(([name, value]) => [`/rays/${name}`, value]));
+}
+
 function progressPanel(stop) {
   const bar = h('div', {class: 'bar wide'}), text = h('p', {class: 'stage-text', role: 'status'});
   const button = h('button', {type: 'button', class: 'quiet', onclick: stop}, 'Cancel');
@@ -89,6 +95,7 @@ export function jobView({id, signal, edit}) {
       recommendation.answer ? recommendedView({recommendation, text, take, series})
         : text && h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer', tabindex: '0'}, text)),
       exploredView({recommendation, series, name: job.name, signal}),
+      h('div', {}, h('h2', {}, 'The settings measured, by resolution and rays a pixel'), h('p', {class: 'note'}, 'Each was measured once and briefly. The answer above rests on what was confirmed.')),
     ].filter(Boolean);
   }
   async function showResult(job) {
@@ -103,7 +110,7 @@ export function jobView({id, signal, edit}) {
       h('a', {href: `#/compare/${encodeURIComponent(id)}`}, 'Compare with another'), again);
     place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
       ...(result.recommendation ? recommendationParts(result, text, job) : []),
-      resultView({source, result, images, imagesFault: fault?.error, signal}), h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)));
+      resultView({source, result, images, imagesFault: fault?.error, first: firstOf(result), signal}), h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)));
     announce(`${job.name}: the result is shown`);
   }
   function update(job) {

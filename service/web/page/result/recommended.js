@@ -39,7 +39,7 @@ export function recommendedView({recommendation, text, take, series}) {
   if (answer.without_map) rows.push(row('Without a map', answer.without_map, 'lookup_ns', null, true));
   const others = [...answer.missed.map((m) => [m.technique, [m.why, m.error === null ? 'not measured' : `closest error ${significant(m.error)}`]]),
     ...answer.broken.map((b) => [b.technique, [`broke a promise at ${b.settings} of ${b.measured} settings`, b.reason]])];
-  const notes = [recommendation.end === 'budget' && 'The time given ended first: a cheaper setting may be left.', recommendation.end === 'cancelled' && 'It was cancelled: a cheaper setting may be left.'].filter(Boolean);
+  const notes = [answer.cut && 'The time to confirm ran out: intervals are wider than planned.', recommendation.end === 'budget' && 'The time given ended first: a cheaper setting may be left.', recommendation.end === 'cancelled' && 'It was cancelled: a cheaper setting may be left.'].filter(Boolean);
   return h('section', {class: 'panel answer', 'aria-labelledby': 'recommended-title'},
     h('h2', {id: 'recommended-title'}, `With an error of at most ${significant(goal.error)}`, h('span', {}, ` (${measures[measure] ?? measure}, 95 % confidence)`)),
     h('dl', {class: 'answers'}, rows), notes.map((note) => h('p', {class: 'note'}, note)),
