@@ -110,6 +110,7 @@ ofResults['two results that differ'] = async ({page, url, mock}) => {
   assert.ok(page.url().endsWith(`#/compare/${a.id}/${b.id}`), 'the address names them');
   const table = await text(page, '.lines');
   for (const words of ['✕ less accurate', '✕ larger', '+8400 (+21 %)', '<b>not</b> in the current side', '× 1.22, 95 %: 1.17 to 1.29', '✓ smaller', '△ not comparable']) assert.ok(table.includes(words), words);
+  assert.equal(await page.locator('.lines .verdict-less_accurate').evaluate((mark) => getComputedStyle(mark).color === getComputedStyle(document.querySelector('.outcome')).color), true, 'in the colour of what is bad');
   assert.doesNotMatch(table, /inconclusive/);
   await page.click('nav a[href="#/compare"]');
   await page.waitForFunction(() => document.querySelector('main').textContent.includes('Choose two results'));
@@ -118,7 +119,7 @@ ofResults['two results that differ'] = async ({page, url, mock}) => {
   assert.match(await text(page, '.fronts'), /avsm nodes=4 left the front/);
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('button[aria-label="Save the verdicts as CSV"]')]);
   const rows = readFileSync(await download.path(), 'utf8').split('\r\n');
-  assert.equal(rows[1], 'small / key / avsm nodes=4,lookup_error.rms,less_accurate,0.0721,0.0854,,+0.0133 (+18.4 %)');
+  assert.equal(rows[1], 'small / key / avsm nodes=4,lookup_error.rms,less accurate,0.0721,0.0854,,+0.0133 (+18.4 %)');
 };
 
 ofResults['several results in one plot, and over time'] = async ({page, url, mock}) => {
