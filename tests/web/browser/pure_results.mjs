@@ -164,6 +164,12 @@ test('the command of a cell says what was swept, in quotes that a shell takes', 
   assert.equal(quoted('a b'), "'a b'");
 });
 
+test('the command of a setting that a recommendation chose names its parameters', () => {
+  const result = {name: 'it', scenario: {name: 'it', techniques: [{type: 'deep'}]}};
+  const cell = {technique: 'avsm', where: 'technique avsm nodes=8', parameters: {nodes: 8}};
+  assert.equal(rerunOf(result, {settings: [['/rays/resolution', 91]]}, cell), `shadowbench run it.json --set 'techniques=[{"type":"avsm","nodes":8}]' --set /rays/resolution=91`);
+});
+
 test('the command of a cell that "*" stands for names its technique', () => {
   const result = {name: 'all', scenario: {techniques: [{type: '*'}]}};
   const cell = {technique: 'avsm', where: '/techniques/0', parameters: {nodes: 8}};

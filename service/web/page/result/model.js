@@ -122,7 +122,7 @@ function valueAt(document, pointer) {
 // The technique in the form of a scenario: the values that were written, and those that sweeps set. A recommendation's
 // stand nowhere in its scenario.
 function techniqueOf(result, cell) {
-  const written = cell.where ? valueAt(result.scenario, cell.where) : null;
+  const written = cell.where?.startsWith('/') ? valueAt(result.scenario, cell.where) : null;
   if (!written) return {type: cell.technique, ...cell.parameters};
   if (written.type === '*') return {type: cell.technique};  // "*" stands for techniques with their defaults
   const swept = Object.keys(result.scenario?.sweeps ?? {}).filter((p) => p.startsWith(`${cell.where}/`))
