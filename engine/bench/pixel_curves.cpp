@@ -28,6 +28,7 @@ using rays::LightRays;
 using techniques::Cells;
 
 constexpr double linearisation = 1e-4;  // error of the lines that approximate exponentials in the exact functions
+constexpr int media_tile = 8;            // pixels a side: an answer costs a march for each ray of the pixel's tile
 constexpr int even_depths = 128;        // extra samples of functions that are not piecewise linear
 constexpr const char* light_prefix = "light=";  // of places in errors: the service's parameter
 
@@ -97,6 +98,10 @@ struct PixelProbe::State {
             prepare_light(scenario, static_cast<std::size_t>(&light - &scenario.lights[0]), contenders, options.limits);
         view = prepared.view;
         layout = prepared.layout;
+        if (layout.media) {
+            layout.tile_width = std::min(layout.tile_width, media_tile);
+            layout.tile_height = std::min(layout.tile_height, media_tile);
+        }
         if (!scenario.scene.objects.empty()) casters = std::make_unique<rays::Tracer>(scenario.scene, true);
         capture = std::make_unique<rays::Capture>(scenario.scene, view, layout);
     }

@@ -1,6 +1,7 @@
 // A comparison as text, Markdown, JUnit XML and JSON. Each line has the command that runs only its cell.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,8 +11,8 @@
 namespace shadowbench::compare {
 
 // For a terminal: all that is not the same, one block per cell; then fronts and counts. Inconclusive times that do not
-// look slower are only counted, unless `all`.
-std::string to_text(const Comparison& comparison, bool all);
+// look slower are only counted, unless `all`. In lines of `width` characters, but for the commands.
+std::string to_text(const Comparison& comparison, bool all, std::size_t width = 100);
 
 // The same for a pull request.
 std::string to_markdown(const Comparison& comparison);

@@ -1,15 +1,19 @@
 #include <algorithm>
 #include <map>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "base/table.h"
 #include "compare/report.h"
 #include "compare/words.h"
 
 namespace shadowbench::compare {
 namespace {
+
+constexpr const char* rerun_label = "  rerun: ";
 
 // The lines of one cell.
 struct Block {
@@ -42,23 +46,7 @@ std::string text_of(const Block& block) {
                                             measures, values_text(*line), values, change_text(*line));
         text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
     }
-    if (!block.command.empty()) text += "  rerun: " + block.command + "\n";
-    return text;
-}
-
-// Wraps a long sentence for a terminal.
-std::string wrapped(const std::string& sentence) {
-    constexpr std::size_t width = 118;
-    std::string text;
-    for (std::size_t at = 0; at < sentence.size();) {
-        std::size_t end = sentence.size();
-        if (end - at > width) {
-            const std::size_t space = sentence.rfind(' ', at + width);
-            end = space == std::string::npos || space <= at ? end : space;
-        }
-        text += (at == 0 ? "" : "  ") + sentence.substr(at, end - at) + "\n";
-        at = end + 1;
-    }
+    if (!block.command.empty()) text += rerun_label + block.command + "\n";
     return text;
 }
 
@@ -73,16 +61,25 @@ std::string folded(const Comparison& comparison) {
     return text;
 }
 
+// In lines of this width. Commands are not broken, so that they can be copied.
+std::string fitted(const std::string& text, std::size_t width) {
+    std::string result;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        result += line.starts_with(rerun_label) ? line + "\n" : base::wrapped(line, width);
+    return result;
+}
+
 }  // namespace
 
-std::string to_text(const Comparison& comparison, bool all) {
-    std::string text = fmt::format("{} -> {}\n", comparison.baseline, comparison.current) + wrapped(method(comparison));
+std::string to_text(const Comparison& comparison, bool all, std::size_t width) {
+    std::string text = fmt::format("{} -> {}\n{}\n", comparison.baseline, comparison.current, method(comparison));
     for (const std::string& note : comparison.notes) text += "note: " + note + "\n";
     for (const Block& block : blocks_of(comparison, all)) text += text_of(block);
     if (!all) text += folded(comparison);
     for (const FrontChange& change : comparison.fronts) text += front_text(change) + "\n";
-    if (const std::string limits = sensitivity(comparison); !limits.empty()) text += wrapped(limits);
-    return text + fmt::format("{}; {}\n", counts_text(comparison), outcome_text(comparison));
+    if (const std::string limits = sensitivity(comparison); !limits.empty()) text += limits + "\n";
+    return fitted(text + fmt::format("{}; {}\n", counts_text(comparison), outcome_text(comparison)), width);
 }
 
 }  // namespace shadowbench::compare

@@ -60,6 +60,7 @@ void collect(const RTCFilterFunctionNArguments* args) {
             args->valid[0] = 0;
             return;
         }
+        opacity *= covered_share(traced, *hair, hit->primID, hit->u);
     } else if (const auto* mesh = std::get_if<scene::Mesh>(&traced.object->shape)) {
         opacity = opacity_at(*traced.object, *mesh, hit->primID, hit->u, hit->v);
         triangle_depth(*traced.object, *mesh, hit->primID, q.ray, t);
@@ -158,13 +159,14 @@ void set_vertices(RTCGeometry g, const scene::Object& object, const scene::Mesh&
         points[i] = mesh.positions[i] + object.motion * static_cast<float>(step);
 }
 
-void set_vertices(RTCGeometry g, const scene::Object& object, const scene::Hair& hair, unsigned step) {
+void set_vertices(RTCGeometry g, const scene::Object& object, const scene::Hair& hair, const std::vector<float>& radii,
+                  unsigned step) {
     auto* points = static_cast<float*>(
         rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, step, RTC_FORMAT_FLOAT4, 16, hair.points.size()));
     for (std::size_t i = 0; i < hair.points.size(); ++i) {
         const Vec3f p = hair.points[i] + object.motion * static_cast<float>(step);
         for (int a = 0; a < 3; ++a) points[4 * i + a] = p[a];
-        points[4 * i + 3] = hair.radii[i];
+        points[4 * i + 3] = radii[i];
     }
 }
 
@@ -200,6 +202,19 @@ Query make_query(const TracedRay& ray) {
 
 }  // namespace
 
+std::vector<float> widened(const scene::Hair& hair, const ViewedHair& viewed) {
+    std::vector<float> radii = hair.radii;
+    bool wider = false;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        const double depth = (Vec3d(hair.points[i]) - viewed.eye).dot(viewed.forward);
+        const auto least = static_cast<float>(viewed.half_width * depth);
+        if (!(radii[i] > 0.0f && radii[i] < least)) continue;
+        radii[i] = least;
+        wider = true;
+    }
+    return wider ? radii : std::vector<float>();
+}
+
 RTCGeometryTy* make_geometry(RTCDeviceTy* device, Traced& traced) {
     const scene::Object& object = *traced.object;
     const unsigned steps = object.motion != Vec3f(0, 0, 0) ? 2 : 1;
@@ -221,7 +236,8 @@ RTCGeometryTy* make_geometry(RTCDeviceTy* device, Traced& traced) {
         traced.segments = segments(*hair);
         const std::vector<std::uint32_t>& first = traced.segments.first;
         g = geometry(RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE);
-        for (unsigned step = 0; step < steps; ++step) set_vertices(g, object, *hair, step);
+        for (unsigned step = 0; step < steps; ++step)
+            set_vertices(g, object, *hair, traced.widened.empty() ? hair->radii : traced.widened, step);
         void* index = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, 4, first.size());
         std::copy(first.begin(), first.end(), static_cast<std::uint32_t*>(index));
         rtcSetGeometryIntersectFilterFunction(g, collect);

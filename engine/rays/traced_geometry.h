@@ -18,6 +18,7 @@ namespace shadowbench::rays {
 struct Traced {
     const scene::Object* object;
     scene::HairSegments segments;  // hair
+    std::vector<float> widened;    // hair: half-width of each point; empty: as in the scene
 };
 
 // The query of one ray.
@@ -26,6 +27,9 @@ struct TracedRay {
     double time;  // in the shutter, [0, 1]
     double t_min, t_max;
 };
+
+// The widened half-widths of hair; empty if all are at least as wide. That it moves is neglected.
+std::vector<float> widened(const scene::Hair& hair, const ViewedHair& viewed);
 
 // Makes a geometry to attach to a scene; it keeps a reference to `traced`. A moving object has two time steps, between
 // which Embree moves its vertices and bounds linearly. Grid volumes have no geometry.

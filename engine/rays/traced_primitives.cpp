@@ -19,13 +19,21 @@ bool hair_crossing(const Traced& traced, const scene::Hair& hair, unsigned segme
     };
     double ta, tb;
     const Vec3d a = across(hair.points[first], ta), b = across(hair.points[first + 1], tb);
-    const double radius = hair.radii[first];
+    const double radius = traced.widened.empty() ? hair.radii[first] : traced.widened[first];
     if (traced.segments.joined[segment] && a.dot(a) <= radius * radius) return false;  // belongs to the earlier segment
     const Vec3d d = b - a;
     const double d2 = d.dot(d);
     const double u = d2 > 0.0 ? std::clamp(-a.dot(d) / d2, 0.0, 1.0) : 0.0;
     t = ta + (tb - ta) * u;
     return true;
+}
+
+float covered_share(const Traced& traced, const scene::Hair& hair, unsigned segment, float u) {
+    if (traced.widened.empty()) return 1.0f;
+    const std::uint32_t first = traced.segments.first[segment];
+    const auto at = [&](const std::vector<float>& radii) { return radii[first] + u * (radii[first + 1] - radii[first]); };
+    const float width = at(traced.widened);
+    return width > 0.0f ? std::min(at(hair.radii) / width, 1.0f) : 1.0f;
 }
 
 Vec3f opacity_at(const scene::Object& object, const scene::Mesh& mesh, unsigned triangle, double u, double v) {

@@ -10,6 +10,9 @@ namespace shadowbench::rays {
 // closest approach. `t` does not change if the earlier segment has it.
 bool hair_crossing(const Traced& traced, const scene::Hair& hair, unsigned segment, const TracedRay& ray, double& t);
 
+// The share of its width that a strand covers, at Embree's place `u` along a segment; 1 if it was not widened.
+float covered_share(const Traced& traced, const scene::Hair& hair, unsigned segment, float u);
+
 // The opacity at a point of a triangle, with Embree's weights of its second and third corner.
 base::Vec3f opacity_at(const scene::Object& object, const scene::Mesh& mesh, unsigned triangle, double u, double v);
 

@@ -47,7 +47,7 @@ struct Tracer::State {
         rtcReleaseDevice(device);
     }
 
-    void add(const scene::Object& object) {
+    void add(const scene::Object& object, const ViewedHair* viewed) {
         const bool grid = std::holds_alternative<scene::GridVolume>(object.shape);
         const bool medium = grid || std::holds_alternative<scene::Particles>(object.shape);
         has_media = has_media || medium;
@@ -56,9 +56,14 @@ struct Tracer::State {
         translucent =
             translucent ||
             (!medium && ((mesh && mesh->alpha) || !(is_opaque(object.opacity) || is_nothing(object.opacity))));
-        if (const auto* hair = std::get_if<scene::Hair>(&object.shape))
-            for (const float radius : hair->radii) widest_hair = std::max<double>(widest_hair, radius);
-        geometries.push_back(std::make_unique<Traced>(Traced{&object, {}}));
+        geometries.push_back(std::make_unique<Traced>(Traced{&object, {}, {}}));
+        if (const auto* hair = std::get_if<scene::Hair>(&object.shape)) {
+            std::vector<float>& wider = geometries.back()->widened;
+            if (viewed) wider = widened(*hair, *viewed);
+            translucent = translucent || (!wider.empty() && !is_nothing(object.opacity));
+            for (const float radius : wider.empty() ? hair->radii : wider)
+                widest_hair = std::max<double>(widest_hair, radius);
+        }
         RTCGeometry geometry = make_geometry(device, *geometries.back());
         rtcAttachGeometry(scene, geometry);
         rtcReleaseGeometry(geometry);
@@ -78,14 +83,19 @@ struct Tracer::State {
     }
 };
 
-Tracer::Tracer(const scene::Scene& scene, bool casters_only)
+Tracer::Tracer(const scene::Scene& scene, bool casters_only) : Tracer(scene, casters_only, nullptr) {}
+
+Tracer::Tracer(const scene::Scene& scene, bool casters_only, const ViewedHair& viewed)
+    : Tracer(scene, casters_only, &viewed) {}
+
+Tracer::Tracer(const scene::Scene& scene, bool casters_only, const ViewedHair* viewed)
     : state_(std::make_unique<State>(GridMedia(scene, casters_only))) {
     state_->device = rtcNewDevice(fmt::format("threads={}", base::library_threads()).c_str());
     if (!state_->device) throw base::Error(base::ErrorCode::internal, "", "Embree could not start");
     state_->scene = rtcNewScene(state_->device);
     rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
     for (const scene::Object& object : scene.objects)
-        if (object.casts_shadow || !casters_only) state_->add(object);
+        if (object.casts_shadow || !casters_only) state_->add(object, viewed);
     rtcCommitScene(state_->scene);
     if (const RTCError error = rtcGetDeviceError(state_->device); error != RTC_ERROR_NONE)
         throw base::Error(base::ErrorCode::internal, "",

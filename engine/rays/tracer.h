@@ -29,11 +29,20 @@ struct SurfaceHit {
     base::Vec3d opacity{0, 0, 0};  // at the hit, texture included: each in [0, 1], one of them above 0
 };
 
+// For pictures: hair that is narrower than a view ray is as wide as one, and its opacity falls to the share of that
+// width which it covers. Rays then meet every strand, instead of some of a strand's pixels. A view ray is 2 * half_width
+// wide at depth 1 along `forward`, which has unit length.
+struct ViewedHair {
+    base::Vec3d eye{0, 0, 0}, forward{0, 0, -1};
+    double half_width = 0.0;
+};
+
 // Thread-safe once constructed. Keeps a reference to the scene. `time`, in [0, 1], is the time in the shutter at which
 // a ray sees the scene.
 class Tracer {
 public:
     Tracer(const scene::Scene& scene, bool casters_only);
+    Tracer(const scene::Scene& scene, bool casters_only, const ViewedHair& viewed);
     ~Tracer();
     Tracer(const Tracer&) = delete;
     Tracer& operator=(const Tracer&) = delete;
@@ -60,6 +69,7 @@ public:
 
 private:
     struct State;
+    Tracer(const scene::Scene& scene, bool casters_only, const ViewedHair* viewed);
     std::unique_ptr<State> state_;
 };
 

@@ -42,6 +42,8 @@ enum class Held {
     at_most,         // settings reach the error, but cost more than allowed
 };
 
+const char* to_string(Held held);  // in words: "rays too few"
+
 struct Missed {
     std::string technique;
     Held held = Held::rays;
@@ -80,11 +82,15 @@ std::string cost_text(double value, std::size_t cost);
 // "deep kernel=box tolerance=0.01, resolution=512 samples=16"
 std::string setting_text(const std::vector<Family>& families, const Point& point);
 
+inline constexpr std::size_t text_lines = 20, text_columns = 100;  // of the answer
 struct Wording {
     std::string measure;                             // of the error, as "rms"
     std::function<std::string(const Point&)> paste;  // the line of a scenario; may be empty
+    std::size_t width = text_columns;                // characters of a line, at least 60
 };
-inline constexpr std::size_t text_lines = 20, text_columns = 100;  // at most; pasted lines may be longer
+// Lines of this width, but for those to paste; what does not fit goes on in the next line. At most `text_lines`, and in
+// lines of fewer than `text_columns` as many more as hold the same: where that does not do, reasons are shortened, and
+// then lines are cut.
 std::string to_text(const Answer& answer, const std::vector<Family>& families, const Wording& wording);
 
 // What one technique costs at every error: its measured settings that no other of its settings beats in both, from the

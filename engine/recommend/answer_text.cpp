@@ -10,38 +10,7 @@
 
 namespace shadowbench::recommend {
 
-std::string cost_text(double value, std::size_t cost) {
-    if (static_cast<Cost>(cost) == Cost::bytes) return base::bytes_text(static_cast<std::size_t>(std::llround(value)));
-    return fmt::format("{:.3g} {}", value, static_cast<Cost>(cost) == Cost::lookup ? "ns" : "ms");
-}
-
-namespace {
-
-std::string error_with_interval(const Choice& choice) {
-    if (!choice.confirmed) return fmt::format("about {:.3g}, not confirmed", choice.error.high);
-    return fmt::format("{:.3g} to {:.3g}", choice.error.low, choice.error.high);
-}
-
-std::string cut(std::string line) {
-    if (line.size() <= text_columns) return line;
-    line.resize(text_columns - 3);
-    return line + "...";
-}
-
-// Names joined to a line of at most text_columns, as many as fit.
-std::string joined(const std::string& start, const std::vector<std::string>& names) {
-    std::string line = start;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const std::string next = (i == 0 ? " " : ", ") + names[i];
-        const std::size_t left = names.size() - i;
-        const std::string rest = fmt::format(" and {} more", left);
-        if (i > 0 && line.size() + next.size() + (left > 1 ? rest.size() : 0) > text_columns) return cut(line + rest);
-        line += next;
-    }
-    return cut(line);
-}
-
-const char* held_text(Held held) {
+const char* to_string(Held held) {
     switch (held) {
         case Held::rays: return "rays too few";
         case Held::representation: return "the representation's own limit";
@@ -54,49 +23,108 @@ const char* held_text(Held held) {
     return "";
 }
 
+std::string cost_text(double value, std::size_t cost) {
+    if (static_cast<Cost>(cost) == Cost::bytes) return base::bytes_text(static_cast<std::size_t>(std::llround(value)));
+    return fmt::format("{:.3g} {}", value, static_cast<Cost>(cost) == Cost::lookup ? "ns" : "ms");
+}
+
+namespace {
+
+std::string error_with_interval(const Choice& choice) {
+    if (!choice.confirmed) return fmt::format("about {:.3g}, not confirmed", choice.error.high);
+    return fmt::format("{:.3g} to {:.3g}", choice.error.low, choice.error.high);
+}
+
+constexpr std::size_t least_width = 60;
+constexpr std::size_t label_width = 7;  // of lines that begin with a cost
+
+std::string cut(std::string line, std::size_t width) {
+    if (line.size() <= width) return line;
+    line.resize(width - 3);
+    return line + "...";
+}
+
+// What one may paste is never broken.
+struct TextLine {
+    std::string text;
+    bool label = false, paste = false;
+};
+
+// What does not fit goes on in the next line, behind the label.
+std::string folded(const TextLine& line, std::size_t width) {
+    if (line.paste) return line.text + "\n";
+    if (!line.label) return base::wrapped(line.text, width);
+    std::string text = base::wrapped(std::string(label_width, ' ') + line.text.substr(label_width), width);
+    return text.replace(0, label_width, line.text, 0, label_width);
+}
+
+std::string folded(const std::vector<TextLine>& lines, std::size_t width) {
+    std::string text;
+    for (const TextLine& line : lines) text += folded(line, width);
+    return text;
+}
+
+std::size_t lines_in(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+// Names joined to a line, as many as fit, but at least one.
+std::string joined(const std::string& start, const std::vector<std::string>& names, std::size_t width) {
+    std::string line = start;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string next = (i == 0 ? " " : ", ") + names[i];
+        const std::size_t left = names.size() - i;
+        const std::string rest = fmt::format(" and {} more", left);
+        if (i > 0 && line.size() + next.size() + (left > 1 ? rest.size() : 0) > width) return line + rest;
+        line += next;
+    }
+    return line;
+}
+
 void add_cheapest(const Cheapest& cheapest, std::size_t k, const std::vector<Family>& families,
-                  std::vector<std::string>& lines) {
+                  std::vector<TextLine>& lines) {
     const Choice& best = cheapest.best;
-    lines.push_back(cut(fmt::format("{:<6} {}: {}", cost_words[k], cost_text(best.cost[k], k),
-                                    setting_text(families, best.point))));
+    lines.push_back({fmt::format("{:<6} {}: {}", cost_words[k], cost_text(best.cost[k], k),
+                                 setting_text(families, best.point)),
+                     true});
     std::string others;
     for (std::size_t other = 0; other < costs; ++other)
         if (other != k) others += fmt::format(", {} {}", cost_words[other], cost_text(best.cost[other], other));
-    lines.push_back(cut(fmt::format("       error {}{}", error_with_interval(best), others)));
+    lines.push_back({fmt::format("       error {}{}", error_with_interval(best), others)});
     if (const auto& second = cheapest.runner_up) {
         const std::string distance = cheapest.tie             ? "a tie with"
                                      : cheapest.behind >= 0.0 ? fmt::format("{:.0f} % more:", 100.0 * cheapest.behind)
                                                               : fmt::format("{:.0f} % less:", -100.0 * cheapest.behind);
-        lines.push_back(cut(fmt::format("       {} {}, {}{}", distance, cost_text(second->cost[k], k),
-                                        setting_text(families, second->point),
-                                        second->confirmed ? "" : " (not confirmed)")));
+        lines.push_back({fmt::format("       {} {}, {}{}", distance, cost_text(second->cost[k], k),
+                                     setting_text(families, second->point),
+                                     second->confirmed ? "" : " (not confirmed)")});
     }
     if (const auto& perhaps = cheapest.perhaps)
-        lines.push_back(cut(fmt::format("       perhaps {}, error not confirmed: {}", cost_text(perhaps->cost[k], k),
-                                        setting_text(families, perhaps->point))));
+        lines.push_back({fmt::format("       perhaps {}, error not confirmed: {}", cost_text(perhaps->cost[k], k),
+                                     setting_text(families, perhaps->point))});
 }
 
-std::vector<std::string> held_lines(const Answer& answer) {
-    std::vector<std::string> lines;
+std::vector<TextLine> held_lines(const Answer& answer, std::size_t width) {
+    std::vector<TextLine> lines;
     for (const Held held : {Held::rays, Held::representation, Held::bias, Held::dear, Held::budget, Held::given, Held::at_most}) {
         std::vector<std::string> names;
         for (const Missed& missed : answer.missed)
             if (missed.held == held)
                 names.push_back(missed.closest ? fmt::format("{} ({:.3g})", missed.technique, missed.closest->error.high)
                                                : missed.technique + " (not measured)");
-        if (!names.empty()) lines.push_back(joined(fmt::format("not reached, {}:", held_text(held)), names));
+        if (!names.empty()) lines.push_back({joined(fmt::format("not reached, {}:", to_string(held)), names, width)});
     }
     return lines;
 }
 
-std::string broken_line(const Answer& answer) {
+std::string broken_line(const Answer& answer, std::size_t width) {
     std::vector<std::string> names;
     for (const Broken& broken : answer.broken)
         names.push_back(broken.settings == broken.measured
                             ? fmt::format("{} ({})", broken.technique, broken.reason)
                             : fmt::format("{} (at {} of {} settings: {})", broken.technique, broken.settings,
                                           broken.measured, broken.reason));
-    return joined("failed and left out:", names);
+    return joined("failed and left out:", names, width);
 }
 
 }  // namespace
@@ -115,9 +143,10 @@ std::string setting_text(const std::vector<Family>& families, const Point& point
 }
 
 std::string to_text(const Answer& answer, const std::vector<Family>& families, const Wording& wording) {
-    std::vector<std::string> lines;
-    lines.push_back(cut(fmt::format("{} error at most {:.4g} with 95 % confidence: {} settings measured, {} confirmed",
-                                    wording.measure, answer.goal.error, answer.measured, answer.confirmed)));
+    const std::size_t width = std::max(wording.width, least_width);
+    std::vector<TextLine> lines;
+    lines.push_back({fmt::format("{} error at most {:.4g} with 95 % confidence: {} settings measured, {} confirmed",
+                                 wording.measure, answer.goal.error, answer.measured, answer.confirmed)});
     std::vector<std::string> pasted;
     for (std::size_t k = 0; k < costs; ++k) {
         if (!answer.cheapest[k]) continue;
@@ -127,33 +156,41 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
         if (std::find(pasted.begin(), pasted.end(), line) == pasted.end()) pasted.push_back(line);
     }
     if (const auto& traced = answer.without_map)
-        lines.push_back(cut(fmt::format("without a map: {}, {}, error {}", setting_text(families, traced->point),
-                                        cost_text(traced->cost[0], 0), error_with_interval(*traced))));
+        lines.push_back({fmt::format("without a map: {}, {}, error {}", setting_text(families, traced->point),
+                                     cost_text(traced->cost[0], 0), error_with_interval(*traced))});
     if (!answer.reached) {
-        lines.push_back("no setting reaches it");
+        lines.push_back({"no setting reaches it"});
         if (answer.closest)
-            lines.push_back(cut(fmt::format("closest: error {}: {}", error_with_interval(*answer.closest),
-                                            setting_text(families, answer.closest->point))));
+            lines.push_back({fmt::format("closest: error {}: {}", error_with_interval(*answer.closest),
+                                         setting_text(families, answer.closest->point))});
     }
-    std::vector<std::string> last = pasted;
-    if (!answer.broken.empty()) last.push_back(broken_line(answer));
-    if (answer.cut) last.push_back("the time to confirm ran out: intervals are wider than planned");
+    std::vector<TextLine> last;
+    for (std::string& line : pasted) last.push_back({std::move(line), false, true});
+    if (!answer.broken.empty()) last.push_back({broken_line(answer, width)});
+    if (answer.cut) last.push_back({"the time to confirm ran out: intervals are wider than planned"});
     if (answer.steal && *answer.steal > results::steal_limit)
-        last.push_back(fmt::format("UNSETTLED: the host of this virtual machine took {:.0f} % of the time (steal); measure again",
-                                   100.0 * *answer.steal));
-    if (answer.end == End::budget) last.push_back("the budget ended first: a cheaper setting may be left");
-    if (answer.end == End::cancelled) last.push_back("cancelled: a cheaper setting may be left");
-    std::vector<std::string> held = held_lines(answer);
-    if (lines.size() + held.size() + last.size() > text_lines) {
-        // Reasons give way to the answer.
-        held.clear();
-        std::vector<std::string> names;
-        for (const Missed& missed : answer.missed) names.push_back(missed.technique);
-        held.push_back(joined("not reached:", names));
-    }
-    lines.insert(lines.end(), held.begin(), held.end());
+        last.push_back({fmt::format("UNSETTLED: the host of this virtual machine took {:.0f} % of the time (steal); "
+                                    "measure again",
+                                    100.0 * *answer.steal)});
+    if (answer.end == End::budget) last.push_back({"the budget ended first: a cheaper setting may be left"});
+    if (answer.end == End::cancelled) last.push_back({"cancelled: a cheaper setting may be left"});
+
+    const std::size_t most_lines = text_lines * text_columns / std::min(width, text_columns);
+    const std::string head = folded(lines, width), tail = folded(last, width);
+    if (const std::string text = head + folded(held_lines(answer, width), width) + tail; lines_in(text) <= most_lines)
+        return text;
+    // Reasons give way to the answer.
+    std::vector<std::string> names;
+    for (const Missed& missed : answer.missed) names.push_back(missed.technique);
+    const TextLine missed{names.empty() ? "" : joined("not reached:", names, width)};
+    if (const std::string text = head + (names.empty() ? "" : folded(missed, width)) + tail;
+        lines_in(text) <= most_lines)
+        return text;
+    if (!names.empty()) lines.push_back(missed);
     lines.insert(lines.end(), last.begin(), last.end());
-    return fmt::format("{}\n", fmt::join(lines, "\n"));
+    for (TextLine& line : lines)
+        if (!line.paste) line.text = cut(std::move(line.text), width);
+    return folded(lines, width);
 }
 
 }  // namespace shadowbench::recommend

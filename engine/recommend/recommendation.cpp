@@ -48,6 +48,7 @@ nlohmann::ordered_json to_json(const Explored& explored) {
     recommendation["footprint_share"] = share ? nlohmann::ordered_json(*share) : nlohmann::ordered_json(nullptr);
     recommendation["measured_before"] = explored.taken;
     recommendation.update(to_json(explored.recommendation.exploration));
+    recommendation["answer"] = answer_json(explored.recommendation, explored.recommendation.exploration.goal);
     return out;
 }
 
@@ -69,24 +70,19 @@ Recommendation recommendation_from_json(const nlohmann::json& document, const st
             share, exploration_from_json(from.value, from.where)};
 }
 
-namespace {
-
-// The part of the scenario that gives this setting, and asks it the same question.
-std::string pasted(const Recommendation& recommendation, const Point& point) {
+nlohmann::ordered_json part_of_scenario(const Recommendation& recommendation, const Point& point) {
     nlohmann::ordered_json part = scenario_part(recommendation.exploration.families[point.family], point);
     if (part.contains("rays") && recommendation.footprint_share)
         part["receivers"] = {{"footprint", {{"share", *recommendation.footprint_share}}}};
-    return part.dump();
+    return part;
 }
 
-}  // namespace
-
-AnswerText answer_text(const Recommendation& recommendation, const Goal& goal) {
+AnswerText answer_text(const Recommendation& recommendation, const Goal& goal, std::size_t width) {
     const std::vector<Family>& families = recommendation.exploration.families;
     const Answer answer = recommend::answer(recommendation.exploration, goal);
-    const auto paste = [&](const Point& point) { return pasted(recommendation, point); };
+    const auto paste = [&](const Point& point) { return part_of_scenario(recommendation, point).dump(); };
     return {fmt::format("{}, light {}\n", recommendation.scenario, recommendation.light) +
-                to_text(answer, families, {measure_words[static_cast<std::size_t>(recommendation.measure)], paste}),
+                to_text(answer, families, {measure_words[static_cast<std::size_t>(recommendation.measure)], paste, width}),
             answer.reached};
 }
 

@@ -10,6 +10,7 @@
 
 #include "bench/progress.h"
 #include "bench/run.h"
+#include "recommend/answer.h"
 #include "recommend/exploration.h"
 #include "recommend/request.h"
 #include "recommend/search.h"
@@ -51,12 +52,18 @@ bool is_recommendation(const nlohmann::json& document);
 // Reads it again. Throws Error{bad_input}, place: `origin`, the name of its file, and the JSON pointer.
 Recommendation recommendation_from_json(const nlohmann::json& document, const std::string& origin);
 
+// The part of the scenario that gives this setting, and asks it the same question.
+nlohmann::ordered_json part_of_scenario(const Recommendation& recommendation, const Point& point);
+
+// The answer for programs, with the parts of the scenario. results/README.md describes it.
+nlohmann::ordered_json answer_json(const Recommendation& recommendation, const Goal& goal);
+
 struct AnswerText {
-    std::string text;      // at most 21 lines: the scenario, and to_text()
+    std::string text;      // the scenario, and to_text()
     bool reached = false;  // whether a setting reaches the goal's error
 };
 
-// `goal` may be another than the exploration's.
-AnswerText answer_text(const Recommendation& recommendation, const Goal& goal);
+// `goal` may be another than the exploration's. `width`: characters of a line.
+AnswerText answer_text(const Recommendation& recommendation, const Goal& goal, std::size_t width = text_columns);
 
 }  // namespace shadowbench::recommend

@@ -18,6 +18,7 @@
 #include "document/document.h"
 #include "metrics/statistics.h"
 #include "rays/capture.h"
+#include "rays/image_plane.h"
 #include "render/default_view.h"
 #include "render/heat_map.h"
 #include "render/point_queries.h"
@@ -157,9 +158,14 @@ Rendering describe(const scene::Scenario& scenario, const document::Variant& var
 
 ShadingPoints see(const scene::Scenario& scenario, const RenderOptions& options, Rendering& result,
                   const bench::ProgressCallback& progress) {
-    const rays::Tracer all(scenario.scene, false);
-    result.camera =
-        scenario.receivers.camera ? *scenario.receivers.camera : camera_of_shadows(scenario, result.size, all);
+    result.camera = scenario.receivers.camera
+                        ? *scenario.receivers.camera
+                        : camera_of_shadows(scenario, result.size, rays::Tracer(scenario.scene, false));
+    const rays::ImagePlane view_rays = rays::make_image_plane(result.camera, result.size * options.rays_per_side);
+    const rays::ViewedHair viewed{view_rays.origin, (result.camera.target - result.camera.position).normalized(),
+                                  0.5 * view_rays.across.length()};
+    const rays::Tracer all =
+        options.fine_hair ? rays::Tracer(scenario.scene, false, viewed) : rays::Tracer(scenario.scene, false);
     ViewSettings settings;
     settings.camera = result.camera;
     settings.size = result.size;
@@ -186,6 +192,7 @@ RenderOptions usual_options(const bench::RunOptions& run) {
     options.enlarge = true;
     options.rays_per_side = usual_rays_per_side;
     options.joined = true;
+    options.fine_hair = true;
     options.media_lookups = usual_media_lookups;
     return options;
 }

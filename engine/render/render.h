@@ -22,6 +22,7 @@ struct RenderOptions {
     bool enlarge = false;             // without a size, to usual_width pixels if the scenario's picture is narrower
     int rays_per_side = 1;            // 1 to 8; its square is the number of view rays a pixel
     bool joined = false;              // view rays of a pixel that see one place share a lookup: see join_points()
+    bool fine_hair = false;           // hair that is narrower than a view ray is filtered: see rays::ViewedHair
     int media_lookups = 128;          // 1 to 256, for a view ray through all media: see ViewSettings
 };
 

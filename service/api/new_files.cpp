@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -27,14 +28,27 @@ using nlohmann::json;
 constexpr std::size_t most_entries = 20'000;  // looked at in the data folders, so that one request costs little
 constexpr std::size_t most_together = 16;     // files in one scenario
 constexpr int deepest_folder = 8;
+constexpr const char* notices[] = {"licence", "license", "copying", "readme", "notice", "changelog"};
+
+std::string in_lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// A text beside data, which is no list of points.
+bool is_notice(const fs::path& file) {
+    const std::string name = in_lower_case(file.filename().string());
+    return name.ends_with(".txt") &&
+           std::any_of(std::begin(notices), std::end(notices), [&](const char* word) { return name.starts_with(word); });
+}
 
 bool is_read(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = in_lower_case(file.extension().string());
     const auto formats = scene::file_formats();
-    return std::any_of(formats.begin(), formats.end(),
-                       [&](const scene::FileFormat& format) { return format.extension == extension; });
+    return !is_notice(file) && std::any_of(formats.begin(), formats.end(), [&](const scene::FileFormat& format) {
+        return format.extension == extension;
+    });
 }
 
 struct NewRequest {

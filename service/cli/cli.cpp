@@ -14,9 +14,11 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "base/table.h"
 #include "results/program.h"
 #include "service/cli/child.h"
 #include "service/cli/options.h"
+#include "service/cli/terminal.h"
 
 namespace shadowbench::service {
 namespace {
@@ -105,12 +107,41 @@ std::string usage_message(const CLI::App& app, int argc, const char* const* argv
                            : fmt::format(" (see shadowbench {} --help)", parsed[0]->get_name()));
 }
 
+constexpr std::size_t help_column = 30;  // where CLI11 begins the texts of options and commands
+
+// A help in lines of this width; its examples are not broken.
+std::string help_in_lines(const std::string& help, std::size_t width) {
+    std::string result;
+    std::istringstream lines(help);
+    for (std::string line; std::getline(lines, line);) {
+        const bool labelled = line.size() > help_column && line.starts_with("  ") && line[2] != ' ' &&
+                              line[help_column - 1] == ' ' && line[help_column] != ' ';
+        if (line.size() <= width || line.starts_with("  shadowbench ")) {
+            result += line + "\n";
+        } else if (labelled) {
+            std::string text = base::wrapped(std::string(help_column, ' ') + line.substr(help_column), width);
+            result += text.replace(0, help_column, line, 0, help_column);
+        } else {
+            result += base::wrapped(line, width);
+        }
+    }
+    return result;
+}
+
+// Of --help and --version.
+int print_help(const CLI::App& app, const CLI::ParseError& called, std::ostream& out, std::ostream& err) {
+    std::ostringstream help;
+    const int code = app.exit(called, help, err);
+    out << help_in_lines(help.str(), line_width(out));
+    return code;
+}
+
 int parse_and_run(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
     CommandLine line;
     try {
         line.app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() == 0) return line.app.exit(error, out, err);
+        if (error.get_exit_code() == 0) return print_help(line.app, error, out, err);
         return report(err, ErrorCode::usage, usage_message(line.app, argc, argv, error));
     }
     for (const Command& command : line.commands)

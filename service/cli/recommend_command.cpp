@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/table.h"
 #include "base/write_files.h"
 #include "recommend/beside.h"
 #include "recommend/of_run.h"
@@ -21,6 +22,7 @@
 #include "service/cli/job.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/quantity.h"
+#include "service/cli/terminal.h"
 
 namespace shadowbench::service {
 namespace {
@@ -179,9 +181,9 @@ bool recommend_command(const RecommendArguments& arguments, std::ostream& out, s
         arguments.from.empty()
             ? explored()
             : read_recommendation(arguments.from, arguments.light, read_measure(arguments.measure), goal, &arguments);
-    const recommend::AnswerText answer = recommend::answer_text(found, goal);
+    const recommend::AnswerText answer = recommend::answer_text(found, goal, line_width(out));
     out << answer.text << more;
-    if (!arguments.beside.empty()) out << beside(arguments, goal, found, err);
+    if (!arguments.beside.empty()) out << base::wrapped(beside(arguments, goal, found, err), line_width(out));
     return answer.reached;
 }
 

@@ -13,6 +13,7 @@
 #include "base/write_files.h"
 #include "compare/report.h"
 #include "results/write_result.h"
+#include "service/cli/terminal.h"
 
 namespace shadowbench::service {
 namespace {
@@ -81,7 +82,7 @@ int report_verdict(const compare::Comparison& comparison, const VerdictArguments
             files.push_back({file, content});
         }
     }
-    if (!printed) out << compare::to_text(comparison, arguments.all);
+    if (!printed) out << compare::to_text(comparison, arguments.all, line_width(out));
     base::write_files(files);
     if (!printed)
         for (const base::NewFile& file : files) out << fmt::format("written: {}\n", file.path.string());

@@ -23,7 +23,8 @@ std::string asking(const std::string& files, const std::string& up = "") {
 TEST(DataFiles, AreThoseThatNewReadsByNameAndInsideTheFolders) {
     const TemporaryFolder temporary;
     const fs::path &top = temporary.path(), data = top / "data", second = top / "second";
-    for (const char* name : {"b.obj", "deep/A.PLY", "deep/notes.md", "deep/.hidden.json"}) write_mesh(data / name);
+    for (const char* name : {"b.obj", "deep/A.PLY", "deep/notes.md", "deep/.hidden.json", "deep/LICENSE.data.txt"})
+        write_mesh(data / name);
     write_mesh(top / "outside.obj");
     write_mesh(second / "b.obj");
     write_mesh(second / "bad\xff.obj");

@@ -56,6 +56,18 @@ TEST(Report, TextCountsInconclusiveTimesInsteadOfListingThem) {
     EXPECT_THAT(to_text(comparison, true), HasSubstr("lookup_image"));
 }
 
+// Otherwise a narrow terminal breaks the columns of the verdicts.
+TEST(Report, TextHasLinesOfTheWidthAskedForButForCommands) {
+    std::istringstream lines(to_text(changed(), true, 60));
+    int commands = 0;
+    for (std::string line; std::getline(lines, line);) {
+        const bool command = line.starts_with("  rerun: shadowbench run");
+        commands += command;
+        EXPECT_LE(command ? 0 : line.size(), 60u) << line;
+    }
+    EXPECT_GT(commands, 0);
+}
+
 TEST(Report, MarkdownIsATableWithBarsEscaped) {
     const std::string text = to_markdown(changed());
     EXPECT_THAT(text, HasSubstr("## shadowbench: exit code 2: larger or less accurate\n"));

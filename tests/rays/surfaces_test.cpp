@@ -107,6 +107,28 @@ TEST(Surfaces, AreMetOnceWhereTrianglesShareAnEdgeOrACorner) {
         EXPECT_EQ(hits_along_z(scene, places[i][0], places[i][1]).size(), 2u) << places[i][0] << " " << places[i][1];
 }
 
+// Otherwise a picture shows a strand that is thinner than a view ray as dots, or not at all.
+TEST(Surfaces, OfHairThinnerThanAViewRayCoverTheirShareOfIt) {
+    scene::Scene scene;  // a strand of two segments across the rays, and one that is wide enough
+    scene.objects = {with(scene::Hair{{{-1, 0, 1}, {0, 0, 1}, {1, 0, 1}}, {0.01f, 0.01f, 0.01f}, {0, 3}}, Vec3f(1)),
+                     with(scene::Hair{{{-1, 0, 2}, {1, 0, 2}}, {0.5f, 0.5f}, {0, 2}}, Vec3f(1))};
+    const Tracer tracer(scene, false, ViewedHair{{0, 0, -3}, {0, 0, 1}, 0.02});  // 0.08 at the depth of the first
+    std::vector<SurfaceHit> hits;
+    double covered = 0.0;
+    for (int i = -50; i < 50; ++i) {
+        const double y = (i + 0.5) * 0.002;
+        EXPECT_TRUE(tracer.surfaces({0.3, y, -3}, {0, 0, 1}, hits)) << "the wide strand stays opaque";
+        ASSERT_EQ(hits.size(), std::abs(y) < 0.08 ? 2u : 1u) << y;
+        EXPECT_EQ(hits.back().opacity, Vec3d(1.0));
+        if (hits.size() == 2) covered += hits[0].opacity.x * 0.002;
+    }
+    EXPECT_NEAR(covered, 2 * 0.01, 2e-4) << "as much of the picture as before";
+    tracer.surfaces({0.0, 0.05, -3}, {0, 0, 1}, hits);
+    EXPECT_EQ(hits.size(), 2u) << "once where its segments join";
+    Tracer(scene, false).surfaces({0.3, 0.05, -3}, {0, 0, 1}, hits);
+    EXPECT_EQ(hits.size(), 1u) << "as thin as it is for all others";
+}
+
 TEST(Surfaces, HaveTheirTexturesOpacity) {
     auto texture = std::make_shared<scene::AlphaTexture>();
     texture->width = 4;

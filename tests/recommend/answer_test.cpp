@@ -274,6 +274,22 @@ TEST(Answer, FitsTwentyLinesOfAHundredColumns) {
     EXPECT_THAT(lines, testing::Contains(HasSubstr("failed and left out: technique_with_a_long_name_30")));
 }
 
+// Otherwise a terminal breaks the lines anywhere, or the settings of an answer end in dots.
+TEST(Answer, GoesOnInTheNextLineWhereItDoesNotFit) {
+    Made made({"deep", "avsm"});
+    made.found.families[0].name = "deep kernel=tent compression=optimal mip=none probes=8 tolerance=0.0508";
+    made.sure(0, {2, 2, 2}, 0.018, {20, 5e9, 9}).sure(1, {2, 3, 1}, 0.017, {20.5, 5e9, 9});
+    Wording wording{"rms", [](const Point&) { return "{\"technique\": \"" + std::string(80, 'x') + "\"}"; }, 60};
+    const std::string text = to_text(made.answered(), made.found.families, wording);
+    for (const std::string& line : lines_of(text)) EXPECT_LE(line[0] == '{' ? 0 : line.size(), 60u) << line;
+    EXPECT_THAT(text, HasSubstr("{\"technique\": \"" + std::string(80, 'x') + "\"}\n"));
+    EXPECT_THAT(text, HasSubstr("lookup 20 ns: deep kernel=tent compression=optimal mip=none\n         probes=8 "));
+    EXPECT_THAT(text, Not(HasSubstr("...")));
+    wording.width = 120;
+    EXPECT_THAT(to_text(made.answered(), made.found.families, wording),
+                HasSubstr("probes=8 tolerance=0.0508 nodes=2, resolution=2 samples=2\n"));
+}
+
 TEST(Answer, ASettingIsWrittenAsAScenarioHasIt) {
     Family traced = family("ray_traced");
     traced.axes[0] = {"resolution", {""}, 1};

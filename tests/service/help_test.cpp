@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -126,6 +127,21 @@ TEST_F(Help, ExamplesOfEveryCommandCanBeRun) {
             EXPECT_EQ(fault_of(words), "");
             check_names(words);
         }
+}
+
+// Otherwise a terminal breaks words anywhere, and texts begin at its left edge.
+TEST_F(Help, HasLinesOfTheTerminalsWidthButForExamples) {
+    const char* const before = std::getenv("COLUMNS");
+    const std::string kept = before ? before : "";
+    ::setenv("COLUMNS", "80", 1);
+    for (const std::string& name : command_names()) {
+        std::istringstream lines(help_of(name));
+        for (std::string line; std::getline(lines, line);)
+            EXPECT_LE(line.starts_with("  shadowbench ") ? 0 : line.size(), 80u) << name << ": " << line;
+    }
+    EXPECT_NE(help_of("recommend").find("against the truth (rms, max\n                                or p99), or "),
+              std::string::npos);
+    before ? ::setenv("COLUMNS", kept.c_str(), 1) : ::unsetenv("COLUMNS");
 }
 
 TEST_F(Help, OfTheProgramListsTheCommandsAndAFewExamples) {

@@ -70,6 +70,17 @@ export function withTypes(scenario, types, all) {
   return {...scenario, techniques: [...kept, ...added.map((type) => ({type}))], ...(scenario.sweeps && {sweeps: Object.fromEntries(sweeps)})};
 }
 
+const isObject = (value) => value !== null && typeof value === 'object' && !Array.isArray(value);
+const merged = (value, part) => (isObject(value) && isObject(part)
+  ? Object.entries(part).reduce((all, [key, own]) => ({...all, [key]: merged(all[key], own)}), value) : part);
+
+// The scenario with a part merged into it key by key. Sweeps that would set what the part sets are left out.
+export function withPart(scenario, part) {
+  const all = merged(scenario, part), tops = Object.keys(part);
+  if (!scenario.sweeps) return all;
+  return {...all, sweeps: Object.fromEntries(Object.entries(scenario.sweeps).filter(([pointer]) => !tops.includes(pointer.split('/')[1])))};
+}
+
 // Whether a form may write the text again: numbers of more digits than JavaScript keeps would change.
 export function keepsDigits(text) {
   return !/\d{16,}/.test(text.replace(/"(?:[^"\\]|\\.)*"/g, ''));

@@ -13,8 +13,6 @@ async function finishedJobs(ids, signal) {
   return [...jobs, ...await Promise.all(missing.map((id) => get(`/v1/jobs/${encodeURIComponent(id)}`, signal)))];
 }
 
-const words = (verdict) => verdict.replaceAll('_', ' ');
-
 function changeOf({time, reason}) {
   const ratio = time && `× ${significant(time.ratio)}, 95 %: ${significant(time.interval95[0])} to ${significant(time.interval95[1])}`;
   return [ratio, reason].filter(Boolean).join('; ');
@@ -53,9 +51,9 @@ function answerView(answer) {
   return h('section', {class: 'panel', 'aria-labelledby': 'verdicts-title'},
     h('div', {class: 'panel-head'}, h('h2', {id: 'verdicts-title'}, 'Verdicts'),
       h('div', {class: 'choices'}, h('button', {type: 'button', class: 'quiet small', 'aria-label': 'Save the verdicts as CSV', onclick: csv}, 'CSV'), choice('Show', [{value: 'differ', text: `what differs (${differ.length})`}, {value: 'all', text: `all (${answer.lines.length})`},
-        ...counts.map(([verdict, n]) => ({value: verdict, text: `${words(verdict)} (${n})`}))], 'differ', show))),
+        ...counts.map(([verdict, n]) => ({value: verdict, text: `${verdict} (${n})`}))], 'differ', show))),
     h('p', {class: `outcome ${answer.exit_code ? 'bad-title' : 'good'}`}, `${outcome[0].toUpperCase()}${outcome.slice(1)}.`),
-    h('p', {}, `${counts.map(([verdict, n]) => `${n} ${words(verdict)}`).join(', ')}.`),
+    h('p', {}, `${counts.map(([verdict, n]) => `${n} ${verdict}`).join(', ')}.`),
     h('p', {class: 'note'}, [answer.method, answer.sensitivity].filter(Boolean).join('; ')),
     answer.notes.map((note) => h('p', {class: 'note'}, note)),
     answer.fronts.length > 0 && [h('h3', {class: 'part'}, 'Fronts'), h('ul', {class: 'fronts'}, answer.fronts.map((front) => h('li', {}, front.text)))],

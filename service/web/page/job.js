@@ -1,9 +1,12 @@
 // One job: its progress, then its result.
 import {get, getText, hasToken, objectUrl, post} from './api.js';
+import {withPart} from './choices.js';
 import {announce, h, setText} from './dom.js';
 import {moment} from './format.js';
 import {progressBar, progressText, stateMark} from './jobs.js';
 import {exploredView} from './result/explored.js';
+import {seriesOf} from './result/model.js';
+import {recommendedView} from './result/recommended.js';
 import {resultView, summaryOf} from './result/view.js';
 import {ended, watchJob} from './watch.js';
 
@@ -32,6 +35,12 @@ function fileLink(text, address, name) {
     link.href = await objectUrl(address);
     link.click();
   }}, text);
+}
+
+// The rays of a recommendation's first answer, as settings of a variant.
+function firstOf({recommendation}) {
+  const {answer} = recommendation ?? {}, rays = (answer?.cheapest[0] ?? answer?.closest)?.part.rays ?? {};
+  return Object.fromEntries(Object.entries(rays).map(([name, value]) => [`/rays/${name}`, value]));
 }
 
 function progressPanel(stop) {
@@ -75,8 +84,20 @@ export function jobView({id, signal, edit}) {
       failed(error);
     }
   };
+  const take = (part) => get(`${path}/scenario`, signal).then((scenario) => edit(withPart(scenario, part)), failed);
   const again = h('button', {type: 'button', class: 'link', onclick: () => get(`${path}/scenario`, signal).then(edit, failed)}, 'Edit and run again');
 
+  // The answer, and what was measured for it. Results of earlier versions have the answer as text only.
+  function recommendationParts(result, text, job) {
+    const {recommendation} = result, series = seriesOf(result);
+    for (const {technique} of recommendation.families) if (!series.has(technique)) series.set(technique, series.size);
+    return [
+      recommendation.answer ? recommendedView({recommendation, text, take, series})
+        : text && h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer', tabindex: '0'}, text)),
+      exploredView({recommendation, series, name: job.name, signal}),
+      h('div', {}, h('h2', {}, 'The settings measured, by resolution and rays a pixel'), h('p', {class: 'note'}, 'Each was measured once and briefly. The answer above rests on what was confirmed.')),
+    ].filter(Boolean);
+  }
   async function showResult(job) {
     const source = sourceOf(job);
     const has = (name) => job.artifacts?.includes(name);
@@ -88,9 +109,8 @@ export function jobView({id, signal, edit}) {
       fileLink('Offline report', `${path}/report`, `${job.name}.html`),
       h('a', {href: `#/compare/${encodeURIComponent(id)}`}, 'Compare with another'), again);
     place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
-      ...(text ? [h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer', tabindex: '0'}, text))] : []),
-      ...(result.recommendation ? [exploredView({recommendation: result.recommendation, name: job.name, signal})] : []),
-      resultView({source, result, images, imagesFault: fault?.error, signal}), h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)));
+      ...(result.recommendation ? recommendationParts(result, text, job) : []),
+      resultView({source, result, images, imagesFault: fault?.error, first: firstOf(result), signal}), h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)));
     announce(`${job.name}: the result is shown`);
   }
   function update(job) {

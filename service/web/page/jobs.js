@@ -19,7 +19,9 @@ export function progressText(job) {
   if (job.state === 'queued') return job.position ? `${job.position} before it` : 'next';
   if (job.state === 'running') {
     const p = job.progress;
-    return p ? `${percent(p.fraction)}  ${[p.stage, p.place].filter(Boolean).join(' ')}` : 'starting';
+    if (!p) return 'starting';
+    const time = job.kind === 'recommendation' && ['exploring', 'confirming'].includes(p.stage) && `${p.done} of ${p.total} s`;
+    return `${percent(p.fraction)}  ${[p.stage, p.place, time].filter(Boolean).join(' ')}`;
   }
   if (job.state === 'failed') return job.error?.message ?? '';
   const time = (new Date(job.ended) - new Date(job.started)) / 1000;

@@ -6,10 +6,10 @@ function card(title, text, ...actions) {
 }
 
 // compare(): shows an example. `files`: an element that takes a file. recommend(): sends what the editor holds. `error`: the field
-// of the error that is allowed.
-export function startHead({compare, files, recommend, error}) {
+// of the error that is allowed; `time`: that of the time it may take.
+export function startHead({compare, files, recommend, error, time}) {
   const ask = h('form', {class: 'card-actions', onsubmit: (event) => { event.preventDefault(); recommend(); }},
-    h('label', {class: 'choice'}, h('span', {}, 'RMS error at most'), error), h('button', {type: 'submit'}, 'Recommend'));
+    h('label', {class: 'choice'}, h('span', {}, 'RMS error at most'), error), time, h('button', {type: 'submit'}, 'Recommend'));
   return h('div', {class: 'start'},
     h('div', {class: 'hero'},
       h('div', {}, h('h1', {tabindex: '-1'}, 'Which shadow map, and at what cost?'),

@@ -141,11 +141,13 @@ export function submitView({draft, signal, go}) {
       for (const b of buttons()) b.disabled = false;
     }
   }
-  const buttons = () => element.querySelectorAll('button[type="submit"]');
+  let minutes = 2;
+  const time = choice('within', [1, 2, 5, 15, 60].map((n) => ({value: n, text: `${n} min`})), minutes, (n) => { minutes = Number(n); });
+  const buttons = () => element.querySelectorAll('button[type="submit"], button.send');
   const run = () => send('/v1/jobs', `"options": ${JSON.stringify({cache, pictures: pictures.checked})}`);
   function recommend() {
     key = newKey();  // another question about the same text
-    return send('/v1/recommendations', `"recommend": ${JSON.stringify({error: Number(fields[0].value)})}, "options": ${JSON.stringify({cache})}`);
+    return send('/v1/recommendations', `"recommend": ${JSON.stringify({error: Number(fields[0].value), budget: 60 * minutes})}, "options": ${JSON.stringify({cache})}`);
   }
   const pictures = h('input', {type: 'checkbox', checked: true, id: 'pictures', onchange: () => { key = newKey(); }});
   const button = h('button', {type: 'submit', class: 'primary', id: 'run'}, 'Run it');
@@ -175,7 +177,7 @@ export function submitView({draft, signal, go}) {
   const bring = (text) => { own(); edit.set(text); title.scrollIntoView(); button.focus({preventScroll: true}); };
   const head = draft ? null : startHead({
     compare() { pick('quickstart'); title.scrollIntoView(); button.focus({preventScroll: true}); },
-    files: filePicker({taken: bring, signal}), recommend, error: fields[0],
+    files: filePicker({taken: bring, signal}), recommend, error: fields[0], time,
   });
   const element = h('div', {class: 'stack'}, head,
     h('form', {class: 'submit', onsubmit: (event) => { event.preventDefault(); run(); }},
@@ -183,7 +185,7 @@ export function submitView({draft, signal, go}) {
       purpose,
       h('div', {class: 'workbench'}, form.element,
         h('div', {class: 'text-side'}, h('label', {class: 'hidden', for: 'scenario'}, 'Scenario, as JSON'), edit.element, verdict)),
-      h('div', {class: 'actions'}, button,
+      h('div', {class: 'actions'}, button, h('button', {type: 'button', class: 'send', onclick: () => { if (fields[1].reportValidity()) recommend(); }}, 'Recommend for this error'),
         h('label', {class: 'check'}, pictures, ' with pictures'),
         choice('Known results', [{value: 'reuse', text: 'reuse them'}, {value: 'fresh', text: 'measure again'}], cache, (v) => { cache = v; key = newKey(); })),
       problem));

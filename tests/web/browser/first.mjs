@@ -47,7 +47,15 @@ firstPage['a recommendation is asked for'] = async ({page, url, mock}) => {
   await page.fill('.card input[aria-label="Error that is allowed"]', '0.015');
   await page.click('.card button:has-text("Recommend")');
   await page.waitForURL(/#\/jobs\/j-/);
-  assert.deepEqual(mock.jobs[0].recommend, {error: 0.015});
+  assert.deepEqual(mock.jobs[0].recommend, {error: 0.015, budget: 120});
+  // Beside the text too, where one is after bringing a file.
+  await page.goto(url);
+  await ready(page);
+  await page.selectOption('.card:has-text("Ask for") select', '5');
+  await page.fill('.common input[aria-label="Error that is allowed"]', '0.1');
+  await page.click('.actions button:has-text("Recommend for this error")');
+  await page.waitForURL(/#\/jobs\/j-/);
+  assert.deepEqual(mock.jobs[0].recommend, {error: 0.1, budget: 300});
   // In a run, it is the error that is allowed at first.
   await page.goto(url);
   await ready(page);

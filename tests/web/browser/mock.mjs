@@ -35,15 +35,15 @@ function curvesOf(light, x, y) {
 // What the server says of two results that differ in everything that they can.
 function comparison() {
   const line = (cell, measure, verdict, baseline, current, unit, reason, time = null) => ({title: `small / key / ${cell}`, suite: 'small', group: 'key', cell, measure, verdict,
-    code: {larger: 2, less_accurate: 2, missing: 2, not_comparable: 2, slower: 1}[verdict] ?? 0, unit, baseline, current, reason, command: null, time});
+    code: {larger: 2, 'less accurate': 2, missing: 2, 'not comparable': 2, slower: 1}[verdict] ?? 0, unit, baseline, current, reason, command: null, time});
   const lines = [
-    line('avsm nodes=4', 'lookup_error.rms', 'less_accurate', 0.0721, 0.0854, '', '+0.0133 (+18.4 %)'),
+    line('avsm nodes=4', 'lookup_error.rms', 'less accurate', 0.0721, 0.0854, '', '+0.0133 (+18.4 %)'),
     line('deep tolerance=0.01', 'bytes', 'larger', 40000, 48400, '', '+8400 (+21 %)'),
     line('fourier', '', 'missing', null, null, '', '<b>not</b> in the current side'),
     line('deep tolerance=0.01', 'lookup_random', 'slower', 8.1, 9.9, 'x floor', '', {ratio: 1.22, interval95: [1.17, 1.29], processes: 20, p_slower: 1e-5, p_faster: 1, looks_slower: true}),
-    line('shadow_map', 'lookup_image', 'not_comparable', 6.6, 6.4, 'x floor', 'another machine'),
+    line('shadow_map', 'lookup_image', 'not comparable', 6.6, 6.4, 'x floor', 'another machine'),
     line('avsm nodes=4', 'build', 'inconclusive', 0.0606, 0.0607, 'ms', 'fewer than 4 processes a side decide nothing', {ratio: 1.0016, interval95: [0.975, 1.186], processes: 1, p_slower: 1, p_faster: 1, looks_slower: false}),
-    line('avsm nodes=4', 'lookup_error.max', 'more_accurate', 0.31, 0.24, '', ''),
+    line('avsm nodes=4', 'lookup_error.max', 'more accurate', 0.31, 0.24, '', ''),
     line('shadow_map', 'working_bytes', 'smaller', 16384, 8192, '', ''),
     line('uncompressed', 'lookup_error.rms', 'same', 0.069, 0.069, '', ''),
   ];

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
 import {address, changed, numbersOf, pathOf} from '../../../service/web/page/address.js';
-import {keepsDigits, lightPlace, typesOf, withLight, withRays, withTypes} from '../../../service/web/page/choices.js';
+import {keepsDigits, lightPlace, typesOf, withLight, withPart, withRays, withTypes} from '../../../service/web/page/choices.js';
 import {bytes, csvOf, nanoseconds, seconds, significant, written} from '../../../service/web/page/format.js';
 import {JsonFault, lineOf, offsetOf, places} from '../../../service/web/page/pointer.js';
 import {linearAxis, logAxis, logPlace} from '../../../service/web/page/plots/axes.js';
@@ -122,6 +122,14 @@ test('a form changes what it shows, and nothing else', () => {
   assert.deepEqual(withTypes({techniques: [{type: '*'}]}, new Set(['deep', 'pcf']), all).techniques, [{type: 'deep'}, {type: 'pcf'}]);
   assert.ok(keepsDigits('{"a": 1234567890, "b": "12345678901234567890"}'));
   assert.ok(!keepsDigits('{"a": 12345678901234567890}'));
+});
+
+test('a part of a scenario is merged key by key, and no sweep sets it again', () => {
+  const scenario = {name: 'x', rays: {resolution: 64, seed: 3}, receivers: {type: 'camera', footprint: {radius: 2}}, techniques: [{type: 'deep'}, {type: 'pcf'}],
+    sweeps: {'/rays/seed': [1, 2], '/techniques/1/res_factor': [1, 2], '/lights/0/angle': [20, 30]}};
+  assert.deepEqual(withPart(scenario, {rays: {resolution: 91}, techniques: [{type: 'avsm', nodes: 8}]}), {...scenario, rays: {resolution: 91, seed: 3},
+    techniques: [{type: 'avsm', nodes: 8}], sweeps: {'/lights/0/angle': [20, 30]}});
+  assert.deepEqual(withPart({name: 'x', techniques: []}, {receivers: {footprint: {share: 0.1}}}), {name: 'x', techniques: [], receivers: {footprint: {share: 0.1}}});
 });
 
 test('CSV quotes what would break it', () => {

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {answersAt, firstBudget} from '../../../service/web/page/result/answers.js';
-import {around, differenceOf} from '../../../service/web/page/result/functions.js';
+import {around, differenceOf, thinned} from '../../../service/web/page/result/functions.js';
 import {named} from '../../../service/web/page/result/names.js';
 import {ownFronts, pointsAt, settingsOf} from '../../../service/web/page/result/settings.js';
 import {overTime, pointsOfAll} from '../../../service/web/page/result/several.js';
@@ -107,6 +107,17 @@ test('the difference of functions has the steps of both', () => {
   assert.deepEqual(around({z: [2, 2, 2], v: [1, 0.5, 0.25]}, 2), [1, 0.25]);
 });
 
+test('fewer vertices draw the same lines, and keep every step', () => {
+  const at = (z, v) => ({z, v}), curve = [at(0, 1), at(1, 0.9), at(1, 0.5), at(4, 0.5)];
+  assert.deepEqual(thinned(curve, 1e-3), curve);
+  assert.deepEqual(thinned([at(0, 1)], 1e-3), [at(0, 1)]);
+  assert.deepEqual(thinned([at(0, 1), at(1, 0.75), at(2, 0.5), at(3, 0.5)], 1e-3), [at(0, 1), at(2, 0.5), at(3, 0.5)]);
+  const medium = Array.from({length: 900}, (_, i) => at(i / 100, Math.exp(-i / 300) - (i > 450 ? 0.01 : 0)));
+  const fewer = thinned(medium, 1e-3), columns = {z: fewer.map((p) => p.z), v: fewer.map((p) => p.v)};
+  assert.ok(fewer.length < 60, `${fewer.length} of 900`);
+  for (const {z, v} of medium) assert.ok(Math.abs(around(columns, z)[0] - v) <= 1e-3 + 1e-12, `at ${z}`);
+});
+
 test('a recommendation draws what worked, and no bytes of what has no map', () => {
   const axes = [{name: 'resolution', values: ['16', '32']}, {name: 'samples', values: ['4']}];
   const at = (family, step, error, failed = '') => ({family, step: [step, 0], failed, error, lookup_ns: 10 + step, bytes: 100 * family, build_ms: 1});
@@ -151,6 +162,12 @@ test('the command of a cell says what was swept, in quotes that a shell takes', 
   assert.equal(rerunOf(result, {settings: [['/rays/samples_per_pixel', 4]]}, cell),
     "shadowbench run 'it'\\''s.json' --set 'sweeps={}' --set 'techniques=[{\"type\":\"avsm\",\"compression\":\"area\",\"nodes\":8}]' --set /rays/samples_per_pixel=4");
   assert.equal(quoted('a b'), "'a b'");
+});
+
+test('the command of a setting that a recommendation chose names its parameters', () => {
+  const result = {name: 'it', scenario: {name: 'it', techniques: [{type: 'deep'}]}};
+  const cell = {technique: 'avsm', where: 'technique avsm nodes=8', parameters: {nodes: 8}};
+  assert.equal(rerunOf(result, {settings: [['/rays/resolution', 91]]}, cell), `shadowbench run it.json --set 'techniques=[{"type":"avsm","nodes":8}]' --set /rays/resolution=91`);
 });
 
 test('the command of a cell that "*" stands for names its technique', () => {

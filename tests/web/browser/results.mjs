@@ -37,6 +37,43 @@ ofResults['a recommendation'] = async ({page, url, mock}) => {
   assert.equal(await page.locator('#curves').count(), 0, 'its points are not those of the scenario');
 };
 
+ofResults['the answer of a recommendation, and on from there'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  Object.assign(job, {kind: 'recommendation', recommend: {error: 0.02}, promises_kept: null, reached: true, artifacts: ['result.json', 'table.txt']});
+  mock.files['table.txt'] = 'as the program prints it';
+  const result = JSON.parse(readFileSync(join(mock.fixture, 'result.json'), 'utf8'));
+  const choice = (technique, setting, ns, size, confirmed = true) => ({technique, setting, confirmed, error: [0.0181, 0.0195], lookup_ns: ns, bytes: size, build_ms: 76.2,
+    part: {rays: {resolution: 91}, techniques: [{type: technique}]}});
+  const family = (technique) => ({technique, name: technique, axes: [], mapless: technique === 'ray_traced'});
+  result.recommendation = {light: 'key', measure: 'rms', goal: {error: 0.02, cheapest: ['bytes'], at_most: {}, budget_seconds: 9}, end: 'budget',
+    families: ['deep', 'avsm', 'ray_traced'].map(family), measured: [], confirmed: [], answer: {reached: true, without_map: choice('ray_traced', 'ray_traced samples=13', 8730, 0), closest: null,
+      cheapest: [
+        {cost: 'lookup_ns', ...choice('deep', 'deep kernel=tent, resolution=91', 6.56, 431104), runner_up: {...choice('avsm', 'avsm nodes=16, resolution=117', 23.3, 9, false), behind: 2.55, tie: false}, perhaps: null},
+        {cost: 'bytes', ...choice('deep', 'deep tolerance=0.1, resolution=59', 60.5, 46182), runner_up: {...choice('avsm', 'avsm nodes=4', 9, 46182), behind: 0, tie: true}, perhaps: choice('avsm', 'avsm nodes=2', 3, 1024)}],
+      missed: [{technique: 'pcf', why: 'already dearer', error: 0.0942}, {technique: 'variance', why: 'the budget ended', error: null}],
+      broken: [{technique: 'fourier', settings: 1, measured: 2, reason: '<b>rises</b>'}]}};
+  mock.results = result;
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('.cells tbody tr');
+  const first = page.locator('main .panel').first(), rows = await first.locator('.answers > div').allInnerTexts();
+  assert.match(await first.innerText(), /With an error of at most 0\.02\s+\(RMS, 95 % confidence\)[^]*The time given ended first/);
+  assert.match(rows[0], /Fastest lookup\s+deep kernel=tent, resolution=91 6\.56 ns, 421 KiB, 76\.2 ms to build, error 0\.0181 to 0\.0195\s+255 % more: avsm nodes=16, resolution=117, 23\.3 ns \(not confirmed\)/);
+  assert.match(rows[1], /Fewest bytes\s+deep tolerance=0\.1, resolution=59 45\.1 KiB, [^]*A tie with avsm nodes=4, 45\.1 KiB\s*Perhaps 1 KiB, error not confirmed: avsm nodes=2/);
+  assert.match(rows[2], /Without a map\s+ray_traced samples=13 8\.73 µs, error/);
+  await first.locator('summary').first().click();
+  assert.match(await first.locator('.facts').innerText(), /pcf\s+already dearer; closest error 0\.0942\s+variance\s+the budget ended; not measured\s+fourier\s+broke a promise at 1 of 2 settings; <b>rises<\/b>/);
+  await first.locator('summary').nth(1).click();
+  assert.match(await text(page, 'pre.answer'), /as the program prints it/);
+  // On from there: the scenario with these settings, ready to run.
+  await first.locator('button').first().click();
+  await page.waitForSelector('.verdict-box .good');
+  const scenario = JSON.parse(await page.locator('#scenario').inputValue());
+  assert.deepEqual([scenario.rays.resolution, scenario.techniques], [91, [{type: 'deep'}]]);
+  await page.goBack();
+  await page.waitForSelector('.cells tbody tr');
+  for (const summary of await first.locator('summary').all()) await summary.click();
+};
+
 ofResults['pictures that could not be made'] = async ({page, url, mock}) => {
   const job = mock.job('succeeded');
   job.artifacts = ['result.json', 'images/error.json'];
@@ -73,6 +110,7 @@ ofResults['two results that differ'] = async ({page, url, mock}) => {
   assert.ok(page.url().endsWith(`#/compare/${a.id}/${b.id}`), 'the address names them');
   const table = await text(page, '.lines');
   for (const words of ['✕ less accurate', '✕ larger', '+8400 (+21 %)', '<b>not</b> in the current side', '× 1.22, 95 %: 1.17 to 1.29', '✓ smaller', '△ not comparable']) assert.ok(table.includes(words), words);
+  assert.equal(await page.locator('.lines .verdict-less_accurate').evaluate((mark) => getComputedStyle(mark).color === getComputedStyle(document.querySelector('.outcome')).color), true, 'in the colour of what is bad');
   assert.doesNotMatch(table, /inconclusive/);
   await page.click('nav a[href="#/compare"]');
   await page.waitForFunction(() => document.querySelector('main').textContent.includes('Choose two results'));
@@ -81,7 +119,7 @@ ofResults['two results that differ'] = async ({page, url, mock}) => {
   assert.match(await text(page, '.fronts'), /avsm nodes=4 left the front/);
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('button[aria-label="Save the verdicts as CSV"]')]);
   const rows = readFileSync(await download.path(), 'utf8').split('\r\n');
-  assert.equal(rows[1], 'small / key / avsm nodes=4,lookup_error.rms,less_accurate,0.0721,0.0854,,+0.0133 (+18.4 %)');
+  assert.equal(rows[1], 'small / key / avsm nodes=4,lookup_error.rms,less accurate,0.0721,0.0854,,+0.0133 (+18.4 %)');
 };
 
 ofResults['several results in one plot, and over time'] = async ({page, url, mock}) => {

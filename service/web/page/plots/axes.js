@@ -5,7 +5,7 @@ const writers = {
   ns: nanoseconds,
   ms: (v) => nanoseconds(1e6 * v),
   ratio: (v) => `${significant(v)} ×`,
-  bytes: (v) => bytes(v, 4),
+  bytes,
   error: (v) => significant(v),
 };
 

@@ -70,6 +70,8 @@ export function plot(name, {onPick, onFrame, theme = () => ({}), label, signal})
   }
 
   function placed() {
+    // A group without marks is no picture to a screen reader.
+    for (const group of canvas.querySelectorAll('g[role="graphics-symbol"]')) if (!group.querySelector('path, text')) group.setAttribute('aria-hidden', 'true'); else group.removeAttribute('aria-hidden');
     const frame = element.querySelector('.role-frame.root path.background');
     if (!onFrame || !frame || signal?.aborted) return;
     const inner = frame.getBoundingClientRect(), outer = element.getBoundingClientRect();

@@ -7,12 +7,13 @@ import {dashOf, lineSample, lookOf, onThemeChange} from '../plots/palette.js';
 import {plot} from '../plots/plot.js';
 import {saveButtons} from '../plots/save.js';
 import {depthRange} from './depth.js';
-import {channelOf, differenceOf, verticesOf} from './functions.js';
+import {channelOf, differenceOf, thinned, verticesOf} from './functions.js';
 import {throughLegend} from './legend.js';
 import {lightMapOf, titleOf, worstPixelOf} from './model.js';
 import {pixelGrid} from './pixels.js';
 
 const colours = ['red', 'green', 'blue'];
+const finest = 1e-3;  // of a plot's height: less than a pixel
 const surveySide = 24;  // pixels per side that a survey requests
 
 // The transmittance of the whole pixel, one value per channel.
@@ -93,24 +94,24 @@ export function curvesView({source, result, images, group, series, signal}) {
     if (!shown || signal.aborted) return;
     const [low, high] = depth.range(), whole = [shown.z_min, shown.z_max];
     const exactCurve = channelOf(shown.exact, channel);
-    const vertices = verticesOf('exact', exactCurve, ...whole, {colour: drawing.colour('exact'), dash: [1, 0], width: 7}), differences = [];
+    const vertices = thinned(verticesOf('exact', exactCurve, ...whole, {colour: drawing.colour('exact'), dash: [1, 0], width: 7}), finest), errorsOf = [];
     shown.curves.forEach((c, number) => {
       if (c.absent || hidden.has(c.title)) return;
       const look = {colour: lookOf(series.get(c.technique) ?? 0).colour, dash: dashOf(number), width: 1.8}, curve = channelOf(c, channel);
-      vertices.push(...verticesOf(c.title, curve, ...whole, look));
-      differences.push(...differenceOf(curve, exactCurve, ...whole).map(([z, v], order) => ({curve: c.title, order, z, v, ...look})));
+      vertices.push(...thinned(verticesOf(c.title, curve, ...whole, look), finest));
+      errorsOf.push(differenceOf(curve, exactCurve, ...whole).map(([z, v], order) => ({curve: c.title, order, z, v, ...look})));
     });
     channels.hidden = !shown.exact.channels;
     const ends = (values, least) => [Math.min(-least, ...values), Math.max(least, ...values)];
     const [bottom, top] = [Math.min(0, ...vertices.map((p) => p.v)), Math.max(1, ...vertices.map((p) => p.v))];
-    const [below, above] = ends(differences.map((p) => p.v), 1e-3), x = linearAxis('x', low, high, 7);
+    const [below, above] = ends(errorsOf.flat().map((p) => p.v), 1e-3), x = linearAxis('x', low, high, 7);
     drawing.update({
       signals: {...x, ...linearAxis('y', bottom - 0.02, top + 0.02, 5)},
       data: {vertices},
       description: `Visibility against depth at pixel ${shown.x}, ${shown.y}: ` +
         shown.curves.map((c) => `${c.title} ${c.absent ?? `${c.nodes} nodes, largest error ${significant(c.error_max, 2)}`}`).join('; '),
     });
-    errors.update({signals: {...x, ...linearAxis('y', 1.08 * below, 1.08 * above, 4, (v) => significant(v, 2))}, data: {vertices: differences},
+    errors.update({signals: {...x, ...linearAxis('y', 1.08 * below, 1.08 * above, 4, (v) => significant(v, 2))}, data: {vertices: errorsOf.flatMap((one) => thinned(one, finest * (above - below)))},
       description: `Stored minus exact visibility against depth at pixel ${shown.x}, ${shown.y}, from ${significant(below, 2)} to ${significant(above, 2)}`});
     heading.textContent = `↑ visibility at pixel ${shown.x}, ${shown.y}`;
     legend.replaceChildren(legendTable(shown, series, {

@@ -10,9 +10,10 @@ import {saveButtons} from '../plots/save.js';
 import {frontOf} from './model.js';
 import {costs, ownFronts, pointsAt, settingsOf} from './settings.js';
 
-export function exploredView({recommendation, name, signal}) {
+// series: numbers of techniques.
+export function exploredView({recommendation, series, name, signal}) {
   const settings = settingsOf(recommendation), techniques = [...new Set(recommendation.families.map((f) => f.technique))];
-  const series = new Map(techniques.map((technique, i) => [technique, i])), goal = recommendation.goal.error;
+  const goal = recommendation.goal.error;
   const drawing = plot('trade', {label: 'Settings that were measured', signal,
     theme: () => ({ink: drawing.colour('ink'), muted: drawing.colour('muted'), paper: drawing.colour('panel'), shade: drawing.colour('grid')})});
   const place = h('div', {class: 'plot-place'}, drawing.element), up = h('p', {class: 'axis-title'}), across = h('p', {class: 'axis-title across'});

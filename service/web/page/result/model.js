@@ -119,9 +119,11 @@ function valueAt(document, pointer) {
   return pointer.split('/').slice(1).reduce((value, key) => value?.[key.replaceAll('~1', '/').replaceAll('~0', '~')], document);
 }
 
-// The technique in the form of a scenario: the values that were written, and those that sweeps set.
+// The technique in the form of a scenario: the values that were written, and those that sweeps set. A recommendation's
+// stand nowhere in its scenario.
 function techniqueOf(result, cell) {
-  const written = valueAt(result.scenario, cell.where ?? '') ?? {type: cell.technique};
+  const written = cell.where?.startsWith('/') ? valueAt(result.scenario, cell.where) : null;
+  if (!written) return {type: cell.technique, ...cell.parameters};
   if (written.type === '*') return {type: cell.technique};  // "*" stands for techniques with their defaults
   const swept = Object.keys(result.scenario?.sweeps ?? {}).filter((p) => p.startsWith(`${cell.where}/`))
     .map((p) => p.slice(cell.where.length + 1)).filter((key) => key in (cell.parameters ?? {}));

@@ -44,9 +44,8 @@ const verdicts = {
 };
 
 export function verdictMark(cell) {
-  const verdict = cell.verdict ?? cell.status;
-  return h('span', {class: `verdict verdict-${verdict}`},
-    h('span', {'aria-hidden': 'true'}, verdicts[verdict] ?? '·'), ` ${verdict.replaceAll('_', ' ')}`);
+  const verdict = cell.verdict ?? cell.status, word = verdict.replaceAll(' ', '_');
+  return h('span', {class: `verdict verdict-${word}`}, h('span', {'aria-hidden': 'true'}, verdicts[word] ?? '·'), ` ${verdict}`);
 }
 
 function frontMarks(cell) {

@@ -142,8 +142,9 @@ function groupView({source, result, images, imagesFault, group, series, signal})
       group.light.sees_nothing && h('p', {class: 'note'}, 'This light sees nothing that casts a shadow.')));
 }
 
-// imagesFault: why there are no pictures, as {where, message}, if it is known.
-export function resultView({source, result, images, imagesFault, signal}) {
+// imagesFault: why there are no pictures, as {where, message}, if it is known. first: settings of the variant that is shown
+// first, as {pointer: value}; nothing: the first one.
+export function resultView({source, result, images, imagesFault, first = {}, signal}) {
   const groups = groupsOf(result), series = seriesOf(result);
   if (!groups.length) return h('p', {class: 'note'}, 'This result has no lights.');
   const place = h('div'), switches = h('div', {class: 'choices switch', hidden: groups.length === 1});
@@ -152,9 +153,10 @@ export function resultView({source, result, images, imagesFault, signal}) {
 
   const variants = [...new Map(groups.map((g) => [g.variant, g])).values()];
   const lightsOf = (variant) => groups.filter((g) => g.variant === variant);
-  // What the address names, or the first.
+  const usual = groups.find((g) => Object.entries(first).every(([pointer, value]) => g.settings.some(([p, v]) => p === pointer && v === value))) ?? groups[0];
+  // What the address names, or the usual one.
   function named() {
-    const lights = lightsOf(Number(address.get('variant') ?? groups[0].variant));
+    const lights = lightsOf(Number(address.get('variant') ?? usual.variant));
     return lights.find((g) => g.lightIndex === Number(address.get('light') ?? -1)) ?? lights[0] ?? groups[0];
   }
   function go(group) {
