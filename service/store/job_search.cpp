@@ -180,7 +180,8 @@ std::vector<std::string> find_search_faults(Database& database) {
     };
     if (!has_search(database)) return fault("is missing");
     try {
-        if (const std::size_t jobs = count_differences(database)) return fault("is wrong for " + std::to_string(jobs) + " of them");
+        if (const std::size_t jobs = count_differences(database))
+            return fault("is wrong for " + std::to_string(jobs) + " of them");
         if (!has_all_terms(database)) return fault("is damaged");
     } catch (const DamagedStore&) {
         return fault("is damaged");

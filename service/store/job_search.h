@@ -1,5 +1,5 @@
-// The search of texts in a job store: FTS5's index of the trigrams of what is searched. Each change of a job changes its
-// text in the same transaction.
+// The search of texts in a job store: FTS5's index of the trigrams of what is searched. Each change of a job changes
+// its text in the same transaction.
 #pragma once
 
 #include <cstdint>

@@ -48,8 +48,7 @@ std::string list_sql(const StoreFilter& filter, const std::string& match, bool f
     if (!filter.text.empty()) sql += " AND instr(jobs_text.text, ?4) > 0";
     if (!filter.state.empty()) sql += " AND jobs.state = ?1";
     if (!filter.owner.empty()) sql += " AND jobs.owner = ?2";
-    if (!filter.label.empty())
-        sql += " AND instr(char(10) || jobs.labels || char(10), char(10) || ?3 || char(10)) > 0";
+    if (!filter.label.empty()) sql += " AND instr(char(10) || jobs.labels || char(10), char(10) || ?3 || char(10)) > 0";
     return sql + " ORDER BY " + sequence + " DESC LIMIT ?7";
 }
 

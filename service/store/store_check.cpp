@@ -48,7 +48,8 @@ StoreContents check_store(const std::filesystem::path& file) {
     }
     for (const std::string& id : find_unsealed(database))
         contents.faults.push_back(file.string() + ": the row of job " + id + " is damaged: its checksum differs");
-    for (const std::string& fault : find_search_faults(database)) contents.faults.push_back(file.string() + ": " + fault);
+    for (const std::string& fault : find_search_faults(database))
+        contents.faults.push_back(file.string() + ": " + fault);
     contents.jobs = read_jobs(database);
     sqlite::run(database, "COMMIT");
     return contents;
