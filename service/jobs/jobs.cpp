@@ -153,7 +153,7 @@ Jobs::State::State(const fs::path& path, const std::string& program, const std::
       news(std::move(log)),
       folder(path, [this](const std::string& line) { news.recovered(line); }),
       folders(make_job_folders(path)),
-      reserve(path / "reserve", folders.work),
+      reserve(path / "shadowbench-reserve", folders.work),
       opened(open_store(folder, folders, [this](const std::string& line) { news.recovered(line); })),
       store(*opened),
       presence({path, folder.database()}),

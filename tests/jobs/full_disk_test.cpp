@@ -174,7 +174,7 @@ TEST_F(FullDisk, CancelsRemovesAndStartsWithNothingLeft) {
     wait_for_run(blocks);
     std::vector<std::string> ids;
     for (int i = 0; i < 40; ++i) ids.push_back(submit(success));
-    EXPECT_EQ(fs::file_size(state() / "reserve"), reserve_bytes);
+    EXPECT_EQ(fs::file_size(state() / "shadowbench-reserve"), reserve_bytes);
     const auto cancel_and_remove = [&](const std::string& id) {
         EXPECT_EQ(jobs->cancel(id), Jobs::Change::done) << id;
         EXPECT_EQ(jobs->remove(id), Jobs::Change::done) << id;
@@ -187,12 +187,12 @@ TEST_F(FullDisk, CancelsRemovesAndStartsWithNothingLeft) {
     EXPECT_EQ(jobs->remove(failed), Jobs::Change::done);
     empty();
     start();
-    EXPECT_TRUE(fs::exists(state() / "reserve")) << "it is taken again once there is space";
+    EXPECT_TRUE(fs::exists(state() / "shadowbench-reserve")) << "it is taken again once there is space";
     fill();
     jobs.reset();
     fill();  // a server that stops gives the space of its log back
     ASSERT_NO_THROW(start());
-    EXPECT_FALSE(fs::exists(state() / "reserve"));
+    EXPECT_FALSE(fs::exists(state() / "shadowbench-reserve"));
     for (std::size_t i = 20; i < 36; ++i) cancel_and_remove(ids[i]);
     empty();
     start();
