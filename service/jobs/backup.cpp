@@ -84,9 +84,9 @@ std::size_t copy_all(const fs::path& state, const fs::path& to) {
     }
 }
 
-std::set<std::string> ids_of(const StoreContents& contents, const std::set<std::string>& states) {
+std::set<std::string> ids_of(const std::vector<StoredJob>& jobs, const std::set<std::string>& states) {
     std::set<std::string> ids;
-    for (const StoredJob& job : contents.jobs)
+    for (const StoredJob& job : jobs)
         if (states.contains(job.state)) ids.insert(job.id);
     return ids;
 }
@@ -130,11 +130,11 @@ std::vector<std::string> check_state(const fs::path& state) {
     std::vector<fs::path> folders;
     if (type_of(state / "jobs") == fs::file_type::directory) folders = entries_of(state / "jobs");
     const StoreContents contents = check_store(state / "jobs.db");
-    const std::set<std::string> then = ids_of(contents, {job_states::succeeded});
+    const std::set<std::string> then = ids_of(contents.jobs, {job_states::succeeded});
     std::map<std::string, std::vector<std::string>> faults;  // by job
     for (const std::string& id : then)
         if (auto found = check_results(state / "jobs" / id, id); !found.empty()) faults[id] = std::move(found);
-    const StoreContents last = check_store(state / "jobs.db");
+    const std::vector<StoredJob> last = read_store(state / "jobs.db");
     const std::set<std::string> now = ids_of(last, {job_states::succeeded});
     // The results of a job that runs are there a moment before its row says so.
     const std::set<std::string> known = ids_of(last, {job_states::succeeded, job_states::running});

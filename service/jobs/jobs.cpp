@@ -153,20 +153,16 @@ Jobs::State::State(const fs::path& path, const std::string& program, const std::
       news(std::move(log)),
       folder(path, [this](const std::string& line) { news.recovered(line); }),
       folders(make_job_folders(path)),
+      reserve(path / "shadowbench-reserve", folders.work),
       opened(open_store(folder, folders, [this](const std::string& line) { news.recovered(line); })),
       store(*opened),
       presence({path, folder.database()}),
       board(store.next_revision()),
-      place{store,
-            board,
-            presence,
-            folders,
-            checked_program,
-            data,
-            further.words,
-            limits,
-            hidden_folders(path.string(), data),
-            news} {
+      place{store,         board,           presence,
+            folders,       checked_program, data,
+            further.words, limits,          hidden_folders(path.string(), data),
+            news,          reserve} {
+    reserve.take();
     const std::vector<StoredJob> cut_off = store.list({job_states::running}, INT32_MAX, 0);
     recover(folder, store, folders, [this](const std::string& line) { news.recovered(line); });
     for (const StoredJob& job : cut_off)

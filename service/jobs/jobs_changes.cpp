@@ -18,7 +18,9 @@ constexpr std::chrono::seconds longest_end{5};  // that a request waits for the 
 
 Jobs::Change Jobs::cancel(const std::string& id) {
     State& all = *state_;
-    const auto revision = all.store.end_waiting(id, {job_states::cancelled, now_utc(), {}, {}, 0});
+    const auto revision = all.write_at_last([&] {
+        return all.store.end_waiting(id, {job_states::cancelled, now_utc(), {}, {}, 0});
+    });
     if (!revision) return all.store.find(id) ? Change::refused : Change::not_found;
     all.board.cancel(id);
     all.board.announce(*revision, true);
@@ -33,9 +35,10 @@ Jobs::Change Jobs::State::remove(const StoredJob& job, const char* reason) {
     const bool had_results = job.state == job_states::succeeded && unpublish(folders, job.id);
     const std::filesystem::path removed = removed_folder(folders, job.id);
     if (had_results) empty_folder(removed);
-    if (!store.remove(job.id)) return store.find(job.id) ? Change::refused : Change::not_found;
+    if (!write_at_last([&] { return store.remove(job.id); }))
+        return store.find(job.id) ? Change::refused : Change::not_found;
     if (had_results) remove_folder(removed);
-    board.announce(store.next_revision(), true);
+    board.announce(write_at_last([&] { return store.next_revision(); }), true);
     news.removed(job.id, reason);
     return Change::done;
 }

@@ -38,6 +38,7 @@ struct Part {
 constexpr Part parts[] = {{mark_name, fs::file_type::regular},
                           {pending_mark_name, fs::file_type::regular},
                           {"lock", fs::file_type::regular},
+                          {"shadowbench-reserve", fs::file_type::regular},
                           {"jobs.db", fs::file_type::regular},
                           {"jobs.db-wal", fs::file_type::regular},
                           {"jobs.db-shm", fs::file_type::regular},

@@ -1,6 +1,7 @@
 // The state folder, in which a server keeps its jobs:
 //   shadowbench-state     the mark: it names the program and the version of the layout
 //   lock                  see store/folder_lock.h
+//   shadowbench-reserve   see reserve.h
 //   jobs.db               see store/job_store.h, with the files that SQLite puts beside it
 //   jobs/, work/          see folders.h
 //   lost+found/<time>/    unknown files and damaged results that a start found in the places above and moved there

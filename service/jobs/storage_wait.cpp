@@ -36,6 +36,7 @@ void check_storage(const Workplace& place) {
         throw Error(ErrorCode::io, place.folders.work.string(),
                     fmt::format("{} MiB of the disk are free, and --min-free asks for {}", *left >> 20,
                                 place.limits.min_free >> 20));
+    place.reserve.take();
 }
 
 void wait_for_room(const Workplace& place, const StoredJob& job, const Waits& waits, Patience& patience) {

@@ -67,7 +67,8 @@ auto persist(const Workplace& place, const Body& body) -> std::optional<std::dec
 // Whether the disk has less free space than limits.min_free, were `own` bytes of it removed.
 bool is_low(const Workplace& place, std::uintmax_t own = 0);
 
-// Throws Error{io} where no job may start: the state folder is gone, or the disk is low.
+// Throws Error{io} where no job may start: the state folder is gone, or the disk is low. Elsewhere takes the reserve,
+// if it was given up.
 void check_storage(const Workplace& place);
 
 // Returns when jobs may start and there is room for more than the job had written, when the job is no longer queued, or

@@ -9,6 +9,7 @@
 #include "service/jobs/folders.h"
 #include "service/jobs/jobs.h"
 #include "service/jobs/news.h"
+#include "service/jobs/reserve.h"
 #include "service/privacy/hidden_folders.h"
 #include "service/store/job_store.h"
 #include "service/store/presence.h"
@@ -26,6 +27,7 @@ struct Workplace {
     JobLimits limits;
     std::vector<HiddenFolder> hidden;
     JobNews& news;
+    Reserve& reserve;
 };
 
 // Takes jobs from the queue, one after the other, and runs each to its end. Returns once the board stops. Throws

@@ -85,6 +85,9 @@ void Database::check(int code) const {
         case SQLITE_NOTADB:
             fail_damaged("not a database");
         case SQLITE_CORRUPT:
+            if (sqlite3_extended_errcode(handle_) == SQLITE_CORRUPT_VTAB)
+                throw DamagedStore(base::ErrorCode::io, place_,
+                                   "an index of texts is damaged; the next start makes it anew");
             fail_damaged("the database is damaged");
         default:
             fail(std::string("the database cannot be used: ") +

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "service/store/job_rows.h"
+#include "service/store/job_search.h"
 
 namespace shadowbench::service {
 namespace {
@@ -46,6 +47,12 @@ CREATE TABLE turns (owner TEXT PRIMARY KEY, last INTEGER NOT NULL) STRICT, WITHO
 PRAGMA user_version = 3;
 )";
 
+// Version 4 has an index for the search of texts, and one that lists the jobs of an owner, the newest first.
+constexpr const char* from_version_3 = R"(
+CREATE INDEX jobs_of_owner ON jobs (owner, sequence, state);
+PRAGMA user_version = 4;
+)";
+
 constexpr const char* columns_1 =
     "sequence, id, state, name, hash, seed, program, pictures, cached, created, started, ended, attempts, kept, "
     "fault_code, fault_where, fault_message, revision, scenario";
@@ -81,12 +88,14 @@ std::int64_t version_of(Database& database) {
 void make_schema(Database& database) {
     const std::int64_t version = version_of(database);
     if (version > 0) check_tables(database, version);
-    if (version == schema_version) return;
+    if (version == schema_version && is_search_whole(database)) return;
     Transaction all(database);
     if (version < 1) database.execute(schema_1);
     if (version < 2) database.execute(from_version_1);
-    database.execute(from_version_2);
-    seal_all(database);
+    if (version < 3) database.execute(from_version_2);
+    if (version < 4) database.execute(from_version_3);
+    make_search(database);
+    if (version < 3) seal_all(database);
     all.commit();
 }
 

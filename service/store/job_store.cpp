@@ -3,6 +3,7 @@
 #include <string_view>
 #include <utility>
 
+#include "service/store/job_search.h"
 #include "service/store/job_store_state.h"
 
 namespace shadowbench::service {
@@ -172,8 +173,13 @@ JobStore::Retried JobStore::retry(const std::string& id, const std::string& prog
 }
 
 bool JobStore::remove(const std::string& id) {
+    Database& database = state_->writer;
     return state_->write([&] {
-        return run(state_->writer, "DELETE FROM jobs WHERE id = ? AND state <> ?", {id, job_states::running}) == 1;
+        const std::optional<StoredJob> job = find_by_id(database, id);
+        if (!job || job->state == job_states::running) return false;
+        unindex_job(database, id);
+        run(database, "DELETE FROM jobs WHERE id = ?", {id});
+        return true;
     });
 }
 
@@ -233,6 +239,11 @@ void JobStore::adopt(const std::vector<KeptJob>& jobs) {
         }
         return true;
     });
+}
+
+void JobStore::reuse_log() {
+    const std::scoped_lock lock(state_->write_mutex);
+    run(state_->writer, "PRAGMA wal_checkpoint(RESTART)");
 }
 
 std::uint64_t JobStore::next_revision() {

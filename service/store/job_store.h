@@ -83,7 +83,7 @@ struct Ending {
 // Which jobs a list has; an empty text: all.
 struct StoreFilter {
     std::string state = {}, owner = {}, label = {};
-    std::string text = {};  // in the id, name, owner, labels or fault of the job, in any case of ASCII letters
+    std::string text = {};  // a part of the id, name, owner, labels or fault of the job, in upper or lower case
 };
 
 class JobStore {
@@ -154,6 +154,10 @@ public:
     std::vector<Ended> list_removable() const;  // jobs that have ended and are not pinned, the first to end first
     // The newest job of this key that has succeeded.
     std::optional<StoredJob> find_result(const ResultKey& key) const;
+
+    // Moves what the write-ahead log holds to its place in the file, so that the next changes take its space instead of
+    // more.
+    void reuse_log();
 
     // Larger than all earlier revisions, also those of earlier servers.
     std::uint64_t next_revision();

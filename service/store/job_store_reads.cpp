@@ -1,6 +1,7 @@
 // The parts of JobStore that change nothing.
 #include <utility>
 
+#include "service/store/job_search.h"
 #include "service/store/job_store.h"
 #include "service/store/job_store_state.h"
 
@@ -9,18 +10,47 @@ namespace {
 
 using sqlite::Database, sqlite::Rows, sqlite::run;
 
-// ?1 to ?4 are the texts of a StoreFilter. Labels have no line breaks, so a label between two of them is a whole one.
-constexpr std::string_view list_sql = R"(
-SELECT * FROM jobs
-WHERE (?1 = '' OR state = ?1) AND (?2 = '' OR owner = ?2)
-  AND (?3 = '' OR instr(char(10) || labels || char(10), char(10) || ?3 || char(10)) > 0)
-  AND (?4 = '' OR instr(lower(id || char(10) || name || char(10) || owner || char(10) || labels || char(10) ||
-                              coalesce(fault_message, '')), lower(?4)) > 0)
-  AND sequence < ?5 ORDER BY sequence DESC LIMIT ?6)";
+// Of a state with fewer jobs, each is looked at; else the index of texts finds some, of any state.
+constexpr std::int64_t few_jobs = 2000;
 
-// The query of all jobs of a state, which the index answers.
-constexpr std::string_view list_state_sql =
-    "SELECT * FROM jobs WHERE state = ? AND sequence < ? ORDER BY sequence DESC LIMIT ?";
+bool has_few(Database& database, const std::string& state) {
+    Rows rows(database, "SELECT count(*) FROM (SELECT 1 FROM jobs WHERE state = ? LIMIT ?)", {state, few_jobs});
+    return rows.next() && rows.integer(0) < few_jobs;
+}
+
+std::string as_line(const std::string& text) {
+    return text.empty() ? "" : fold_case('\n' + text + '\n');
+}
+
+// What the index of texts looks for, which may find more than the jobs that are wanted; `text` is folded.
+std::string match_of(const StoreFilter& filter, const std::string& text) {
+    std::string match;
+    for (const std::string& part : {text, as_line(filter.label), as_line(filter.owner)})
+        if (const std::string phrase = phrase_of(part); !phrase.empty())
+            match += (match.empty() ? "" : " AND ") + phrase;
+    return match;
+}
+
+// ?1 to ?3 are state, owner and label of the filter, ?4 is the folded text and ?5 what the index of texts looks for.
+// Labels have no line breaks, so a label between two of them is a whole one.
+std::string list_sql(const StoreFilter& filter, const std::string& match, bool few) {
+    const bool searched = !filter.text.empty() || !filter.label.empty(), by_text = searched && !few;
+    const std::string sequence = by_text ? "jobs_text.rowid" : "jobs.sequence";
+    std::string sql = "SELECT jobs.* FROM ";
+    if (by_text)
+        sql += "jobs_text CROSS JOIN jobs ON jobs.sequence = jobs_text.rowid";
+    else if (!filter.text.empty())
+        sql += "jobs CROSS JOIN jobs_text ON jobs_text.rowid = jobs.sequence";
+    else
+        sql += !searched && !filter.owner.empty() ? "jobs INDEXED BY jobs_of_owner" : "jobs";
+    sql += " WHERE " + sequence + " < ?6";
+    if (by_text && !match.empty()) sql += " AND jobs_text MATCH ?5";
+    if (!filter.text.empty()) sql += " AND instr(jobs_text.text, ?4) > 0";
+    if (!filter.state.empty()) sql += " AND jobs.state = ?1";
+    if (!filter.owner.empty()) sql += " AND jobs.owner = ?2";
+    if (!filter.label.empty()) sql += " AND instr(char(10) || jobs.labels || char(10), char(10) || ?3 || char(10)) > 0";
+    return sql + " ORDER BY " + sequence + " DESC LIMIT ?7";
+}
 
 }  // namespace
 
@@ -64,18 +94,16 @@ std::optional<JobStore::Key> JobStore::key_of(const std::string& id) const {
 std::vector<StoredJob> JobStore::list(const StoreFilter& filter, std::size_t limit, std::int64_t before) const {
     const std::scoped_lock lock(state_->read_mutex);
     const std::int64_t below = before > 0 ? before : INT64_MAX, most = static_cast<std::int64_t>(limit);
+    const std::string text = fold_case(filter.text), match = match_of(filter, text);
     std::vector<StoredJob> jobs;
-    const auto collect = [&](Rows&& rows) {
-        while (rows.next()) jobs.push_back(read_job(rows));
-    };
     run(*state_->reader, "BEGIN");  // the page and the places in the queue are read at the same moment
     try {
-        const bool only_state = filter.owner.empty() && filter.label.empty() && filter.text.empty();
-        if (only_state && !filter.state.empty())
-            collect(Rows(*state_->reader, list_state_sql, {filter.state, below, most}));
-        else
-            collect(
-                Rows(*state_->reader, list_sql, {filter.state, filter.owner, filter.label, filter.text, below, most}));
+        const bool few = !filter.state.empty() && has_few(*state_->reader, filter.state);
+        {
+            Rows rows(*state_->reader, list_sql(filter, match, few),
+                      {filter.state, filter.owner, filter.label, text, match, below, most});
+            while (rows.next()) jobs.push_back(read_job(rows));
+        }
         count_ahead(*state_->reader, jobs);
     } catch (...) {
         run(*state_->reader, "ROLLBACK");

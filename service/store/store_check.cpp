@@ -4,12 +4,20 @@
 #include "service/store/database.h"
 #include "service/store/job_rows.h"
 #include "service/store/job_schema.h"
+#include "service/store/job_search.h"
 #include "service/store/store_kind.h"
 
 namespace shadowbench::service {
 namespace {
 
 using sqlite::Database, sqlite::Rows;
+
+std::vector<StoredJob> read_jobs(Database& database) {
+    Rows rows(database, "SELECT * FROM jobs ORDER BY sequence");
+    std::vector<StoredJob> jobs;
+    while (rows.next()) jobs.push_back(read_job(rows));
+    return jobs;
+}
 
 void check_kind(const std::filesystem::path& file) {
     if (kind_of_store(file) != StoreKind::ours)
@@ -40,12 +48,18 @@ StoreContents check_store(const std::filesystem::path& file) {
     }
     for (const std::string& id : find_unsealed(database))
         contents.faults.push_back(file.string() + ": the row of job " + id + " is damaged: its checksum differs");
-    {
-        Rows rows(database, "SELECT * FROM jobs ORDER BY sequence");
-        while (rows.next()) contents.jobs.push_back(read_job(rows));
-    }
+    for (const std::string& fault : find_search_faults(database))
+        contents.faults.push_back(file.string() + ": " + fault);
+    contents.jobs = read_jobs(database);
     sqlite::run(database, "COMMIT");
     return contents;
+}
+
+std::vector<StoredJob> read_store(const std::filesystem::path& file) {
+    check_kind(file);
+    Database database(file, Database::Access::read, store_application);
+    check_schema(database);
+    return read_jobs(database);
 }
 
 }  // namespace shadowbench::service

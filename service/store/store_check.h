@@ -14,10 +14,13 @@ void copy_store(const std::filesystem::path& from, const std::filesystem::path& 
 
 struct StoreContents {
     std::vector<StoredJob> jobs;
-    std::vector<std::string> faults;  // a line each: damaged pages, rows whose checksum is wrong
+    std::vector<std::string> faults;  // a line each: damaged pages, rows whose checksum is wrong, the index of texts
 };
 // Throws Error{io} for a file that cannot be read or is of an earlier or newer version, DamagedStore where it is no
 // database or lacks a table.
 StoreContents check_store(const std::filesystem::path& file);
+
+// The jobs alone, unchecked. Throws as check_store() does.
+std::vector<StoredJob> read_store(const std::filesystem::path& file);
 
 }  // namespace shadowbench::service

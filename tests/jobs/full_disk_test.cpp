@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "jobs/job_host.h"
+#include "service/jobs/reserve.h"
 #include "service/jobs/room.h"
 
 namespace shadowbench::service {
@@ -166,6 +167,40 @@ TEST_F(FullDisk, IsEmptiedByRemovingResults) {
     EXPECT_FALSE(jobs->find(id));
 }
 
+// Whoever operates it must be able to make its jobs fewer, also after it was started anew.
+TEST_F(FullDisk, CancelsRemovesAndStartsWithNothingLeft) {
+    start();
+    const std::string failed = run("echo x >&2; exit 65").id, blocks = submit(endless);
+    wait_for_run(blocks);
+    std::vector<std::string> ids;
+    for (int i = 0; i < 40; ++i) ids.push_back(submit(success));
+    EXPECT_EQ(fs::file_size(state() / "shadowbench-reserve"), reserve_bytes);
+    const auto cancel_and_remove = [&](const std::string& id) {
+        EXPECT_EQ(jobs->cancel(id), Jobs::Change::done) << id;
+        EXPECT_EQ(jobs->remove(id), Jobs::Change::done) << id;
+        EXPECT_FALSE(jobs->find(id));
+    };
+    for (std::size_t i = 0; i < 20; ++i) {
+        fill();
+        cancel_and_remove(ids[i]);
+    }
+    EXPECT_EQ(jobs->remove(failed), Jobs::Change::done);
+    empty();
+    start();
+    EXPECT_TRUE(fs::exists(state() / "shadowbench-reserve")) << "it is taken again once there is space";
+    fill();
+    jobs.reset();
+    fill();  // a server that stops gives the space of its log back
+    ASSERT_NO_THROW(start());
+    EXPECT_FALSE(fs::exists(state() / "shadowbench-reserve"));
+    for (std::size_t i = 20; i < 36; ++i) cancel_and_remove(ids[i]);
+    empty();
+    start();
+    EXPECT_EQ(jobs->cancel(blocks), Jobs::Change::done);
+    for (std::size_t i = 36; i < ids.size(); ++i) EXPECT_EQ(wait_for_end(ids[i]).state, JobState::succeeded);
+    EXPECT_EQ(run(success).state, JobState::succeeded);
+}
+
 TEST_F(FullDisk, LosesNothingWhereAServerCannotStart) {
     start();
     const JobInfo done = run(success);
@@ -263,8 +298,9 @@ TEST_F(FullDisk, BlamesTheDiskBeforeTheJob) {
 TEST_F(FullDisk, BlamesAJobThatTakesTheSpaceItself) {
     limits.min_free = std::size_t{1} << 20;
     start();
-    const JobInfo job = run("head -c 3300000 /dev/zero >big; "
-                            "echo '{\"error\":{\"code\":74,\"where\":\"x\",\"message\":\"own\"}}'; exit 74");
+    const JobInfo job =
+        run("head -c 3300000 /dev/zero >big; "
+            "echo '{\"error\":{\"code\":74,\"where\":\"x\",\"message\":\"own\"}}'; exit 74");
     EXPECT_EQ(job.state, JobState::failed);
     ASSERT_TRUE(job.fault);
     EXPECT_EQ(job.fault->message, "own");
