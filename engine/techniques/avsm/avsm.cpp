@@ -126,13 +126,16 @@ private:
     void fill_one_by_one(const rays::LightRays& rays) {
         with_stream([&](auto& stream) {
             SegmentOrder order;
+            std::array<std::uint32_t, 64> segments;
             for_each_texel(rays, [&](float* texel, std::size_t cell, std::size_t ray) {
                 if (rays.begin[ray] == rays.begin[ray + 1]) return store_empty(texel);
                 stream.clear(layout_.z_max);
                 order.begin(rays, ray, order_, base::hash(seed_, cell));
                 while (order.left() > 0) {
-                    const std::uint32_t s = order.next();
-                    stream.insert(rays.z_front[s], rays.back(s), rays.transmittance[s]);
+                    const auto next = std::span(segments).first(std::min<std::size_t>(segments.size(), order.left()));
+                    order.next(next);
+                    for (const std::uint32_t s : next)
+                        stream.insert(rays.z_front[s], rays.back(s), rays.transmittance[s]);
                 }
                 store(stream, texel);
             });

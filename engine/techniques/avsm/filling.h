@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "rays/light_rays.h"
 #include "techniques/avsm/lanes.h"
@@ -58,14 +59,18 @@ private:
     }
 
     void set_rows(std::size_t l) {
-        Lane& lane = lanes_[l];
+        if (!lanes_[l].texel) {
+            for (std::size_t row = 0; row < rows_.count; ++row) rows_.set(row, l, 0.0f, 0.0f, 1.0f);
+            return;
+        }
+        std::array<std::uint32_t, SegmentRows::most> segments;
+        lanes_[l].order.next(std::span(segments).first(rows_.count));
+        const float* fronts = rays_.z_front.data();
+        const float* backs = rays_.z_back.empty() ? fronts : rays_.z_back.data();
+        const float* throughs = rays_.transmittance.data();
         for (std::size_t row = 0; row < rows_.count; ++row) {
-            if (!lane.texel) {
-                rows_.set(row, l, 0.0f, 0.0f, 1.0f);
-                continue;
-            }
-            const std::uint32_t s = lane.order.next();
-            rows_.set(row, l, rays_.z_front[s], rays_.back(s), rays_.transmittance[s]);
+            const std::uint32_t s = segments[row];
+            rows_.set(row, l, fronts[s], backs[s], throughs[s]);
         }
     }
 

@@ -132,10 +132,9 @@ public:
         depth_[nodes] = nowhere;
         value_[nodes] = value_[nodes - 1];
         slot_[nodes] = Ints{};
-        for (int i = 0; i <= nodes; ++i) {
-            displace(i, depth_[i] < front_z, front_node);
-            displace(i, depth_[i] <= back_z, back_node);
-        }
+        if (any(adds_front))
+            for (int i = 0; i <= nodes; ++i) displace(i, depth_[i] < front_z, front_node);
+        for (int i = 0; i <= nodes; ++i) displace(i, depth_[i] <= back_z, back_node);
         depth_[nodes + 1] = back_node.depth;
         value_[nodes + 1] = back_node.value;
         slot_[nodes + 1] = back_node.slot;
@@ -245,6 +244,7 @@ SHADOWBENCH_SIMD_LOOP inline void insert_rows(StreamLanes<nodes>& streams, const
 template <int nodes>
 void StreamLanes<nodes>::insert(const SegmentRows& rows) {
 #if defined(__x86_64__)
+    // Also where there are wider ones: the compiler turns their masks into slow code.
     if (base::simd_path() != base::SimdPath::baseline)
         return base::run_avx2([&]() SHADOWBENCH_SIMD_LOOP { insert_rows<8>(*this, rows); });
 #endif

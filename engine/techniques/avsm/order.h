@@ -20,55 +20,69 @@ namespace shadowbench::techniques {
 // what each round makes of each half.
 class Shuffle {
 public:
-    static constexpr std::size_t most_entries = 64;  // at once
+    static constexpr std::size_t most_entries = 128;  // at once
 
     void begin(std::uint64_t key, std::uint32_t count) {
         count_ = count;
         half_ = (std::bit_width(count > 1 ? count - 1 : 1u) + 1) / 2;
         mask_ = (1u << half_) - 1;
         for (std::uint64_t r = 0; r < rounds; ++r) keys_[r] = base::mix(base::mix(key) ^ r);
-        if (!looks_up()) return;
-        for (std::size_t r = 0; r < rounds; ++r)
-            for (std::uint32_t half = 0; half <= mask_; ++half)
-                table_[r][half] = static_cast<std::uint8_t>(hash(r, half));
+        if (half_ > most_bits) return;
+        for (std::size_t r = 0; r < rounds; ++r) {
+            const RoundHash round{keys_[r], mask_};
+            for (std::uint32_t half = 0; half <= round.mask; ++half)
+                table_[r][half] = static_cast<std::uint8_t>(round(half));
+        }
     }
 
-    // The entries from `first` on. Many at once: whether a result lies outside cannot be predicted, so a loop for each
-    // entry would wait for its rounds.
+    // The entries from `first` on. Side by side, since each round of an entry waits for the one before.
     void entries(std::uint32_t first, std::span<std::uint32_t> out) const {
-        std::array<std::uint32_t, most_entries> outside;
+        Halves left, right, number;  // of those whose results lie outside
         for (std::uint32_t i = 0; i < out.size(); ++i) {
-            out[i] = first + i;
-            outside[i] = i;
+            left[i] = static_cast<std::uint16_t>((first + i) >> half_);
+            right[i] = static_cast<std::uint16_t>((first + i) & mask_);
+            number[i] = static_cast<std::uint16_t>(i);
         }
-        for (std::size_t left = out.size(), next = 0; left > 0; left = next, next = 0)
-            for (std::size_t i = 0; i < left; ++i) {
-                std::uint32_t& at = out[outside[i]];
-                at = looks_up() ? all_rounds(at, [&](std::size_t r, std::uint32_t half) { return table_[r][half]; })
-                                : all_rounds(at, [&](std::size_t r, std::uint32_t half) { return hash(r, half); });
-                outside[next] = outside[i];
+        for (std::size_t outside = out.size(); outside > 0;) {
+            if (half_ <= most_bits)
+                all_rounds(left, right, outside, [&](std::size_t r) {
+                    return [row = table_[r].data()](std::uint32_t half) { return row[half]; };
+                });
+            else
+                all_rounds(left, right, outside, [&](std::size_t r) { return RoundHash{keys_[r], mask_}; });
+            std::size_t next = 0;
+            for (std::size_t i = 0; i < outside; ++i) {
+                const std::uint32_t at = static_cast<std::uint32_t>(left[i]) << half_ | right[i];
+                out[number[i]] = at;
+                left[next] = left[i];
+                right[next] = right[i];
+                number[next] = number[i];
                 next += at >= count_;
             }
+            outside = next;
+        }
     }
 
 private:
     static constexpr std::size_t rounds = 8;
     static constexpr int most_bits = 8;  // of a half in a table
+    using Halves = std::array<std::uint16_t, most_entries>;
 
-    bool looks_up() const { return half_ <= most_bits; }
     // base::hash() of the key, the round and the half.
-    std::uint32_t hash(std::size_t round, std::uint32_t half) const {
-        return static_cast<std::uint32_t>(base::mix(base::mix(keys_[round] ^ half))) & mask_;
-    }
-    template <class Round>
-    std::uint32_t all_rounds(std::uint32_t at, const Round& of) const {
-        std::uint32_t left = at >> half_, right = at & mask_;
-        for (std::size_t r = 0; r < rounds; ++r) {
-            const std::uint32_t next = left ^ of(r, right);
-            left = right;
-            right = next;
+    struct RoundHash {
+        std::uint64_t key;
+        std::uint32_t mask;
+        std::uint32_t operator()(std::uint32_t half) const {
+            return static_cast<std::uint32_t>(base::mix(base::mix(key ^ half))) & mask;
         }
-        return left << half_ | right;
+    };
+    template <class Rounds>
+    static void all_rounds(Halves& left, Halves& right, std::size_t count, const Rounds& round_of) {
+        for (std::size_t r = 0; r < rounds; r += 2) {
+            const auto even = round_of(r), odd = round_of(r + 1);
+            for (std::size_t i = 0; i < count; ++i) left[i] = static_cast<std::uint16_t>(left[i] ^ even(right[i]));
+            for (std::size_t i = 0; i < count; ++i) right[i] = static_cast<std::uint16_t>(right[i] ^ odd(left[i]));
+        }
     }
 
     std::uint32_t count_ = 0, mask_ = 0;  // the mask: of a half
@@ -79,7 +93,7 @@ private:
 
 enum class Order { sorted, captured, shuffled };
 
-// Names the segments of a ray, one after the other.
+// Names the segments of a ray, some after others.
 class SegmentOrder {
 public:
     void begin(const rays::LightRays& rays, std::size_t ray, Order order, std::uint64_t key) {
@@ -91,10 +105,16 @@ public:
     }
     std::uint32_t left() const { return end_ - at_; }
 
-    std::uint32_t next() {
-        const std::uint32_t at = at_++;
-        if (order_ == Order::sorted) return at;
-        if (order_ == Order::captured) return submission_[at];
+    // The next ones; so many are left.
+    void next(std::span<std::uint32_t> segments) {
+        for (std::uint32_t& segment : segments) {
+            const std::uint32_t at = at_++;
+            segment = order_ == Order::sorted ? at : order_ == Order::captured ? submission_[at] : shuffled(at);
+        }
+    }
+
+private:
+    std::uint32_t shuffled(std::uint32_t at) {
         const std::uint32_t k = (at - first_) % Shuffle::most_entries;
         if (k == 0)
             shuffle_.entries(at - first_,
@@ -102,7 +122,6 @@ public:
         return first_ + shuffled_[k];
     }
 
-private:
     Order order_ = Order::sorted;
     const std::uint32_t* submission_ = nullptr;
     std::uint32_t first_ = 0, at_ = 0, end_ = 0;
