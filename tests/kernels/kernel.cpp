@@ -10,7 +10,7 @@ namespace shadowbench::kernels {
 Kernels all_kernels() {
     Kernels kernels;
     for (const auto add : {add_reference_kernels, add_capture_kernels, add_march_kernels, add_sweep_kernels,
-                           add_compression_kernels, add_technique_kernels, add_load_kernels})
+                           add_compression_kernels, add_insert_kernels, add_technique_kernels, add_load_kernels})
         add(kernels);
     return kernels;
 }

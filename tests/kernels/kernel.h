@@ -52,6 +52,7 @@ void add_capture_kernels(Kernels& kernels);
 void add_march_kernels(Kernels& kernels);
 void add_sweep_kernels(Kernels& kernels);
 void add_compression_kernels(Kernels& kernels);
+void add_insert_kernels(Kernels& kernels);
 void add_technique_kernels(Kernels& kernels);
 void add_load_kernels(Kernels& kernels);
 

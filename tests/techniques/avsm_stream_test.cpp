@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "techniques/any_rays.h"
-#include "techniques/avsm/order.h"
 #include "techniques/avsm/stream.h"
 #include "techniques/avsm/texel.h"
 #include "techniques/one_ray.h"
@@ -227,27 +226,6 @@ TEST(AvsmStream, SurfacesAndWholeStepsInAnyOrderGiveTheExactProductWithLinearSam
             EXPECT_NEAR(curves::evaluate_behind(curve, static_cast<float>(z)), product(segments, behind), 1e-5) << z;
         }
     }
-}
-
-TEST(AvsmShuffle, IsAPermutationOfEveryLength) {
-    for (std::uint32_t count = 1; count < 300; ++count) {
-        const Shuffle shuffle(count, count);
-        std::vector<int> met(count, 0);
-        for (std::uint32_t k = 0; k < count; ++k) {
-            ASSERT_LT(shuffle(k), count);
-            ++met[shuffle(k)];
-        }
-        EXPECT_THAT(met, ::testing::Each(1)) << count;
-    }
-}
-
-TEST(AvsmShuffle, PutsEveryEntryAnywhere) {
-    constexpr std::uint32_t count = 5;
-    int met[count][count] = {};
-    for (std::uint64_t key = 0; key < 5000; ++key)
-        for (std::uint32_t k = 0; k < count; ++k) ++met[k][Shuffle(base::mix(key), count)(k)];
-    for (const auto& row : met)
-        for (const int times : row) EXPECT_NEAR(times, 1000, 150);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Adaptive volumetric shadow maps: Salvi, Vidimce, Lauritzen, Lefohn, Adaptive Volumetric Shadow Maps, 2010.
 #include "base/error.h"
+#include "techniques/avsm/filling.h"
 #include "techniques/avsm/order.h"
 #include "techniques/avsm/stream.h"
 #include "techniques/avsm/texel.h"
@@ -25,7 +26,6 @@ const Parameter parameters[] = {
     averaged_cells_parameter,
 };
 
-enum class Order { sorted, captured, shuffled };
 Order read_order(const ParameterValues& values) {
     const std::string& word = values.word("order");
     return word == "sorted" ? Order::sorted : word == "captured" ? Order::captured : Order::shuffled;
@@ -77,16 +77,16 @@ public:
         if (order_ == Order::captured && rays.submission.size() != rays.segments())
             throw base::Error(base::ErrorCode::internal, "/techniques",
                               "avsm: the light rays do not hold the order of their segments");
-        with_stream([&](auto& stream) {
-            for_each_texel(rays, [&](float* texel, std::size_t cell, std::size_t ray) {
-                if (rays.begin[ray] == rays.begin[ray + 1]) return store_empty(texel);
-                stream.clear(layout_.z_max);
-                for_each_segment(rays, ray, cell, [&](std::uint32_t s) {
-                    stream.insert(rays.z_front[s], rays.back(s), rays.transmittance[s]);
-                });
-                store(stream, texel);
-            });
-        });
+        switch (sampling_ == Sampling::linear ? nodes_ : 0) {
+            case 4:
+                return fill_side_by_side<4>(rays);
+            case 8:
+                return fill_side_by_side<8>(rays);
+            case 16:
+                return fill_side_by_side<16>(rays);
+            default:
+                return fill_one_by_one(rays);
+        }
     }
 
     float prepare(float z) const { return z; }
@@ -114,18 +114,32 @@ public:
     }
 
 private:
-    // Visits the segment numbers of a ray in the order of insertion.
-    template <class Visit>
-    void for_each_segment(const rays::LightRays& rays, std::size_t ray, std::size_t cell, const Visit& visit) const {
-        const std::uint32_t begin = rays.begin[ray], end = rays.begin[ray + 1];
-        if (order_ == Order::sorted) {
-            for (std::uint32_t s = begin; s < end; ++s) visit(s);
-        } else if (order_ == Order::captured) {
-            for (std::uint32_t s = begin; s < end; ++s) visit(rays.submission[s]);
-        } else {
-            const Shuffle shuffle(base::hash(seed_, cell), end - begin);
-            for (std::uint32_t k = 0; k < end - begin; ++k) visit(begin + shuffle(k));
-        }
+    template <int nodes>
+    void fill_side_by_side(const rays::LightRays& rays) {
+        Filling<nodes> filling(rays, order_, layout_.z_max);
+        for_each_texel(rays, [&](float* texel, std::size_t cell, std::size_t ray) {
+            if (rays.begin[ray] == rays.begin[ray + 1]) return store_empty(texel);
+            filling.add(texel, ray, base::hash(seed_, cell));
+        });
+        filling.finish();
+    }
+    void fill_one_by_one(const rays::LightRays& rays) {
+        with_stream([&](auto& stream) {
+            SegmentOrder order;
+            std::array<std::uint32_t, 64> segments;
+            for_each_texel(rays, [&](float* texel, std::size_t cell, std::size_t ray) {
+                if (rays.begin[ray] == rays.begin[ray + 1]) return store_empty(texel);
+                stream.clear(layout_.z_max);
+                order.begin(rays, ray, order_, base::hash(seed_, cell));
+                while (order.left() > 0) {
+                    const auto next = std::span(segments).first(std::min<std::size_t>(segments.size(), order.left()));
+                    order.next(next);
+                    for (const std::uint32_t s : next)
+                        stream.insert(rays.z_front[s], rays.back(s), rays.transmittance[s]);
+                }
+                store(stream, texel);
+            });
+        });
     }
 
     void store_empty(float* t) const {

@@ -26,6 +26,9 @@ namespace shadowbench::techniques {
 template <int max_capacity, Sampling sampling = Sampling::linear>
 class TransmittanceStream {
 public:
+    static constexpr int slots = (max_capacity + 2 + 3) / 4 * 4;
+    static constexpr int slot_mask = std::bit_ceil(static_cast<unsigned>(slots)) - 1;  // of the bits that name a slot
+
     TransmittanceStream(int capacity, float far_plane) : capacity_(capacity) { clear(far_plane); }
 
     void clear(float far_plane) {
@@ -83,8 +86,6 @@ public:
 
 private:
     static constexpr int far_slot = 0;
-    static constexpr int slots = (max_capacity + 2 + 3) / 4 * 4;
-    static constexpr int slot_mask = std::bit_ceil(static_cast<unsigned>(slots)) - 1;
     static constexpr std::int32_t never = std::numeric_limits<std::int32_t>::max();
 
     static constexpr std::array<std::uint8_t, slots> all_free() {

@@ -27,7 +27,7 @@ TEST(Kernels, HaveDifferentNames) {
     std::set<std::string> names;
     for (const Kernel& kernel : all_kernels()) EXPECT_TRUE(names.insert(kernel.name).second) << kernel.name;
     for (const char* family :
-         {"reference/", "capture/", "march/", "sweep/", "compress/", "build/", "lookup/", "load/"}) {
+         {"reference/", "capture/", "march/", "sweep/", "compress/", "insert/", "build/", "lookup/", "load/"}) {
         const auto first = names.lower_bound(family);
         EXPECT_TRUE(first != names.end() && starts_with(*first, family)) << family;
     }
@@ -64,7 +64,8 @@ std::set<std::string> counters_of(const std::string& name) {
     if (starts_with(name, "sweep/") || starts_with(name, "compress"))
         counters.insert({"error", "ns_per_vertex", "floor_ratio"});
     if (starts_with(name, "march/")) counters.insert("ns_per_vertex");
-    if (starts_with(name, "capture/") || starts_with(name, "load/")) counters.insert({"ns_per_vertex", "floor_ratio"});
+    if (starts_with(name, "capture/") || starts_with(name, "insert/") || starts_with(name, "load/"))
+        counters.insert({"ns_per_vertex", "floor_ratio"});
     return counters;
 }
 
