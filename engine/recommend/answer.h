@@ -88,9 +88,9 @@ struct Wording {
     std::function<std::string(const Point&)> paste;  // the line of a scenario; may be empty
     std::size_t width = text_columns;                // characters of a line, at least 60
 };
-// Lines of this width, but for those to paste; what does not fit goes on in the next line. At most `text_lines`, and in
-// lines of fewer than `text_columns` as many more as hold the same: where that does not do, reasons are shortened, and
-// then lines are cut.
+// Lines of this width, but for those to paste; what does not fit goes on in the next line. At most `text_lines`, unless
+// the width is below `text_columns`: where these do not do, reasons are shortened, then lines are cut, those of the best
+// settings last.
 std::string to_text(const Answer& answer, const std::vector<Family>& families, const Wording& wording);
 
 // What one technique costs at every error: its measured settings that no other of its settings beats in both, from the

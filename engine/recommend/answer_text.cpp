@@ -175,21 +175,24 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
     if (answer.end == End::budget) last.push_back({"the budget ended first: a cheaper setting may be left"});
     if (answer.end == End::cancelled) last.push_back({"cancelled: a cheaper setting may be left"});
 
-    const std::size_t most_lines = text_lines * text_columns / std::min(width, text_columns);
     const std::string head = folded(lines, width), tail = folded(last, width);
-    if (const std::string text = head + folded(held_lines(answer, width), width) + tail; lines_in(text) <= most_lines)
+    if (const std::string text = head + folded(held_lines(answer, width), width) + tail;
+        lines_in(text) <= text_lines || width < text_columns)
         return text;
     // Reasons give way to the answer.
     std::vector<std::string> names;
     for (const Missed& missed : answer.missed) names.push_back(missed.technique);
     const TextLine missed{names.empty() ? "" : joined("not reached:", names, width)};
     if (const std::string text = head + (names.empty() ? "" : folded(missed, width)) + tail;
-        lines_in(text) <= most_lines)
+        lines_in(text) <= text_lines)
         return text;
     if (!names.empty()) lines.push_back(missed);
     lines.insert(lines.end(), last.begin(), last.end());
-    for (TextLine& line : lines)
-        if (!line.paste) line.text = cut(std::move(line.text), width);
+    for (const bool best : {false, true}) {  // the best settings last
+        for (TextLine& line : lines)
+            if (!line.paste && line.label == best) line.text = cut(std::move(line.text), width);
+        if (lines_in(folded(lines, width)) <= text_lines) break;
+    }
     return folded(lines, width);
 }
 

@@ -7,6 +7,7 @@ import {costs} from './settings.js';
 
 const titles = {lookup_ns: 'Fastest lookup', bytes: 'Fewest bytes', build_ms: 'Fastest build'};
 const measures = {rms: 'RMS', max: 'the largest', p99: '99th percentile', curve: 'the largest of the functions'};
+const units = {lookup_ns: ' a lookup', bytes: '', build_ms: ' to build'};
 const kindOf = (id) => costs.find((c) => c.id === id).kind;
 
 function errorText({confirmed, error: [low, high]}) {
@@ -16,7 +17,7 @@ function errorText({confirmed, error: [low, high]}) {
 // What a setting costs; without a map it has no bytes and no build.
 function costText(choice, first, mapless) {
   const ids = [first, ...costs.map((c) => c.id).filter((id) => id !== first)].filter((id) => !(mapless && id !== 'lookup_ns'));
-  return [...ids.map((id) => write(kindOf(id), choice[id]) + (id === 'build_ms' ? ' to build' : '')), errorText(choice)].join(', ');
+  return [...ids.map((id) => write(kindOf(id), choice[id]) + units[id]), errorText(choice)].join(', ');
 }
 
 function nextTo(best, id) {
