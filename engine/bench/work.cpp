@@ -17,9 +17,9 @@ constexpr double primitive = 0.4e-6, ray = 0.045e-6, segment = 0.06e-6, step = 0
 // exponentials in pixels with media: the mean of several rays has more of them, and so has a function within a tolerance
 // of nothing.
 constexpr double share_ray = 0.005e-6, share_segment = 0.03e-6, build_ray = 0.005e-6, build_segment = 0.04e-6,
-                 build_media = 0.08e-6, build_media_mean = 0.25e-6, build_fine = 2e-6;
+                 build_media = 0.05e-6, build_media_mean = 0.25e-6, build_fine = 0.2e-6;
 // Of checking the function there. No more than so many rays are checked, and so many finely: see curve_check.cpp.
-constexpr double check_ray = 0.02e-6, check_segment = 0.1e-6, check_media = 0.3e-6, check_media_mean = 0.7e-6,
+constexpr double check_ray = 0.02e-6, check_segment = 0.1e-6, check_media = 0.2e-6, check_media_mean = 0.7e-6,
                  check_fine = 5e-6, checked_rays = 1048576.0, fine_rays = 16384.0, fine_bound = 16e-6;
 // Of a query to a set of rays, of a ray in its footprint, and of each segment of a ray that lies in one; of a lookup, and of a ray of the
 // map in its footprint; of a ray that one traces, and of its segments, about half of which lie before the receiver.

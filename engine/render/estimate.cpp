@@ -21,8 +21,8 @@ constexpr double compared_pixel = 1.2e-6, written_pixel = 0.6e-6;
 constexpr double joined = 1.3;
 // Points whose truth is found at a time; each time the rays of the whole map are captured again.
 constexpr double points_at_a_time = 524288.0;
-// With more points, pictures end for lack of memory.
-constexpr double most_points = 3e7;
+// With more points, pictures end for lack of memory, after a band of so many rows.
+constexpr double most_points = 3e7, rows_of_a_band = 32.0;
 
 // The longest way through all media.
 double diagonal_of_media(const scene::Scene& scene) {
@@ -53,7 +53,7 @@ double estimate_pictures(const bench::VariantWork& variant, int threads) {
     const double seeing = view_rays * (view_ray + view_segment * (hits.seen + hits.steps));
     if (points > most_points)
         return bench::estimate_reading(file_bytes) + bench::structure_seconds(scenario.scene) +
-               seeing * most_points / points / threads;
+               seeing * std::min(1.0, std::max(most_points / points, rows_of_a_band / size.y)) / threads;
     double shared = seeing + pixels * techniques * compared_pixel;
     for (const bench::LightWork& work : lights) {
         const double reached = points * work.reach;
