@@ -132,24 +132,38 @@ double crossings(const Projection& in, const scene::Particles& particles) {
 
 double crossings(const Projection& in, const scene::Hair& hair) {
     if (hair.points.size() < 2) return 0.0;
-    const std::size_t strands = hair.strand_begin.size() - 1;
-    const double ribbons = sum(hair.points.size() - 1, [&](std::size_t i) {
-        return in.ribbon(hair.points[i], hair.points[i + 1], 0.5f * (hair.radii[i] + hair.radii[i + 1]));
+    return sum(hair.points.size() - 1, [&](std::size_t i) {
+        const bool strand_ends = std::binary_search(hair.strand_begin.begin(), hair.strand_begin.end(), i + 1);
+        return strand_ends
+                   ? 0.0
+                   : in.ribbon(hair.points[i], hair.points[i + 1], 0.5f * (hair.radii[i] + hair.radii[i + 1]));
     });
-    // What joins the end of a strand to the next was looked at too: about as long as others, for what an estimate
-    // needs.
-    return ribbons * static_cast<double>(hair.points.size() - std::min(strands, hair.points.size())) /
-           static_cast<double>(hair.points.size() - 1);
 }
 
-// Steps or cells of a ray through the middle of the box, where there is density.
+// The part of the voxels that have density.
+double filled(const scene::GridVolume& grid) {
+    const double count = static_cast<double>(grid.density.size());
+    return sum(grid.density.size(), [&](std::size_t i) { return grid.density[i] > 0.0f ? 1.0 : 0.0; }) /
+           std::max(count, 1.0);
+}
+
+// The world length of a ray through the middle of the box.
+double chord(const scene::GridVolume& grid) {
+    const Vec3d size = scene::world_box(grid).size();
+    return std::cbrt(size.x * size.y * size.z);
+}
+
+// Steps or cells of such a ray, were there density everywhere.
 double segments_through(const scene::GridVolume& grid, bool cells) {
-    const Vec3d size = grid.upper - grid.lower;
-    const double chord = std::cbrt(size.x * size.y * size.z);
     const double count = static_cast<double>(grid.size.x) * grid.size.y * grid.size.z;
-    const double filled = sum(grid.density.size(), [&](std::size_t i) { return grid.density[i] > 0.0f ? 1.0 : 0.0; }) /
-                          std::max(count, 1.0);
-    return filled * (cells ? 2.0 * std::cbrt(count) : chord / grid.step);
+    return cells ? 2.0 * std::cbrt(count) : chord(grid) / grid.step;
+}
+
+// The length of a ray in particles, on average: of one through a sphere it is 4/3 of the radius.
+double length_inside(const Projection& in, const scene::Particles& particles) {
+    return sum(particles.centres.size(), [&](std::size_t i) {
+        return in.disc(particles.centres[i], particles.radii[i]) * 4.0 / 3.0 * static_cast<double>(particles.radii[i]);
+    });
 }
 
 double mean(const Vec3f& channels) {
@@ -167,8 +181,13 @@ void add_seen(double crossed, double share, double opacity, ExpectedHits& hits) 
 void add(const Projection& in, const scene::Object& object, bool cells, ExpectedHits& hits) {
     if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {
         const double share = covered(in, {grid->lower, grid->upper}, grid->frame ? &*grid->frame : nullptr);
-        hits.segments += share * segments_through(*grid, cells);
+        const double part = share * filled(*grid);
+        const double parts = part * segments_through(*grid, cells);
+        hits.segments += parts;
+        hits.steps += parts;
+        hits.grids += parts;
         hits.media = std::min(1.0, hits.media + share);
+        hits.inside += part * chord(*grid);
         return;
     }
     const double share = covered(in, scene::bounds(object), nullptr);
@@ -180,10 +199,13 @@ void add(const Projection& in, const scene::Object& object, bool cells, Expected
         },
         object.shape);
     hits.segments += crossed;
-    if (std::holds_alternative<scene::Particles>(object.shape))
+    if (const auto* particles = std::get_if<scene::Particles>(&object.shape)) {
         hits.media = std::min(1.0, hits.media + std::min(share, crossed));
-    else
+        hits.steps += crossed;
+        hits.inside += length_inside(in, *particles);
+    } else {
         add_seen(crossed, std::min(1.0, std::max(share, 0.0)), mean(object.opacity), hits);
+    }
 }
 
 }  // namespace

@@ -8,8 +8,11 @@ namespace shadowbench::bench {
 
 struct ExpectedHits {
     double segments = 0.0;  // of a ray of the map, on average: crossings of surfaces, and steps or cells of media
-    double seen = 0.0;      // of these, those before almost nothing of the light is left
+    double seen = 0.0;      // of its crossings, those before almost nothing of the light is left
+    double steps = 0.0;     // of its segments, those of media
+    double grids = 0.0;     // of its segments, those of grid volumes
     double media = 0.0;     // share of the rays that pass through media
+    double inside = 0.0;    // world length of a ray in media, on average
 };
 
 // For rays spread evenly over the view's map. Of each object at most some ten thousand primitives are looked at, spread

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/file_lines.h"
+
 namespace shadowbench::bench {
 namespace {
 
@@ -29,6 +31,7 @@ const scene::Scenario& ScenarioLoader::load(const document::Variant& variant, co
     // A deep image also sets the size of the map, so it is read again; it is small.
     const bool same_scene = loaded_ && !scenario_.scene.deep_image && same_part(*loaded_, document, "scene") &&
                             same_part(*loaded_, document, "lights");
+    file_bytes_ = 0;
     if (same_scene) {
         scene::Scenario next = scene::load_scenario(without_scene(document), data_);
         next.scene = std::move(scenario_.scene);
@@ -40,6 +43,7 @@ const scene::Scenario& ScenarioLoader::load(const document::Variant& variant, co
         loaded_ = nullptr;
         scenario_ = {};  // frees the old scene before the new one is loaded
         scenario_ = scene::load_scenario(document, data_, watch);
+        file_bytes_ = scene::file_bytes(document, data_);
     }
     loaded_ = variant.document;
     return scenario_;

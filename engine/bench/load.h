@@ -1,6 +1,7 @@
 // Loads the scenarios of variants, one after the other.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -19,9 +20,13 @@ public:
     // The reference stays valid until the next call. A scene that is shared is not watched.
     const scene::Scenario& load(const document::Variant& variant, const scene::LoadWatch& watch = {});
 
+    // Of the files that the last load() read; 0 if it shared a scene.
+    std::uint64_t file_bytes() const { return file_bytes_; }
+
 private:
     scene::SearchPath data_;
     scene::Scenario scenario_;
+    std::uint64_t file_bytes_ = 0;
     std::shared_ptr<const nlohmann::json> loaded_;
 };
 

@@ -19,13 +19,13 @@
 namespace shadowbench::bench {
 namespace {
 
-void add_cost(const scene::Scenario& scenario, const PreparedLight& light, std::span<const Contender> contenders,
-              Validated& validated, std::vector<LightWork>& works) {
+void add_cost(const scene::Scenario& scenario, std::size_t index, const PreparedLight& light,
+              std::span<const Contender> contenders, Validated& validated, std::vector<LightWork>& works) {
     const rays::MapLayout& layout = light.layout;
     validated.largest_side = std::max({validated.largest_side, layout.width, layout.height});
     validated.most_samples = std::max({validated.most_samples, layout.samples(), scenario.reference.samples_per_pixel});
     validated.least_bytes = std::max(validated.least_bytes, light.least_bytes);
-    works.push_back(count_work(scenario, layout, light.view, contenders));
+    works.push_back(count_work(scenario, index, layout, light.view, contenders));
     validated.seconds += estimate_seconds(works.back(), scenario.timing, base::thread_count());
 }
 
@@ -49,7 +49,8 @@ results::Result run(const nlohmann::json& document, const RunOptions& options, c
     return result;
 }
 
-Validated validate(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress) {
+Validated validate(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress,
+                   const FirstVariant& first) {
     const base::ThreadLimit threads(options.threads);
     Validated validated;
     ScenarioLoader loader(options.data);
@@ -64,12 +65,13 @@ Validated validate(const nlohmann::json& document, const RunOptions& options, co
             const std::string& name = scenario.lights[l].name;
             const bool known = std::count(validated.blind.begin(), validated.blind.end(), name) > 0;
             if (!known && rays::misses_all(light.view, scenario.scene)) validated.blind.push_back(name);
-            add_cost(scenario, light, contenders, validated, works);
+            add_cost(scenario, l, light, contenders, validated, works);
             if (scenario.scene.deep_image) check_served(contenders, {light.layout, light.view, nullptr});
         }
-        validated.seconds += estimate_loading(scenario, base::thread_count());
+        validated.seconds +=
+            estimate_reading(loader.file_bytes()) + estimate_preparing(scenario, base::thread_count());
         if (validated.variants++ > 0) continue;
-        validated.picture_seconds = estimate_pictures(scenario, works, base::thread_count());
+        if (first) first({scenario, works, loader.file_bytes()});
         validated.name = scenario.name;
         validated.lights = scenario.lights.size();
         validated.techniques = contenders.size();

@@ -1,6 +1,7 @@
 // Runs a scenario document and returns its result. Everything else in this folder is a step of this.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "bench/memory.h"
 #include "bench/progress.h"
+#include "bench/work.h"
 #include "results/result.h"
 #include "scene/scenario.h"
 
@@ -34,12 +36,15 @@ struct Validated {
     int largest_side = 0, most_samples = 0;                // of the maps: pixels; rays a pixel, including the truth's
     double least_bytes = 0.0;                              // of the variant that needs the most
     double seconds = 0.0;                                  // estimate for the whole run: see estimate.h
-    double picture_seconds = 0.0;                          // the same for the pictures of the first variant
     double budget = 0.0;                                   // seconds that are asked for, on whatever machine
 };
 
+// Called with the first variant.
+using FirstVariant = std::function<void(const VariantWork& variant)>;
+
 // Makes all checks that run() makes before it works: the document, its files, what its lights see, the memory limit,
 // and whether the techniques can take a deep image. The progress is that of loading.
-Validated validate(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress = {});
+Validated validate(const nlohmann::json& document, const RunOptions& options, const ProgressCallback& progress = {},
+                   const FirstVariant& first = {});
 
 }  // namespace shadowbench::bench

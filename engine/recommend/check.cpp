@@ -82,9 +82,10 @@ bench::Validated check(const nlohmann::json& document, const bench::RunOptions& 
     checked.largest_side = std::max(light.layout.width, light.layout.height);
     checked.most_samples = std::max(light.layout.samples(), scenario.reference.samples_per_pixel);
     checked.least_bytes = light.least_bytes;
-    checked.seconds = bench::estimate_seconds(bench::count_work(scenario, light.layout, light.view, {}),
+    checked.seconds = bench::estimate_seconds(bench::count_work(scenario, index, light.layout, light.view, {}),
                                               scenario.timing, base::thread_count()) +
-                      bench::estimate_loading(scenario, base::thread_count());
+                      bench::estimate_reading(loader.file_bytes()) +
+                      bench::estimate_preparing(scenario, base::thread_count());
     checked.budget = request.goal.budget;
     return checked;
 }

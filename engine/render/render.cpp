@@ -1,7 +1,6 @@
 #include "render/render.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -195,13 +194,6 @@ RenderOptions usual_options(const bench::RunOptions& run) {
     options.fine_hair = true;
     options.media_lookups = usual_media_lookups;
     return options;
-}
-
-base::Vec2i enlarged(base::Vec2i size) {
-    const double width = usual_width, factor = std::min({width / size.x, 2.0 * width / size.y, most_enlarged});
-    if (factor <= 1.0) return size;
-    const auto scaled = [factor](int side) { return std::max(static_cast<int>(std::lround(factor * side)), 1); };
-    return {scaled(size.x), scaled(size.y)};
 }
 
 Rendering render(const nlohmann::json& document, const RenderOptions& options,

@@ -11,6 +11,7 @@
 #include "bench/progress.h"
 #include "bench/run.h"
 #include "render/light_map.h"
+#include "render/picture_size.h"
 #include "render/shading_points.h"
 #include "results/result.h"
 
@@ -26,16 +27,8 @@ struct RenderOptions {
     int media_lookups = 128;          // 1 to 256, for a view ray through all media: see ViewSettings
 };
 
-inline constexpr int usual_width = 512, usual_rays_per_side = 2, usual_media_lookups = 64;
-inline constexpr double most_enlarged = 4.0;
-
 // The options of pictures for the eye: enlarged, antialiased, with joined lookups.
 RenderOptions usual_options(const bench::RunOptions& run);
-
-// The size in the same proportions that is `usual_width` wide, unless it is then more than twice as high, or more than
-// `most_enlarged` times `size`, which a scenario chose to be quick: the largest that is neither. `size` if that is
-// larger.
-base::Vec2i enlarged(base::Vec2i size);
 
 // Errors over all pixels and channels, in linear values; FLIP is computed on the pictures as a display shows them
 // without exposure.

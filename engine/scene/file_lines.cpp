@@ -1,11 +1,14 @@
 #include "scene/file_lines.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <variant>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/printable.h"
 
 namespace shadowbench::scene {
@@ -47,6 +50,19 @@ std::string corner_text(const Vec3d& point) {
     return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", point.x, point.y, point.z);
 }
 
+// Of the file that a key names; 0 if there is none.
+std::uint64_t bytes_of_file(const nlohmann::json& from, const char* key, const SearchPath& path) {
+    const auto name = from.find(key);
+    if (name == from.end() || !name->is_string()) return 0;
+    try {
+        std::error_code gone;
+        const std::uintmax_t bytes = std::filesystem::file_size(find_file(path, name->get<std::string>(), ""), gone);
+        return gone ? 0 : bytes;
+    } catch (const base::Error&) {
+        return 0;
+    }
+}
+
 std::string box_text(const Object& object) {
     const Box3d box = bounds(object);
     return box.isEmpty() ? "" : fmt::format("; box {} to {}", corner_text(box.min), corner_text(box.max));
@@ -75,6 +91,15 @@ std::vector<std::string> file_lines(const nlohmann::json& document, const Scene&
         if (mesh && mesh->alpha) add(object_from, "alpha_texture", where, brief(*mesh->alpha));
     }
     return lines;
+}
+
+std::uint64_t file_bytes(const nlohmann::json& document, const SearchPath& path) {
+    const nlohmann::json& from = document.at("scene");
+    if (from.contains("deep_image")) return bytes_of_file(from["deep_image"], "file", path);
+    std::uint64_t bytes = 0;
+    for (const nlohmann::json& object : from.at("objects"))
+        bytes += bytes_of_file(object, "file", path) + bytes_of_file(object, "alpha_texture", path);
+    return bytes;
 }
 
 }  // namespace shadowbench::scene

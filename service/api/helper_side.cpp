@@ -12,11 +12,13 @@
 
 #include "base/error.h"
 #include "base/hash_text.h"
+#include "base/parallel.h"
 #include "bench/pace.h"
 #include "bench/pixel_curves.h"
 #include "bench/run.h"
 #include "document/document.h"
 #include "recommend/check.h"
+#include "render/estimate.h"
 #include "scene/scenario.h"
 #include "service/api/new_files.h"
 #include "service/privacy/hidden_folders.h"
@@ -66,25 +68,36 @@ bench::RunOptions options_for(const std::vector<fs::path>& data) {
     return options;
 }
 
-constexpr double process_start = 0.4;  // seconds: the libraries, and what a job writes at its end
+constexpr double process_start = 0.2;  // seconds: the libraries, and what a job writes at its end
+
+struct Checked {
+    bench::Validated facts;
+    double picture_seconds = 0.0;  // as facts.seconds
+};
 
 std::uint64_t seed_of(const json& document) {
     return document.value(json::json_pointer("/rays/seed"), std::uint64_t{1});
 }
 
 // `recommend`: the text of a request; empty: the scenario is to be run.
-bench::Validated validate(const json& document, const std::string& recommend, const bench::RunOptions& options) {
-    if (recommend.empty()) return bench::validate(document, options);
+Checked validate(const json& document, const std::string& recommend, const bench::RunOptions& options) {
+    if (recommend.empty()) {
+        Checked checked;
+        checked.facts = bench::validate(document, options, {}, [&](const bench::VariantWork& first) {
+            checked.picture_seconds = render::estimate_pictures(first, base::thread_count());
+        });
+        return checked;
+    }
     std::vector<Error> faults;
     const recommend::Request request =
         recommend::read_request(scene::parse_json(recommend, "recommend"), "/recommend", faults);
     if (!faults.empty()) throw Error(faults.front());
-    return recommend::check(document, options, request, "/recommend");
+    return {recommend::check(document, options, request, "/recommend"), 0.0};
 }
 
 json facts_of(const json& document, const std::string& recommend, const std::vector<fs::path>& data,
               const Hidden& hidden) {
-    const bench::Validated v = validate(document, recommend, options_for(data));
+    const auto [v, picture_seconds] = validate(document, recommend, options_for(data));
     static const double pace = bench::measure_pace();  // of this machine, when the first scenario comes
     json notes = json::array();
     for (const std::string& note : v.notes) notes.push_back(hide(note, hidden));
@@ -99,7 +112,7 @@ json facts_of(const json& document, const std::string& recommend, const std::vec
             {"notes", notes},
             {"estimate",
              {{"seconds", process_start + v.seconds * pace + v.budget},
-              {"picture_seconds", v.picture_seconds * pace},
+              {"picture_seconds", picture_seconds * pace},
               {"bytes", v.least_bytes},
               {"resolution", v.largest_side},
               {"samples_per_pixel", v.most_samples}}}};

@@ -1,7 +1,6 @@
 #include "bench/estimate.h"
 
-#include <utility>
-#include <vector>
+#include <cstddef>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +14,11 @@ LightWork some_work() {
     work.pixels = 1e4;
     work.rays = 1.6e5;
     work.segments = 4.0;
+    work.steps = 1.0;
+    work.in_media = 4.0;
+    work.fine = 1.0;
+    work.exact = 4.0;
+    work.truth_segments = 3.0;
     work.truth_rays = 1e6;
     work.truth_pixel_rays = 100.0;
     work.truth_samples = 100.0;
@@ -22,6 +26,9 @@ LightWork some_work() {
     work.judged = 1000.0;
     work.footprint = 16.0;
     work.techniques = 2.0;
+    work.traced = 1.0;
+    work.lookup_rays = 16.0;
+    work.compared = 20000.0;
     return work;
 }
 
@@ -34,8 +41,9 @@ TEST(Estimate, grows_with_each_part_of_the_work) {
     const LightWork once = some_work();
     const double before = seconds(once);
     for (double LightWork::*part :
-         {&LightWork::rays, &LightWork::segments, &LightWork::truth_rays, &LightWork::truth_samples, &LightWork::judged,
-          &LightWork::footprint, &LightWork::techniques, &LightWork::channels}) {
+         {&LightWork::rays, &LightWork::segments, &LightWork::steps, &LightWork::exact, &LightWork::truth_segments,
+          &LightWork::truth_rays, &LightWork::truth_samples, &LightWork::judged, &LightWork::footprint,
+          &LightWork::techniques, &LightWork::fine, &LightWork::lookup_rays, &LightWork::compared, &LightWork::channels}) {
         LightWork twice = once;
         twice.*part *= 2.0;
         EXPECT_GT(seconds(twice), before);
@@ -45,7 +53,7 @@ TEST(Estimate, grows_with_each_part_of_the_work) {
     more.spread_seeds = 4.0;
     EXPECT_GT(seconds(more), before);
     more = once;
-    more.traced = 1.0;
+    more.traced = 2.0;
     EXPECT_GT(seconds(more), before);
 }
 
@@ -79,75 +87,76 @@ TEST(Estimate, does_not_grow_with_lookups_beyond_a_pass) {
     EXPECT_DOUBLE_EQ(seconds(work, timing), many);
 }
 
-// 0.09 s were estimated for a job whose pictures took 10.5 s.
-TEST(Estimate, counts_pictures_by_their_pixels_lights_and_techniques) {
-    scene::Scenario scenario;
-    scenario.receivers.camera = scene::Camera{{0, 0, 10}, {0, 0, 0}};
-    scene::Object ball;
-    ball.shape = scene::Spheres{{{0, 0, 0}}, {1.0f}};
-    scenario.scene.objects.push_back(ball);
+// 100,000 layers cost each ray of the truth once, not once for each query that it answers: estimates were seven times too
+// long.
+TEST(Estimate, counts_the_segments_of_a_ray_of_the_truth_once) {
     LightWork work = some_work();
-    const auto of = [&](int side, std::size_t lights) {
+    work.exact = 1e5;
+    const double rays = 1000.0, few = gather_seconds(work, 10.0, 100.0, rays, 1.0);
+    const double many = gather_seconds(work, 1000.0, 100.0, rays, 1.0);
+    work.exact = 0.0;
+    const double pairs = gather_seconds(work, 1000.0, 100.0, rays, 1.0) - gather_seconds(work, 10.0, 100.0, rays, 1.0);
+    EXPECT_NEAR(many - few, pairs, 1e-6 * many) << "all rays were counted for ten queries";
+    work.exact = 1e5;
+    EXPECT_LT(gather_seconds(work, 1.0, 100.0, rays, 1.0), 0.2 * few) << "a tenth of the rays";
+}
+
+// Functions and means are made once for all techniques.
+TEST(Estimate, counts_once_what_techniques_share) {
+    LightWork work = some_work();
+    const auto builds = [&](double techniques, bool shared) {
+        work.techniques = techniques;
+        work.shared = shared;
+        return build_seconds(work);
+    };
+    const double once = builds(1, true) - builds(1, false);
+    EXPECT_GT(once, 0.0);
+    EXPECT_NEAR(builds(9, true) - builds(9, false), once, 1e-12);
+}
+
+// Builds of more than half a second are not repeated to warm the caches.
+TEST(Estimate, makes_long_builds_once_a_round) {
+    LightWork work = some_work();
+    work.in_media = work.fine = 0.0;
+    const auto of_a_build = [&](double segments) {
+        work.segments = segments;
+        const double build = build_seconds(work);
+        const double seconds = estimate_seconds(work, {20, 20}, 2) - estimate_seconds(work, {10, 10}, 2);
+        work.segments = 0.0;
+        const double rest = estimate_seconds(work, {20, 20}, 2) - estimate_seconds(work, {10, 10}, 2);
+        return (seconds - rest) / (build - build_seconds(work));
+    };
+    EXPECT_NEAR(of_a_build(4.0), 20.0, 1e-6) << "each of ten follows one that warms the caches";
+    EXPECT_GT(of_a_build(1e4), 9.99);
+    EXPECT_LT(of_a_build(1e4), 10.01);
+}
+
+TEST(Estimate, counts_bytes_of_files_primitives_and_view_rays) {
+    EXPECT_EQ(estimate_reading(0), 0.0);
+    EXPECT_NEAR(estimate_reading(3'000'000), 3.0 * estimate_reading(1'000'000), 1e-12);
+    scene::Scenario scenario;
+    scenario.lights.resize(1);
+    scene::Spheres spheres{{{0, 0, 0}}, {1.0f}};
+    const auto with_spheres = [&](std::size_t count) {
+        scene::Object object;
+        spheres.centres.resize(count);
+        spheres.radii.resize(count, 1.0f);
+        object.shape = spheres;
+        scenario.scene.objects = {object};
+        return estimate_preparing(scenario, 2);
+    };
+    const double without_camera = with_spheres(1000);
+    EXPECT_NEAR(with_spheres(3000), 3.0 * without_camera, 1e-12);
+    scenario.lights.resize(2);
+    EXPECT_GT(with_spheres(1000), without_camera) << "each light has captures";
+    scenario.lights.resize(1);
+    scenario.receivers.camera = scene::Camera{{0, 0, 10}, {0, 0, 0}};
+    const auto of_camera = [&](int side) {
         scenario.receivers.resolution = {side, side};
-        return estimate_pictures(scenario, std::vector<LightWork>(lights, work), 2);
+        return with_spheres(1000);
     };
-    EXPECT_NEAR(of(2048, 1) - of(1024, 1), 4.0 * (of(1024, 1) - of(512, 1)), 1e-6 * of(2048, 1));
-    EXPECT_NEAR(of(512, 3) - of(512, 2), of(512, 2) - of(512, 1), 1e-9);
-    const double two = of(512, 1);
-    work.techniques = 4.0;
-    EXPECT_GT(of(512, 1), 1.2 * two);
-    EXPECT_EQ(of(512, 0), 0.0);
-}
-
-scene::Scene one(scene::Object object) {
-    scene::Scene scene;
-    scene.objects.push_back(std::move(object));
-    return scene;
-}
-
-// Orthographic, along z, of 10 by 10 lengths and 100 by 100 pixels around the origin.
-rays::LightView square_view() {
-    rays::LightView view;
-    view.lower = {-5.0, -5.0};
-    view.pixel = {0.1, 0.1};
-    view.resolution = {100, 100};
-    return view;
-}
-
-TEST(ExpectedHits, are_the_projected_areas_over_that_of_the_map) {
-    scene::Object object;
-    scene::Mesh triangle;
-    triangle.positions = {{0, 0, 1}, {2, 0, 1}, {0, 2, 3}};
-    triangle.triangles = {{0, 1, 2}};
-    object.shape = triangle;
-    EXPECT_NEAR(expected_hits(one(object), square_view(), true, false).segments, 0.02, 1e-9);
-    object.shape = scene::Spheres{{{1, 1, 1}, {-2, 0, 5}}, {1.0f, 1.0f}};
-    EXPECT_NEAR(expected_hits(one(object), square_view(), true, false).segments, 4.0 * 0.0314159265, 1e-6);
-    object.shape = scene::Spheres{{{5, 0, 1}}, {1.0f}};
-    EXPECT_NEAR(expected_hits(one(object), square_view(), true, false).segments, 0.0314159265, 1e-6)
-        << "half is outside";
-    object.casts_shadow = false;
-    EXPECT_EQ(expected_hits(one(object), square_view(), true, false).segments, 0.0);
-    EXPECT_GT(expected_hits(one(object), square_view(), false, false).segments, 0.0);
-}
-
-// What lies behind an opaque layer is captured, but no camera sees it.
-TEST(ExpectedHits, ends_what_is_seen_where_it_is_dark) {
-    scene::Mesh mesh;
-    mesh.positions = {{-5, -5, 1}, {5, -5, 1}, {5, 5, 1}, {-5, 5, 1}};
-    for (int layer = 0; layer < 50; ++layer)
-        for (const base::Vec3i& half : {base::Vec3i{0, 1, 2}, base::Vec3i{0, 2, 3}}) mesh.triangles.push_back(half);
-    scene::Object object;
-    object.shape = mesh;
-    const auto seen = [&](float opacity) {
-        object.opacity = {opacity, opacity, opacity};
-        const ExpectedHits hits = expected_hits(one(object), square_view(), false, false);
-        EXPECT_NEAR(hits.segments, 50.0, 1e-6);
-        return hits.seen;
-    };
-    EXPECT_NEAR(seen(1.0f), 1.0, 1e-6);
-    EXPECT_NEAR(seen(0.5f), 14.0, 1e-6) << "0.5^14 is the first power below 1e-4";
-    EXPECT_NEAR(seen(0.0f), 50.0, 1e-6);
+    EXPECT_GT(of_camera(64), without_camera);
+    EXPECT_NEAR(of_camera(256) - of_camera(128), 4.0 * (of_camera(128) - of_camera(64)), 1e-9);
 }
 
 TEST(Pace, is_that_of_a_machine) {

@@ -110,8 +110,8 @@ TEST(Layers, EachLayerIncludesOnlyThoseBelowIt) {
           "service/jobs"}},
         {"service/web", {"base", "service/web"}},
         {"service/api",
-         {"base", "scene", "techniques", "document", "results", "bench", "recommend", "compare", "service/log",
-          "service/privacy", "service/process", "service/jobs", "service/web", "service/api"}},
+         {"base", "scene", "techniques", "document", "results", "bench", "recommend", "render", "compare",
+          "service/log", "service/privacy", "service/process", "service/jobs", "service/web", "service/api"}},
         {"service/http", {"base", "service/log", "service/api", "service/http"}},
         // The command line also reads and writes deep shadow map files, and loads techniques from outside.
         {"service/cli", {"base",
