@@ -10,7 +10,8 @@ namespace {
 // make more lookups than a branch predictor learns. Reading the floors takes a share of all.
 constexpr double longest_pass = 0.01, least_pass = 0.002, warming = 0.025, warm_passes = 6.0, longest_warm = 0.1,
                  random_lookups = 65536.0, smallest_pass_lookups = 64.0, with_floors = 1.3, longest_warm_builds = 0.5;
-// Seconds of a lookup of most techniques, and of each further pixel in its footprint: the mean is that of few slow ones.
+// Seconds of a lookup of most techniques, and of each further pixel in its footprint: the mean is that of few slow
+// ones.
 constexpr double usual_lookup = 0.05e-6, usual_pixel = 0.02e-6;
 // What each technique costs however small the map is: its rows, its floors, its checks.
 constexpr double technique = 0.015;

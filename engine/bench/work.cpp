@@ -10,22 +10,24 @@
 namespace shadowbench::bench {
 namespace {
 
-// Seconds on one thread: of a primitive in a structure for rays; of a captured ray, of its crossings of surfaces, and of
-// its steps through media.
+// Seconds on one thread: of a primitive in a structure for rays; of a captured ray, of its crossings of surfaces, and
+// of its steps through media.
 constexpr double primitive = 0.4e-6, ray = 0.045e-6, segment = 0.06e-6, step = 0.15e-6;
 // Of what techniques share of a ray and of its segments, and of adding them to a map. Lines take the place of
-// exponentials in pixels with media: the mean of several rays has more of them, and so has a function within a tolerance
-// of nothing.
+// exponentials in pixels with media: the mean of several rays has more of them, and so has a function within a
+// tolerance of nothing.
 constexpr double share_ray = 0.005e-6, share_segment = 0.03e-6, build_ray = 0.005e-6, build_segment = 0.04e-6,
                  build_media = 0.05e-6, build_media_mean = 0.25e-6, build_fine = 0.2e-6;
 // Of checking the function there. No more than so many rays are checked, and so many finely: see curve_check.cpp.
 constexpr double check_ray = 0.02e-6, check_segment = 0.1e-6, check_media = 0.2e-6, check_media_mean = 0.7e-6,
                  check_fine = 5e-6, checked_rays = 1048576.0, fine_rays = 16384.0, fine_bound = 16e-6;
-// Of a query to a set of rays, of a ray in its footprint, and of each segment of a ray that lies in one; of a lookup, and of a ray of the
-// map in its footprint; of a ray that one traces, and of its segments, about half of which lie before the receiver.
+// Of a query to a set of rays, of a ray in its footprint, and of each segment of a ray that lies in one; of a lookup,
+// and of a ray of the map in its footprint; of a ray that one traces, and of its segments, about half of which lie
+// before the receiver.
 constexpr double gather_query = 1.5e-6, gather_ray = 0.02e-6, gather_segment = 0.1e-6, one_lookup = 0.15e-6,
                  lookup_ray = 0.01e-6, traced_ray = 0.5e-6, traced_segment = 0.06e-6, traced_part = 0.5;
-// Of a ray that Embree traces twice, and of its segments; so many are traced, and so many captured beside them, at most.
+// Of a ray that Embree traces twice, and of its segments; so many are traced, and so many captured beside them, at
+// most.
 constexpr double embree_ray = 1e-6, embree_segment = 0.1e-6, compared_rays = 20000.0,
                  captured_beside = 262144.0;
 

@@ -16,7 +16,8 @@ namespace shadowbench::scene {
 // that of load_scenario(document). Printable.
 std::vector<std::string> file_lines(const nlohmann::json& document, const Scene& scene);
 
-// The bytes of all files that a valid scenario names, each as often as it is named. Files that have gone count as empty.
+// The bytes of all files that a valid scenario names, each as often as it is named. Files that have gone count as
+// empty.
 std::uint64_t file_bytes(const nlohmann::json& document, const SearchPath& path);
 
 }  // namespace shadowbench::scene

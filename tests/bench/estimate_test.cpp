@@ -43,7 +43,8 @@ TEST(Estimate, grows_with_each_part_of_the_work) {
     for (double LightWork::*part :
          {&LightWork::rays, &LightWork::segments, &LightWork::steps, &LightWork::exact, &LightWork::truth_segments,
           &LightWork::truth_rays, &LightWork::truth_samples, &LightWork::judged, &LightWork::footprint,
-          &LightWork::techniques, &LightWork::fine, &LightWork::lookup_rays, &LightWork::compared, &LightWork::channels}) {
+          &LightWork::techniques, &LightWork::fine, &LightWork::lookup_rays, &LightWork::compared,
+          &LightWork::channels}) {
         LightWork twice = once;
         twice.*part *= 2.0;
         EXPECT_GT(seconds(twice), before);
@@ -87,8 +88,8 @@ TEST(Estimate, does_not_grow_with_lookups_beyond_a_pass) {
     EXPECT_DOUBLE_EQ(seconds(work, timing), many);
 }
 
-// 100,000 layers cost each ray of the truth once, not once for each query that it answers: estimates were seven times too
-// long.
+// 100,000 layers cost each ray of the truth once, not once for each query that it answers: estimates were seven times
+// too long.
 TEST(Estimate, counts_the_segments_of_a_ray_of_the_truth_once) {
     LightWork work = some_work();
     work.exact = 1e5;
