@@ -84,14 +84,14 @@ Segments ordinary(base::Random& random) {
     return segments;
 }
 
-// Steps of one height at even distances: all areas are equal but for rounding.
+// Steps of one height at even distances: nearly all areas are equal, in every digit.
 Segments even_steps(base::Random& random) {
     Segments segments;
     const bool media = random.uniform() < 0.5;
     for (int i = 0; i < 40; ++i) {
         const auto front = static_cast<float>(2 * i + 1);
         segments.push_back(
-            {front, media ? front + 1.0f : front, static_cast<float>(99 - i) / static_cast<float>(100 - i)});
+            {front, media ? front + 1.0f : front, static_cast<float>(63 - i) / static_cast<float>(64 - i)});
     }
     return segments;
 }
