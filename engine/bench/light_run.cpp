@@ -58,9 +58,11 @@ void find_spread(const LightJob& job, std::span<Contender> contenders, const tec
 
 }  // namespace
 
-results::LightResult run_light(const LightJob& job, std::vector<Contender> contenders) {
-    const scene::Scene& scene = job.scenario.scene;
-    const auto [view, layout, least] = prepare_light(job.scenario, job.light, contenders, job.limits);
+results::LightResult run_light(const LightJob& asked, std::vector<Contender> contenders) {
+    const scene::Scene& scene = asked.scenario.scene;
+    const auto [view, layout, least] = prepare_light(asked.scenario, asked.light, contenders, asked.limits);
+    LightJob job = asked;
+    job.limits = limits_beside(resident_bytes(), layout, contenders, asked.limits);
     const techniques::BuildInput input{layout, view, job.casters};
     if (scene.deep_image) check_served(contenders, input);
     const QuerySet set = scenario_queries(job.scenario, light_of(job), job.seen, view);

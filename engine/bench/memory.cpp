@@ -1,6 +1,9 @@
 #include "bench/memory.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -27,25 +30,30 @@ double all_tiles_bytes(const rays::MapLayout& layout) {
     return tile_bytes * layout.tiles_x() * layout.tiles_y();
 }
 
+// The least bytes of all maps, and of the largest of them once more: it exists a second time while builds are timed.
+double least_map_bytes(const rays::MapLayout& layout, std::span<const Contender> contenders) {
+    double maps = 0.0, largest = 0.0;
+    rays::MapLayout one_channel = layout;
+    one_channel.channels = 1;
+    for (const Contender& contender : contenders) {
+        const double bytes =
+            contender.row->coloured
+                ? static_cast<double>(contender.row->least_bytes(contender.values, layout))
+                : layout.channels * static_cast<double>(contender.row->least_bytes(contender.values, one_channel));
+        maps += bytes;
+        largest = std::max(largest, bytes);
+    }
+    return maps + largest;
+}
+
 }  // namespace
 
 double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& reference,
                    std::span<const Contender> contenders, const MemoryLimits& limits) {
     const double rays = static_cast<double>(layout.width) * layout.height * layout.samples();
     const double kept = std::min(rays * ray_bytes, static_cast<double>(limits.kept_rays));
-    double maps = 0.0, largest = 0.0;
-    rays::MapLayout one_channel = layout;
-    one_channel.channels = 1;
-    for (const Contender& contender : contenders) {
-        const double map_bytes =
-            contender.row->coloured
-                ? static_cast<double>(contender.row->least_bytes(contender.values, layout))
-                : layout.channels * static_cast<double>(contender.row->least_bytes(contender.values, one_channel));
-        maps += map_bytes;
-        largest = std::max(largest, map_bytes);  // one map at least exists a second time while builds are timed
-    }
     // The truth is found before any map is built.
-    const double building = in_flight_bytes(layout) + maps + largest;
+    const double building = in_flight_bytes(layout) + least_map_bytes(layout, contenders);
     const double judging = in_flight_bytes(reference) + all_tiles_bytes(reference);
     return kept + all_tiles_bytes(layout) + std::max(building, judging);
 }
@@ -66,8 +74,25 @@ double check_memory(const scene::Scenario& scenario, const rays::LightView& view
                                   static_cast<double>(limits.all) / gib));
 }
 
+std::size_t resident_bytes() {
+    std::ifstream file("/proc/self/statm");
+    std::size_t reserved = 0, resident = 0;
+    file >> reserved >> resident;
+    return file ? resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+MemoryLimits limits_beside(std::size_t held, const rays::MapLayout& layout, std::span<const Contender> contenders,
+                           MemoryLimits limits) {
+    limits.held = held;
+    const double others = static_cast<double>(held) + all_tiles_bytes(layout) + in_flight_bytes(layout) +
+                          least_map_bytes(layout, contenders);
+    const double left = std::max(0.0, static_cast<double>(limits.all) - others);
+    limits.kept_rays = std::min(limits.kept_rays, static_cast<std::size_t>(left));
+    return limits;
+}
+
 std::size_t room_beside(std::span<const Contender> contenders, const RaySource& source, const MemoryLimits& limits) {
-    std::size_t held = source.kept_bytes();
+    std::size_t held = limits.held + source.kept_bytes();
     for (const Contender& contender : contenders)
         if (contender.ok()) held += contender.cell.bytes;
     return limits.all > held ? limits.all - held : 0;

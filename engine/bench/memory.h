@@ -16,6 +16,7 @@ namespace shadowbench::bench {
 struct MemoryLimits {
     std::size_t all = std::size_t{16} << 30;       // bytes; a run that certainly needs more is refused
     std::size_t kept_rays = std::size_t{4} << 30;  // bytes; more light rays are captured again for every pass
+    std::size_t held = 0;                          // bytes that the process holds besides, such as the scene
 };
 
 // A lower bound for the bytes of a run: the light rays that are kept or in flight, with one crossing per ray; what is
@@ -26,6 +27,14 @@ double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& referen
 // The least bytes that a scenario needs. Throws Error{bad_input} at `where` if they exceed the limit.
 double check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
                     const MemoryLimits& limits, const std::string& where);
+
+// The resident bytes of the process; 0 where they are not known.
+std::size_t resident_bytes();
+
+// The limits of a light's work in a process that holds so many bytes already. Only so many light rays are kept as leave
+// room for the least that these maps take, and for the largest of them once more, while its build is timed.
+MemoryLimits limits_beside(std::size_t held, const rays::MapLayout& layout, std::span<const Contender> contenders,
+                           MemoryLimits limits);
 
 // The bytes that maps may take which are built once more, beside the finished maps and the light rays that are kept.
 std::size_t room_beside(std::span<const Contender> contenders, const RaySource& source, const MemoryLimits& limits);

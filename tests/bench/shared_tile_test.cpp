@@ -310,6 +310,7 @@ TEST_F(SharedTiles, drop_kept_rays_that_leave_no_room) {
     make_room(contenders, *source_, {.all = kept + 2500});
     EXPECT_TRUE(source_->kept());
     EXPECT_EQ(room_beside(contenders, *source_, {.all = kept + 2500}), 1500u);
+    EXPECT_EQ(room_beside(contenders, *source_, {.all = kept + 2500, .held = 300}), 1200u);
     make_room(contenders, *source_, {.all = kept + 2499});
     EXPECT_FALSE(source_->kept());
     EXPECT_EQ(source_->kept_bytes(), 0u);
@@ -318,6 +319,30 @@ TEST_F(SharedTiles, drop_kept_rays_that_leave_no_room) {
     EXPECT_EQ(tiles, static_cast<std::size_t>(layout_.tiles()));
     EXPECT_FALSE(source_->kept());  // the pass must not keep them again
     EXPECT_EQ(room_beside(contenders, *source_, {.all = 999}), 0u);
+}
+
+// All maps, the largest of them once more, and what the process holds take from what rays may be kept.
+TEST_F(SharedTiles, keep_only_rays_beside_which_the_maps_fit) {
+    light(4, false);
+    const auto kept = [&](std::size_t all, std::size_t held, const std::vector<std::size_t>& maps) {
+        std::vector<techniques::Technique> rows(maps.size());
+        std::vector<Contender> contenders(maps.size());
+        for (std::size_t i = 0; i < maps.size(); ++i) {
+            rows[i].least_bytes = [bytes = maps[i]](const auto&, const auto&) { return bytes; };
+            contenders[i].row = &rows[i];
+        }
+        return limits_beside(held, layout_, contenders, {.all = all, .kept_rays = 1 << 30}).kept_rays;
+    };
+    constexpr std::size_t all = 1 << 24;
+    const std::size_t alone = kept(all, 0, {});
+    ASSERT_GT(alone, 10000u);
+    ASSERT_LT(alone, all);
+    EXPECT_EQ(kept(all, 700, {}), alone - 700);
+    EXPECT_EQ(kept(all, 0, {3000}), alone - 2 * 3000);
+    EXPECT_EQ(kept(all, 700, {1000, 3000}), alone - 2 * 3000 - 1000 - 700);
+    EXPECT_EQ(kept(100, 0, {}), 0u);
+    EXPECT_EQ(kept(std::size_t{1} << 40, 0, {3000}), std::size_t{1} << 30);
+    EXPECT_GT(resident_bytes(), std::size_t{1} << 20);
 }
 
 }  // namespace
