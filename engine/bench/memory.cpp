@@ -1,5 +1,8 @@
 #include "bench/memory.h"
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,9 +18,10 @@
 namespace shadowbench::bench {
 namespace {
 
-constexpr double gib = 1024.0 * 1024.0 * 1024.0;
-constexpr double ray_bytes = 12.0;   // an offset and one surface
-constexpr double tile_bytes = 64.0;  // what the capture and the truth keep for every tile, even without rays
+constexpr double mib = 1024.0 * 1024.0, gib = 1024.0 * mib;
+constexpr double ray_bytes = 12.0;          // an offset and one surface
+constexpr double batch_bytes = 64.0 * mib;  // what a source may hold in flight
+constexpr double tile_bytes = 64.0;         // what the capture and the truth keep for every tile, even without rays
 
 // The rays of the tiles that are captured at a time.
 double in_flight_bytes(const rays::MapLayout& layout) {
@@ -75,6 +79,9 @@ double check_memory(const scene::Scenario& scenario, const rays::LightView& view
 }
 
 std::size_t resident_bytes() {
+#if defined(__GLIBC__)
+    malloc_trim(0);  // what is free does not count
+#endif
     std::ifstream file("/proc/self/statm");
     std::size_t reserved = 0, resident = 0;
     file >> reserved >> resident;
@@ -84,8 +91,8 @@ std::size_t resident_bytes() {
 MemoryLimits limits_beside(std::size_t held, const rays::MapLayout& layout, std::span<const Contender> contenders,
                            MemoryLimits limits) {
     limits.held = held;
-    const double others = static_cast<double>(held) + all_tiles_bytes(layout) + in_flight_bytes(layout) +
-                          least_map_bytes(layout, contenders);
+    const double others = static_cast<double>(held) + all_tiles_bytes(layout) +
+                          std::max(in_flight_bytes(layout), batch_bytes) + least_map_bytes(layout, contenders);
     const double left = std::max(0.0, static_cast<double>(limits.all) - others);
     limits.kept_rays = std::min(limits.kept_rays, static_cast<std::size_t>(left));
     return limits;

@@ -28,7 +28,7 @@ double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& referen
 double check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
                     const MemoryLimits& limits, const std::string& where);
 
-// The resident bytes of the process; 0 where they are not known.
+// The resident bytes of the process, after what is free was returned; 0 where they are not known.
 std::size_t resident_bytes();
 
 // The limits of a light's work in a process that holds so many bytes already. Only so many light rays are kept as leave

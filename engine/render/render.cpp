@@ -83,8 +83,9 @@ void check_answers(Contender& contender, const std::vector<float>& answers) {
 void render_light(const Work& work, std::size_t index, std::vector<Contender> contenders, Rendering& result) {
     const scene::Scenario& scenario = work.scenario;
     const scene::Light& light = scenario.lights[index];
-    const bench::MemoryLimits& limits = work.options.run.limits;
-    const auto [view, layout, least] = bench::prepare_light(scenario, index, contenders, limits);
+    const auto [view, layout, least] = bench::prepare_light(scenario, index, contenders, work.options.run.limits);
+    const bench::MemoryLimits limits =
+        bench::limits_beside(bench::resident_bytes(), layout, contenders, work.options.run.limits);
     const auto tiles = static_cast<std::size_t>(layout.tiles());
     const rays::Capture capture(scenario.scene, view, layout);
     const bench::RaySource source(capture, layout, limits.kept_rays, watch(work, light, "capture", tiles));

@@ -333,7 +333,7 @@ TEST_F(SharedTiles, keep_only_rays_beside_which_the_maps_fit) {
         }
         return limits_beside(held, layout_, contenders, {.all = all, .kept_rays = 1 << 30}).kept_rays;
     };
-    constexpr std::size_t all = 1 << 24;
+    constexpr std::size_t all = 1 << 28;
     const std::size_t alone = kept(all, 0, {});
     ASSERT_GT(alone, 10000u);
     ASSERT_LT(alone, all);

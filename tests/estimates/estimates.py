@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Compares what the server estimates for scenarios with the time that they take: runs each, draws its pictures, and
-prints estimate, processor time and their ratio. Ends with 1 if a ratio is beyond the factor.
+prints estimate, processor time and their ratio. Ends with 1 if a ratio is beyond the factor or a command fails.
 
   estimates.py --program build/release/shadowbench [--data DIR] [--factor 3] [--no-pictures] SCENARIO...
 
@@ -61,7 +61,7 @@ def main():
                 continue
             seconds, wall, well = measure(options, command, scenario)
             ratio = expected / seconds
-            bad = not 1 / options.factor <= ratio <= options.factor
+            bad = not well or not 1 / options.factor <= ratio <= options.factor
             beyond += bad
             print(f"{name:32}{command:10}{expected:10.2f}{seconds:10.2f}{wall:10.2f}{ratio:8.2f}"
                   f"{' beyond' if bad else ''}{'' if well else ' failed'}", flush=True)

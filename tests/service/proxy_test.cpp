@@ -1,0 +1,196 @@
+// The server behind nginx, with the configuration that service/README.md shows. Skipped where nginx or openssl is
+// missing.
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/read_text.h"
+#include "processes.h"
+#include "service/http/client.h"
+#include "service/run_cli.h"
+#include "temporary_folder.h"
+
+namespace shadowbench::service {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const char* const nginx = "/usr/sbin/nginx";
+const char* const openssl = "/usr/bin/openssl";
+const char* const scenario = R"({
+    "name": "tiny",
+    "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
+    "lights": [{"type": "directional", "direction": [0, -1, 0]}],
+    "rays": {"resolution": 8, "samples_per_pixel": 4},
+    "receivers": {"type": "probes", "count": 200},
+    "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
+    "timing": {"repetitions": 1, "lookups": 64},
+    "techniques": [{"type": "deep"}, {"type": "uncompressed"}]
+})";
+
+// A process that is ended with the test.
+class Program {
+public:
+    Program(std::vector<std::string> words, const fs::path& output) {
+        std::vector<char*> argv;
+        for (std::string& word : words) argv.push_back(word.data());
+        argv.push_back(nullptr);
+        process_ = ::fork();
+        if (process_ != 0) return;
+        const int file = ::open(output.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+        ::dup2(file, 1);
+        ::dup2(file, 2);
+        ::execv(argv[0], argv.data());
+        ::_exit(127);
+    }
+    ~Program() {
+        if (process_ > 0) ::kill(process_, SIGTERM);
+        wait();
+    }
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
+    int wait() {
+        if (process_ <= 0) return -1;
+        int status = 0;
+        ::waitpid(process_, &status, 0);
+        process_ = 0;
+        return status;
+    }
+
+private:
+    pid_t process_ = 0;
+};
+
+sockaddr_in local_address(int port) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    return address;
+}
+
+int free_port() {
+    sockaddr_in address = local_address(0);
+    socklen_t size = sizeof address;
+    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    ::bind(socket, reinterpret_cast<const sockaddr*>(&address), size);
+    ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
+    ::close(socket);
+    return ntohs(address.sin_port);
+}
+
+bool answers(int port) {
+    const sockaddr_in address = local_address(port);
+    const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const bool done = ::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    ::close(socket);
+    return done;
+}
+
+void replace(std::string& text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << "the README no longer has " << from;
+    text.replace(at, from.size(), to);
+}
+
+class Proxy : public testing::Test {
+protected:
+    void SetUp() override {
+        if (::access(nginx, X_OK) != 0 || ::access(openssl, X_OK) != 0) GTEST_SKIP() << "nginx or openssl is missing";
+        write("tiny.json", scenario);
+        fs::permissions(write("token", "0123456789abcdef\n"), fs::perms::owner_read | fs::perms::owner_write);
+    }
+    std::string path(const std::string& name) const { return folder_.path(name); }
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(path(name)) << text;
+        return path(name);
+    }
+    void make_certificate() const {
+        Program request({openssl, "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                         "-days", "1", "-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost", "-keyout",
+                         path("key.pem"), "-out", path("cert.pem")},
+                        path("openssl.log"));
+        ASSERT_EQ(request.wait(), 0) << base::read_text(path("openssl.log"));
+    }
+    // The block of the README, for these ports and files.
+    void configure(const std::string& server_port) const {
+        const std::string readme = base::read_text(fs::path(SHADOWBENCH_SOURCE_DIR) / "service" / "README.md");
+        const std::size_t begin = readme.find("server {\n    listen 443 ssl;");
+        ASSERT_NE(begin, std::string::npos);
+        std::string block = readme.substr(begin, readme.find("```", begin) - begin);
+        replace(block, "listen 443 ssl", "listen 127.0.0.1:" + std::to_string(port_) + " ssl");
+        replace(block, "server_name bench.example", "server_name localhost");
+        replace(block, "/etc/ssl/certs/bench.example.pem", path("cert.pem"));
+        replace(block, "/etc/ssl/private/bench.example.key", path("key.pem"));
+        replace(block, "127.0.0.2:8080", "127.0.0.2:" + server_port);
+        std::string folders;
+        for (const char* name : {"client_body", "proxy", "fastcgi", "uwsgi", "scgi"})
+            folders += std::string("    ") + name + "_temp_path " + path(name) + ";\n";
+        write("nginx.conf", "daemon off;\nerror_log stderr;\npid " + path("nginx.pid") + ";\nevents {}\nhttp {\n" +
+                                "    access_log " + path("access.log") + ";\n" + folders + block + "}\n");
+    }
+
+    const TemporaryFolder folder_;
+    const int port_ = free_port();
+};
+
+TEST_F(Proxy, TheConfigurationOfTheReadmeServes) {
+    Program server({SHADOWBENCH_PROGRAM, "serve", "--host", "127.0.0.2", "--port", "0", "--port-file", path("port"),
+                    "--state", path("state"), "--grace", "0", "--token-file", path("token")},
+                   path("server.log"));
+    ASSERT_TRUE(soon([&] { return fs::exists(path("port")); })) << base::read_text(path("server.log"));
+    std::string port = base::read_text(path("port"));
+    port.pop_back();
+    ASSERT_NO_FATAL_FAILURE(make_certificate());
+    ASSERT_NO_FATAL_FAILURE(configure(port));
+    Program proxy({nginx, "-p", folder_.path().string(), "-c", path("nginx.conf")}, path("nginx.log"));
+    ASSERT_TRUE(soon([&] { return answers(port_); })) << base::read_text(path("nginx.log"));
+
+    const std::string url = "https://localhost:" + std::to_string(port_) + "/lab";
+    const std::vector<std::string> words = {"submit", path("tiny.json"), "--server",     url,
+                                            "--wait", "--no-pictures",   "--token-file", path("token")};
+    EXPECT_EQ(cli(words).code, 64) << "nobody vouches for the certificate, and no other try would mend that";
+    std::vector<std::string> trusting = words;
+    trusting.insert(trusting.end(), {"--cacert", path("cert.pem")});
+    const Outcome submitted = cli(trusting);
+    EXPECT_EQ(submitted.code, 0) << submitted.err;
+    EXPECT_THAT(submitted.out, HasSubstr("  uncompressed "));
+    EXPECT_THAT(submitted.out, HasSubstr("result: " + url + "/v1/jobs/j-"));
+
+    Client client(url, "0123456789abcdef", path("cert.pem"));
+    const nlohmann::json jobs = nlohmann::json::parse(client.get("/v1/jobs?text=TIN").body);
+    ASSERT_EQ(jobs.at("jobs").size(), 1u);
+    const std::string self = jobs["jobs"][0].at("links").at("self");
+    EXPECT_THAT(self, StartsWith("/lab/v1/jobs/j-")) << "links have the path of the proxy";
+    EXPECT_EQ(client.get(self + "/result").status, 200);
+    EXPECT_THAT(client.get(self + "/events").body, HasSubstr("succeeded"));
+    const Reply again = client.post_json("/v1/jobs", scenario, {{"Idempotency-Key", "one"}});
+    EXPECT_EQ(again.status, 202) << again.body;
+    EXPECT_THAT(again.location, StartsWith("/lab/v1/jobs/j-"));
+    EXPECT_EQ(client.get("/").status, 200) << "the page";
+    Client stranger(url, "", path("cert.pem"));
+    EXPECT_EQ(stranger.get("/v1/jobs").status, 401);
+    // nginx names each request to the server.
+    EXPECT_THAT(base::read_text(path("server.log")), ::testing::ContainsRegex("request_id=[0-9a-f]{32}"));
+}
+
+}  // namespace
+}  // namespace shadowbench::service
