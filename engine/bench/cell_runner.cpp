@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "bench/clock.h"
 #include "scene/scenario.h"
 
@@ -33,6 +34,10 @@ results::SweepCell CellRunner::measure(const results::CellPlace& place, const Pr
         loaded_ = place.variant;
     }
     add_notes(*scenario_, cell.result.notes);
+    try {
+        add_notes(runs_.seam_notes(), cell.result.notes);
+    } catch (const base::Error&) {  // of a light whose map no receiver is in: its own cell says so
+    }
     add_files(runs_.variants()[place.variant], scenario_->scene, cell.result.files);
     results::VariantResult& variant = cell.result.variants.emplace_back();
     variant.settings = runs_.variants()[place.variant].settings;

@@ -249,7 +249,7 @@ ordered_json camera_of(const Stage& stage, bool media, bool surfaces) {
     ordered_json camera{
         {"type", "camera"}, {"position", point(stage.camera.position)}, {"target", point(stage.camera.target)}};
     if (stage.camera.up != Vec3d(0, 1, 0)) camera["up"] = point(stage.camera.up);
-    camera["resolution"] = {384, 288};
+    camera["resolution"] = {picture_width, picture_height};
     if (media) camera["media_lookups"] = 32;
     camera["bias"] = number(stage.bias);
     if (surfaces) camera["slope_bias"] = 1;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace shadowbench::scene {
@@ -47,14 +48,14 @@ std::vector<Vec3d> to_be_seen(const Box3d& box, double ground) {
     return points;
 }
 
-// The nearest place from which a camera that looks along `forward` sees all points, `slope` to each side for each step
-// away from it, and those of an axis in the middle.
-Vec3d nearest_view(const std::vector<Vec3d>& points, const Vec3d& forward, double slope) {
+// The nearest place from which a camera that looks along `forward` sees all points, and those of an axis in the middle:
+// for each step away from it, `across` to the right and left and `up` upwards and downwards.
+Vec3d nearest_view(const std::vector<Vec3d>& points, const Vec3d& forward, double across, double up) {
     const Vec3d right = forward.cross(Vec3d(0, 1, 0)).normalized(), upwards = right.cross(forward);
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double depth = infinity;
     Vec3d place(0, 0, 0);
-    for (const Vec3d& axis : {right, upwards}) {
+    for (const auto& [axis, slope] : {std::pair(right, across), std::pair(upwards, up)}) {
         double least = infinity, most = -infinity;
         for (const Vec3d& point : points) {
             least = std::min(least, point.dot(axis) + slope * point.dot(forward));
@@ -88,7 +89,7 @@ Stage stage_around(const Box3d& world_box, UpAxis up) {
     stage.light = to_world(light_direction, up);
     const Vec3d forward = -towards_camera.normalized();
     const double slope = std::tan(0.5 * stage.camera.fov * std::numbers::pi / 180.0) / margin;
-    const Vec3d position = nearest_view(points, forward, slope);
+    const Vec3d position = nearest_view(points, forward, picture_aspect * slope, slope);
     stage.camera.position = placed(position);
     stage.camera.target = placed(position + forward * (middle - position).dot(forward));
     stage.camera.up = to_world(Vec3d(0, 1, 0), up);

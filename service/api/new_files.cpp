@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -39,8 +40,9 @@ std::string in_lower_case(std::string text) {
 // A text beside data, which is no list of points.
 bool is_notice(const fs::path& file) {
     const std::string name = in_lower_case(file.filename().string());
-    return name.ends_with(".txt") &&
-           std::any_of(std::begin(notices), std::end(notices), [&](const char* word) { return name.starts_with(word); });
+    return name.ends_with(".txt") && std::any_of(std::begin(notices), std::end(notices), [&](std::string_view word) {
+               return name.starts_with(word) && (name[word.size()] == '.' || name[word.size()] == '-');
+           });
 }
 
 bool is_read(const fs::path& file) {

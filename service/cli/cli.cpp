@@ -114,8 +114,8 @@ std::string help_in_lines(const std::string& help, std::size_t width) {
     std::string result;
     std::istringstream lines(help);
     for (std::string line; std::getline(lines, line);) {
-        const bool labelled = line.size() > help_column && line.starts_with("  ") && line[2] != ' ' &&
-                              line[help_column - 1] == ' ' && line[help_column] != ' ';
+        const bool labelled = width >= help_column + 20 && line.size() > help_column && line.starts_with("  ") &&
+                              line[2] != ' ' && line[help_column - 1] == ' ' && line[help_column] != ' ';
         if (line.size() <= width || line.starts_with("  shadowbench ")) {
             result += line + "\n";
         } else if (labelled) {

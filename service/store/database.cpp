@@ -21,8 +21,17 @@ bool has_tables(Database& database) {
 }
 
 void check_whole(Database& database) {
-    Rows rows(database, "PRAGMA integrity_check(1)");
-    if (!rows.next() || rows.text(0) != "ok") database.fail_damaged("the database is damaged");
+    // An index of texts that is wrong is made anew: later versions of SQLite report it here.
+    const auto of_index = [](const std::string& fault) {
+        return fault.find("fts5") != std::string::npos || fault.find("FTS5") != std::string::npos;
+    };
+    Rows rows(database, "PRAGMA integrity_check");
+    bool any = false;
+    while (rows.next()) {
+        any = true;
+        if (rows.text(0) != "ok" && !of_index(rows.text(0))) database.fail_damaged("the database is damaged");
+    }
+    if (!any) database.fail_damaged("the database is damaged");
 }
 
 void write_ahead(Database& database) {

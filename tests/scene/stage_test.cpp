@@ -50,7 +50,7 @@ bool is_seen(const Vec3d& point, const Camera& camera) {
     const Vec3d right = forward.cross(camera.up).normalized(), upwards = right.cross(forward);
     const Vec3d away = point - camera.position;
     const double depth = away.dot(forward), most = depth * std::tan(0.5 * camera.fov * std::numbers::pi / 180.0);
-    return depth > 0.0 && std::abs(away.dot(right)) <= most && std::abs(away.dot(upwards)) <= most;
+    return depth > 0.0 && std::abs(away.dot(right)) <= picture_aspect * most && std::abs(away.dot(upwards)) <= most;
 }
 
 TEST(Stage, TheGroundLiesBelowTheBoxAndHoldsItsShadow) {

@@ -18,6 +18,8 @@ constexpr std::uint64_t most_at_once = std::uint64_t{1} << 19;
 // in any order.
 constexpr std::size_t head_bytes = 16, start_bytes = 4;
 constexpr std::size_t flags_at = 2, unpacked_at = 4, block_at = 8, packed_at = 12;
+// The library that writes these files asks for blocks of 256 KiB. Many small ones would cost time, large ones memory.
+constexpr std::size_t usual_block = std::size_t{1} << 18, least_block = usual_block >> 6, most_block = usual_block << 6;
 constexpr std::uint8_t flag_copied = 0x2,
                        flag_whole = 0x10;  // whole: a block is not split into the bytes of its values
 // Beyond its values, a packed block has the sizes of its parts, at most one for each byte of a value.
@@ -71,12 +73,14 @@ void BloscBytes::open_chunk(std::uint64_t number) {
     chunk.head = file_.value<std::array<std::uint8_t, head_bytes>>("packed grid");
     std::size_t unpacked = 0, packed = 0;
     blosc_cbuffer_sizes(chunk.head.data(), &unpacked, &packed, &chunk.block);
-    if (unpacked != chunk.unpacked || packed != chunk.packed || chunk.block == 0 || chunk.block > unpacked) damaged();
+    if (unpacked != chunk.unpacked || packed != chunk.packed) damaged();
     chunk.copied = chunk.head[flags_at] & flag_copied;
     if (chunk.copied) {
         if (packed != unpacked + head_bytes) damaged();
+        chunk.block = std::min(unpacked, usual_block);
         return;
     }
+    if (chunk.block < std::min(unpacked, least_block) || chunk.block > std::min(unpacked, most_block)) damaged();
     const std::size_t blocks = (unpacked - 1) / chunk.block + 1;
     if (blocks > (chunk.packed - head_bytes) / start_bytes) damaged();
     chunk.starts = file_.array<std::uint32_t>(blocks, "packed grid");

@@ -1,5 +1,5 @@
-// The bytes of a grid of a .nvdb file, a part at a time: neither the grid nor what it is packed into is ever held
-// whole.
+// The bytes of a grid of a .nvdb file, a part at a time: a window of it is held, and one block of what BLOSC packed.
+// What lies behind the last part that is asked for is not read.
 #pragma once
 
 #include <array>

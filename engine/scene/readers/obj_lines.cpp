@@ -96,10 +96,10 @@ public:
         if (keyword.empty()) return;
         if (keyword == "v") {
             numbers(keyword, line, 3);
-            ++vertices_;
+            count(vertices_, "vertices");
         } else if (keyword == "vt") {
             numbers(keyword, line, 1);
-            ++uvs_;
+            count(uvs_, "texture coordinates");
         } else if (keyword == "f") {
             corners(line);
         } else {
@@ -116,8 +116,6 @@ public:
                         fmt::format("not a Wavefront OBJ file: no line begins with v, and {} with words that OBJ does "
                                     "not know",
                                     unknown_));
-        if (static_cast<std::uint64_t>(vertices_) > max_mesh_elements)
-            throw Error(ErrorCode::bad_input, name_.string(), fmt::format("over {} vertices", max_mesh_elements));
         vertex_.check(vertices_, "vertex", *this);
         uv_.check(uvs_, "texture coordinate", *this);
     }
@@ -143,6 +141,11 @@ private:
 
     [[noreturn]] void fail_at(std::size_t line, const std::string& message) const {
         throw Error(ErrorCode::bad_input, fmt::format("{}:{}", name_.string(), line), message);
+    }
+
+    void count(std::int64_t& one_more, const char* what) const {
+        if (static_cast<std::uint64_t>(++one_more) > max_mesh_elements)
+            fail(fmt::format("over {} {}", max_mesh_elements, what));
     }
 
     void pass(std::string_view keyword) {

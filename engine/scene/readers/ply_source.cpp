@@ -119,7 +119,7 @@ bool PlySource::fill() {
     window_.erase(0, passed);
     begin_ += passed;
     position_ -= passed;
-    last_ = is_text() ? 0 : last_;
+    last_ = 0;
     const std::size_t kept = window_.size(), more = static_cast<std::size_t>(std::min(size_ - end, most_at_once));
     window_.resize(kept + more);
     bytes_.read({reinterpret_cast<std::uint8_t*>(window_.data()) + kept, more}, "content");

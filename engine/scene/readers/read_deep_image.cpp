@@ -225,6 +225,7 @@ public:
             read_rows(input, part, spec_, y, rows, data, file_);
             take(data, y, rows);
         }
+        for (std::vector<float>* kept : {&image_.z_front, &image_.z_back, &image_.transmittance}) kept->shrink_to_fit();
         if (image_.channels == 3) drop_equal_channels(image_);
         mender_.note(image_.z_front.size(), image_.notes);
         return std::move(image_);

@@ -125,7 +125,7 @@ bool unpack_runs(const FileReader& file, std::uint64_t begin, std::span<const st
             density[done++] = static_cast<float>(value) / 255.0f;
         }
     }
-    if (done + 1 < density.size())
+    if (done == 0 || done + 1 < density.size())
         file.fail(begin + at - 1,
                   fmt::format("the file is damaged: a slice of {} voxels has {}", density.size(), done));
     return done < density.size();

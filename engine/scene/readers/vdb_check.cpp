@@ -245,15 +245,18 @@ private:
         const auto tiles = reader_.value<std::uint32_t>("root");
         const auto children = reader_.value<std::uint32_t>("root");
         constexpr std::uint64_t tile_bytes = 12 + 4 + 1, child_bytes = 12 + 2 * sizeof(Node<5>::Mask);
+        constexpr std::int32_t child_side = 32 * 16 * 8;  // voxels
         if (reader_.position() > end || tiles * tile_bytes + children * child_bytes > end - reader_.position())
             damaged(fmt::format("it claims {} nodes and {} tiles", children, tiles));
         skip(tiles * tile_bytes, "tiles");
         leaves_ = 0;
         std::set<std::array<std::int32_t, 3>> places;
         for (std::uint32_t i = 0; i < children; ++i) {
+            const auto place = reader_.value<std::array<std::int32_t, 3>>("node");
+            for (const std::int32_t along : place)
+                if (along % child_side != 0) damaged("a node of the tree lies between the places of nodes");
             // The library would keep the last of them, and lose the memory of the others.
-            if (!places.insert(reader_.value<std::array<std::int32_t, 3>>("node")).second)
-                damaged("two nodes of the tree have the same place");
+            if (!places.insert(place).second) damaged("two nodes of the tree have the same place");
             for (std::uint64_t below = internal_node<5>(); below > 0; --below) {
                 const std::uint64_t leaves = internal_node<4>();
                 skip(leaves * sizeof(Node<3>::Mask), "leaves");

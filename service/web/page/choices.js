@@ -74,11 +74,14 @@ const isObject = (value) => value !== null && typeof value === 'object' && !Arra
 const merged = (value, part) => (isObject(value) && isObject(part)
   ? Object.entries(part).reduce((all, [key, own]) => ({...all, [key]: merged(all[key], own)}), value) : part);
 
+const leavesOf = (part, at = '') => (isObject(part) ? Object.entries(part).flatMap(([key, own]) => leavesOf(own, `${at}/${key}`)) : [at]);
+const within = (pointer, of) => pointer === of || pointer.startsWith(`${of}/`);
+
 // The scenario with a part merged into it key by key. Sweeps that would set what the part sets are left out.
 export function withPart(scenario, part) {
-  const all = merged(scenario, part), tops = Object.keys(part);
+  const all = merged(scenario, part), set = leavesOf(part);
   if (!scenario.sweeps) return all;
-  return {...all, sweeps: Object.fromEntries(Object.entries(scenario.sweeps).filter(([pointer]) => !tops.includes(pointer.split('/')[1])))};
+  return {...all, sweeps: Object.fromEntries(Object.entries(scenario.sweeps).filter(([pointer]) => !set.some((leaf) => within(pointer, leaf) || within(leaf, pointer))))};
 }
 
 // Whether a form may write the text again: numbers of more digits than JavaScript keeps would change.

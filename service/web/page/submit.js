@@ -142,7 +142,7 @@ export function submitView({draft, signal, go}) {
     }
   }
   let minutes = 2;
-  const time = choice('within', [1, 2, 5, 15, 60].map((n) => ({value: n, text: `${n} min`})), minutes, (n) => { minutes = Number(n); });
+  const time = choice('within', [1, 2, 5, 15, 25].map((n) => ({value: n, text: `${n} min`})), minutes, (n) => { minutes = Number(n); });
   const buttons = () => element.querySelectorAll('button[type="submit"], button.send');
   const run = () => send('/v1/jobs', `"options": ${JSON.stringify({cache, pictures: pictures.checked})}`);
   function recommend() {

@@ -126,9 +126,9 @@ test('a form changes what it shows, and nothing else', () => {
 
 test('a part of a scenario is merged key by key, and no sweep sets it again', () => {
   const scenario = {name: 'x', rays: {resolution: 64, seed: 3}, receivers: {type: 'camera', footprint: {radius: 2}}, techniques: [{type: 'deep'}, {type: 'pcf'}],
-    sweeps: {'/rays/seed': [1, 2], '/techniques/1/res_factor': [1, 2], '/lights/0/angle': [20, 30]}};
+    sweeps: {'/rays/seed': [1, 2], '/rays/resolution': [32, 64], '/techniques/1/res_factor': [1, 2], '/lights/0/angle': [20, 30]}};
   assert.deepEqual(withPart(scenario, {rays: {resolution: 91}, techniques: [{type: 'avsm', nodes: 8}]}), {...scenario, rays: {resolution: 91, seed: 3},
-    techniques: [{type: 'avsm', nodes: 8}], sweeps: {'/lights/0/angle': [20, 30]}});
+    techniques: [{type: 'avsm', nodes: 8}], sweeps: {'/rays/seed': [1, 2], '/lights/0/angle': [20, 30]}});
   assert.deepEqual(withPart({name: 'x', techniques: []}, {receivers: {footprint: {share: 0.1}}}), {name: 'x', techniques: [], receivers: {footprint: {share: 0.1}}});
 });
 

@@ -8,6 +8,7 @@ import {costs} from './settings.js';
 const titles = {lookup_ns: 'Fastest lookup', bytes: 'Fewest bytes', build_ms: 'Fastest build'};
 const measures = {rms: 'RMS', max: 'the largest', p99: '99th percentile', curve: 'the largest of the functions'};
 const units = {lookup_ns: ' a lookup', bytes: '', build_ms: ' to build'};
+const stealLimit = 0.02;  // as the program's
 const kindOf = (id) => costs.find((c) => c.id === id).kind;
 
 function errorText({confirmed, error: [low, high]}) {
@@ -31,16 +32,17 @@ function nextTo(best, id) {
 // with a part of it replaced; nothing where nobody can. series: numbers of techniques.
 export function recommendedView({recommendation, text, take, series}) {
   const {answer, goal, measure} = recommendation;
-  const row = (term, choice, id, more, mapless) => h('div', {}, h('dt', {}, term), h('dd', {}, glyph(series.get(choice.technique) ?? 0), ' ', h('strong', {}, choice.setting), ` ${costText(choice, id, mapless)}`,
+  const mapless = new Set(recommendation.families.filter((family) => family.mapless).map((family) => family.technique));
+  const row = (term, choice, id, more) => h('div', {}, h('dt', {}, term), h('dd', {}, glyph(series.get(choice.technique) ?? 0), ' ', h('strong', {}, choice.setting), ` ${costText(choice, id, mapless.has(choice.technique))}`,
     more, take && h('p', {class: 'next'}, h('button', {type: 'button', class: 'quiet small', onclick: () => take(choice.part), 'aria-label': `Run the scenario with ${choice.setting}`}, 'Run with these settings'))));
   const rows = answer.cheapest.map((best) => row(titles[best.cost], best, best.cost, [nextTo(best, best.cost),
     best.perhaps && h('small', {class: 'tie'}, `Perhaps ${write(kindOf(best.cost), best.perhaps[best.cost])}, error not confirmed: ${best.perhaps.setting}`)]));
   if (!answer.reached && answer.closest) rows.push(row('No setting reaches it. The closest', answer.closest, 'lookup_ns', null));
   else if (!answer.reached) rows.push(h('div', {}, h('dt', {}, 'Nothing'), h('dd', {}, 'No setting reaches it.')));
-  if (answer.without_map) rows.push(row('Without a map', answer.without_map, 'lookup_ns', null, true));
+  if (answer.without_map) rows.push(row('Without a map', answer.without_map, 'lookup_ns', null));
   const others = [...answer.missed.map((m) => [m.technique, [m.why, m.error === null ? 'not measured' : `closest error ${significant(m.error)}`]]),
     ...answer.broken.map((b) => [b.technique, [`broke a promise at ${b.settings} of ${b.measured} settings`, b.reason]])];
-  const notes = [answer.cut && 'The time to confirm ran out: intervals are wider than planned.', recommendation.end === 'budget' && 'The time given ended first: a cheaper setting may be left.', recommendation.end === 'cancelled' && 'It was cancelled: a cheaper setting may be left.'].filter(Boolean);
+  const notes = [recommendation.steal > stealLimit && `Unsettled: the host of this virtual machine took ${significant(100 * recommendation.steal, 2)} % of the time. Measure again.`, answer.cut && 'The time to confirm ran out: intervals are wider than planned.', recommendation.end === 'budget' && 'The time given ended first: a cheaper setting may be left.', recommendation.end === 'cancelled' && 'It was cancelled: a cheaper setting may be left.'].filter(Boolean);
   return h('section', {class: 'panel answer', 'aria-labelledby': 'recommended-title'},
     h('h2', {id: 'recommended-title'}, `With an error of at most ${significant(goal.error)}`, h('span', {}, ` (${measures[measure] ?? measure}, 95 % confidence)`)),
     h('dl', {class: 'answers'}, rows), notes.map((note) => h('p', {class: 'note'}, note)),
