@@ -203,7 +203,7 @@ async function looks(page, name) {
 
 // One job that takes a while, and one behind it.
 async function queue(page, scenario, mock) {
-  const slow = {...JSON.parse(scenario), name: 'slow', timing: {repetitions: 5000, lookups: 4096}};
+  const slow = {...JSON.parse(scenario), name: 'slow', timing: {repetitions: 500, lookups: 4096}};
   for (const seed of [1, 2])
     assert.equal(await page.evaluate(async (body) => (await fetch('/v1/jobs', {method: 'POST', headers: {'Content-Type': 'application/json'}, body})).status,
       JSON.stringify({scenario: {...slow, rays: {...slow.rays, seed}}})), 202);
