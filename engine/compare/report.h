@@ -12,7 +12,7 @@ namespace shadowbench::compare {
 
 // For a terminal: all that is not the same, one block per cell; then fronts and counts. Inconclusive times that do not
 // look slower are only counted, unless `all`. In lines of `width` characters, but for the commands.
-std::string to_text(const Comparison& comparison, bool all, std::size_t width = 100);
+std::string to_text(const Comparison& comparison, bool all, std::size_t width = std::string::npos);
 
 // The same for a pull request.
 std::string to_markdown(const Comparison& comparison);

@@ -82,7 +82,8 @@ int report_verdict(const compare::Comparison& comparison, const VerdictArguments
             files.push_back({file, content});
         }
     }
-    if (!printed) out << compare::to_text(comparison, arguments.all, line_width(out));
+    if (!printed)  // elsewhere than on a terminal each verdict is one line, to be found by other programs
+        out << compare::to_text(comparison, arguments.all, is_terminal(out) ? line_width(out) : std::string::npos);
     base::write_files(files);
     if (!printed)
         for (const base::NewFile& file : files) out << fmt::format("written: {}\n", file.path.string());
