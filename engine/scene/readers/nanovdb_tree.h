@@ -14,8 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "scene/readers/nanovdb_bytes.h"
 #include "scene/scene.h"
 
@@ -30,7 +28,7 @@ public:
     std::uint64_t size() const { return grid_.size; }
 
     [[noreturn]] void damaged(const std::string& what) const {
-        file_.fail(grid_.begin, fmt::format("the grid that begins here is damaged: {}", what));
+        file_.fail(grid_.begin, "the grid that begins here is damaged: " + what);
     }
 
     // Throws unless a structure fits in the grid at `place`, with `more` bytes behind it.
@@ -38,7 +36,8 @@ public:
     void check(std::uint64_t place, std::uint64_t more = 0) const {
         if (place % alignof(T) != 0 || place > grid_.size || sizeof(T) > grid_.size - place ||
             more > grid_.size - place - sizeof(T))
-            damaged(fmt::format("it has {} bytes, and something of {} at byte {}", grid_.size, sizeof(T), place));
+            damaged("it has " + std::to_string(grid_.size) + " bytes, and something of " + std::to_string(sizeof(T)) +
+                    " at byte " + std::to_string(place));
     }
 
     template <class T>
@@ -192,7 +191,7 @@ private:
         if constexpr (std::is_same_v<Build, nanovdb::FpN>) {
             constexpr unsigned most_bits = 16;
             const unsigned bits = 1u << (node.mFlags >> 5);
-            if (bits > most_bits) places_.damaged(fmt::format("voxels of {} bits", bits));
+            if (bits > most_bits) places_.damaged("voxels of " + std::to_string(bits) + " bits");
             return bits * std::uint64_t{64};
         }
         return 0;
