@@ -31,13 +31,15 @@ results::SweepCell CellRunner::measure(const results::CellPlace& place, const Pr
     if (loaded_ != place.variant) {
         loaded_.reset();
         scenario_ = &runs_.load(place.variant, progress);
+        notes_.clear();
+        add_notes(*scenario_, notes_);
+        try {
+            add_missing(runs_.seam_notes(), notes_);
+        } catch (const base::Error&) {  // of a light whose map no receiver is in: its own cell says so
+        }
         loaded_ = place.variant;
     }
-    add_notes(*scenario_, cell.result.notes);
-    try {
-        add_notes(runs_.seam_notes(), cell.result.notes);
-    } catch (const base::Error&) {  // of a light whose map no receiver is in: its own cell says so
-    }
+    add_missing(notes_, cell.result.notes);
     add_files(runs_.variants()[place.variant], scenario_->scene, cell.result.files);
     results::VariantResult& variant = cell.result.variants.emplace_back();
     variant.settings = runs_.variants()[place.variant].settings;

@@ -40,6 +40,7 @@ private:
     VariantRuns runs_;
     const scene::Scenario* scenario_ = nullptr;
     std::optional<std::size_t> loaded_;  // the variant
+    std::vector<std::string> notes_;     // on it
 };
 
 }  // namespace shadowbench::bench

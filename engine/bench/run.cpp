@@ -43,7 +43,7 @@ results::Result run(const nlohmann::json& document, const RunOptions& options, c
         results::VariantResult& out = result.variants.emplace_back();
         out.settings = runs.variants()[v].settings;
         for (std::size_t l = 0; l < scenario.lights.size(); ++l) out.lights.push_back(runs.measure(l, progress));
-        add_notes(runs.seam_notes(), result.notes);
+        add_missing(runs.seam_notes(), result.notes);
     }
     result.times.seconds = stopwatch.seconds();
     return result;

@@ -27,11 +27,6 @@ std::string place_of(std::size_t variant, std::size_t variants, const scene::Sce
     return place;
 }
 
-void add_missing(std::vector<std::string> lines, std::vector<std::string>& to) {
-    for (std::string& line : lines)
-        if (std::count(to.begin(), to.end(), line) == 0) to.push_back(std::move(line));
-}
-
 }  // namespace
 
 std::vector<document::Variant> variants_of(const nlohmann::json& document, const std::vector<std::string>& only) {
@@ -40,12 +35,13 @@ std::vector<document::Variant> variants_of(const nlohmann::json& document, const
     return variants;
 }
 
-void add_notes(std::vector<std::string> lines, std::vector<std::string>& notes) {
-    add_missing(std::move(lines), notes);
+void add_missing(std::vector<std::string> lines, std::vector<std::string>& to) {
+    for (std::string& line : lines)
+        if (std::count(to.begin(), to.end(), line) == 0) to.push_back(std::move(line));
 }
 
 void add_notes(const scene::Scenario& scenario, std::vector<std::string>& notes) {
-    add_notes(scene::notes(scenario), notes);
+    add_missing(scene::notes(scenario), notes);
 }
 
 void add_files(const document::Variant& variant, const scene::Scene& scene, std::vector<std::string>& files) {

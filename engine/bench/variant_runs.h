@@ -22,9 +22,11 @@ namespace shadowbench::bench {
 // usage for `only`.
 std::vector<document::Variant> variants_of(const nlohmann::json& document, const std::vector<std::string>& only);
 
-// Adds the notes of the file readers that are not there yet: variants may share a scene.
+// Adds the lines that are not there yet: variants may share a scene.
+void add_missing(std::vector<std::string> lines, std::vector<std::string>& to);
+
+// The same for the notes of the file readers.
 void add_notes(const scene::Scenario& scenario, std::vector<std::string>& notes);
-void add_notes(std::vector<std::string> lines, std::vector<std::string>& notes);
 
 // The same for the lines of its data files.
 void add_files(const document::Variant& variant, const scene::Scene& scene, std::vector<std::string>& files);

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "service/tiny_scenario.h"
 #include "temporary_folder.h"
 
 namespace shadowbench::service {
@@ -23,17 +24,6 @@ std::string read(const fs::path& file) {
     std::ifstream stream(file);
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
-
-const char* const tiny = R"({
-    "name": "tiny",
-    "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
-    "lights": [{"type": "directional", "direction": [0, -1, 0]}],
-    "rays": {"resolution": 8, "samples_per_pixel": 4},
-    "receivers": {"type": "probes", "count": 200},
-    "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
-    "timing": {"repetitions": 1, "lookups": 64},
-    "techniques": [{"type": "deep"}, {"type": "uncompressed"}]
-})";
 
 class Cli : public ::testing::Test {
 protected:

@@ -23,6 +23,7 @@
 #include "processes.h"
 #include "service/http/client.h"
 #include "service/run_cli.h"
+#include "service/tiny_scenario.h"
 #include "temporary_folder.h"
 
 namespace shadowbench::service {
@@ -34,17 +35,6 @@ using ::testing::StartsWith;
 
 const char* const nginx = "/usr/sbin/nginx";
 const char* const openssl = "/usr/bin/openssl";
-const char* const scenario = R"({
-    "name": "tiny",
-    "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
-    "lights": [{"type": "directional", "direction": [0, -1, 0]}],
-    "rays": {"resolution": 8, "samples_per_pixel": 4},
-    "receivers": {"type": "probes", "count": 200},
-    "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
-    "timing": {"repetitions": 1, "lookups": 64},
-    "techniques": [{"type": "deep"}, {"type": "uncompressed"}]
-})";
-
 // A process that is ended with the test.
 class Program {
 public:
@@ -115,7 +105,7 @@ class Proxy : public testing::Test {
 protected:
     void SetUp() override {
         if (::access(nginx, X_OK) != 0 || ::access(openssl, X_OK) != 0) GTEST_SKIP() << "nginx or openssl is missing";
-        write("tiny.json", scenario);
+        write("tiny.json", tiny);
         fs::permissions(write("token", "0123456789abcdef\n"), fs::perms::owner_read | fs::perms::owner_write);
     }
     std::string path(const std::string& name) const { return folder_.path(name); }
@@ -182,7 +172,7 @@ TEST_F(Proxy, TheConfigurationOfTheReadmeServes) {
     EXPECT_THAT(self, StartsWith("/lab/v1/jobs/j-")) << "links have the path of the proxy";
     EXPECT_EQ(client.get(self + "/result").status, 200);
     EXPECT_THAT(client.get(self + "/events").body, HasSubstr("succeeded"));
-    const Reply again = client.post_json("/v1/jobs", scenario, {{"Idempotency-Key", "one"}});
+    const Reply again = client.post_json("/v1/jobs", tiny, {{"Idempotency-Key", "one"}});
     EXPECT_EQ(again.status, 202) << again.body;
     EXPECT_THAT(again.location, StartsWith("/lab/v1/jobs/j-"));
     EXPECT_EQ(client.get("/").status, 200) << "the page";

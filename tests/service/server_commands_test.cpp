@@ -27,23 +27,13 @@
 #include "processes.h"
 #include "service/http/client.h"
 #include "service/run_cli.h"
+#include "service/tiny_scenario.h"
 #include "temporary_folder.h"
 
 namespace shadowbench::service {
 namespace {
 
 namespace fs = std::filesystem;
-
-const char* const tiny = R"({
-    "name": "tiny",
-    "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
-    "lights": [{"type": "directional", "direction": [0, -1, 0]}],
-    "rays": {"resolution": 8, "samples_per_pixel": 4},
-    "receivers": {"type": "probes", "count": 200},
-    "reference": {"samples_per_pixel": 16, "queries": 20, "spread_seeds": 2},
-    "timing": {"repetitions": 1, "lookups": 64},
-    "techniques": [{"type": "deep"}, {"type": "uncompressed"}]
-})";
 
 std::string read(const fs::path& file) {
     std::ifstream stream(file);
