@@ -18,7 +18,8 @@ add_custom_command(OUTPUT "${help}.made"
   DEPENDS shadowbench VERBATIM)
 add_custom_target(help_files ALL DEPENDS "${help}.made")
 install(DIRECTORY "${help}/" DESTINATION "${CMAKE_INSTALL_DATADIR}" COMPONENT program)
-# The unit of systemd, with the paths of the prefix that it is installed to.
+# The unit of systemd, with the paths of the prefix that it is installed to, and a drop-in to copy.
+install(FILES service/systemd/tokens.conf DESTINATION "${share}/systemd" COMPONENT program)
 install(CODE "set(UNIT_SOURCE \"${CMAKE_CURRENT_SOURCE_DIR}/service/systemd/shadowbench.service.in\")
 set(UNIT_MADE \"${CMAKE_CURRENT_BINARY_DIR}/generated/shadowbench.service\")
 set(UNIT_PROGRAM_FOLDER \"${CMAKE_INSTALL_BINDIR}\")

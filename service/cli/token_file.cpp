@@ -111,7 +111,9 @@ std::vector<NamedToken> read_tokens(const std::string& file) {
             throw Error(ErrorCode::bad_input, where,
                         "a second line with this name or this token; each line needs a name and a token of its own");
     }
-    if (tokens.empty()) throw Error(ErrorCode::bad_input, file, "there is no token in this file");
+    if (tokens.empty())
+        throw Error(ErrorCode::bad_input, file,
+                    "there is no token in this file; write lines of TOKEN, or of NAME TOKEN, into it");
     return tokens;
 }
 

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -196,6 +197,7 @@ TEST_F(Operate, TheUnitOfSystemdStartsAndStopsTheServer) {
     ::setenv("CREDENTIALS_DIRECTORY", credentials.c_str(), 1);
     const pid_t server = ::fork();
     if (server == 0) {
+        ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), 1);
         ::execv(argv[0], argv.data());
         ::_exit(127);
     }
