@@ -61,7 +61,7 @@ if(NOT pictures)
 endif()
 file(GLOB images_library "${prefix}/lib*/shadowbench/*.so" "${prefix}/lib*/*/shadowbench/*.so")
 
-# --- the unit of systemd -------------------------------------------------------------------------------------------------
+# --- the unit of systemd ----------------------------------------------------------------------------------------------
 # It names the program by the place where it was installed. systemd checks it, with the drop-in for tokens: a misspelt
 # key would otherwise be passed over, and with it a limit.
 file(READ "${prefix}/lib/systemd/system/shadowbench.service" unit)

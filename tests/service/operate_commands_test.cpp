@@ -202,6 +202,7 @@ TEST_F(Operate, TheUnitOfSystemdStartsAndStopsTheServer) {
         ::_exit(127);
     }
     ::unsetenv("CREDENTIALS_DIRECTORY");
+    ASSERT_GT(server, 0);
     EXPECT_EQ(manager.hears(), "READY=1") << command;
     EXPECT_TRUE(fs::exists(folder + "/private/shadowbench/jobs.db"));
     ::kill(server, SIGTERM);
