@@ -18,6 +18,13 @@ add_custom_command(OUTPUT "${help}.made"
   DEPENDS shadowbench VERBATIM)
 add_custom_target(help_files ALL DEPENDS "${help}.made")
 install(DIRECTORY "${help}/" DESTINATION "${CMAKE_INSTALL_DATADIR}" COMPONENT program)
+# The unit of systemd, with the paths of the prefix that it is installed to, and a drop-in to copy.
+install(FILES service/systemd/tokens.conf DESTINATION "${share}/systemd" COMPONENT program)
+install(CODE "set(UNIT_SOURCE \"${CMAKE_CURRENT_SOURCE_DIR}/service/systemd/shadowbench.service.in\")
+set(UNIT_MADE \"${CMAKE_CURRENT_BINARY_DIR}/generated/shadowbench.service\")
+set(UNIT_PROGRAM_FOLDER \"${CMAKE_INSTALL_BINDIR}\")
+set(UNIT_DOCUMENTATION \"${CMAKE_INSTALL_DOCDIR}\")" COMPONENT program)
+install(SCRIPT engine/cmake/InstallUnit.cmake COMPONENT program)
 # The manuals keep their folders, so that the links between them hold.
 foreach(folder IN ITEMS engine/compare engine/techniques results scenarios service)
   install(FILES ${folder}/README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/${folder}" COMPONENT program)

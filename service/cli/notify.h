@@ -5,7 +5,7 @@
 
 namespace shadowbench::service {
 
-// Sends a state, such as "READY=1". No effect where nobody listens.
+// Sends a state, such as "READY=1", or several in lines. No effect where nobody listens.
 void notify_manager(const std::string& state);
 
 }  // namespace shadowbench::service

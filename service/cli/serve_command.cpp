@@ -35,7 +35,8 @@ using base::Error;
 using base::ErrorCode;
 
 constexpr double mib = 1024.0 * 1024.0, gib = 1024.0 * mib;
-constexpr double helper_memory = 4.0;  // GiB
+constexpr double helper_memory = 4.0;         // GiB
+constexpr double seconds_after_grace = 30.0;  // that a stop may take once jobs have had their time
 
 std::vector<fs::path> folders_of(const std::vector<std::string>& names) {
     std::vector<fs::path> folders;
@@ -175,7 +176,8 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     std::atomic<bool> done = false;
     std::thread stopper([&] {
         if (!signals.wait(done)) return;
-        notify_manager("STOPPING=1");
+        notify_manager(
+            fmt::format("STOPPING=1\nEXTEND_TIMEOUT_USEC={:.0f}", (arguments.grace + seconds_after_grace) * 1e6));
         say(log, {LogLevel::info, "server", "stopping"});
         jobs.stop();  // the server answers clients meanwhile
         server.stop();

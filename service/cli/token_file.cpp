@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -80,12 +82,20 @@ NamedToken read_line_of_tokens(const std::string& line, const std::string& where
     return read;
 }
 
+// The rights that nobody but the owner may have. A credential of systemd may belong to root, and an ACL lets the
+// service read it: the group's rights are then the mask of the ACL.
+mode_t rights_of_others(const std::string& file) {
+    const char* const credentials = std::getenv("CREDENTIALS_DIRECTORY");
+    const bool credential = credentials && std::filesystem::path(file).parent_path() == credentials;
+    return credential ? S_IRWXO : S_IRWXG | S_IRWXO;
+}
+
 }  // namespace
 
 std::vector<NamedToken> read_tokens(const std::string& file) {
     const std::string text = base::read_text(file);
     struct stat status {};
-    if (::stat(file.c_str(), &status) == 0 && (status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+    if (::stat(file.c_str(), &status) == 0 && (status.st_mode & rights_of_others(file)) != 0)
         throw Error(ErrorCode::bad_input, file, "others can read the token; run chmod 600 on the file");
     std::vector<NamedToken> tokens;
     std::set<std::string> names, secrets;
@@ -101,7 +111,9 @@ std::vector<NamedToken> read_tokens(const std::string& file) {
             throw Error(ErrorCode::bad_input, where,
                         "a second line with this name or this token; each line needs a name and a token of its own");
     }
-    if (tokens.empty()) throw Error(ErrorCode::bad_input, file, "there is no token in this file");
+    if (tokens.empty())
+        throw Error(ErrorCode::bad_input, file,
+                    "there is no token in this file; write lines of TOKEN, or of NAME TOKEN, into it");
     return tokens;
 }
 

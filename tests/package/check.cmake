@@ -42,7 +42,8 @@ foreach(file IN ITEMS share/shadowbench/scenario.schema.json share/doc/shadowben
                       share/doc/shadowbench/results/README.md share/doc/shadowbench/scenarios/README.md
                       share/doc/shadowbench/service/README.md share/man/man1/shadowbench.1
                       share/man/man1/shadowbench-run.1 share/bash-completion/completions/shadowbench
-                      share/zsh/site-functions/_shadowbench share/fish/vendor_completions.d/shadowbench.fish)
+                      share/zsh/site-functions/_shadowbench share/fish/vendor_completions.d/shadowbench.fish
+                      lib/systemd/system/shadowbench.service share/shadowbench/systemd/tokens.conf)
   if(NOT EXISTS "${prefix}/${file}")
     message(FATAL_ERROR "${file} is not installed")
   endif()
@@ -59,6 +60,21 @@ if(NOT pictures)
   message(FATAL_ERROR "render wrote no picture:\n${text}")
 endif()
 file(GLOB images_library "${prefix}/lib*/shadowbench/*.so" "${prefix}/lib*/*/shadowbench/*.so")
+
+# --- the unit of systemd ----------------------------------------------------------------------------------------------
+# It names the program by the place where it was installed. systemd checks it, with the drop-in for tokens: a misspelt
+# key would otherwise be passed over, and with it a limit.
+file(READ "${prefix}/lib/systemd/system/shadowbench.service" unit)
+expect("${unit}" "\nExecStart=${WORK}/installed/bin/shadowbench serve ")
+find_program(analyze systemd-analyze)
+if(analyze)
+  string(REPLACE "${WORK}/installed" "${prefix}" unit "${unit}")
+  file(WRITE "${WORK}/unit/shadowbench.service" "${unit}")
+  file(COPY "${prefix}/share/shadowbench/systemd/tokens.conf" DESTINATION "${WORK}/unit/shadowbench.service.d")
+  run("${analyze}" --man=no --recursive-errors=no verify "${WORK}/unit/shadowbench.service")
+else()
+  message(STATUS "systemd-analyze is missing (Debian's package systemd): the unit is not checked")
+endif()
 
 # --- the libraries of an image: service/container -----------------------------------------------------------------------
 # What is collected is all that the program and its library load, apart from the C library and its like.

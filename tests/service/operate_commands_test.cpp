@@ -1,14 +1,20 @@
-// What an operator runs and writes: the file of tokens, back-ups and checks, and the word to systemd.
+// What an operator runs and writes: the file of tokens, back-ups and checks, and what systemd runs and hears.
+#include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -44,6 +50,52 @@ protected:
     }
     const TemporaryFolder folder_;
 };
+
+// The socket of a manager such as systemd, which processes find in their environment.
+class Manager {
+public:
+    explicit Manager(const std::string& place) : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        EXPECT_LT(place.size(), sizeof address.sun_path);
+        place.copy(address.sun_path, sizeof address.sun_path - 1);
+        EXPECT_EQ(::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+        const timeval patience{60, 0};
+        ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+        ::setenv("NOTIFY_SOCKET", place.c_str(), 1);
+    }
+    ~Manager() {
+        ::unsetenv("NOTIFY_SOCKET");
+        ::close(socket_);
+    }
+    Manager(const Manager&) = delete;
+    Manager& operator=(const Manager&) = delete;
+
+    // The next message, or an empty text.
+    std::string hears(int flags = 0) const {
+        char text[256];
+        const ssize_t size = ::recv(socket_, text, sizeof text, flags);
+        return {text, static_cast<std::size_t>(std::max<ssize_t>(size, 0))};
+    }
+
+private:
+    int socket_;
+};
+
+// What follows `key` in the line of a file of service/systemd that begins with it.
+std::string setting(const std::string& file, const std::string& key) {
+    std::ifstream stream(SHADOWBENCH_SOURCE_DIR "/service/systemd/" + file);
+    for (std::string line; std::getline(stream, line);)
+        if (line.rfind(key, 0) == 0) return line.substr(key.size());
+    ADD_FAILURE() << file << " has no line that begins with " << key;
+    return {};
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+        text.replace(at, what.size(), by);
+    return text;
+}
 
 TEST_F(Operate, TokensHaveNamesAndLimits) {
     const auto tokens = read_tokens(write("tokens",
@@ -112,23 +164,72 @@ TEST_F(Operate, SubmitRefusesWhatNoTryMends) {
 }
 
 TEST_F(Operate, SaysToSystemdThatItIsReady) {
-    const std::string place = (folder_.path() / "n").string();
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    ASSERT_LT(place.size(), sizeof address.sun_path);
-    place.copy(address.sun_path, place.size());
-    const int socket = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK, 0);
-    ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    ::setenv("NOTIFY_SOCKET", place.c_str(), 1);
+    const Manager manager((folder_.path() / "n").string());
     notify_manager("READY=1");
     ::unsetenv("NOTIFY_SOCKET");
     notify_manager("STOPPING=1");  // nobody listens
-    char text[64];
-    const ssize_t size = ::recv(socket, text, sizeof text, 0);
-    ASSERT_GT(size, 0);
-    EXPECT_EQ(std::string(text, static_cast<std::size_t>(size)), "READY=1");
-    EXPECT_LT(::recv(socket, text, sizeof text, 0), 0);
-    ::close(socket);
+    EXPECT_EQ(manager.hears(), "READY=1");
+    EXPECT_EQ(manager.hears(MSG_DONTWAIT), "");
+}
+
+// The words of the unit, with the drop-in for tokens, and what systemd makes of them: with DynamicUser= the state
+// folder is behind a link. Else a renamed option, or a credential that is refused, would show only on a user's machine.
+TEST_F(Operate, TheUnitOfSystemdStartsAndStopsTheServer) {
+    const std::string folder = folder_.path().string(), credentials = folder + "/credentials";
+    fs::create_directories(folder + "/private/shadowbench");
+    fs::create_directory_symlink("private/shadowbench", folder + "/shadowbench");
+    fs::create_directory(credentials);
+    fs::permissions(write("credentials/tokens", "ann 0123456789abcdef\n"),
+                    fs::perms::owner_read | fs::perms::group_read);
+    const std::string tokens = setting("tokens.conf", "Environment=\"SHADOWBENCH_TOKENS=");
+    std::string command = setting("shadowbench.service.in", "ExecStart=");
+    command = replaced(command, "$SHADOWBENCH_TOKENS", tokens.substr(0, tokens.size() - 1));
+    command = replaced(command, "$SHADOWBENCH_OPTIONS", "--host 127.0.0.2 --port 0 --grace 7 --log-level warning");
+    command = replaced(replaced(command, "@PROGRAM@", SHADOWBENCH_PROGRAM), "%S", folder);
+    std::istringstream stream(replaced(command, "%d", credentials));
+    std::vector<std::string> words;
+    for (std::string word; stream >> word;) words.push_back(word);
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+
+    const Manager manager(folder + "/n");
+    ::setenv("CREDENTIALS_DIRECTORY", credentials.c_str(), 1);
+    const pid_t server = ::fork();
+    if (server == 0) {
+        ::dup2(::open("/dev/null", O_WRONLY | O_CLOEXEC), 1);
+        ::execv(argv[0], argv.data());
+        ::_exit(127);
+    }
+    ::unsetenv("CREDENTIALS_DIRECTORY");
+    ASSERT_GT(server, 0);
+    EXPECT_EQ(manager.hears(), "READY=1") << command;
+    EXPECT_TRUE(fs::exists(folder + "/private/shadowbench/jobs.db"));
+    ::kill(server, SIGTERM);
+    // Else systemd would kill the server before a --grace above TimeoutStopSec= is over.
+    EXPECT_EQ(manager.hears(), "STOPPING=1\nEXTEND_TIMEOUT_USEC=37000000");
+    int status = -1;
+    ::waitpid(server, &status, 0);
+    EXPECT_EQ(status, 0);
+}
+
+TEST_F(Operate, OnlyACredentialOfSystemdMayHaveRightsOfAGroup) {
+    const fs::path file = write("tokens", "0123456789abcdef\n");
+    const auto refused = [&](fs::perms more, const fs::path& credentials) {
+        fs::permissions(file, fs::perms::owner_read | more);
+        ::setenv("CREDENTIALS_DIRECTORY", credentials.c_str(), 1);
+        bool thrown = false;
+        try {
+            read_tokens(file);
+        } catch (const base::Error&) {
+            thrown = true;
+        }
+        ::unsetenv("CREDENTIALS_DIRECTORY");
+        return thrown;
+    };
+    EXPECT_FALSE(refused(fs::perms::group_read, folder_.path()));
+    EXPECT_TRUE(refused(fs::perms::group_read, folder_.path() / "other"));
+    EXPECT_TRUE(refused(fs::perms::others_read, folder_.path()));
 }
 
 }  // namespace
