@@ -4,7 +4,6 @@
 #include "service/store/database.h"
 #include "service/store/job_rows.h"
 #include "service/store/job_schema.h"
-#include "service/store/job_search.h"
 #include "service/store/store_kind.h"
 
 namespace shadowbench::service {
@@ -48,8 +47,6 @@ StoreContents check_store(const std::filesystem::path& file) {
     }
     for (const std::string& id : find_unsealed(database))
         contents.faults.push_back(file.string() + ": the row of job " + id + " is damaged: its checksum differs");
-    for (const std::string& fault : find_search_faults(database))
-        contents.faults.push_back(file.string() + ": " + fault);
     contents.jobs = read_jobs(database);
     sqlite::run(database, "COMMIT");
     return contents;
