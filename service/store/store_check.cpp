@@ -27,7 +27,7 @@ void check_kind(const std::filesystem::path& file) {
 
 void copy_store(const std::filesystem::path& from, const std::filesystem::path& to) {
     check_kind(from);
-    Database database(from, Database::Access::read, store_application);
+    Database database(from, Database::Access::check, store_application);
     check_schema(database);
     const std::string name = to.string();
     sqlite::run(database, "VACUUM INTO ?", {name});
@@ -35,7 +35,7 @@ void copy_store(const std::filesystem::path& from, const std::filesystem::path& 
 
 StoreContents check_store(const std::filesystem::path& file) {
     check_kind(file);
-    Database database(file, Database::Access::read, store_application);
+    Database database(file, Database::Access::check, store_application);
     check_schema(database);
     StoreContents contents;
     sqlite::run(database, "BEGIN");
@@ -54,7 +54,7 @@ StoreContents check_store(const std::filesystem::path& file) {
 
 std::vector<StoredJob> read_store(const std::filesystem::path& file) {
     check_kind(file);
-    Database database(file, Database::Access::read, store_application);
+    Database database(file, Database::Access::check, store_application);
     check_schema(database);
     return read_jobs(database);
 }
