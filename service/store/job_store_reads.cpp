@@ -40,7 +40,8 @@ Wanted wanted_of(const StoreFilter& filter, std::size_t limit, std::int64_t befo
 bool is_wanted(const StoredJob& job, const Wanted& wanted) {
     const StoreFilter& filter = wanted.filter;
     return (filter.state.empty() || job.state == filter.state) && (filter.owner.empty() || job.owner == filter.owner) &&
-           (filter.label.empty() || std::find(job.labels.begin(), job.labels.end(), filter.label) != job.labels.end()) &&
+           (filter.label.empty() ||
+            std::find(job.labels.begin(), job.labels.end(), filter.label) != job.labels.end()) &&
            searched_text(job).find(wanted.text) != std::string::npos;
 }
 

@@ -21,7 +21,7 @@ constexpr std::string_view texts_sql =
 constexpr std::int64_t rows_at_once = 500;
 
 constexpr std::string_view replacement = "\xef\xbf\xbd";  // U+FFFD
-constexpr std::size_t longest_kept = 1000;                 // bytes of a text
+constexpr std::size_t longest_kept = 1000;                // bytes of a text
 
 // The character of a well-formed sequence of UTF-8, of more than one byte.
 wint_t character_of(std::string_view sequence) {

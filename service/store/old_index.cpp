@@ -12,17 +12,29 @@ namespace {
 using sqlite::Database, sqlite::Rows, sqlite::Transaction, sqlite::run;
 
 // The tables in which FTS5 keeps the index `jobs_text`, and that itself, whose row in the schema names no page.
-constexpr const char* tables_sql =
-    "SELECT name FROM sqlite_schema WHERE type = 'table' AND rootpage <> 0 AND name IN ('jobs_text', 'jobs_text_data', "
+constexpr const char* all_sql =
+    "SELECT name, rootpage FROM sqlite_schema WHERE type = 'table' AND name IN ('jobs_text', 'jobs_text_data', "
     "'jobs_text_idx', 'jobs_text_content', 'jobs_text_docsize', 'jobs_text_config')";
-constexpr const char* index_sql = "SELECT 1 FROM sqlite_schema WHERE name = 'jobs_text' AND rootpage = 0";
 
-// DROP TABLE would ask FTS5, which refuses an index that is damaged. Its tables alone are tables like others.
-void forget_index(Database& database) {
-    {
-        Rows rows(database, index_sql);
-        if (!rows.next()) return;
+struct Parts {
+    bool index = false;
+    std::vector<std::string> tables;
+};
+
+Parts parts_of(Database& database) {
+    Parts parts;
+    Rows rows(database, all_sql);
+    while (rows.next()) {
+        if (rows.integer(1) == 0)
+            parts.index = true;
+        else
+            parts.tables.push_back(rows.text(0));
     }
+    return parts;
+}
+
+// DROP TABLE would ask FTS5, which refuses an index that is damaged. Without it its tables are tables like others.
+void forget_index(Database& database) {
     database.execute("PRAGMA writable_schema = ON");
     try {
         run(database, "DELETE FROM sqlite_schema WHERE name = 'jobs_text' AND rootpage = 0");
@@ -36,16 +48,12 @@ void forget_index(Database& database) {
 }  // namespace
 
 void drop_old_index(Database& database) {
+    const Parts parts = parts_of(database);
+    if (!parts.index && parts.tables.empty()) return;
     try {
-        forget_index(database);
-        std::vector<std::string> tables;
-        {
-            Rows rows(database, tables_sql);
-            while (rows.next()) tables.push_back(rows.text(0));
-        }
-        if (tables.empty()) return;
         Transaction all(database);
-        for (const std::string& table : tables) database.execute("DROP TABLE " + table);
+        if (parts.index) forget_index(database);
+        for (const std::string& table : parts.tables) database.execute("DROP TABLE " + table);
         all.commit();
     } catch (const DamagedStore&) {
         throw;
