@@ -13,6 +13,7 @@
 #include "service/jobs/record.h"
 #include "service/jobs/state_folder.h"
 #include "service/store/store_check.h"
+#include "service/store/store_kind.h"
 
 namespace shadowbench::service {
 namespace {
@@ -98,6 +99,18 @@ std::vector<std::string> check_results(const fs::path& folder, const std::string
     return check_files(folder);
 }
 
+// Results outlive a database that cannot be read.
+std::vector<std::string> check_without_database(const Error& error, const std::vector<fs::path>& folders) {
+    std::vector<std::string> all = {std::string(error.what()) + "; only the results were checked"};
+    for (const fs::path& folder : folders)
+        if (const std::string id = folder.filename().string();
+            is_job_id(id) && type_of(folder) != fs::file_type::not_found) {
+            const std::vector<std::string> found = check_results(folder, id);
+            all.insert(all.end(), found.begin(), found.end());
+        }
+    return all;
+}
+
 }  // namespace
 
 std::size_t back_up(const fs::path& state, const fs::path& to) {
@@ -129,12 +142,19 @@ std::vector<std::string> check_state(const fs::path& state) {
     // database is read once more at the end.
     std::vector<fs::path> folders;
     if (type_of(state / "jobs") == fs::file_type::directory) folders = entries_of(state / "jobs");
-    const StoreContents contents = check_store(state / "jobs.db");
+    const fs::path database = state / "jobs.db";
+    StoreContents contents;
+    try {
+        contents = check_store(database);
+    } catch (const Error& error) {
+        if (kind_of_store(database) != StoreKind::ours) throw;
+        return check_without_database(error, folders);
+    }
     const std::set<std::string> then = ids_of(contents.jobs, {job_states::succeeded});
     std::map<std::string, std::vector<std::string>> faults;  // by job
     for (const std::string& id : then)
         if (auto found = check_results(state / "jobs" / id, id); !found.empty()) faults[id] = std::move(found);
-    const std::vector<StoredJob> last = read_store(state / "jobs.db");
+    const std::vector<StoredJob> last = read_store(database);
     const std::set<std::string> now = ids_of(last, {job_states::succeeded});
     // The results of a job that runs are there a moment before its row says so.
     const std::set<std::string> known = ids_of(last, {job_states::succeeded, job_states::running});

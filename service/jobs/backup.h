@@ -14,7 +14,8 @@ namespace shadowbench::service {
 std::size_t back_up(const std::filesystem::path& state, const std::filesystem::path& to);
 
 // Compares the database with the folders of results, and both with their checksums: a line for each fault. Changes
-// nothing. Throws Error{io} where there is no readable database.
+// nothing, and needs no room on the disk. Of a database that cannot be read one line says so, and the results are
+// checked. Throws Error{io} where there is none.
 std::vector<std::string> check_state(const std::filesystem::path& state);
 
 }  // namespace shadowbench::service

@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include <system_error>
+
 #include "base/error.h"
 #include "service/store/damaged_store.h"
 
@@ -21,7 +23,7 @@ bool has_tables(Database& database) {
 }
 
 void check_whole(Database& database) {
-    // An index of texts that is wrong is made anew: later versions of SQLite report it here.
+    // The index of texts of an earlier program is dropped, right or wrong: later versions of SQLite report it here.
     const auto of_index = [](const std::string& fault) {
         return fault.find("fts5") != std::string::npos || fault.find("FTS5") != std::string::npos;
     };
@@ -34,6 +36,16 @@ void check_whole(Database& database) {
     if (!any) database.fail_damaged("the database is damaged");
 }
 
+// What SQLite's message leaves out of a fault of the storage.
+std::string further(sqlite3* handle) {
+    if (!handle) return "";
+    if (sqlite3_extended_errcode(handle) == SQLITE_IOERR_SHMSIZE)
+        return "; its disk has no room for the 32 KiB that connections share: free some space";
+    const int code = sqlite3_errcode(handle), why = sqlite3_system_errno(handle);
+    if ((code != SQLITE_IOERR && code != SQLITE_CANTOPEN) || why == 0) return "";
+    return " (" + std::generic_category().message(why) + ")";
+}
+
 void write_ahead(Database& database) {
     Rows rows(database, "PRAGMA journal_mode = WAL");
     if (!rows.next() || rows.text(0) != "wal")
@@ -43,11 +55,10 @@ void write_ahead(Database& database) {
 }  // namespace
 
 Database::Database(const std::filesystem::path& file, Access access, std::int32_t application) : place_(file.string()) {
-    const int flags = access == Access::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
     try {
-        check(sqlite3_open_v2(place_.c_str(), &handle_, flags | SQLITE_OPEN_NOMUTEX, nullptr));
-        check(sqlite3_busy_timeout(handle_, busy_milliseconds));
-        if (access == Access::read) return;
+        open(access == Access::write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY);
+        if (access == Access::check) read_alone_if_full();
+        if (access != Access::write) return;
         const std::int64_t found = pragma(*this, "application_id");
         if (found != application) {
             if (found != 0 || has_tables(*this)) fail("this is another program's database; use another folder");
@@ -57,15 +68,39 @@ Database::Database(const std::filesystem::path& file, Access access, std::int32_
         write_ahead(*this);
         execute("PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
     } catch (...) {
-        for (const auto& [sql, statement] : statements_) sqlite3_finalize(statement);
-        sqlite3_close(handle_);
+        close();
         throw;
     }
 }
 
 Database::~Database() {
+    close();
+}
+
+void Database::open(int flags) {
+    check(sqlite3_open_v2(place_.c_str(), &handle_, flags | SQLITE_OPEN_NOMUTEX, nullptr));
+    check(sqlite3_busy_timeout(handle_, busy_milliseconds));
+}
+
+void Database::close() {
     for (const auto& [sql, statement] : statements_) sqlite3_finalize(statement);
+    statements_.clear();
     sqlite3_close(handle_);
+    handle_ = nullptr;
+}
+
+void Database::read_alone_if_full() {
+    try {
+        has_tables(*this);
+        return;
+    } catch (const base::Error&) {
+        if (sqlite3_extended_errcode(handle_) != SQLITE_IOERR_SHMSIZE) throw;
+    }
+    close();
+    open(SQLITE_OPEN_READWRITE);  // the lock asks for it
+    check(sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr));
+    execute("PRAGMA locking_mode = EXCLUSIVE");
+    has_tables(*this);
 }
 
 void Database::execute(const std::string& sql) {
@@ -94,13 +129,10 @@ void Database::check(int code) const {
         case SQLITE_NOTADB:
             fail_damaged("not a database");
         case SQLITE_CORRUPT:
-            if (sqlite3_extended_errcode(handle_) == SQLITE_CORRUPT_VTAB)
-                throw DamagedStore(base::ErrorCode::io, place_,
-                                   "an index of texts is damaged; the next start makes it anew");
             fail_damaged("the database is damaged");
         default:
             fail(std::string("the database cannot be used: ") +
-                 (handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code)));
+                 (handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code)) + further(handle_));
     }
 }
 

@@ -19,10 +19,11 @@ namespace shadowbench::service::sqlite {
 // DamagedStore for a damaged file.
 class Database {
 public:
-    enum class Access { write, read };
+    enum class Access { write, read, check };
 
     // Access::write creates a missing file and turns write-ahead mode on; every commit then waits until it is on the
-    // disk. The file must be empty or have this application_id.
+    // disk. The file must be empty or have this application_id. Access::check reads, and needs no room on the disk:
+    // where there is none for the file that connections share, it locks others out and keeps that in memory.
     Database(const std::filesystem::path& file, Access access, std::int32_t application);
     ~Database();
     Database(const Database&) = delete;
@@ -37,6 +38,9 @@ private:
     friend class Rows;
     sqlite3_stmt* prepared(std::string_view sql);
     void check(int code) const;
+    void open(int flags);
+    void close();
+    void read_alone_if_full();
 
     std::string place_;
     sqlite3* handle_ = nullptr;

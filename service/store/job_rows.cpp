@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/hash_text.h"
-#include "service/store/job_search.h"
 
 namespace shadowbench::service {
 namespace {
@@ -124,7 +123,6 @@ void seal(Database& database, const std::string& id) {
         checksum = checksum_of(rows);
     }
     run(database, "UPDATE jobs SET checksum = ? WHERE id = ?", {checksum, id});
-    index_job(database, id);
 }
 
 void seal_all(Database& database) {

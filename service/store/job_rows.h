@@ -24,8 +24,7 @@ std::optional<StoredJob> find_by_id(sqlite::Database& database, const std::strin
 // holds one back.
 void count_ahead(sqlite::Database& database, std::vector<StoredJob>& jobs);
 
-// A checksum of all other columns of a row. Every change of a row is followed by seal(), in the same transaction; it
-// also brings the text that a search finds up to date.
+// A checksum of all other columns of a row. Every change of a row is followed by seal(), in the same transaction.
 void seal(sqlite::Database& database, const std::string& id);
 void seal_all(sqlite::Database& database);
 // The ids of the rows whose checksum is not that of their columns.

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "service/store/job_rows.h"
-#include "service/store/job_search.h"
+#include "service/store/old_index.h"
 
 namespace shadowbench::service {
 namespace {
@@ -47,7 +47,7 @@ CREATE TABLE turns (owner TEXT PRIMARY KEY, last INTEGER NOT NULL) STRICT, WITHO
 PRAGMA user_version = 3;
 )";
 
-// Version 4 has an index for the search of texts, and one that lists the jobs of an owner, the newest first.
+// Version 4 has an index that lists the jobs of an owner, the newest first.
 constexpr const char* from_version_3 = R"(
 CREATE INDEX jobs_of_owner ON jobs (owner, sequence, state);
 PRAGMA user_version = 4;
@@ -88,13 +88,13 @@ std::int64_t version_of(Database& database) {
 void make_schema(Database& database) {
     const std::int64_t version = version_of(database);
     if (version > 0) check_tables(database, version);
-    if (version == schema_version && is_search_whole(database)) return;
+    drop_old_index(database);
+    if (version == schema_version) return;
     Transaction all(database);
     if (version < 1) database.execute(schema_1);
     if (version < 2) database.execute(from_version_1);
     if (version < 3) database.execute(from_version_2);
     if (version < 4) database.execute(from_version_3);
-    make_search(database);
     if (version < 3) seal_all(database);
     all.commit();
 }

@@ -9,9 +9,8 @@ namespace shadowbench::service {
 
 inline constexpr std::int64_t schema_version = 4;
 
-// Makes the tables of a new file, or gives those of an earlier version what they lack. An index for the search of texts
-// that is missing or wrong is made anew. Throws Error{io} for a file of a newer version, DamagedStore where a table or
-// a column is missing.
+// Makes the tables of a new file, or gives those of an earlier version what they lack and drops its index of texts.
+// Throws Error{io} for a file of a newer version, DamagedStore where a table or a column is missing.
 void make_schema(sqlite::Database& database);
 
 // Throws like make_schema(), and also for a file of an earlier version. Writes nothing.

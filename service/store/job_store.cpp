@@ -3,7 +3,6 @@
 #include <string_view>
 #include <utility>
 
-#include "service/store/job_search.h"
 #include "service/store/job_store_state.h"
 
 namespace shadowbench::service {
@@ -41,9 +40,7 @@ std::optional<std::uint64_t> end_job(Database& database, const std::string& id, 
             {ending.state, ending.ended, value(ending.kept), fault ? Value(std::int64_t{fault->code}) : Value(),
              fault ? Value(fault->where) : Value(), fault ? Value(fault->message) : Value(), value(revision), id,
              job_states::running, other_state, value(ending.bytes)});
-    if (changed != 1) return std::nullopt;
-    seal(database, id);
-    return revision;
+    return changed == 1 ? std::optional(revision) : std::nullopt;
 }
 
 std::uint64_t count_of(Database& database, const char* state, const std::string& owner) {
@@ -92,6 +89,7 @@ std::optional<StoredJob> first_of(Database& database, const std::string& owner) 
 JobStore::JobStore(const std::filesystem::path& file) : state_(std::make_unique<State>(file)) {
     state_->reader.emplace(file, Database::Access::read, store_application);
     state_->counter.emplace(file, Database::Access::read, store_application);
+    state_->searcher.emplace(file, Database::Access::read, store_application);
 }
 
 JobStore::~JobStore() = default;
@@ -110,7 +108,7 @@ JobStore::Added JobStore::add(const NewJob& job, std::size_t most_queued, const 
              job.key.program, std::int64_t{job.key.pictures}, std::int64_t{ended}, job.created, time_of_end,
              value(job.kept), value(state_->take_revision()), job.scenario, job.key.recommend, job.owner, labels,
              std::int64_t{job.priority}, value(job.bytes)});
-        seal(database, job.id);
+        state_->seal(job.id);
         if (!job.idempotency_key.empty())
             run(database, "INSERT INTO keys (key, request, job) SELECT ?, ?, sequence FROM jobs WHERE id = ?",
                 {job.idempotency_key, job.request, job.id});
@@ -128,19 +126,25 @@ std::optional<StoredJob> JobStore::claim(const std::string& started, const Limit
         run(database, "INSERT OR REPLACE INTO turns (owner, last) VALUES (?, ?)", {*owner, value(revision)});
         run(database, "UPDATE jobs SET state = ?, attempts = attempts + 1, started = ?, revision = ? WHERE id = ?",
             {job_states::running, started, value(revision), job->id});
-        seal(database, job->id);
+        state_->seal(job->id);
         return find_by_id(database, job->id);
     });
 }
 
 std::optional<std::uint64_t> JobStore::end_running(const std::string& id, const Ending& ending) {
-    return state_->write(
-        [&] { return end_job(state_->writer, id, ending, state_->take_revision(), job_states::running); });
+    return state_->write([&] {
+        const auto revision = end_job(state_->writer, id, ending, state_->take_revision(), job_states::running);
+        if (revision) state_->seal(id);
+        return revision;
+    });
 }
 
 std::optional<std::uint64_t> JobStore::end_waiting(const std::string& id, const Ending& ending) {
-    return state_->write(
-        [&] { return end_job(state_->writer, id, ending, state_->take_revision(), job_states::queued); });
+    return state_->write([&] {
+        const auto revision = end_job(state_->writer, id, ending, state_->take_revision(), job_states::queued);
+        if (revision) state_->seal(id);
+        return revision;
+    });
 }
 
 std::optional<std::uint64_t> JobStore::requeue_running(const std::string& id, bool uncounted) {
@@ -152,7 +156,7 @@ std::optional<std::uint64_t> JobStore::requeue_running(const std::string& id, bo
                 "WHERE id = ? AND state = ?",
                 {job_states::queued, std::int64_t{uncounted}, value(revision), id, job_states::running});
         if (changed != 1) return std::nullopt;
-        seal(state_->writer, id);
+        state_->seal(id);
         return revision;
     });
 }
@@ -167,7 +171,7 @@ JobStore::Retried JobStore::retry(const std::string& id, const std::string& prog
         if (refusal(database, job->owner, most_queued, limits_of(limits, job->owner))) return {Retry::full, 0};
         const std::uint64_t revision = state_->take_revision();
         run(database, retry_sql, {job_states::queued, program, value(revision), id});
-        seal(database, id);
+        state_->seal(id);
         return {Retry::queued, revision};
     });
 }
@@ -177,8 +181,8 @@ bool JobStore::remove(const std::string& id) {
     return state_->write([&] {
         const std::optional<StoredJob> job = find_by_id(database, id);
         if (!job || job->state == job_states::running) return false;
-        unindex_job(database, id);
         run(database, "DELETE FROM jobs WHERE id = ?", {id});
+        state_->changed.push_back({job->sequence, ""});
         return true;
     });
 }
@@ -189,7 +193,7 @@ std::optional<std::uint64_t> JobStore::set_pinned(const std::string& id, bool pi
         if (run(state_->writer, "UPDATE jobs SET pinned = ?, revision = ? WHERE id = ?",
                 {std::int64_t{pinned}, value(revision), id}) != 1)
             return std::nullopt;
-        seal(state_->writer, id);
+        state_->seal(id);
         return revision;
     });
 }
@@ -197,7 +201,7 @@ std::optional<std::uint64_t> JobStore::set_pinned(const std::string& id, bool pi
 void JobStore::set_bytes(const std::string& id, std::uint64_t bytes) {
     state_->write([&] {
         run(state_->writer, "UPDATE jobs SET bytes = ? WHERE id = ?", {value(bytes), id});
-        seal(state_->writer, id);
+        state_->seal(id);
         return true;
     });
 }
@@ -231,7 +235,7 @@ void JobStore::adopt(const std::vector<KeptJob>& jobs) {
                  std::int64_t{job.priority},
                  std::int64_t{job.pinned},
                  value(job.bytes)});
-            seal(database, job.id);
+            state_->seal(job.id);
             if (!key.empty())
                 run(database,
                     "INSERT OR IGNORE INTO keys (key, request, job) SELECT ?, ?, sequence FROM jobs WHERE id = ?",

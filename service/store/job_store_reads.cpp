@@ -1,55 +1,93 @@
 // The parts of JobStore that change nothing.
+#include <algorithm>
 #include <utility>
 
-#include "service/store/job_search.h"
 #include "service/store/job_store.h"
 #include "service/store/job_store_state.h"
+#include "service/store/job_texts.h"
 
 namespace shadowbench::service {
 namespace {
 
 using sqlite::Database, sqlite::Rows, sqlite::run;
 
-// Of a state with fewer jobs, each is looked at; else the index of texts finds some, of any state.
+// Of a state with fewer jobs, each row is looked at; else the texts in memory find some, of any state.
 constexpr std::int64_t few_jobs = 2000;
+constexpr std::size_t found_at_once = 1000;
 
 bool has_few(Database& database, const std::string& state) {
     Rows rows(database, "SELECT count(*) FROM (SELECT 1 FROM jobs WHERE state = ? LIMIT ?)", {state, few_jobs});
     return rows.next() && rows.integer(0) < few_jobs;
 }
 
-std::string as_line(const std::string& text) {
-    return text.empty() ? "" : fold_case('\n' + text + '\n');
+// A search for a text or a label.
+struct Wanted {
+    const StoreFilter& filter;
+    std::string text;                // folded
+    std::vector<std::string> parts;  // that the text of each wanted job has
+    std::size_t limit;
+    std::int64_t before;
+};
+
+Wanted wanted_of(const StoreFilter& filter, std::size_t limit, std::int64_t before) {
+    Wanted wanted{filter, fold_case(filter.text), {}, limit, before};
+    if (!wanted.text.empty()) wanted.parts.push_back(wanted.text);
+    for (const std::string& line : {filter.label, filter.owner})
+        if (!line.empty()) wanted.parts.push_back(fold_case('\n' + line + '\n'));
+    return wanted;
 }
 
-// What the index of texts looks for, which may find more than the jobs that are wanted; `text` is folded.
-std::string match_of(const StoreFilter& filter, const std::string& text) {
-    std::string match;
-    for (const std::string& part : {text, as_line(filter.label), as_line(filter.owner)})
-        if (const std::string phrase = phrase_of(part); !phrase.empty())
-            match += (match.empty() ? "" : " AND ") + phrase;
-    return match;
+bool is_wanted(const StoredJob& job, const Wanted& wanted) {
+    const StoreFilter& filter = wanted.filter;
+    return (filter.state.empty() || job.state == filter.state) && (filter.owner.empty() || job.owner == filter.owner) &&
+           (filter.label.empty() ||
+            std::find(job.labels.begin(), job.labels.end(), filter.label) != job.labels.end()) &&
+           searched_text(job).find(wanted.text) != std::string::npos;
 }
 
-// ?1 to ?3 are state, owner and label of the filter, ?4 is the folded text and ?5 what the index of texts looks for.
-// Labels have no line breaks, so a label between two of them is a whole one.
-std::string list_sql(const StoreFilter& filter, const std::string& match, bool few) {
-    const bool searched = !filter.text.empty() || !filter.label.empty(), by_text = searched && !few;
-    const std::string sequence = by_text ? "jobs_text.rowid" : "jobs.sequence";
-    std::string sql = "SELECT jobs.* FROM ";
-    if (by_text)
-        sql += "jobs_text CROSS JOIN jobs ON jobs.sequence = jobs_text.rowid";
-    else if (!filter.text.empty())
-        sql += "jobs CROSS JOIN jobs_text ON jobs_text.rowid = jobs.sequence";
-    else
-        sql += !searched && !filter.owner.empty() ? "jobs INDEXED BY jobs_of_owner" : "jobs";
-    sql += " WHERE " + sequence + " < ?6";
-    if (by_text && !match.empty()) sql += " AND jobs_text MATCH ?5";
-    if (!filter.text.empty()) sql += " AND instr(jobs_text.text, ?4) > 0";
-    if (!filter.state.empty()) sql += " AND jobs.state = ?1";
-    if (!filter.owner.empty()) sql += " AND jobs.owner = ?2";
-    if (!filter.label.empty()) sql += " AND instr(char(10) || jobs.labels || char(10), char(10) || ?3 || char(10)) > 0";
-    return sql + " ORDER BY " + sequence + " DESC LIMIT ?7";
+void keep_wanted(Rows& rows, const Wanted& wanted, std::vector<StoredJob>& jobs) {
+    while (jobs.size() < wanted.limit && rows.next())
+        if (StoredJob job = read_job(rows); is_wanted(job, wanted)) jobs.push_back(std::move(job));
+}
+
+// Every job that the texts find is looked at in its row, which may have changed since.
+void keep_found(Database& database, const JobTexts& texts, const Wanted& wanted, std::vector<StoredJob>& jobs) {
+    std::int64_t before = wanted.before;
+    while (jobs.size() < wanted.limit) {
+        const std::vector<std::int64_t> found = texts.find(wanted.parts, before, found_at_once);
+        for (const std::int64_t sequence : found) {
+            Rows row(database, "SELECT * FROM jobs WHERE sequence = ?1 AND (?2 = '' OR state = ?2)",
+                     {sequence, wanted.filter.state});
+            keep_wanted(row, wanted, jobs);
+        }
+        if (found.size() < found_at_once) return;
+        before = found.back();
+    }
+}
+
+// Reads within one transaction: the rows and their places in the queue are those of the same moment.
+template <class Read>
+std::vector<StoredJob> read_page(Database& database, const Read& read) {
+    std::vector<StoredJob> jobs;
+    run(database, "BEGIN");
+    try {
+        read(jobs);
+        count_ahead(database, jobs);
+    } catch (...) {
+        run(database, "ROLLBACK");
+        throw;
+    }
+    run(database, "COMMIT");
+    return jobs;
+}
+
+std::string list_sql(const StoreFilter& filter) {
+    std::string sql = "SELECT * FROM jobs";
+    if (!filter.owner.empty()) sql += " INDEXED BY jobs_of_owner";
+    sql += " WHERE sequence < ?3";
+    if (!filter.state.empty()) sql += " AND state = ?1";
+    if (!filter.owner.empty()) sql += " AND owner = ?2";
+    return sql + " ORDER BY sequence DESC LIMIT ?4";
 }
 
 }  // namespace
@@ -92,25 +130,26 @@ std::optional<JobStore::Key> JobStore::key_of(const std::string& id) const {
 }
 
 std::vector<StoredJob> JobStore::list(const StoreFilter& filter, std::size_t limit, std::int64_t before) const {
-    const std::scoped_lock lock(state_->read_mutex);
-    const std::int64_t below = before > 0 ? before : INT64_MAX, most = static_cast<std::int64_t>(limit);
-    const std::string text = fold_case(filter.text), match = match_of(filter, text);
-    std::vector<StoredJob> jobs;
-    run(*state_->reader, "BEGIN");  // the page and the places in the queue are read at the same moment
-    try {
-        const bool few = !filter.state.empty() && has_few(*state_->reader, filter.state);
-        {
-            Rows rows(*state_->reader, list_sql(filter, match, few),
-                      {filter.state, filter.owner, filter.label, text, match, below, most});
+    if (before <= 0) before = INT64_MAX;
+    if (filter.text.empty() && filter.label.empty()) {
+        const std::scoped_lock lock(state_->read_mutex);
+        return read_page(*state_->reader, [&](std::vector<StoredJob>& jobs) {
+            Rows rows(*state_->reader, list_sql(filter),
+                      {filter.state, filter.owner, before, static_cast<std::int64_t>(limit)});
             while (rows.next()) jobs.push_back(read_job(rows));
-        }
-        count_ahead(*state_->reader, jobs);
-    } catch (...) {
-        run(*state_->reader, "ROLLBACK");
-        throw;
+        });
     }
-    run(*state_->reader, "COMMIT");
-    return jobs;
+    const std::scoped_lock lock(state_->search_mutex);
+    Database& database = *state_->searcher;
+    const Wanted wanted = wanted_of(filter, limit, before);
+    const bool few = !filter.state.empty() && has_few(database, filter.state);
+    if (!few) state_->texts.load(database);
+    return read_page(database, [&](std::vector<StoredJob>& jobs) {
+        if (!few) return keep_found(database, state_->texts, wanted, jobs);
+        Rows rows(database, "SELECT * FROM jobs WHERE state = ? AND sequence < ? ORDER BY sequence DESC",
+                  {filter.state, before});
+        keep_wanted(rows, wanted, jobs);
+    });
 }
 
 std::size_t JobStore::count(const std::string& state) const {

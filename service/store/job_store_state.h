@@ -5,12 +5,15 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "service/store/database.h"
 #include "service/store/job_rows.h"
 #include "service/store/job_schema.h"
 #include "service/store/job_store.h"
+#include "service/store/job_texts.h"
 #include "service/store/store_kind.h"
 
 namespace shadowbench::service {
@@ -37,13 +40,24 @@ struct JobStore::State {
         return ++last;
     }
 
+    // Called within a transaction, after each change of a row.
+    void seal(const std::string& id) {
+        service::seal(writer, id);
+        sqlite::Rows rows(writer, "SELECT * FROM jobs WHERE id = ?", {id});
+        if (!rows.next()) return;
+        const StoredJob job = read_job(rows);
+        changed.push_back({job.sequence, searched_text(job)});
+    }
+
     template <class Body>
     auto write(Body&& body) {
         const std::scoped_lock lock(write_mutex);
+        changed.clear();
         try {
             sqlite::Transaction all(writer);
             auto result = body();
             all.commit();
+            for (auto& [sequence, text] : changed) texts.set(sequence, std::move(text));
             return result;
         } catch (...) {
             reserved = last;  // the reservation may have been rolled back
@@ -51,10 +65,14 @@ struct JobStore::State {
         }
     }
 
-    std::mutex write_mutex, read_mutex, count_mutex;
+    std::mutex write_mutex, read_mutex, count_mutex, search_mutex;
     sqlite::Database writer;
-    // Opened once the file has its tables. Monitors count with one of their own, so that no long list delays them.
-    std::optional<sqlite::Database> reader, counter;
+    // Opened once the file has its tables. Monitors count with one of their own, and texts are searched with one of
+    // their own, so that no long search delays others.
+    std::optional<sqlite::Database> reader, counter, searcher;
+    JobTexts texts;
+    // What a transaction changes in the texts: see JobTexts::set().
+    std::vector<std::pair<std::int64_t, std::string>> changed;
     std::uint64_t last = 0, reserved = 0;  // the last revision used, and the last one reserved in the file
 };
 

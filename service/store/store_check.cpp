@@ -4,7 +4,6 @@
 #include "service/store/database.h"
 #include "service/store/job_rows.h"
 #include "service/store/job_schema.h"
-#include "service/store/job_search.h"
 #include "service/store/store_kind.h"
 
 namespace shadowbench::service {
@@ -28,7 +27,7 @@ void check_kind(const std::filesystem::path& file) {
 
 void copy_store(const std::filesystem::path& from, const std::filesystem::path& to) {
     check_kind(from);
-    Database database(from, Database::Access::read, store_application);
+    Database database(from, Database::Access::check, store_application);
     check_schema(database);
     const std::string name = to.string();
     sqlite::run(database, "VACUUM INTO ?", {name});
@@ -36,7 +35,7 @@ void copy_store(const std::filesystem::path& from, const std::filesystem::path& 
 
 StoreContents check_store(const std::filesystem::path& file) {
     check_kind(file);
-    Database database(file, Database::Access::read, store_application);
+    Database database(file, Database::Access::check, store_application);
     check_schema(database);
     StoreContents contents;
     sqlite::run(database, "BEGIN");
@@ -48,8 +47,6 @@ StoreContents check_store(const std::filesystem::path& file) {
     }
     for (const std::string& id : find_unsealed(database))
         contents.faults.push_back(file.string() + ": the row of job " + id + " is damaged: its checksum differs");
-    for (const std::string& fault : find_search_faults(database))
-        contents.faults.push_back(file.string() + ": " + fault);
     contents.jobs = read_jobs(database);
     sqlite::run(database, "COMMIT");
     return contents;
@@ -57,7 +54,7 @@ StoreContents check_store(const std::filesystem::path& file) {
 
 std::vector<StoredJob> read_store(const std::filesystem::path& file) {
     check_kind(file);
-    Database database(file, Database::Access::read, store_application);
+    Database database(file, Database::Access::check, store_application);
     check_schema(database);
     return read_jobs(database);
 }

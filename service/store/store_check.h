@@ -14,7 +14,7 @@ void copy_store(const std::filesystem::path& from, const std::filesystem::path& 
 
 struct StoreContents {
     std::vector<StoredJob> jobs;
-    std::vector<std::string> faults;  // a line each: damaged pages, rows whose checksum is wrong, the index of texts
+    std::vector<std::string> faults;  // a line each: damaged pages, rows whose checksum is wrong
 };
 // Throws Error{io} for a file that cannot be read or is of an earlier or newer version, DamagedStore where it is no
 // database or lacks a table.

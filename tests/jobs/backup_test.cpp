@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "jobs/job_host.h"
+#include "service/store/database.h"
+#include "service/store/store_kind.h"
 
 namespace shadowbench::service {
 namespace {
@@ -83,6 +85,19 @@ TEST_F(Backups, ChecksFindWhatIsDamagedMissingOrUnknown) {
                                                         HasSubstr("mine: the database has no such job")));
     fs::remove(state() / "jobs" / damaged / "result.csv");
     EXPECT_THAT(check_state(state()), ::testing::Contains(HasSubstr("result.csv: is missing")));
+}
+
+// A fault of the database hides none of the results.
+TEST_F(Backups, ChecksResultsBesideADatabaseThatCannotBeRead) {
+    start();
+    const std::string damaged = run(success + "echo a,b >result.csv\n").id;
+    run(success);
+    jobs.reset();
+    sqlite::Database(state() / "jobs.db", sqlite::Database::Access::write, store_application)
+        .execute("DROP TABLE keys");
+    std::ofstream(state() / "jobs" / damaged / "result.csv", std::ios::in | std::ios::out) << "c";
+    EXPECT_THAT(check_state(state()), ::testing::ElementsAre(HasSubstr("lacks its table keys"),
+                                                             HasSubstr(damaged + "/result.csv: is damaged")));
 }
 
 }  // namespace

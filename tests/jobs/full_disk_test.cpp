@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "jobs/job_host.h"
+#include "service/jobs/backup.h"
 #include "service/jobs/reserve.h"
 #include "service/jobs/room.h"
 
@@ -19,7 +20,9 @@ namespace shadowbench::service {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 constexpr std::size_t disk = std::size_t{4} << 20;
 
@@ -199,6 +202,35 @@ TEST_F(FullDisk, CancelsRemovesAndStartsWithNothingLeft) {
     EXPECT_EQ(jobs->cancel(blocks), Jobs::Change::done);
     for (std::size_t i = 36; i < ids.size(); ++i) EXPECT_EQ(wait_for_end(ids[i]).state, JobState::succeeded);
     EXPECT_EQ(run(success).state, JobState::succeeded);
+}
+
+// Where no server runs, SQLite would make a file of 32 KiB beside the database to read it.
+TEST_F(FullDisk, IsCheckedAndBackedUpWithNothingLeft) {
+    start();
+    const std::string id = run(success + "echo a,b >result.csv\n").id;
+    const auto copy = [&](const fs::path& from, const fs::path& to) {
+        for (const char* name : {"jobs.db", "jobs.db-wal"})
+            fs::copy_file(from / name, to / name, fs::copy_options::overwrite_existing);
+    };
+    copy(state(), folder.path());
+    jobs.reset();
+    fill();
+    EXPECT_THAT(check_state(state()), IsEmpty());
+    EXPECT_EQ(back_up(state(), folder.path() / "first"), 1u);
+    empty();
+    copy(folder.path(), state());  // as a killed server leaves them
+    const auto left = fs::file_size(state() / "jobs.db-wal");
+    ASSERT_GT(left, 0u);
+    fs::remove(state() / "jobs.db-shm");
+    fill();
+    EXPECT_THAT(check_state(state()), IsEmpty());
+    EXPECT_EQ(back_up(state(), folder.path() / "second"), 1u);
+    EXPECT_EQ(fs::file_size(state() / "jobs.db-wal"), left) << "it is changed by the server alone";
+    std::ofstream(state() / "jobs" / id / "result.csv", std::ios::in | std::ios::out) << "c";
+    EXPECT_THAT(check_state(state()), ElementsAre(HasSubstr("result.csv: is damaged")));
+    empty();
+    start();
+    EXPECT_EQ(jobs->find(id)->state, JobState::succeeded);
 }
 
 TEST_F(FullDisk, LosesNothingWhereAServerCannotStart) {
