@@ -151,12 +151,20 @@ TEST_F(RetentionHost, CountsWhatBecomesOfJobs) {
               "queued\nstarted\ncancelled\n");
 }
 
-// Else an operator could not tell a server that was stopped from a job that kills itself.
+// Else an operator could not tell a server that was stopped, or a full disk, from a job that kills itself.
 TEST_F(RetentionHost, SaysWhyAJobWaitsAgain) {
     start();
-    wait_for_run(submit(endless));
+    const std::string waits = submit(endless);
+    wait_for_run(waits);
     jobs->stop();
     EXPECT_EQ(became(), "queued\nstarted\nrequeued: stopped\n");
+    start();
+    const std::string once = "[ -e " + (folder.path() / "full").string() + " ] || { touch " +
+                             (folder.path() / "full").string() +
+                             "; echo '{\"storage\":{\"message\":\"the disk is full\",\"bytes\":1}}'; exit 74; }\n";
+    jobs->cancel(waits);
+    EXPECT_EQ(run(once + success).state, JobState::succeeded);
+    EXPECT_THAT(became(), ::testing::HasSubstr("requeued: the disk is full\nstarted\nsucceeded\n"));
 }
 
 TEST_F(RetentionHost, ReportsJobsThatAKilledServerRan) {
