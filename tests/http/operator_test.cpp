@@ -166,9 +166,9 @@ TEST_F(Operator, ClientsFollowLinksBelowThePathOfTheirServer) {
 }
 
 // What the client throws on asking this server.
-std::optional<base::Error> fault_of(const std::string& url) {
+std::optional<base::Error> fault_of(const std::string& url, const std::string& certificates = "") {
     try {
-        Client(url, "").get("/v1/jobs");
+        Client(url, "", certificates).get("/v1/jobs");
     } catch (const base::Error& error) {
         return error;
     }
@@ -184,6 +184,11 @@ TEST_F(Operator, ClientsTellFaultsThatNoOtherTryWouldMend) {
     EXPECT_EQ(no_tls->code(), base::ErrorCode::usage) << no_tls->what();
     EXPECT_NE(no_tls->message().find("no TLS connection: wrong version number; check the scheme"), std::string::npos)
         << no_tls->message();
+    const auto no_certificates = fault_of("https" + plain.substr(4), "/dev/null");
+    ASSERT_TRUE(no_certificates);
+    EXPECT_EQ(no_certificates->code(), base::ErrorCode::usage) << no_certificates->what();
+    EXPECT_NE(no_certificates->message().find("/dev/null has no certificates"), std::string::npos)
+        << no_certificates->message();
     const auto no_host = fault_of("http://a..b:1");  // no name service need be asked
     ASSERT_TRUE(no_host);
     EXPECT_EQ(no_host->code(), base::ErrorCode::usage) << no_host->what();
