@@ -20,6 +20,7 @@ endif()
 
 # It has no CMake files. Without the flags of its pkg-config file, the classes of httplib differ from its library's.
 pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)  # which it uses
 pkg_check_modules(prometheus REQUIRED IMPORTED_TARGET prometheus-cpp-core)
 
 # Headers of other projects need not pass this project's warnings.

@@ -81,9 +81,8 @@ std::optional<ordered_json> document_of(const scene::NamedScenario& scenario) {
 }
 
 // Why the server runs no jobs; empty: it does.
-std::string why_not_ready(const Jobs& jobs) {
+std::string why_not_ready(const Jobs& jobs, const JobStorage& storage) {
     if (jobs.stopping()) return "The server is stopping.";
-    const JobStorage storage = jobs.storage();
     if (storage.gone) return "The state folder of the server was removed or replaced; jobs wait until it is back.";
     if (storage.is_low())
         return fmt::format("The disk of the server has {} MiB free and needs {}; jobs wait until it has.",
@@ -138,9 +137,12 @@ ApiResponse get_health(Context&, const Call&) {
 }
 
 ApiResponse get_ready(Context& context, const Call&) {
-    const std::string why = why_not_ready(context.jobs);
-    if (why.empty()) return json_answer(200, ordered_json{{"status", "ready"}});
-    ApiResponse response = problem(503, why);
+    const JobStorage storage = context.jobs.storage();
+    const std::string why = why_not_ready(context.jobs, storage);
+    ordered_json space{{"free_bytes", nullptr}, {"min_free_bytes", storage.min_free}};
+    if (storage.free) space["free_bytes"] = *storage.free;
+    if (why.empty()) return json_answer(200, ordered_json{{"status", "ready"}, {"storage", std::move(space)}});
+    ApiResponse response = problem(503, why, {}, {{"storage", std::move(space)}});
     response.headers.push_back({"Retry-After", "10"});
     return response;
 }
@@ -149,7 +151,7 @@ ApiResponse get_metrics(Context& context, const Call&) {
     ApiResponse response;
     response.type = "text/plain; version=0.0.4; charset=utf-8";
     response.headers = {{"Cache-Control", "no-store"}};
-    response.body = context.metrics.text(context.jobs, *context.streams);
+    response.body = context.metrics.text(context.jobs, *context.streams, context.options.pace);
     return response;
 }
 

@@ -13,7 +13,6 @@
 #include "base/error.h"
 #include "base/hash_text.h"
 #include "base/parallel.h"
-#include "bench/pace.h"
 #include "bench/pixel_curves.h"
 #include "bench/run.h"
 #include "document/document.h"
@@ -95,10 +94,9 @@ Checked validate(const json& document, const std::string& recommend, const bench
     return {recommend::check(document, options, request, "/recommend"), 0.0};
 }
 
-json facts_of(const json& document, const std::string& recommend, const std::vector<fs::path>& data,
+json facts_of(const json& document, const std::string& recommend, const std::vector<fs::path>& data, double pace,
               const Hidden& hidden) {
     const auto [v, picture_seconds] = validate(document, recommend, options_for(data));
-    static const double pace = bench::measure_pace();  // of this machine, when the first scenario comes
     json notes = json::array();
     for (const std::string& note : v.notes) notes.push_back(hide(note, hidden));
     for (const std::string& light : v.blind)
@@ -118,11 +116,11 @@ json facts_of(const json& document, const std::string& recommend, const std::vec
               {"samples_per_pixel", v.most_samples}}}};
 }
 
-std::string examine(const std::string& line, const std::vector<fs::path>& data, const Hidden& hidden) {
+std::string examine(const std::string& line, const std::vector<fs::path>& data, double pace, const Hidden& hidden) {
     const std::size_t tab = line.find('\t');
     const json document = scene::parse_json(line.substr(0, tab), "scenario");
     try {
-        return facts_of(document, tab == std::string::npos ? "" : line.substr(tab + 1), data, hidden).dump();
+        return facts_of(document, tab == std::string::npos ? "" : line.substr(tab + 1), data, pace, hidden).dump();
     } catch (const Error& error) {
         if (error.code() != ErrorCode::bad_input) throw;
         json faults = json::array();
@@ -133,12 +131,12 @@ std::string examine(const std::string& line, const std::vector<fs::path>& data, 
 
 }  // namespace
 
-void examine_lines(const std::vector<fs::path>& data, std::istream& in, std::ostream& out) {
+void examine_lines(const std::vector<fs::path>& data, double pace, std::istream& in, std::ostream& out) {
     const Hidden hidden = hidden_of(data);
     for (std::string line; std::getline(in, line);)
         out << answer_line(hidden, [&] {
             return line.starts_with(files_mark) ? scenario_around(line.substr(files_mark.size()), data)
-                                                : examine(line, data, hidden);
+                                                : examine(line, data, pace, hidden);
         }) << std::endl;
 }
 

@@ -16,7 +16,9 @@ namespace shadowbench::service {
 // Faults of a request have places in "/recommend".
 // A line of files_mark and a request is answered with the scenario_around() these data files (new_files.h).
 inline constexpr std::string_view files_mark = "files\t";
-void examine_lines(const std::vector<std::filesystem::path>& data, std::istream& in, std::ostream& out);
+// `pace`: bench::measure_pace(), by which the seconds of estimates are multiplied. The server measures it once, so that
+// every process of it gives the same estimate.
+void examine_lines(const std::vector<std::filesystem::path>& data, double pace, std::istream& in, std::ostream& out);
 
 // The first line is a scenario and gets no answer. Each further line is "X Y"; its answer is the bench::PixelCurves of
 // that pixel.

@@ -120,8 +120,10 @@ std::vector<MetricFamily> job_families(const Jobs& jobs) {
         empty_histogram_family("shadowbench_job_wait_seconds", "Seconds that jobs waited for their first run.");
     add_histogram(waits, tally.waits, {});
     families.push_back(std::move(waits));
-    add_gauge("shadowbench_storage_failing", "1 while jobs wait because the server cannot write its state folder.",
-              disk.fails || disk.gone ? 1.0 : 0.0);
+    add_gauge(
+        "shadowbench_storage_failing",
+        "1 while no job starts because the state folder cannot be written, is gone, or has too little free space.",
+        disk.holds_jobs() ? 1.0 : 0.0);
     if (disk.free)
         add_gauge("shadowbench_storage_free_bytes", "Free bytes on the disk of the state folder.",
                   static_cast<double>(*disk.free));

@@ -23,10 +23,13 @@ void Metrics::count(const std::string& method, const std::string& route, int sta
     latencies_.try_emplace({method, route}, latency_bounds).first->second.add(seconds);
 }
 
-std::string Metrics::text(const Jobs& jobs, std::size_t event_streams) const {
+std::string Metrics::text(const Jobs& jobs, std::size_t event_streams, double pace) const {
     std::vector<MetricFamily> families = job_families(jobs);
     families.push_back(
         gauge_family("shadowbench_event_streams", "Clients that follow events.", static_cast<double>(event_streams)));
+    families.push_back(gauge_family(
+        "shadowbench_pace", "Seconds on this machine for one of the machine that estimates are made for, at the start.",
+        pace));
     for (MetricFamily& family : process_families()) families.push_back(std::move(family));
     MetricFamily requests =
         counter_family("shadowbench_http_requests_total", "Responses, by method, route and status.", "code", {});

@@ -21,8 +21,9 @@ public:
     // route.
     void count(const std::string& method, const std::string& route, int status, double seconds);
 
-    // All counts in Prometheus' text format, with those of the jobs, the disk and the process.
-    std::string text(const Jobs& jobs, std::size_t event_streams) const;
+    // All counts in Prometheus' text format, with those of the jobs, the disk and the process. `pace`: as in
+    // ServiceOptions.
+    std::string text(const Jobs& jobs, std::size_t event_streams, double pace) const;
 
 private:
     mutable std::mutex mutex_;

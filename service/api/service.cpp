@@ -3,6 +3,7 @@
 #include <chrono>
 #include <set>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "service/api/accept.h"
@@ -17,6 +18,12 @@ namespace {
 std::vector<std::string> helper_arguments(const char* command, const ServiceOptions& options) {
     std::vector<std::string> arguments{command};
     for (const std::filesystem::path& folder : options.data) arguments.push_back("--data=" + folder.string());
+    return arguments;
+}
+
+std::vector<std::string> examine_arguments(const ServiceOptions& options) {
+    std::vector<std::string> arguments = helper_arguments("examine", options);
+    arguments.push_back(fmt::format("--pace={}", options.pace));
     return arguments;
 }
 
@@ -107,7 +114,7 @@ struct Service::State : Context {
 Context::Context(Jobs& the_jobs, const ServiceOptions& the_options)
     : jobs(the_jobs),
       options(the_options),
-      examiner(options.start_helper, helper_arguments("examine", options), options.helper_seconds, options.waiting),
+      examiner(options.start_helper, examine_arguments(options), options.helper_seconds, options.waiting),
       curves(options.start_helper, helper_arguments("curves", options), options.helper_seconds, options.waiting),
       scenarios(read_scenarios(options.scenarios)) {}
 

@@ -34,6 +34,7 @@ struct ServiceOptions {
     double helper_seconds = 20.0;    // longest wait for one answer of a helper
     std::size_t waiting = 8;         // requests of one kind that may wait for a helper; less than the number of threads
     std::size_t event_streams = 64;  // clients that may follow events at a time
+    double pace = 1.0;               // of this machine, for estimates: bench::measure_pace()
     Log log = {};                    // gets the causes of answers 500 and of 503 for faults of the storage
 };
 

@@ -213,6 +213,7 @@ void add_helpers(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<HelperArguments>();
     CLI::App* examine = app.add_subcommand("examine", "Check scenarios, one per line of standard input")->group("");
     add_data(*examine, arguments->data, "Scenarios may name the files of this folder");
+    examine->add_option("--pace", arguments->pace, "Seconds here for one of the machine that estimates are made for");
     add_server_library_options(*examine, arguments->libraries);
     commands.push_back({examine, [arguments](std::ostream& out, std::ostream&) {
                             examine_command(*arguments, out);

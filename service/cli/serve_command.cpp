@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/write_files.h"
+#include "bench/pace.h"
 #include "results/write_result.h"
 #include "service/api/helper_side.h"
 #include "service/api/service.h"
@@ -113,6 +114,7 @@ ServiceOptions service_options(const ServeArguments& arguments, const std::strin
     options.waiting = std::max<std::size_t>(1, arguments.workers / 4);
     options.event_streams = arguments.event_clients;
     options.log = log;
+    options.pace = bench::measure_pace();
     options.start_helper = [program, further](std::vector<std::string> words) {
         words.insert(words.end(), further.begin(), further.end());
         return start_process(program, words, static_cast<std::size_t>(helper_memory * gib));
@@ -171,7 +173,10 @@ void serve_command(const ServeArguments& arguments, std::ostream& out, std::ostr
     HttpServer server(service, options.event_streams, http);
     if (!arguments.port_file.empty()) base::write_files({{arguments.port_file, fmt::format("{}\n", server.port())}});
     out << fmt::format("shadowbench serves {} (state: {})\n", server.url(), arguments.state) << std::flush;
-    say(log, {LogLevel::info, "server", "started", {{"url", server.url()}, {"state", arguments.state}}});
+    say(log, {LogLevel::info,
+              "server",
+              "started",
+              {{"url", server.url()}, {"state", arguments.state}, {"pace", options.pace}}});
     notify_manager("READY=1");
     std::atomic<bool> done = false;
     std::thread stopper([&] {
@@ -213,7 +218,7 @@ void guard_command(const GuardArguments& arguments, std::ostream& out, std::ostr
 
 void examine_command(const HelperArguments& arguments, std::ostream& out) {
     load_libraries(arguments.libraries);
-    examine_lines(folders_of(arguments.data), std::cin, out);
+    examine_lines(folders_of(arguments.data), arguments.pace, std::cin, out);
 }
 
 void curves_command(const HelperArguments& arguments, std::ostream& out) {

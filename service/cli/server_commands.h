@@ -58,6 +58,7 @@ struct HelperArguments {
     LibraryArguments libraries;
     std::string light;
     std::size_t variant = 0;
+    double pace = 1.0;  // as in helper_side.h
 };
 
 struct GuardArguments {

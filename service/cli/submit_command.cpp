@@ -90,13 +90,13 @@ void show(const json& job, ProgressBar& bar) {
 Reply patiently(const std::function<Reply()>& ask, const std::string& server, std::ostream& err) {
     const auto end = std::chrono::steady_clock::now() + patience;
     for (bool reported = false;; reported = true) {
-        std::string why = "it is busy or stopping";
+        std::string why = "it is busy, stopping, or not there behind its proxy";
         try {
             Reply reply = ask();
-            const bool later = reply.status == 503 || reply.status == 429;
+            const bool later = reply.status == 429 || reply.status == 502 || reply.status == 503 || reply.status == 504;
             if (!later || std::chrono::steady_clock::now() > end) return reply;
         } catch (const Error& error) {
-            // Another try would not mend a wrong URL or certificate.
+            // No other try would mend a wrong URL or certificate.
             if (error.code() != ErrorCode::io || std::chrono::steady_clock::now() > end) throw;
             why = error.message();
         }

@@ -14,6 +14,7 @@ namespace shadowbench::service {
 namespace {
 
 constexpr auto slice = std::chrono::milliseconds(100);  // between two checks for other reasons to stop waiting
+constexpr char tls_handshake = 0x16;                    // the first byte of a client that speaks TLS
 constexpr std::size_t linger_bytes = std::size_t{16} << 20;
 constexpr double linger_seconds = 2.0;
 
@@ -73,6 +74,7 @@ Channel::Outcome Channel::read_head(std::string& head) {
         if (waiting && !buffer_.empty()) {
             waiting = false;
             begun = Clock::now();
+            if (buffer_[0] == tls_handshake) return Outcome::tls;
         }
         if (const std::size_t end = buffer_.find("\r\n\r\n", looked_at); end != std::string::npos) {
             if (end + 4 > limits_.head) return Outcome::too_large;

@@ -1,5 +1,5 @@
 // The connection of one client: it reads and writes bytes within limits and deadlines. All it knows of HTTP is where a
-// head ends.
+// head ends, and that none begins as TLS does.
 #pragma once
 
 #include <atomic>
@@ -29,9 +29,9 @@ public:
     Channel(const Channel&) = delete;
     Channel& operator=(const Channel&) = delete;
 
-    enum class Outcome { complete, closed, too_slow, too_large };
+    enum class Outcome { complete, closed, too_slow, too_large, tls };
     // Reads a head, with the empty line at its end. `closed` also when no request came in time, and when the server
-    // stops.
+    // stops. `tls`: the client begins as for https://; at once, since it waits for an answer too.
     Outcome read_head(std::string& head);
 
     // Allows read() this many bytes, until the time for a body is over or it comes too slowly.

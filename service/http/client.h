@@ -23,8 +23,9 @@ public:
     Client(const Client&) = delete;
     Client& operator=(const Client&) = delete;
 
-    // `path` is one below the URL, or a link of an answer. Both throw Error{io} when the server does not answer,
-    // Error{usage} where its certificate is not trusted.
+    // `path` is one below the URL, or a link of an answer. Both throw Error{io} when the server does not answer, and
+    // Error{usage} where no other try would mend that: there is no such host, it speaks no TLS, or its certificate is
+    // not trusted.
     Reply get(const std::string& path);
     Reply post_json(const std::string& path, const std::string& body, const std::vector<Field>& headers);
 

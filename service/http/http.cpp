@@ -20,6 +20,7 @@
 #include "service/api/problem.h"
 #include "service/http/chunks.h"
 #include "service/http/client.h"
+#include "service/http/client_fault.h"
 #include "service/http/exchange.h"
 #include "service/http/guard.h"
 #include "service/http/head.h"
@@ -314,26 +315,56 @@ void HttpServer::stop() {
 
 namespace {
 
-Reply reply_of(const httplib::Result& result, const std::string& url) {
-    if (result.error() == httplib::Error::SSLServerVerification || result.error() == httplib::Error::SSLLoadingCerts)
-        throw Error(ErrorCode::usage, url, "its certificate is not trusted; give --cacert the file of its authority");
-    if (!result) throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
-    return {result->status, result->get_header_value("Content-Type"), result->body,
-            result->get_header_value("Location")};
+// host of "http://host", "https://host:port" and "http://[::1]:port".
+std::string host_of(const std::string& origin) {
+    const std::string authority = origin.substr(origin.find("://") + 3);
+    if (authority.starts_with('[')) return authority.substr(1, authority.find(']') - 1);
+    return authority.substr(0, authority.find(':'));
 }
 
 }  // namespace
 
 struct Client::State {
     httplib::Client client;
+    std::string host, certificates;
+
+    // What no other try would mend, with its remedy.
+    std::optional<std::string> lasting_fault(httplib::Error error) const {
+        switch (error) {
+            case httplib::Error::Connection:
+                if (is_unknown_host(host)) return fmt::format("there is no host {}; check the name in the URL", host);
+                return std::nullopt;
+            case httplib::Error::SSLConnection:
+                if (const auto why = tls_fault())
+                    return fmt::format("no TLS connection: {}; check the scheme and the port in the URL", *why);
+                return std::nullopt;
+            case httplib::Error::SSLLoadingCerts:
+                return fmt::format("{} has no certificates in PEM format; give --cacert such a file", certificates);
+            case httplib::Error::SSLServerVerification:
+                return certificate_fault(client.get_openssl_verify_result(), host);
+            default:
+                return std::nullopt;
+        }
+    }
+
+    Reply reply_to(const std::string& url, const std::function<httplib::Result()>& send) const {
+        forget_tls_faults();
+        const httplib::Result result = send();
+        if (result)
+            return {result->status, result->get_header_value("Content-Type"), result->body,
+                    result->get_header_value("Location")};
+        if (const auto fault = lasting_fault(result.error())) throw Error(ErrorCode::usage, url, *fault);
+        throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
+    }
 };
 
 Client::Client(const std::string& url, const std::string& token, const std::string& certificates) : url_(url) {
     const std::size_t scheme = url.find("://");
     const std::size_t path = scheme == std::string::npos ? url.size() : std::min(url.find('/', scheme + 3), url.size());
-    const bool https = url.starts_with("https://");
+    const std::string origin = url.substr(0, path);
     base_ = url.substr(path);
-    if (url.starts_with("http://") || https) state_.reset(new State{httplib::Client(url.substr(0, path))});
+    if (url.starts_with("http://") || url.starts_with("https://"))
+        state_.reset(new State{httplib::Client(origin), host_of(origin), certificates});
     if (!state_ || !state_->client.is_valid() || (!base_.empty() && !is_prefix(base_)))
         throw Error(ErrorCode::usage, "--server " + url, "expected a URL of the form http://host:port/path");
     if (!certificates.empty()) state_->client.set_ca_cert_path(certificates.c_str());
@@ -356,13 +387,14 @@ std::string Client::url_of(const std::string& path) const {
 }
 
 Reply Client::get(const std::string& path) {
-    return reply_of(state_->client.Get(place_of(path)), url_);
+    return state_->reply_to(url_, [&] { return state_->client.Get(place_of(path)); });
 }
 
 Reply Client::post_json(const std::string& path, const std::string& body, const std::vector<Field>& headers) {
     httplib::Headers fields;
     for (const Field& field : headers) fields.emplace(field.name, field.value);
-    return reply_of(state_->client.Post(place_of(path), fields, body, "application/json"), url_);
+    return state_->reply_to(url_,
+                            [&] { return state_->client.Post(place_of(path), fields, body, "application/json"); });
 }
 
 }  // namespace shadowbench::service

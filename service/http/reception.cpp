@@ -34,6 +34,9 @@ bool Reception::receive(Exchange& exchange) const {
         case Channel::Outcome::too_large:
             exchange.refusal = problem(431, "The head of the request is too long.");
             break;
+        case Channel::Outcome::tls:
+            exchange.refusal = problem(400, "The server speaks HTTP without TLS; use http://, or a proxy with TLS.");
+            break;
         case Channel::Outcome::complete:
             check(text, exchange);
             break;

@@ -101,6 +101,7 @@ struct JobStorage {
     std::optional<std::uint64_t> free;  // bytes; nothing where it does not say
     std::uint64_t min_free = 0;         // as in JobLimits
     bool is_low() const { return free && *free < min_free; }  // jobs wait for space
+    bool holds_jobs() const { return fails || gone || is_low(); }
 };
 
 // Which jobs a list has; nothing, or an empty text: all.

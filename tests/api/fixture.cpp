@@ -25,7 +25,7 @@ public:
         std::ostringstream out;
         if (arguments_[0] == "examine") {
             std::istringstream in(line);
-            examine_lines(data_, in, out);
+            examine_lines(data_, std::stod(value("--pace=")), in, out);
         } else {
             const std::size_t end = line.find('\n');
             if (end != std::string::npos) scenario_ = line.substr(0, end);

@@ -56,6 +56,8 @@ TEST(HelperProcess, OfThisProgramExaminesAScenario) {
     EXPECT_EQ(facts["name"], "tiny");
     EXPECT_EQ(code_of([&] { take_answer(helper->ask("{", 120)); }), ErrorCode::bad_input) << "and goes on";
     EXPECT_EQ(take_answer(helper->ask(tiny_scenario().dump(), 120)), facts);
+    const auto other = start_process(SHADOWBENCH_PROGRAM, {"examine", "--pace=1"}, enough);
+    EXPECT_EQ(take_answer(other->ask(tiny_scenario().dump(), 120)), facts) << "it measures nothing itself";
 }
 
 TEST(HelperProcess, OfThisProgramGivesCurves) {

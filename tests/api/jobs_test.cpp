@@ -170,6 +170,23 @@ TEST_F(JobsApi, RefusesWhatCostsTooMuchAndGivesTheEstimate) {
     EXPECT_EQ(jobs_->count(JobState::queued), 0u);
 }
 
+// Else each new helper would measure the machine again, and the same scenario would be refused now and taken then.
+TEST_F(JobsApi, EveryHelperEstimatesWithThePaceOfTheServer) {
+    nlohmann::json scenario = tiny_scenario();
+    scenario["receivers"] = {
+        {"type", "camera"}, {"position", {0, 0, 9}}, {"target", {0, 0, 0}}, {"resolution", {64, 64}}};
+    const auto estimate_at = [&](double pace) {
+        ServiceOptions options = standard_options();
+        options.pace = pace;
+        start(options);
+        return json(post("/v1/validate", scenario.dump()), 200)["estimate"];
+    };
+    const nlohmann::json one = estimate_at(1.25), two = estimate_at(2.5);
+    EXPECT_EQ(two["picture_seconds"], 2.0 * one["picture_seconds"].get<double>());
+    EXPECT_NE(answer(request("GET", "/metrics")).body.find("shadowbench_pace 2.5\n"), std::string::npos);
+    EXPECT_EQ(estimate_at(1.25), one) << "by another helper";
+}
+
 // Else a job whose pictures take hours would be accepted, since its map is small.
 TEST_F(JobsApi, CountsPicturesAgainstTheLimitOfSeconds) {
     nlohmann::json scenario = tiny_scenario();
@@ -260,14 +277,19 @@ TEST_F(JobsApi, SaysWhatIsWrongWithItsDisk) {
     fake::set_storage(*jobs_, {false, false, std::uint64_t{100} << 20, std::uint64_t{512} << 20});
     const nlohmann::json low = refused(request("GET", "/readyz"), 503, "100 MiB free and needs 512");
     EXPECT_NE(low["detail"].get<std::string>().find("jobs wait"), std::string::npos);
+    EXPECT_EQ(low["storage"], (nlohmann::json{{"free_bytes", 100 << 20}, {"min_free_bytes", 512 << 20}}));
     const std::string metrics = answer(request("GET", "/metrics")).body;
     EXPECT_NE(metrics.find("shadowbench_storage_free_bytes 104857600\n"), std::string::npos) << metrics;
     EXPECT_NE(metrics.find("shadowbench_storage_min_free_bytes 536870912\n"), std::string::npos) << metrics;
+    EXPECT_NE(metrics.find("shadowbench_storage_failing 1\n"), std::string::npos) << "as /readyz says";
     EXPECT_EQ(answer(request("GET", "/v1/jobs")).status, 200);
     fake::set_storage(*jobs_, {false, false, std::uint64_t{512} << 20, std::uint64_t{512} << 20});
-    EXPECT_EQ(answer(request("GET", "/readyz")).status, 200);
+    EXPECT_EQ(json(request("GET", "/readyz"), 200)["storage"]["free_bytes"], 512 << 20) << "also while it is ready";
+    EXPECT_NE(answer(request("GET", "/metrics")).body.find("shadowbench_storage_failing 0\n"), std::string::npos);
     fake::set_storage(*jobs_, {false, true, std::nullopt, std::uint64_t{512} << 20});
-    EXPECT_EQ(refused(request("GET", "/readyz"), 503, "removed").dump().find(folder_.string()), std::string::npos);
+    const nlohmann::json gone = refused(request("GET", "/readyz"), 503, "removed");
+    EXPECT_EQ(gone.dump().find(folder_.string()), std::string::npos);
+    EXPECT_TRUE(gone["storage"]["free_bytes"].is_null());
     EXPECT_NE(answer(request("GET", "/metrics")).body.find("shadowbench_storage_failing 1\n"), std::string::npos);
 }
 

@@ -3,7 +3,12 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -158,6 +163,67 @@ TEST_F(Operator, ClientsFollowLinksBelowThePathOfTheirServer) {
     EXPECT_EQ(client.url_of("/v1/jobs"), server_->url() + "/lab/v1/jobs");
     for (const char* url : {"localhost:8080", "ftp://localhost", "http://localhost/a/../b", "http://localhost/a?b"})
         EXPECT_THROW(Client(url, ""), base::Error) << url;
+}
+
+// What the client throws on asking this server.
+std::optional<base::Error> fault_of(const std::string& url, const std::string& certificates = "") {
+    try {
+        Client(url, "", certificates).get("/v1/jobs");
+    } catch (const base::Error& error) {
+        return error;
+    }
+    ADD_FAILURE() << "no error: " << url;
+    return std::nullopt;
+}
+
+// Else submit --wait would try them again for a minute, and then say nothing of the remedy.
+TEST_F(Operator, ClientsTellFaultsThatNoOtherTryWouldMend) {
+    const std::string plain = server_->url();
+    const auto no_tls = fault_of("https" + plain.substr(4));
+    ASSERT_TRUE(no_tls);
+    EXPECT_EQ(no_tls->code(), base::ErrorCode::usage) << no_tls->what();
+    EXPECT_NE(no_tls->message().find("no TLS connection: wrong version number; check the scheme"), std::string::npos)
+        << no_tls->message();
+    const auto no_certificates = fault_of("https" + plain.substr(4), "/dev/null");
+    ASSERT_TRUE(no_certificates);
+    EXPECT_EQ(no_certificates->code(), base::ErrorCode::usage) << no_certificates->what();
+    EXPECT_NE(no_certificates->message().find("/dev/null has no certificates"), std::string::npos)
+        << no_certificates->message();
+    const auto no_host = fault_of("http://a..b:1");  // no name service need be asked
+    ASSERT_TRUE(no_host);
+    EXPECT_EQ(no_host->code(), base::ErrorCode::usage) << no_host->what();
+    EXPECT_NE(no_host->message().find("there is no host a..b; check the name"), std::string::npos);
+}
+
+// Else submit --wait would not outlive the restart of a server, or of the proxy in front.
+TEST(Clients, TakeAConnectionThatIsRefusedOrCutForAServerThatStarts) {
+    const int door = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    ASSERT_EQ(::bind(door, reinterpret_cast<const sockaddr*>(&address), size), 0);
+    ::getsockname(door, reinterpret_cast<sockaddr*>(&address), &size);
+    const std::string place = "://127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+    const auto refused = fault_of("http" + place);
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->code(), base::ErrorCode::io) << refused->what();
+    ::listen(door, 1);
+    for (const bool reset : {false, true}) {
+        std::thread cutting([&] {
+            const int guest = ::accept(door, nullptr, nullptr);
+            const linger at_once{reset, 0};
+            ::setsockopt(guest, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+            char hello[64];
+            EXPECT_GT(::recv(guest, hello, sizeof hello, 0), 0);
+            ::close(guest);
+        });
+        const auto cut = fault_of("https" + place);
+        cutting.join();
+        ASSERT_TRUE(cut);
+        EXPECT_EQ(cut->code(), base::ErrorCode::io) << cut->what();
+    }
+    ::close(door);
 }
 
 TEST(Prefixes, ArePlainPaths) {

@@ -65,7 +65,10 @@ protected:
         jobs.reset();
         jobs = std::make_unique<Jobs>(state(), own_program, data, limits, [this](const LogEvent& event) {
             const std::scoped_lock lock(said_mutex);
-            if (event.kind != "job") said_lines += event.message + "\n";
+            if (event.kind != "job")
+                said_lines += event.message + "\n";
+            else
+                became_lines += line_of(event);
         });
         return *jobs;
     }
@@ -73,6 +76,16 @@ protected:
     std::string said() const {
         const std::scoped_lock lock(said_mutex);
         return said_lines;
+    }
+    // What became of jobs, and why: "queued", "failed: the reason".
+    std::string became() const {
+        const std::scoped_lock lock(said_mutex);
+        return became_lines;
+    }
+    static std::string line_of(const LogEvent& event) {
+        for (const LogField& field : event.fields)
+            if (field.name == "reason") return event.message + ": " + std::get<std::string>(field.value) + "\n";
+        return event.message + "\n";
     }
     std::filesystem::path state() const { return folder.path() / "state"; }
 
@@ -113,7 +126,7 @@ protected:
     std::vector<std::string> data;
     JobLimits limits;
     mutable std::mutex said_mutex;
-    std::string said_lines;
+    std::string said_lines, became_lines;
     std::unique_ptr<Jobs> jobs;  // the first to go
 };
 

@@ -67,6 +67,9 @@ TEST_F(RetentionHost, RemovesJobsWithTheirFilesButNoPinnedOne) {
     EXPECT_TRUE(jobs->find(pinned)) << "pinned";
     EXPECT_TRUE(jobs->find(last)) << "the latest";
     EXPECT_EQ(jobs->tally().removed["number"], 1u);
+    jobs->remove(last);
+    jobs->stop();
+    EXPECT_THAT(became(), ::testing::EndsWith("\nremoved: number\nremoved: request\n"));
 }
 
 // Else one folder that cannot be removed would let all others grow without limit, and nobody would know.
@@ -127,13 +130,7 @@ TEST_F(RetentionHost, PinsOwnersAndLabelsOutliveTheDatabase) {
 
 TEST_F(RetentionHost, CountsWhatBecomesOfJobs) {
     limits.attempts = 2;
-    std::string log;
     start();
-    jobs.reset();
-    jobs = std::make_unique<Jobs>(state(), program.string(), data, limits, [&](const LogEvent& event) {
-        const std::scoped_lock lock(said_mutex);
-        log += event.message + " ";
-    });
     ended();
     EXPECT_EQ(run("exit 65\n").state, JobState::failed);
     EXPECT_EQ(run("kill -9 $$\n").state, JobState::failed);
@@ -146,9 +143,28 @@ TEST_F(RetentionHost, CountsWhatBecomesOfJobs) {
     EXPECT_EQ(tally.runs, 5u);
     EXPECT_EQ(tally.ended, (std::map<std::string, std::uint64_t>{{"cancelled", 1}, {"failed", 2}, {"succeeded", 1}}));
     EXPECT_EQ(tally.requeued.at("died"), 1u);
-    const std::scoped_lock lock(said_mutex);
-    EXPECT_THAT(log, ::testing::HasSubstr("queued started succeeded queued started failed queued started requeued "
-                                          "started failed queued started cancelled "));
+    EXPECT_EQ(became(),
+              "queued\nstarted\nsucceeded\n"
+              "queued\nstarted\nfailed: the job's process ended with exit code 65\n"
+              "queued\nstarted\nrequeued: the job's process was ended by signal 9 (Killed)\n"
+              "started\nfailed: the job's process was ended by signal 9 (Killed)\n"
+              "queued\nstarted\ncancelled\n");
+}
+
+// Else an operator could not tell a server that was stopped, or a full disk, from a job that kills itself.
+TEST_F(RetentionHost, SaysWhyAJobWaitsAgain) {
+    start();
+    const std::string waits = submit(endless);
+    wait_for_run(waits);
+    jobs->stop();
+    EXPECT_EQ(became(), "queued\nstarted\nrequeued: stopped\n");
+    start();
+    const std::string once = "[ -e " + (folder.path() / "full").string() + " ] || { touch " +
+                             (folder.path() / "full").string() +
+                             "; echo '{\"storage\":{\"message\":\"the disk is full\",\"bytes\":1}}'; exit 74; }\n";
+    jobs->cancel(waits);
+    EXPECT_EQ(run(once + success).state, JobState::succeeded);
+    EXPECT_THAT(became(), ::testing::HasSubstr("requeued: the disk is full\nstarted\nsucceeded\n"));
 }
 
 TEST_F(RetentionHost, ReportsJobsThatAKilledServerRan) {
@@ -161,6 +177,7 @@ TEST_F(RetentionHost, ReportsJobsThatAKilledServerRan) {
         EXPECT_TRUE(store.claim("now"));  // as if the server had been killed
     }
     EXPECT_EQ(start().tally().requeued.at("killed"), 1u);
+    EXPECT_THAT(became(), ::testing::HasSubstr("requeued: killed\n"));
 }
 
 }  // namespace

@@ -159,6 +159,7 @@ TEST_F(Operate, SubmitRefusesWhatNoTryMends) {
     // Not tried again for 60 s: the test would run into its limit.
     EXPECT_EQ(cli({"submit", scenario, "--wait", "--server", "localhost:1"}).code, 64);
     EXPECT_EQ(cli({"submit", scenario, "--wait", "--server", "http://localhost/a/../b"}).code, 64);
+    EXPECT_EQ(cli({"submit", scenario, "--wait", "--server", "http://a..b"}).code, 64) << "there is no such host";
     EXPECT_EQ(cli({"submit", scenario, "--cacert", "none"}).code, 64);
     EXPECT_EQ(cli({"submit", scenario, "--priority", "101"}).code, 64);
 }

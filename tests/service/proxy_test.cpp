@@ -1,20 +1,19 @@
 // The server behind nginx, with the configuration that service/README.md shows. Skipped where nginx or openssl is
 // missing.
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <arpa/inet.h>
-#include <fcntl.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -22,6 +21,7 @@
 #include "base/read_text.h"
 #include "processes.h"
 #include "service/http/client.h"
+#include "service/program.h"
 #include "service/run_cli.h"
 #include "service/tiny_scenario.h"
 #include "temporary_folder.h"
@@ -35,39 +35,6 @@ using ::testing::StartsWith;
 
 const char* const nginx = "/usr/sbin/nginx";
 const char* const openssl = "/usr/bin/openssl";
-// A process that is ended with the test.
-class Program {
-public:
-    Program(std::vector<std::string> words, const fs::path& output) {
-        std::vector<char*> argv;
-        for (std::string& word : words) argv.push_back(word.data());
-        argv.push_back(nullptr);
-        process_ = ::fork();
-        if (process_ != 0) return;
-        const int file = ::open(output.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
-        ::dup2(file, 1);
-        ::dup2(file, 2);
-        ::execv(argv[0], argv.data());
-        ::_exit(127);
-    }
-    ~Program() {
-        if (process_ > 0) ::kill(process_, SIGTERM);
-        wait();
-    }
-    Program(const Program&) = delete;
-    Program& operator=(const Program&) = delete;
-
-    int wait() {
-        if (process_ <= 0) return -1;
-        int status = 0;
-        ::waitpid(process_, &status, 0);
-        process_ = 0;
-        return status;
-    }
-
-private:
-    pid_t process_ = 0;
-};
 
 sockaddr_in local_address(int port) {
     sockaddr_in address{};
@@ -138,30 +105,72 @@ protected:
                                 "    access_log " + path("access.log") + ";\n" + folders + block + "}\n");
     }
 
+    // A proxy that keeps events back would show no progress until the job ends.
+    void check_events(Client& client, const std::string& host) const {
+        nlohmann::json scenario = nlohmann::json::parse(tiny);
+        scenario["timing"] = {{"repetitions", 200}, {"lookups", 1'000'000}};
+        const Reply posted = client.post_json("/v1/jobs", scenario.dump(), {{"Idempotency-Key", "one"}});
+        ASSERT_EQ(posted.status, 202) << posted.body;
+        EXPECT_THAT(posted.location, StartsWith("/lab/v1/jobs/j-"));
+        write("request", "GET " + posted.location + "/events HTTP/1.1\r\nHost: " + host +
+                             "\r\nAuthorization: Bearer 0123456789abcdef\r\n\r\n");
+        Program reader({openssl, "s_client", "-quiet", "-CAfile", path("cert.pem"), "-connect", host}, path("events"),
+                       path("request"));
+        const auto has = [&](const char* text) {
+            return base::read_text(path("events")).find(text) != std::string::npos;
+        };
+        EXPECT_TRUE(soon([&] { return fs::exists(path("events")) && has("event: progress"); }));
+        const std::string state = nlohmann::json::parse(client.get(posted.location).body).at("state");
+        EXPECT_THAT(state, ::testing::AnyOf("queued", "running")) << "the event came too late";
+        EXPECT_EQ(client.post_json(posted.location + "/cancel", "", {}).status, 202);
+        EXPECT_TRUE(soon([&] { return has("\"cancelled\""); }));
+    }
+    // The page, and its program from the address that it names.
+    static void check_page(Client& client) {
+        const Reply page = client.get("/");
+        EXPECT_EQ(page.status, 200);
+        std::smatch named;
+        ASSERT_TRUE(std::regex_search(page.body, named, std::regex("src=\"/lab(/assets/[^\"]+[.]js)\"")));
+        const Reply asset = client.get(named[1]);
+        EXPECT_EQ(asset.status, 200);
+        EXPECT_THAT(asset.type, HasSubstr("javascript"));
+        EXPECT_GT(asset.body.size(), 10'000u);
+    }
+
     const TemporaryFolder folder_;
     const int port_ = free_port();
 };
 
 TEST_F(Proxy, TheConfigurationOfTheReadmeServes) {
-    Program server({SHADOWBENCH_PROGRAM, "serve", "--host", "127.0.0.2", "--port", "0", "--port-file", path("port"),
-                    "--state", path("state"), "--grace", "0", "--token-file", path("token")},
-                   path("server.log"));
-    ASSERT_TRUE(soon([&] { return fs::exists(path("port")); })) << base::read_text(path("server.log"));
-    std::string port = base::read_text(path("port"));
-    port.pop_back();
+    const std::string server_port = std::to_string(free_port());
     ASSERT_NO_FATAL_FAILURE(make_certificate());
-    ASSERT_NO_FATAL_FAILURE(configure(port));
+    ASSERT_NO_FATAL_FAILURE(configure(server_port));
     Program proxy({nginx, "-p", folder_.path().string(), "-c", path("nginx.conf")}, path("nginx.log"));
     ASSERT_TRUE(soon([&] { return answers(port_); })) << base::read_text(path("nginx.log"));
 
-    const std::string url = "https://localhost:" + std::to_string(port_) + "/lab";
+    const std::string host = "localhost:" + std::to_string(port_), url = "https://" + host + "/lab";
     const std::vector<std::string> words = {"submit", path("tiny.json"), "--server",     url,
                                             "--wait", "--no-pictures",   "--token-file", path("token")};
-    EXPECT_EQ(cli(words).code, 64) << "nobody vouches for the certificate, and no other try would mend that";
+    const Outcome distrusting = cli(words);
+    EXPECT_EQ(distrusting.code, 64) << "nobody vouches for the certificate, and no other try would mend that";
+    EXPECT_THAT(distrusting.err, HasSubstr("not trusted: self-signed certificate; give --cacert"));
     std::vector<std::string> trusting = words;
     trusting.insert(trusting.end(), {"--cacert", path("cert.pem")});
-    const Outcome submitted = cli(trusting);
-    EXPECT_EQ(submitted.code, 0) << submitted.err;
+    std::vector<std::string> misnamed = trusting;
+    misnamed[3] = "https://127.0.0.1:" + std::to_string(port_) + "/lab";
+    const Outcome mistaken = cli(misnamed);
+    EXPECT_EQ(mistaken.code, 64);
+    EXPECT_THAT(mistaken.err, HasSubstr("its certificate is not for 127.0.0.1"));
+
+    Outcome submitted;
+    std::thread waiting([&] { submitted = cli(trusting); });
+    EXPECT_TRUE(soon([&] { return base::read_text(path("access.log")).find(" 502 ") != std::string::npos; }));
+    Program server({SHADOWBENCH_PROGRAM, "serve", "--host", "127.0.0.2", "--port", server_port, "--state",
+                    path("state"), "--grace", "0", "--token-file", path("token")},
+                   path("server.log"));
+    waiting.join();
+    EXPECT_EQ(submitted.code, 0) << "it waits for a server that is missing behind its proxy: " << submitted.err
+                                 << base::read_text(path("server.log"));
     EXPECT_THAT(submitted.out, HasSubstr("  uncompressed "));
     EXPECT_THAT(submitted.out, HasSubstr("result: " + url + "/v1/jobs/j-"));
 
@@ -171,11 +180,8 @@ TEST_F(Proxy, TheConfigurationOfTheReadmeServes) {
     const std::string self = jobs["jobs"][0].at("links").at("self");
     EXPECT_THAT(self, StartsWith("/lab/v1/jobs/j-")) << "links have the path of the proxy";
     EXPECT_EQ(client.get(self + "/result").status, 200);
-    EXPECT_THAT(client.get(self + "/events").body, HasSubstr("succeeded"));
-    const Reply again = client.post_json("/v1/jobs", tiny, {{"Idempotency-Key", "one"}});
-    EXPECT_EQ(again.status, 202) << again.body;
-    EXPECT_THAT(again.location, StartsWith("/lab/v1/jobs/j-"));
-    EXPECT_EQ(client.get("/").status, 200) << "the page";
+    check_events(client, host);
+    check_page(client);
     Client stranger(url, "", path("cert.pem"));
     EXPECT_EQ(stranger.get("/v1/jobs").status, 401);
     // nginx names each request to the server.

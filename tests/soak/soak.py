@@ -30,6 +30,15 @@ def exact(result):
             for variant in result["variants"] for light in variant["lights"] for cell in light["cells"]]
 
 
+def subcommand(process):
+    """The first argument of a process; empty where it has none, or is gone."""
+    try:
+        with open(f"/proc/{process}/cmdline") as file:
+            return (file.read().split("\0") + [""])[1]
+    except OSError:
+        return ""
+
+
 class Soak:
     def __init__(self, options):
         self.options = options
@@ -201,11 +210,12 @@ class Soak:
         self.start()
 
     def kill_job(self):
-        """The youngest child of the server that runs a job."""
+        """Kills a process that runs a job, if there is one. Other children check scenarios, or wait for the end."""
         found = subprocess.run(["pgrep", "-P", str(self.server.pid)], capture_output=True, text=True).stdout.split()
-        if found:
+        jobs = [int(child) for child in found if subcommand(child) == "job"]
+        if jobs:
             try:
-                os.kill(int(found[-1]), signal.SIGKILL)
+                os.kill(jobs[-1], signal.SIGKILL)
                 self.counts["job_kills"] += 1
             except OSError:
                 pass
