@@ -80,16 +80,47 @@ TEST_F(RunOutput, table_fits_the_columns_that_are_asked_for) {
     EXPECT_THAT(standard.out, Not(HasSubstr("nodes mean")));
 }
 
-TEST_F(RunOutput, run_ends_with_what_it_means_and_with_its_files) {
-    const Outcome run = cli({"run", path("one.json"), "--out", path("out")});
+TEST_F(RunOutput, run_ends_with_what_it_means_its_files_and_how_to_draw_its_pictures) {
+    const std::vector<std::string> words{"run", path("one.json"), "--set", "purpose=half a ball", "--only",
+                                         "deep", "--out", path("out")};
+    const Outcome run = cli(words);
     EXPECT_THAT(run.out, HasSubstr("light directional_0: "));
-    EXPECT_THAT(run.out, testing::EndsWith("\nwritten: " + path("out/result.json") + ", " + path("out/result.csv") + "\n"));
-    ASSERT_EQ(cli({"render", path("one.json"), "--size", "8x8", "--out", path("out/images")}).code, 0);
-    EXPECT_THAT(cli({"run", path("one.json"), "--out", path("out")}).out,
-                testing::EndsWith("\npictures: " + path("out/images") + "\n"));
+    EXPECT_THAT(run.out,
+                testing::EndsWith("\nwritten: " + path("out/result.json") + ", " + path("out/result.csv") +
+                                  "\npictures: none yet; this draws them: shadowbench render " + path("one.json") +
+                                  " --set 'purpose=half a ball' --only deep --out " + path("out/images") + "\n"));
+    ASSERT_EQ(cli({"render", path("one.json"), words[2], words[3], "--size", "8x8", "--out", path("out/images")}).code, 0);
+    EXPECT_THAT(cli(words).out, testing::EndsWith("\npictures: " + path("out/images") + "\n"));
     EXPECT_THAT(cli({"run", path("one.json"), "--set", "rays.seed=9", "--out", path("out")}).out,
-                Not(HasSubstr("pictures: ")))
+                HasSubstr("\npictures: none yet; "))
         << "these pictures show another scenario";
+}
+
+// Without it, the first run of a scenario has numbers only.
+TEST_F(RunOutput, pictures_are_drawn_as_jobs_draw_them) {
+    const std::string swept = "sweeps={\"/techniques/0/tolerance\": [0.05, 0.1]}";
+    const Outcome run = cli({"run", path("one.json"), path("two.json"), "--set", swept, "--pictures", "--out", path("out")});
+    EXPECT_EQ(run.code, 0) << run.err;
+    for (const std::string name : {"one", "two"}) {
+        EXPECT_THAT(run.out, HasSubstr("\npictures: " + path("out/" + name + "/images") + "\n"));
+        EXPECT_TRUE(fs::exists(folder_ / "out" / name / "images/deep.shaded.png"));
+        const nlohmann::json images = nlohmann::json::parse(text_of("out/" + name + "/images/images.json"));
+        EXPECT_EQ(images.at("settings").begin().value(), 0.05) << "of the first variant: " << images.at("settings");
+    }
+    EXPECT_EQ(cli({"run", path("one.json"), "--pictures", "--shard", "0/1", "--out", path("sweep")}).code, 64);
+}
+
+// The probes fit into the memory limit, and what all pixels see does not.
+TEST_F(RunOutput, pictures_that_cannot_be_drawn_cost_no_result) {
+    const Outcome run = cli({"run", path("one.json"), "--pictures", "--memory-limit", "0.001", "--out", path("out"), "--json"});
+    EXPECT_EQ(run.code, 65);
+    EXPECT_EQ(run.out, text_of("out/result.json")) << "all of it is printed too";
+    EXPECT_THAT(run.err, HasSubstr("one.json: /receivers/resolution: "));
+    EXPECT_FALSE(fs::exists(folder_ / "out/images"));
+    const Outcome both = cli({"run", path("one.json"), path("two.json"), "--pictures", "--memory-limit", "0.001", "--out", path("out")});
+    EXPECT_EQ(both.code, 65);
+    EXPECT_THAT(both.out, HasSubstr("\npictures: none: /receivers/resolution: "));
+    EXPECT_TRUE(fs::exists(folder_ / "out/two/result.json")) << "the second runs too";
 }
 
 TEST_F(RunOutput, json_and_csv_are_those_of_the_files_and_nothing_else) {
