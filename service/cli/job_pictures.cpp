@@ -16,8 +16,7 @@ bool has_view(const nlohmann::json& variant) {
 }
 
 std::optional<base::Error> draw_pictures(const nlohmann::json& document, const bench::RunOptions& run,
-                                         const std::filesystem::path& folder,
-                                         const bench::ProgressCallback& progress) {
+                                         const std::filesystem::path& folder, const bench::ProgressCallback& progress) {
     try {
         render::write_pictures(folder, render::render(document, render::usual_options(run), progress));
     } catch (const base::Error& error) {
