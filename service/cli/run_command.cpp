@@ -23,6 +23,7 @@
 #include "service/cli/progress_bar.h"
 #include "service/cli/scenario_files.h"
 #include "service/cli/swept_scenarios.h"
+#include "service/cli/terminal.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::service {
@@ -200,16 +201,18 @@ void validate_command(const ScenarioArguments& arguments, std::ostream& out, std
                        validated.variants == 1 ? "" : "s", validated.lights, validated.lights == 1 ? "" : "s",
                        validated.techniques, validated.techniques == 1 ? "" : "s");
     for (const std::string& file : validated.files) out << "file: " << file << "\n";
-    for (const std::string& note : validated.notes) out << "note: " << note << "\n";
+    for (const std::string& note : validated.notes) out << terminal_lines("note: " + note + "\n", out);
     for (const techniques::Technique& row : techniques::all())
         if (!row.library.fault.empty())
-            out << fmt::format("note: technique {}, from {}, will fail: {}\n", row.id, row.library.file,
-                               row.library.fault);
+            out << terminal_lines(fmt::format("note: technique {}, from {}, will fail: {}\n", row.id, row.library.file,
+                                              row.library.fault),
+                                  out);
     for (const std::string& light : validated.blind)
-        out << fmt::format(
-            "note: light {} sees nothing that casts a shadow: no caster is inside its map and behind its "
-            "near plane\n",
-            light);
+        out << terminal_lines(
+            fmt::format("note: light {} sees nothing that casts a shadow: no caster is inside its map and "
+                        "behind its near plane\n",
+                        light),
+            out);
 }
 
 }  // namespace shadowbench::service

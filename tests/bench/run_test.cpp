@@ -393,7 +393,8 @@ TEST(Validate, refuses_only_what_does_not_fit_without_kept_rays) {
     json document = two_layers();
     document["rays"] = {{"resolution", {512, 512}}, {"samples_per_pixel", 64}};
     RunOptions options;
-    options.threads = 1;  // the more threads, the more rays are in flight
+    options.threads = 1;      // the more threads, the more rays are in flight
+    options.only = {"deep"};  // whose map is smaller than the rays
     const auto need = static_cast<std::size_t>(validate(document, options).least_bytes);
     constexpr std::size_t all_rays = std::size_t{512} * 512 * 64 * 12;
     ASSERT_LT(need, all_rays) << "of which only some are in flight";

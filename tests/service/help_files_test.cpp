@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -116,11 +117,16 @@ TEST_F(HelpFiles, complete_commands_options_and_values_in_bash) {
 
 // Otherwise a change of the list would leave scenarios without completion.
 TEST_F(HelpFiles, complete_the_scenarios_that_the_program_lists) {
-    const fs::path list = share().parent_path() / "list";
-    std::ofstream(list) << cli({"list", "scenarios"}).out;
-    const std::string listing = "[ \"$*\" = 'list scenarios' ] && cat '" + list.string() + "'";
-    EXPECT_THAT(completed({"shadowbench", "run", "quicks"}, listing), testing::UnorderedElementsAre("quickstart"));
-    EXPECT_THAT(completed({"shadowbench", "validate", "quicks"}, listing), testing::UnorderedElementsAre("quickstart"));
+    const fs::path folder = share().parent_path();
+    std::ofstream(folder / "own.json") << R"({"name": "own_ball", "purpose": "A ball.", "scene": {"objects": []}})";
+    const char* const before = std::getenv("SHADOWBENCH_SCENARIOS");
+    const std::string others = before ? before : "";
+    setenv("SHADOWBENCH_SCENARIOS", folder.c_str(), 1);
+    std::ofstream(folder / "list") << cli({"list", "scenarios"}).out;
+    before ? setenv("SHADOWBENCH_SCENARIOS", others.c_str(), 1) : unsetenv("SHADOWBENCH_SCENARIOS");
+    const std::string listing = "[ \"$*\" = 'list scenarios' ] && cat '" + (folder / "list").string() + "'";
+    EXPECT_THAT(completed({"shadowbench", "run", "own_"}, listing), testing::UnorderedElementsAre("own_ball"));
+    EXPECT_THAT(completed({"shadowbench", "validate", "own_"}, listing), testing::UnorderedElementsAre("own_ball"));
     EXPECT_THAT(completed({"shadowbench", "run", "--pic"}, listing), testing::UnorderedElementsAre("--pictures"));
 }
 
