@@ -18,8 +18,8 @@ std::filesystem::path pictures_folder(const std::filesystem::path& results);
 // Whether the scene has objects for a camera to see; a deep image has none. Takes a document without sweeps.
 bool has_view(const nlohmann::json& variant);
 
-// Draws a scenario that was measured, and so is valid, into a folder. Returns the error that prevents only the pictures,
-// such as an empty view or a view that needs too much memory; then the folder is as before. Throws other errors.
+// Draws a scenario that was measured, and so is valid, into a folder. Returns the error that prevents only the
+// pictures, such as an empty view or one that needs too much memory; then the folder is as before. Throws other errors.
 std::optional<base::Error> draw_pictures(const nlohmann::json& document, const bench::RunOptions& run,
                                          const std::filesystem::path& folder, const bench::ProgressCallback& progress);
 

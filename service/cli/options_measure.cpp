@@ -120,7 +120,8 @@ void add_run(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<RunArguments>();
     CLI::App* run = app.add_subcommand("run", "Measure scenarios: print a table, write result.json and result.csv");
     set_help(*run, command_groups::measure,
-             {"run quickstart --pictures", "run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64",
+             {"run quickstart --pictures",
+              "run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64",
               "run scenarios/hard --verdicts results/stability.md"},
              "The table is as wide as the terminal, or as $COLUMNS says. It has colours on a terminal, unless $NO_COLOR "
              "is set.\n"
