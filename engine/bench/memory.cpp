@@ -53,13 +53,15 @@ double least_map_bytes(const rays::MapLayout& layout, std::span<const Contender>
 }  // namespace
 
 double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& reference,
-                   std::span<const Contender> contenders, const MemoryLimits& limits) {
-    const double rays = static_cast<double>(layout.width) * layout.height * layout.samples();
-    const double kept = std::min(rays * ray_bytes, static_cast<double>(limits.kept_rays));
+                   std::span<const Contender> contenders) {
     // The truth is found before any map is built.
     const double building = in_flight_bytes(layout) + least_map_bytes(layout, contenders);
     const double judging = in_flight_bytes(reference) + all_tiles_bytes(reference);
-    return kept + all_tiles_bytes(layout) + std::max(building, judging);
+    return all_tiles_bytes(layout) + std::max(building, judging);
+}
+
+double least_ray_bytes(const rays::MapLayout& layout) {
+    return static_cast<double>(layout.width) * layout.height * layout.samples() * ray_bytes;
 }
 
 double check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,
@@ -68,7 +70,7 @@ double check_memory(const scene::Scenario& scenario, const rays::LightView& view
     const scene::RaySettings judging = reference_settings(scenario);
     const rays::MapLayout reference =
         rays::make_layout(scenario.scene, view, settings_of_a_set(scenario.scene, judging));
-    const double need = least_bytes(layout, reference, contenders, limits);
+    const double need = least_bytes(layout, reference, contenders);
     if (need <= static_cast<double>(limits.all)) return need;
     throw base::Error(base::ErrorCode::bad_input, where,
                       fmt::format("{} x {} pixels of {} samples, and {} for the reference, need at least {:.3g} GiB; "

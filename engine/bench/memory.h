@@ -19,10 +19,14 @@ struct MemoryLimits {
     std::size_t held = 0;                          // bytes that the process holds besides, such as the scene
 };
 
-// A lower bound for the bytes of a run: the light rays that are kept or in flight, with one crossing per ray; what is
-// kept for every tile; and the larger of what the truth and the maps need at least.
+// A lower bound for the bytes of a run: the light rays in flight, with one crossing per ray; what is kept for every
+// tile; and the larger of what the truth and the maps need at least. Light rays that are kept do not count: where they
+// leave no room, they are captured again for every pass.
 double least_bytes(const rays::MapLayout& layout, const rays::MapLayout& reference,
-                   std::span<const Contender> contenders, const MemoryLimits& limits);
+                   std::span<const Contender> contenders);
+
+// A lower bound for the bytes of all light rays of a map, if they are kept.
+double least_ray_bytes(const rays::MapLayout& layout);
 
 // The least bytes that a scenario needs. Throws Error{bad_input} at `where` if they exceed the limit.
 double check_memory(const scene::Scenario& scenario, const rays::LightView& view, std::span<const Contender> contenders,

@@ -27,6 +27,18 @@ std::string place_of(std::size_t variant, std::size_t variants, const scene::Sce
     return place;
 }
 
+// Names the variant by the values that change its lookups; empty if there are none.
+std::string lookups_of(const document::Variant& variant) {
+    std::string text;
+    for (const document::Setting& setting : variant.settings) {
+        bool changes = true;
+        for (const char* other : {"/techniques/", "/reference/", "/timing/"})
+            changes = changes && !setting.pointer.starts_with(other);
+        if (changes) text += fmt::format(", {} = {}", setting.pointer, setting.value);
+    }
+    return text;
+}
+
 }  // namespace
 
 std::vector<document::Variant> variants_of(const nlohmann::json& document, const std::vector<std::string>& only) {
@@ -120,12 +132,13 @@ std::vector<std::string> VariantRuns::seam_notes() const {
         seams.lookups += set.queries.size();
     }
     constexpr double widest = 10.0;  // border
+    const std::string variant = lookups_of(variants_.at(loaded_));
     std::vector<std::string> notes;
     for (const auto& [where, seams] : of)
         if (seams.cut.count > 0)
             notes.push_back(fmt::format(
-                "{}: {} of {} lookups reach over the border of their map, so at seams a part of them is cut off: {}",
-                where, seams.cut.count, seams.lookups,
+                "{}{}: {} of {} lookups reach over the border of their map, so at seams a part of them is cut off: {}",
+                where, variant, seams.cut.count, seams.lookups,
                 seams.cut.border > widest
                     ? "make them narrower"
                     : fmt::format("with a border of {} none is", std::ceil(1e3 * seams.cut.border) / 1e3)));

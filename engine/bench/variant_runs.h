@@ -51,7 +51,8 @@ public:
     results::LightResult measure(std::size_t light, const ProgressCallback& progress) const;
 
     // What only lookups in receiver pixels show: how many reach over the borders of a point light's maps. A line for
-    // each such light. Throws what measure() throws if a map has no receiver.
+    // each such light, with the values of the sweeps that change lookups. Throws what measure() throws if a map has no
+    // receiver.
     std::vector<std::string> seam_notes() const;
 
 private:

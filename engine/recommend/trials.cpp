@@ -118,7 +118,9 @@ std::string Trials::refusal(const Setting& setting, const Contender& contender) 
     const double rays = static_cast<double>(layout.width) * layout.height * layout.samples();
     if (rays > most_rays)
         return fmt::format("needs {:.3g} light rays; more than {:.3g} are not tried", rays, most_rays);
-    const double need = bench::least_bytes(layout, layout, std::span(&contender, 1), options_.limits);
+    // The rays are kept for further settings.
+    const double kept = std::min(bench::least_ray_bytes(layout), static_cast<double>(options_.limits.kept_rays));
+    const double need = kept + bench::least_bytes(layout, layout, std::span(&contender, 1));
     if (need > static_cast<double>(options_.limits.all))
         return fmt::format("needs at least {:.3g} GiB of memory: more than the limit", need / (1 << 30));
     return "";

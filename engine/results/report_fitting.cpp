@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,13 +15,6 @@ namespace {
 
 using base::Colour;
 using base::coloured;
-
-constexpr const char* fitting_legend =
-    "lookup ns: median time of a lookup in random order, with its 95 % interval. x floor: its ratio to reading the "
-    "same cache lines. error: RMS of lookups against the truth, with the 95 % interval expected over seeds of the rays "
-    "(with ?: of the truth's uncertainty only). front: T certainly no other technique beats it in time and error, B in "
-    "bytes and error; T? and B? perhaps none does. degraded: every promise holds, but none bounds the error, and it is "
-    "above the noise tolerance. --wide shows all columns.\n";
 
 constexpr std::size_t least_line = 60, rows_indent = 2, columns_gap = 2;
 constexpr std::size_t name_room = 20, most_name_room = 24, least_name = 10;  // characters of the first column
@@ -38,16 +32,32 @@ enum FittingColumn {
 };
 constexpr FittingColumn left_out[] = {of_error_interval, of_floor, of_time_interval};  // in this order
 
+using Shown = std::array<bool, of_verdict + 1>;  // one a FittingColumn
+
+// What the columns mean that some table shows.
+std::string fitting_legend(const Shown& shown) {
+    std::string text = "lookup ns: median time of a lookup in random order";
+    if (shown[of_time_interval]) text += ", with its 95 % interval";
+    if (shown[of_floor]) text += ". x floor: its ratio to reading the same cache lines";
+    text += ". error: RMS of lookups against the truth";
+    if (shown[of_error_interval])
+        text += ", with the 95 % interval expected over seeds of the rays (with ?: of the truth's uncertainty only)";
+    return text +
+           ". front: T certainly no other technique beats it in time and error, B in bytes and error; T? and B? "
+           "perhaps none does. degraded: every promise holds, but none bounds the error, and it is above the noise "
+           "tolerance. --wide shows all columns.\n";
+}
+
 using Fields = std::vector<std::string>;  // one a FittingColumn
 
 Fields fields_of(const Cell& cell, const LightResult& light) {
-    Fields fields{title(cell), base::bytes_text(cell.bytes), "-", "-", "-", "-", "-", front_text(cell),
-                  to_string(cell.verdict)};
+    Fields fields{title(cell),      base::bytes_text(cell.bytes), "-", "-", "-", "-", "-",
+                  front_text(cell), to_string(cell.verdict)};
     if (cell.times) {
         const LookupTimes& lookup = cell.times->random_order;
         fields[of_time] = time_text(lookup.ns, light);
-        fields[of_time_interval] = fmt::format("{}-{}", time_text(lookup.ns.interval.low),
-                                               time_text(lookup.ns.interval.high));
+        fields[of_time_interval] =
+            fmt::format("{}-{}", time_text(lookup.ns.interval.low), time_text(lookup.ns.interval.high));
         if (lookup.ratio) fields[of_floor] = fmt::format("{:.1f}", lookup.ratio->median);
     }
     if (cell.lookup) {
@@ -146,11 +156,12 @@ std::string below_rows(const LightResult& light, const TableStyle& style) {
     return failed + base::wrapped(opaque, style.width);
 }
 
-std::string rows_text(const LightResult& light, const TableStyle& style) {
+std::string rows_text(const LightResult& light, const TableStyle& style, Shown& shown) {
     std::vector<Fields> rows{
         {"technique", "bytes", "lookup ns", "95 %", "x floor", "error", "95 %", "front", "verdict"}};
     for (const Cell& cell : light.cells) rows.push_back(fields_of(cell, light));
     const Fitting fitting = fit(rows, style.width);
+    for (const FittingColumn column : fitting.columns) shown[column] = true;
     const auto chosen = [&](const Fields& fields) {
         Fields some;
         for (const FittingColumn column : fitting.columns) some.push_back(fields[column]);
@@ -181,16 +192,17 @@ std::string to_fitting_table(const Result& result, const TableStyle& asked) {
     const TableStyle style{std::max(asked.width, least_line), asked.colour};
     std::string text = base::wrapped(heading_text(result), style.width);
     bool marked = false;
+    Shown shown{};
     for (const VariantResult& variant : result.variants) {
         text += base::wrapped(settings_lines(variant), style.width);
         for (const LightResult& light : variant.lights) {
             const Settling found = settling(light);
             marked = marked || !found.uncertain.empty();
-            text += base::wrapped(text_above(light, result.times.threads), style.width) + rows_text(light, style) +
-                    below_rows(light, style) + warned(text_below(light, found), style);
+            text += base::wrapped(text_above(light, result.times.threads), style.width) +
+                    rows_text(light, style, shown) + below_rows(light, style) + warned(text_below(light, found), style);
         }
     }
-    return text + base::wrapped(fitting_legend, style.width) +
+    return text + base::wrapped(fitting_legend(shown), style.width) +
            (marked ? base::wrapped(uncertain_legend, style.width) : "");
 }
 

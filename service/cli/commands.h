@@ -37,6 +37,7 @@ struct RunArguments : JobArguments {
     std::string out;                     // folder; empty: results/runs/<scenario name>
     std::string verdicts;                // file; empty: verdicts.md beside the results, if there are several scenarios
     std::string shard;                   // "i/n"; empty: everything
+    bool pictures = false;               // draw what render draws, into images/ in the folder of the results
     OutputArguments output;
 };
 

@@ -13,6 +13,7 @@
 #include "service/cli/deep_file_text.h"
 #include "service/cli/file_commands.h"
 #include "service/cli/progress_bar.h"
+#include "service/cli/terminal.h"
 #include "techniques/deep/deep_file.h"
 
 namespace shadowbench::service {
@@ -62,9 +63,9 @@ bool is_deep_map(const std::string& file) {
     return extension == ".dsm" || extension == ".DSM";
 }
 
-// With what loads the file in a scenario, where it holds something to load.
-std::string describe_data(const scene::DataFile& data, const std::string& name) {
-    std::string text = scene::describe_file(data);
+// What loads the file in a scenario, in whole lines to copy; empty if it holds nothing to load.
+std::string objects_text(const scene::DataFile& data, const std::string& name) {
+    std::string text;
     if (!scene::casts_shadow(data)) return text;
     for (const auto& object : scene::scene_objects(data, name))
         text += fmt::format("  {}: {}\n", data.scene.deep_image ? "deep_image" : "object", scene::in_one_line(object));
@@ -92,15 +93,15 @@ std::string describe(const DeepFile& file, const std::string& name) {
 void inspect_command(const FileArguments& arguments, std::ostream& out, std::ostream& err) {
     for (const std::string& file : arguments.files) {
         if (is_deep_map(file)) {
-            out << describe(DeepFile(file), file);
+            out << terminal_lines(describe(DeepFile(file), file), out);
             continue;
         }
         const scene::DataFile data = read_data(arguments, file, err);
         ProgressBar bar(err);
         bar.show({std::filesystem::path(file).filename().string(), "look over", 0, 0});
-        const std::string text = describe_data(data, file);
+        const std::string facts = scene::describe_file(data), objects = objects_text(data, file);
         bar.end();
-        out << text;
+        out << terminal_lines(facts, out) << objects;
     }
 }
 

@@ -17,11 +17,10 @@
 #include "base/write_files.h"
 #include "bench/run.h"
 #include "document/document.h"
-#include "render/render.h"
-#include "render/write_pictures.h"
 #include "results/report.h"
 #include "results/write_result.h"
 #include "scene/scenario.h"
+#include "service/cli/job_pictures.h"
 #include "service/cli/libraries.h"
 #include "service/cli/recommend_job.h"
 #include "service/jobs/fraction.h"
@@ -85,11 +84,6 @@ std::size_t lights_of(const document::Variant& variant) {
     return std::max<std::size_t>(scene::light_names(document).size(), 1);
 }
 
-// Whether the scene has objects for a camera to see; a deep image has none.
-bool has_objects(const document::Variant& variant) {
-    return variant.document->at("scene").contains("objects");
-}
-
 JobFraction make_fraction(const std::vector<document::Variant>& variants, bool pictures) {
     std::size_t lights = 0;
     for (const document::Variant& variant : variants) lights += lights_of(variant);
@@ -99,12 +93,8 @@ JobFraction make_fraction(const std::vector<document::Variant>& variants, bool p
 // Draws into `folder`. Clients can read the fault that it leaves there.
 void draw(const nlohmann::json& document, const bench::RunOptions& run, const fs::path& folder,
           const std::vector<HiddenFolder>& hidden, const bench::ProgressCallback& progress) {
-    try {
-        render::write_pictures(folder, render::render(document, render::usual_options(run), progress));
-    } catch (const Error& error) {
-        if (error.code() != ErrorCode::bad_input) throw;
-        base::write_files({{folder / "error.json", error_line(hide(error, hidden)) + "\n"}});
-    }
+    if (const auto fault = draw_pictures(document, run, folder, progress))
+        base::write_files({{folder / "error.json", error_line(hide(*fault, hidden)) + "\n"}});
 }
 
 // Whether the place of an error is in the job's own folder, which is the server's storage.
@@ -151,7 +141,7 @@ bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
             [&](const bench::Progress& progress, double fraction) { reporter.report(progress, fraction); });
 
     const std::vector<document::Variant> variants = document::expand(document);
-    const bool pictures = arguments.pictures && has_objects(variants.front());
+    const bool pictures = arguments.pictures && has_view(*variants.front().document);
     JobFraction fraction = make_fraction(variants, pictures);
     bool kept = true;
     {
@@ -164,7 +154,7 @@ bool run_job(const JobProcessArguments& arguments, std::ostream& out) {
         kept = !results::any_failed(result);
     }
     if (pictures)
-        draw(document, options, folder / "images", hidden,
+        draw(document, options, pictures_folder(folder), hidden,
              [&](const bench::Progress& progress) { reporter.report(progress, fraction.picturing(progress)); });
     return kept;
 }

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/table.h"
 #include "scene/named_scenarios.h"
 #include "service/cli/commands.h"
 #include "service/cli/libraries.h"
 #include "service/cli/scenario_files.h"
+#include "service/cli/terminal.h"
 #include "techniques/technique.h"
 #include "techniques/trades.h"
 
@@ -52,19 +54,43 @@ std::string trades_of(const techniques::Traits& traits) {
     return text;
 }
 
+// Labels with texts beside them. On a terminal, a text that is too long goes on below itself; elsewhere, each is a
+// line.
+class Listing {
+public:
+    Listing(std::ostream& out, std::size_t column)
+        : out_(out), column_(column), width_(is_terminal(out) ? std::max(line_width(out), column + least_text) : 0) {}
+
+    void add(const std::string& label, const std::string& text) const {
+        if (width_ == 0 || label.size() >= column_) {
+            out_ << fmt::format("{:<{}}{}\n", label, column_, text);
+            return;
+        }
+        std::string lines = base::wrapped(std::string(column_, ' ') + text + "\n", width_);
+        out_ << lines.replace(0, label.size(), label);
+    }
+
+private:
+    static constexpr std::size_t least_text = 30;  // characters of a line
+
+    std::ostream& out_;
+    std::size_t column_, width_;
+};
+
 }  // namespace
 
 void list_techniques(const LibraryArguments& libraries, std::ostream& out) {
     load_libraries(libraries);
+    const Listing listing(out, 14);
     for (const techniques::Technique& row : techniques::all()) {
-        out << fmt::format("{:<14}{} (version {}; {})\n", row.id, row.title, row.version, row.paper);
+        listing.add(row.id, fmt::format("{} (version {}; {})", row.title, row.version, row.paper));
         if (!row.library.file.empty())
-            out << fmt::format("{:<14}external: {}, hash {}\n", "", row.library.file, row.library.hash);
-        out << fmt::format("{:<14}promises: {}\n", "", promises_of(row.promises));
+            listing.add("", fmt::format("external: {}, hash {}", row.library.file, row.library.hash));
+        listing.add("", fmt::format("promises: {}", promises_of(row.promises)));
         for (const Parameter& parameter : row.parameters)
-            out << fmt::format("{:<14}{}={}  [{}] {}\n", "", parameter.name, standard_of(parameter),
-                               values_of(parameter), parameter.doc);
-        out << fmt::format("{:<14}recommend tries: {}\n", "", trades_of(row.traits));
+            listing.add("", fmt::format("{}={}  [{}] {}", parameter.name, standard_of(parameter), values_of(parameter),
+                                        parameter.doc));
+        listing.add("", fmt::format("recommend tries: {}", trades_of(row.traits)));
     }
 }
 
@@ -77,10 +103,11 @@ void list_scenarios(std::ostream& out) {
             "that have some");
     std::size_t width = 0;
     for (const scene::NamedScenario& one : list) width = std::max(width, one.name.size() + 2);
-    for (const scene::NamedScenario& one : list)
-        out << fmt::format("{:<{}}{}\n{:<{}}{}\n", one.name, width,
-                           one.fault.empty() ? one.purpose : "cannot be read: " + one.fault, "", width,
-                           one.file.string());
+    const Listing listing(out, width);
+    for (const scene::NamedScenario& one : list) {
+        listing.add(one.name, one.fault.empty() ? one.purpose : "cannot be read: " + one.fault);
+        out << fmt::format("{:<{}}{}\n", "", width, one.file.string());  // whole, so that it can be copied
+    }
 }
 
 }  // namespace shadowbench::service

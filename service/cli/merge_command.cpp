@@ -156,7 +156,7 @@ results::Result write_merged(const std::vector<results::SweepCell>& cells, const
     base::write_files({{folder / "result.json", results::to_json(merged).dump(1) + "\n"},
                        {folder / "result.csv", results::to_csv(merged)}});
     output.add(merged);
-    conclude(merged.result, folder, output);
+    conclude(merged.result, folder, {}, output);
     return std::move(merged.result);
 }
 

@@ -120,7 +120,8 @@ void add_run(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<RunArguments>();
     CLI::App* run = app.add_subcommand("run", "Measure scenarios: print a table, write result.json and result.csv");
     set_help(*run, command_groups::measure,
-             {"run quickstart", "run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64",
+             {"run quickstart --pictures",
+              "run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64",
               "run scenarios/hard --verdicts results/stability.md"},
              "The table is as wide as the terminal, or as $COLUMNS says. It has colours on a terminal, unless $NO_COLOR "
              "is set.\n"
@@ -142,6 +143,9 @@ void add_run(CLI::App& app, Commands& commands) {
         ->check(
             [](const std::string& name) { return std::string(name.empty() ? "the name of the file is empty" : ""); });
     add_output_options(*run, arguments->output);
+    run->add_flag("--pictures", arguments->pictures,
+                  "Then draw the camera's view as render does, of the first value of each sweep, into images/ in the "
+                  "folder of the results");
     run->add_option("--shard", arguments->shard,
                     "i/n: measure only part i of n, counted from 0, of the cells (a cell is one variant with one "
                     "light), and write each cell to DIR/cells. Cells that are there are skipped, so the same command "
@@ -149,6 +153,7 @@ void add_run(CLI::App& app, Commands& commands) {
         ->check([](const std::string& part) { return std::string(part.empty() ? "expected i/n, as in 0/4" : ""); })
         ->needs("--out")
         ->excludes("--verdicts")
+        ->excludes("--pictures")
         ->excludes("--wide")
         ->excludes("--json")
         ->excludes("--csv");

@@ -14,6 +14,7 @@
 #include "document/document.h"
 #include "results/settled.h"
 #include "service/cli/job.h"
+#include "service/cli/job_pictures.h"
 #include "techniques/technique.h"
 
 namespace shadowbench::service {
@@ -35,6 +36,13 @@ bool are_pictures_of(const fs::path& folder, const results::Result& result) {
     } catch (const std::exception&) {  // no images.json of this program
         return false;
     }
+}
+
+// The first of the folders with pictures of this result; empty: none has.
+fs::path pictures_of(const results::Result& result, const std::vector<fs::path>& folders) {
+    for (const fs::path& folder : folders)
+        if (are_pictures_of(folder, result)) return folder;
+    return {};
 }
 
 }  // namespace
@@ -72,14 +80,16 @@ void report_outcomes(const std::vector<results::ScenarioOutcome>& outcomes, bool
     out << base::wrapped(results::unsettled_line(all), output.style().width);
 }
 
-void conclude(const results::Result& result, const fs::path& folder, Output& output) {
+void conclude(const results::Result& result, const fs::path& folder, const PicturesSaid& said, Output& output) {
     output.explain(result);
     output.text() << fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
-    for (const fs::path& pictures : {folder / "images", fs::path("results/images") / result.name})
-        if (are_pictures_of(pictures, result)) {
-            output.text() << fmt::format("pictures: {}\n", pictures.string());
-            break;
-        }
+    const fs::path found = pictures_of(result, {pictures_folder(folder), fs::path("results/images") / result.name});
+    if (!said.fault.empty())
+        output.text() << fmt::format("pictures: none: {}\n", said.fault);
+    else if (!found.empty())
+        output.text() << fmt::format("pictures: {}\n", found.string());
+    else if (!said.command.empty())
+        output.text() << fmt::format("pictures: none yet; this draws them: {}\n", said.command);
     output.text() << std::flush;
 }
 

@@ -27,8 +27,15 @@ results::ScenarioOutcome without_result(const nlohmann::json& document, const st
 void report_outcomes(const std::vector<results::ScenarioOutcome>& outcomes, bool several,
                      const std::filesystem::path& verdicts, Output& output);
 
-// Prints what the table of a result means, which files hold it, and where its pictures are, if render has drawn this
-// scenario.
-void conclude(const results::Result& result, const std::filesystem::path& folder, Output& output);
+// What is to be said of the pictures of a result.
+struct PicturesSaid {
+    std::string fault;    // why they could not be drawn now; empty: they were, or nobody asked
+    std::string command;  // that draws them; empty: none can, or it is not known
+};
+
+// Prints what the table of a result means, which files hold it, and in the last line where its pictures are: those in
+// the folder or those of render, if they show this scenario, else what is to be said of them.
+void conclude(const results::Result& result, const std::filesystem::path& folder, const PicturesSaid& said,
+              Output& output);
 
 }  // namespace shadowbench::service

@@ -8,6 +8,8 @@
 #include <iostream>
 #include <string_view>
 
+#include "base/table.h"
+
 namespace shadowbench::service {
 namespace {
 
@@ -33,6 +35,10 @@ std::size_t line_width(const std::ostream& stream) {
     winsize size{};
     if (is_terminal(stream) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
     return standard_width;
+}
+
+std::string terminal_lines(const std::string& text, const std::ostream& stream) {
+    return is_terminal(stream) ? base::wrapped(text, line_width(stream)) : text;
 }
 
 bool shows_colour(const std::ostream& stream) {

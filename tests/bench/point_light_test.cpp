@@ -181,7 +181,7 @@ TEST(PointLight, CountsLookupsThatReachOverTheBorder) {
 
 // The widths of lookups in receiver pixels are known only where they are asked for.
 TEST(PointLight, RunsNoteABorderThatIsTooNarrowForReceiverPixels) {
-    const auto notes = [](double pixels) {
+    const auto notes = [](double pixels, const nlohmann::json& sweeps = nlohmann::json::object()) {
         // A floor 2 below the lamp, in its face -y, of which a camera 5 above sees slopes to 0.91, in pixels of 0.11.
         nlohmann::json document{{"name", "lamp"}, {"techniques", {{{"type", "deep"}}}}};
         document["scene"]["objects"] = {
@@ -193,8 +193,9 @@ TEST(PointLight, RunsNoteABorderThatIsTooNarrowForReceiverPixels) {
                                  {"target", {0, -2, 0}},
                                  {"resolution", {16, 16}},
                                  {"footprint", {{"receiver_pixels", pixels}}}};
+        document["sweeps"] = sweeps;
         VariantRuns runs(document, {});
-        runs.load(0, {});
+        runs.load(runs.variants().size() - 1, {});
         return runs.seam_notes();
     };
     EXPECT_TRUE(notes(0.1).empty());
@@ -202,6 +203,10 @@ TEST(PointLight, RunsNoteABorderThatIsTooNarrowForReceiverPixels) {
     EXPECT_NE(notes(8.0)[0].find("/lights/0: "), std::string::npos);
     EXPECT_NE(notes(8.0)[0].find("reach over the border of their map"), std::string::npos);
     EXPECT_NE(notes(8.0)[0].find("with a border of "), std::string::npos);
+    // Otherwise nobody knows which variant of a sweep to change.
+    const std::vector<std::string> of_last = notes(8.0, {{"/receivers/footprint/receiver_pixels", {4, 9}}});
+    EXPECT_NE(of_last.at(0).find("/lights/0, /receivers/footprint/receiver_pixels = 9: "), std::string::npos);
+    EXPECT_EQ(notes(8.0, {{"/reference/seed", {1, 2}}}), notes(8.0)) << "a note that all share is one";
 }
 
 }  // namespace

@@ -388,5 +388,28 @@ TEST(Validate, estimates_the_cost_of_a_run) {
     EXPECT_EQ(validate(document, {}).least_bytes, large.least_bytes) << "one variant at a time";
 }
 
+// A run gives kept rays up, so a limit between what it needs and that with all rays refuses nothing.
+TEST(Validate, refuses_only_what_does_not_fit_without_kept_rays) {
+    json document = two_layers();
+    document["rays"] = {{"resolution", {512, 512}}, {"samples_per_pixel", 64}};
+    RunOptions options;
+    options.threads = 1;      // the more threads, the more rays are in flight
+    options.only = {"deep"};  // whose map is smaller than the rays
+    const auto need = static_cast<std::size_t>(validate(document, options).least_bytes);
+    constexpr std::size_t all_rays = std::size_t{512} * 512 * 64 * 12;
+    ASSERT_LT(need, all_rays) << "of which only some are in flight";
+    options.limits.all = all_rays;
+    EXPECT_NO_THROW(validate(document, options));
+    options.limits.all = need + 1;
+    EXPECT_NO_THROW(validate(document, options));
+    options.limits.all = need - 1;
+    try {
+        validate(document, options);
+        FAIL() << "less than the rays in flight and the maps";
+    } catch (const base::Error& error) {
+        EXPECT_EQ(error.where(), "/rays");
+    }
+}
+
 }  // namespace
 }  // namespace shadowbench::bench

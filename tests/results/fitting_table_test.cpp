@@ -105,6 +105,22 @@ TEST(FittingTable, leaves_out_columns_that_have_no_room) {
     EXPECT_EQ(squeezed(header(60)), "technique bytes lookup ns error front verdict");
 }
 
+// Otherwise it explains what the reader looks for in vain.
+TEST(FittingTable, explains_the_columns_that_it_shows) {
+    const auto legend = [](std::size_t width) {
+        const std::string text = to_fitting_table(result_of(some), {width, false});
+        std::string words;
+        for (const std::string& line : lines_of(text.substr(text.find("lookup ns: "))))
+            words += line.substr(line.find_first_not_of(' ')) + " ";
+        return words;
+    };
+    EXPECT_THAT(legend(120), HasSubstr("in random order, with its 95 % interval. x floor: its ratio"));
+    EXPECT_THAT(legend(120), HasSubstr("against the truth, with the 95 % interval expected"));
+    EXPECT_THAT(legend(95), HasSubstr("against the truth. front: T"));
+    EXPECT_THAT(legend(85), HasSubstr("interval. error: "));
+    EXPECT_THAT(legend(60), HasSubstr("in random order. error: "));
+}
+
 TEST(FittingTable, breaks_long_settings_and_loses_none) {
     const std::string narrow = to_fitting_table(result_of(some), {80, false});
     std::string words;
@@ -162,9 +178,56 @@ TEST(Meaning, calls_open_what_the_intervals_leave_open) {
                                                      {"avsm", "", 20, 1 << 21, 0.0401, 0.02},
                                                      {"pcf", "", 5, 1 << 10, 0.2}}),
                                           {1000, false});
-    EXPECT_THAT(text, HasSubstr("deep has the smallest error (rms 0.04, undecided against avsm). Of these, deep takes "
-                                "the fewest bytes (1 MiB), and avsm answers fastest (19.7 ns)."));
+    EXPECT_THAT(
+        text,
+        HasSubstr("deep has the smallest error (rms 0.04, undecided against avsm at rms 0.04). Of these, deep takes "
+                  "the fewest bytes (1 MiB), and avsm answers fastest (19.7 ns)."));
     EXPECT_THAT(text, Not(HasSubstr("pcf"))) << "cheap, but certainly less accurate";
+}
+
+// A cheap map of ten times the error would look like a good choice.
+TEST(Meaning, says_which_error_is_undecided_and_what_would_decide) {
+    Result result = result_of({{"fourier", "", 50, 1 << 20, 0.03}, {"shadow_map", "", 5, 1 << 10, 0.4}});
+    std::vector<Cell>& cells = result.variants[0].lights[0].cells;
+    const auto give_seeds = [&](std::initializer_list<double> strays) {
+        for (Cell& cell : cells) cell.over_seeds.clear();
+        for (const double stray : strays) {
+            cells[0].over_seeds.push_back({{}, cells[0].bytes});
+            cells[0].over_seeds.back().lookup.rms = 0.03;
+            cells[1].over_seeds.push_back({{}, cells[1].bytes});
+            cells[1].over_seeds.back().lookup.rms = 0.4 * stray;
+        }
+    };
+    give_seeds({0.1, 0.5});
+    EXPECT_EQ(meaning_text(result, {1000, false}),
+              "light 0: fourier has the smallest error (rms 0.03, undecided against shadow_map at rms 0.4). Of these, "
+              "shadow_map takes the fewest bytes (1 KiB), and shadow_map answers fastest (5.00 ns). "
+              "reference.spread_seeds 2 are too few to decide between errors that differ by more than a factor of 2: "
+              "ask for 5.\n");
+    give_seeds({0.1, 0.1, 0.1, 0.1, 0.1, 0.1});
+    EXPECT_THAT(meaning_text(result, {1000, false}), HasSubstr("reference.spread_seeds 6 are too few"));
+    EXPECT_THAT(meaning_text(result, {1000, false}), HasSubstr("ask for 12.\n"));
+    for (Cell& cell : cells) cell.lookup->truth_sd = 0.05;  // of squares
+    EXPECT_THAT(meaning_text(result, {1000, false}), HasSubstr("ask for more reference.samples_per_pixel."));
+    for (Cell& cell : cells) {
+        cell.lookup->truth_sd = 0.0;
+        cell.lookup->interval->covers_rays = false;
+    }
+    give_seeds({});
+    EXPECT_THAT(meaning_text(result, {1000, false}), HasSubstr("ask for reference.spread_seeds 5."));
+    give_seeds({1.0, 1.0});
+    EXPECT_THAT(meaning_text(result, {1000, false}), Not(HasSubstr("ask for"))) << "this decides";
+}
+
+TEST(Meaning, names_the_error_of_whom_it_has_not_named_yet) {
+    const std::vector<Made> five{{"deep", "", 50, 5 << 20, 0.04, 0.02},
+                                 {"a", "", 60, 4 << 20, 0.0401, 0.02},
+                                 {"b", "", 60, 4 << 20, 0.0401, 0.02},
+                                 {"c", "", 60, 4 << 20, 0.0401, 0.02},
+                                 {"avsm", "", 60, 1 << 20, 0.0406, 0.05}};
+    const std::string text = meaning_text(result_of(five), {1000, false});
+    EXPECT_THAT(text, HasSubstr(" and 1 more). Of these, avsm at rms 0.041 takes the fewest bytes (1 MiB)"));
+    EXPECT_THAT(text, Not(HasSubstr("ask for"))) << "they are close to each other";
 }
 
 TEST(Meaning, calls_ties_ties) {

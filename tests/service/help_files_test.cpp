@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -48,11 +49,12 @@ protected:
         pclose(pipe);
         return text;
     }
-    // What bash proposes for the last of these words.
-    static std::set<std::string> completed(const std::vector<std::string>& words) {
+    // What bash proposes for the last of these words, where shadowbench is this function of the shell.
+    static std::set<std::string> completed(
+        const std::vector<std::string>& words,
+        const std::string& listing = "printf 'tiny  A ball.\\n      tiny.json\\ntwo$(echo ran >&2)  Hostile.\\n'") {
         std::string script = ". '" + (share() / "bash-completion/completions/shadowbench").string() +
-                             "'\nshadowbench() { printf 'tiny  A ball.\\n      tiny.json\\ntwo$(echo ran >&2)  Hostile.\\n'; }\n"
-                             "COMP_WORDS=(";
+                             "'\nshadowbench() { " + listing + "; }\nCOMP_WORDS=(";
         for (const std::string& word : words) script += "'" + word + "' ";
         script += ")\nCOMP_CWORD=" + std::to_string(words.size() - 1) + "\n_shadowbench\necho \"${COMPREPLY[@]}\"\n";
         std::ofstream(share().parent_path() / "script") << script;
@@ -92,11 +94,15 @@ TEST_F(HelpFiles, have_pages_that_man_can_format) {
     EXPECT_THAT(text, HasSubstr("--memory-limit FLOAT"));
     EXPECT_THAT(text, HasSubstr("shadowbench run scenarios/hard --verdicts"));
     EXPECT_THAT(text, Not(HasSubstr("warning")));
-    EXPECT_EQ(shell("for page in '" + pages + "'/*; do groff -man -wmac -wescape -wsyntax -wfont -wmissing -z \"$page\"; done"), "") << "warnings of groff";
+    EXPECT_EQ(shell("for page in '" + pages +
+                    "'/*; do groff -man -wmac -wescape -wsyntax -wfont -wmissing -z \"$page\"; done"),
+              "")
+        << "warnings of groff";
 }
 
 TEST_F(HelpFiles, complete_commands_options_and_values_in_bash) {
-    EXPECT_THAT(completed({"shadowbench", "re"}), testing::UnorderedElementsAre("recommend", "render", "report", "reproduce"));
+    EXPECT_THAT(completed({"shadowbench", "re"}),
+                testing::UnorderedElementsAre("recommend", "render", "report", "reproduce"));
     EXPECT_THAT(completed({"shadowbench", "run", "--o"}), testing::UnorderedElementsAre("--only", "--out"));
     EXPECT_THAT(completed({"shadowbench", "run", "--only", "de"}), testing::UnorderedElementsAre("deep"));
     EXPECT_THAT(completed({"shadowbench", "recommend", "x", "--measure", ""}),
@@ -107,6 +113,21 @@ TEST_F(HelpFiles, complete_commands_options_and_values_in_bash) {
         << "names of scenarios, of which none runs as a command";
     EXPECT_THAT(completed({"shadowbench", "run", "--out", ""}), testing::IsEmpty()) << "files, which bash knows";
     EXPECT_THAT(completed({"shadowbench", "help"}), testing::IsEmpty()) << "what --help hides";
+}
+
+// Otherwise a change of the list would leave scenarios without completion.
+TEST_F(HelpFiles, complete_the_scenarios_that_the_program_lists) {
+    const fs::path folder = share().parent_path();
+    std::ofstream(folder / "own.json") << R"({"name": "own_ball", "purpose": "A ball.", "scene": {"objects": []}})";
+    const char* const before = std::getenv("SHADOWBENCH_SCENARIOS");
+    const std::string others = before ? before : "";
+    setenv("SHADOWBENCH_SCENARIOS", folder.c_str(), 1);
+    std::ofstream(folder / "list") << cli({"list", "scenarios"}).out;
+    before ? setenv("SHADOWBENCH_SCENARIOS", others.c_str(), 1) : unsetenv("SHADOWBENCH_SCENARIOS");
+    const std::string listing = "[ \"$*\" = 'list scenarios' ] && cat '" + (folder / "list").string() + "'";
+    EXPECT_THAT(completed({"shadowbench", "run", "own_"}, listing), testing::UnorderedElementsAre("own_ball"));
+    EXPECT_THAT(completed({"shadowbench", "validate", "own_"}, listing), testing::UnorderedElementsAre("own_ball"));
+    EXPECT_THAT(completed({"shadowbench", "run", "--pic"}, listing), testing::UnorderedElementsAre("--pictures"));
 }
 
 TEST_F(HelpFiles, can_be_read_by_other_shells_that_are_installed) {

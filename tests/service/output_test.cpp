@@ -49,7 +49,8 @@ class RunOutput : public ::testing::Test {
 protected:
     RunOutput() {
         for (const char* name : {"one", "two"})
-            std::ofstream(folder_ / (std::string(name) + ".json")) << "{\"name\": \"" << name << "\", " << R"(
+            std::ofstream(folder_ / (std::string(name) + ".json")) << "{\"name\": \"" << name << "\", "
+                                                                   << R"(
                 "scene": {"objects": [{"type": "sphere", "centre": [0, 0, 0], "radius": 1, "opacity": 0.5}]},
                 "lights": [{"type": "directional", "direction": [0, -1, 0]}],
                 "rays": {"resolution": 8, "samples_per_pixel": 4},
@@ -80,16 +81,52 @@ TEST_F(RunOutput, table_fits_the_columns_that_are_asked_for) {
     EXPECT_THAT(standard.out, Not(HasSubstr("nodes mean")));
 }
 
-TEST_F(RunOutput, run_ends_with_what_it_means_and_with_its_files) {
-    const Outcome run = cli({"run", path("one.json"), "--out", path("out")});
+TEST_F(RunOutput, run_ends_with_what_it_means_its_files_and_how_to_draw_its_pictures) {
+    const std::vector<std::string> words{"run",    path("one.json"), "--set", "purpose=half a ball",
+                                         "--only", "deep",           "--out", path("out")};
+    const Outcome run = cli(words);
     EXPECT_THAT(run.out, HasSubstr("light directional_0: "));
-    EXPECT_THAT(run.out, testing::EndsWith("\nwritten: " + path("out/result.json") + ", " + path("out/result.csv") + "\n"));
-    ASSERT_EQ(cli({"render", path("one.json"), "--size", "8x8", "--out", path("out/images")}).code, 0);
-    EXPECT_THAT(cli({"run", path("one.json"), "--out", path("out")}).out,
-                testing::EndsWith("\npictures: " + path("out/images") + "\n"));
+    EXPECT_THAT(run.out,
+                testing::EndsWith("\nwritten: " + path("out/result.json") + ", " + path("out/result.csv") +
+                                  "\npictures: none yet; this draws them: shadowbench render " + path("one.json") +
+                                  " --set 'purpose=half a ball' --only deep --out " + path("out/images") + "\n"));
+    ASSERT_EQ(cli({"render", path("one.json"), words[2], words[3], "--size", "8x8", "--out", path("out/images")}).code,
+              0);
+    EXPECT_THAT(cli(words).out, testing::EndsWith("\npictures: " + path("out/images") + "\n"));
     EXPECT_THAT(cli({"run", path("one.json"), "--set", "rays.seed=9", "--out", path("out")}).out,
-                Not(HasSubstr("pictures: ")))
+                HasSubstr("\npictures: none yet; "))
         << "these pictures show another scenario";
+}
+
+// Without it, the first run of a scenario has numbers only.
+TEST_F(RunOutput, pictures_are_drawn_as_jobs_draw_them) {
+    const Outcome run =
+        cli({"run", path("one.json"), path("two.json"), "--set", "sweeps={\"/rays/seed\": [5, 6]}", "--set",
+             R"(receivers={"type": "camera", "position": [0, 3, 1], "target": [0, 0, 0], "resolution": [8, 8]})",
+             "--pictures", "--out", path("out")});
+    EXPECT_EQ(run.code, 0) << run.err;
+    for (const std::string name : {"one", "two"}) {
+        EXPECT_THAT(run.out, HasSubstr("\npictures: " + path("out/" + name + "/images") + "\n"));
+        EXPECT_TRUE(fs::exists(folder_ / "out" / name / "images/uncompressed.shaded.png"));
+        const nlohmann::json images = nlohmann::json::parse(text_of("out/" + name + "/images/images.json"));
+        EXPECT_EQ(images.at("settings"), (nlohmann::json{{"/rays/seed", 5}})) << "of the first variant";
+    }
+    EXPECT_EQ(cli({"run", path("one.json"), "--pictures", "--shard", "0/1", "--out", path("sweep")}).code, 64);
+}
+
+// The probes fit into the memory limit, and what all pixels see does not.
+TEST_F(RunOutput, pictures_that_cannot_be_drawn_cost_no_result) {
+    const Outcome run =
+        cli({"run", path("one.json"), "--pictures", "--memory-limit", "0.001", "--out", path("out"), "--json"});
+    EXPECT_EQ(run.code, 65);
+    EXPECT_EQ(run.out, text_of("out/result.json")) << "all of it is printed too";
+    EXPECT_THAT(run.err, HasSubstr("one.json: /receivers/resolution: "));
+    EXPECT_FALSE(fs::exists(folder_ / "out/images"));
+    const Outcome both =
+        cli({"run", path("one.json"), path("two.json"), "--pictures", "--memory-limit", "0.001", "--out", path("out")});
+    EXPECT_EQ(both.code, 65);
+    EXPECT_THAT(both.out, HasSubstr("\npictures: none: /receivers/resolution: "));
+    EXPECT_TRUE(fs::exists(folder_ / "out/two/result.json")) << "the second runs too";
 }
 
 TEST_F(RunOutput, json_and_csv_are_those_of_the_files_and_nothing_else) {
@@ -141,6 +178,13 @@ public:
             if (file >= 0) close(file);
     }
     bool open() const { return front_ >= 0; }
+    // What was printed, a few kilobytes at most.
+    std::string shown() const {
+        std::string text(1 << 13, '\0');
+        const ssize_t size = read(front_, text.data(), text.size());
+        text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+        return text;
+    }
     Terminal(const Terminal&) = delete;
     Terminal& operator=(const Terminal&) = delete;
 
@@ -181,6 +225,33 @@ TEST(TerminalStyle, has_colour_on_a_terminal_that_wants_it) {
     EXPECT_FALSE(plain);
     EXPECT_FALSE(refused) << "NO_COLOR";
     EXPECT_FALSE(dumb);
+}
+
+// Otherwise a terminal breaks them inside of words, below the names.
+TEST_F(RunOutput, lists_break_long_lines_on_a_terminal_only) {
+    std::ofstream(folder_ / "long.json") << R"({"name": "long", "purpose": "twelve words that are too many for a line )"
+                                            R"(of so narrow a terminal", "scene": {"objects": []}})";
+    const std::string folder = folder_.string();
+    const Variable scenarios("SHADOWBENCH_SCENARIOS", folder.c_str());
+    const fs::path before = fs::current_path();
+    fs::current_path(folder_);
+    const std::string plain = cli({"list", "scenarios"}).out;
+    std::string shown;
+    std::cout << std::flush;
+    {
+        const Terminal terminal(40);
+        const char* const words[] = {"shadowbench", "list", "scenarios"};
+        if (terminal.open()) {
+            cli_main(3, words, std::cout, std::cerr);
+            shown = terminal.shown();
+        }
+    }
+    fs::current_path(before);
+    EXPECT_THAT(plain, HasSubstr("long  twelve words that are too many for a line of so narrow a terminal\n"));
+    if (shown.empty()) GTEST_SKIP() << "no pseudo terminal can be opened here";
+    EXPECT_THAT(shown,
+                HasSubstr("long  twelve words that are too many for\r\n        a line of so narrow a terminal\r\n"));
+    EXPECT_THAT(shown, HasSubstr("      " + path("long.json") + "\r\n")) << "whole, to be copied";
 }
 
 }  // namespace
