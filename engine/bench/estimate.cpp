@@ -14,7 +14,7 @@ constexpr double longest_pass = 0.01, least_pass = 0.002, warming = 0.025, warm_
 // ones.
 constexpr double usual_lookup = 0.05e-6, usual_pixel = 0.02e-6;
 // What each technique costs however small the map is: its rows, its floors, its checks.
-constexpr double technique = 0.015;
+constexpr double technique = 0.03;
 // Of a ray of a camera, and of a byte of a file.
 constexpr double view_ray = 0.6e-6, file_byte = 15e-9;
 
@@ -52,8 +52,8 @@ double estimate_seconds(const LightWork& work, const scene::Timing& timing, int 
     const double lookups = std::min(work.receivers, static_cast<double>(timing.lookups));
     const double usual = usual_lookup + usual_pixel * std::max(0.0, work.footprint / work.samples - 1.0);
     const double slow = passes_of(lookups, work.traced > 0.0 ? traced_lookup_seconds(work) / work.traced : 0.0);
-    const double round = (warm ? 2.0 : 1.0) * build +
-                         work.techniques * work.channels * passes_of(lookups, usual) + work.traced * slow;
+    const double round =
+        (warm ? 2.0 : 1.0) * build + work.techniques * work.channels * passes_of(lookups, usual) + work.traced * slow;
     return technique * (work.techniques + work.traced) + shared / threads + compare_seconds(work) +
            (warm ? 0.0 : build) + rounds_of(timing, round) * round;
 }

@@ -16,6 +16,8 @@ using base::Vec3f;
 
 constexpr std::size_t most_looked_at = 20'000;  // primitives of an object
 constexpr double little_left = 1e-4;            // of the light: what is behind is not seen
+// A tracer tests a piece of hair for rays that pass it this near, in lengths of the piece.
+constexpr double tested = 0.25;
 
 // An area on the map and the rectangle around it, in map pixels.
 struct Area {
@@ -69,11 +71,16 @@ public:
         return covered(area);
     }
 
-    double ribbon(const Vec3f& a, const Vec3f& b, float radius) const {
+    // `least_width`: in map pixels. `around`: added on each side, in lengths of the ribbon in the world.
+    // `least_width`: in map pixels. `around`: added on each side, in lengths of the ribbon in the world. Pixels need
+    // not be square.
+    double ribbon(const Vec3f& a, const Vec3f& b, float radius, double least_width, double around) const {
         const Vec3d p = place(Vec3d(a)), q = place(Vec3d(b));
         if (!before(p) || !before(q)) return 0.0;
-        const double r = pixels(static_cast<double>(radius), 0.5 * (p.z + q.z));
-        Area area{2.0 * r * std::hypot(q.x - p.x, q.y - p.y)};
+        const double z = 0.5 * (p.z + q.z), pixel = std::sqrt(view_.pixel.x * view_.pixel.y);
+        const double r = std::max(pixels(static_cast<double>(radius), z), 0.5 * least_width) +
+                         pixels(around * Vec3d(b - a).length(), z);
+        Area area{2.0 * r * std::hypot((q.x - p.x) * view_.pixel.x, (q.y - p.y) * view_.pixel.y) / pixel};
         for (const Vec3d& end : {p, q}) area.add(end, r);
         return covered(area);
     }
@@ -130,13 +137,13 @@ double crossings(const Projection& in, const scene::Particles& particles) {
                [&](std::size_t i) { return in.disc(particles.centres[i], particles.radii[i]); });
 }
 
-double crossings(const Projection& in, const scene::Hair& hair) {
+double crossings(const Projection& in, const scene::Hair& hair, double least_width, double around) {
     if (hair.points.size() < 2) return 0.0;
     return sum(hair.points.size() - 1, [&](std::size_t i) {
         const bool strand_ends = std::binary_search(hair.strand_begin.begin(), hair.strand_begin.end(), i + 1);
-        return strand_ends
-                   ? 0.0
-                   : in.ribbon(hair.points[i], hair.points[i + 1], 0.5f * (hair.radii[i] + hair.radii[i + 1]));
+        return strand_ends ? 0.0
+                           : in.ribbon(hair.points[i], hair.points[i + 1], 0.5f * (hair.radii[i] + hair.radii[i + 1]),
+                                       least_width, around);
     });
 }
 
@@ -145,6 +152,22 @@ double filled(const scene::GridVolume& grid) {
     const double count = static_cast<double>(grid.density.size());
     return sum(grid.density.size(), [&](std::size_t i) { return grid.density[i] > 0.0f ? 1.0 : 0.0; }) /
            std::max(count, 1.0);
+}
+
+// Of the voxels that have density.
+double mean_density(const scene::GridVolume& grid) {
+    double dense = 0.0;
+    const double all = sum(grid.density.size(), [&](std::size_t i) {
+        if (grid.density[i] > 0.0f) ++dense;
+        return static_cast<double>(grid.density[i]);
+    });
+    const double looked_at = static_cast<double>(std::min(grid.density.size(), most_looked_at));
+    return dense > 0.0 ? all * looked_at / (static_cast<double>(grid.density.size()) * dense) : 0.0;
+}
+
+double mean_density(const scene::Particles& particles) {
+    return sum(particles.density.size(), [&](std::size_t i) { return static_cast<double>(particles.density[i]); }) /
+           std::max(1.0, static_cast<double>(particles.density.size()));
 }
 
 // The world length of a ray through the middle of the box.
@@ -170,6 +193,11 @@ double mean(const Vec3f& channels) {
     return (static_cast<double>(channels.x) + static_cast<double>(channels.y) + static_cast<double>(channels.z)) / 3.0;
 }
 
+// Of a way through media of this extinction, what lies before almost nothing of the light is left.
+double before_dark(double way, double extinction) {
+    return extinction * way > -std::log(little_left) ? -std::log(little_left) / extinction : way;
+}
+
 // Adds an object that a share of the rays meets, `crossed` times a ray of the map.
 void add_seen(double crossed, double share, double opacity, ExpectedHits& hits) {
     if (!(share > 0.0)) return;
@@ -178,7 +206,7 @@ void add_seen(double crossed, double share, double opacity, ExpectedHits& hits) 
     hits.seen += share * std::min(std::max(crossed / share, 0.0), before_dark);
 }
 
-void add(const Projection& in, const scene::Object& object, bool cells, ExpectedHits& hits) {
+void add(const Projection& in, const scene::Object& object, bool cells, double least_hair, ExpectedHits& hits) {
     if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {
         const double share = covered(in, {grid->lower, grid->upper}, grid->frame ? &*grid->frame : nullptr);
         const double part = share * filled(*grid);
@@ -187,14 +215,23 @@ void add(const Projection& in, const scene::Object& object, bool cells, Expected
         hits.steps += parts;
         hits.grids += parts;
         hits.media = std::min(1.0, hits.media + share);
-        hits.inside += part * chord(*grid);
+        hits.inside += share * before_dark(filled(*grid) * chord(*grid), mean_density(*grid) * mean(object.extinction));
         return;
     }
     const double share = covered(in, scene::bounds(object), nullptr);
+    if (const auto* hair = std::get_if<scene::Hair>(&object.shape)) {
+        const double crossed = crossings(in, *hair, least_hair, 0.0), of_its_width = crossings(in, *hair, 0.0, 0.0);
+        hits.segments += crossed;
+        hits.hair_tests += crossings(in, *hair, least_hair, tested);
+        add_seen(crossed, std::min(1.0, share), crossed > 0.0 ? mean(object.opacity) * of_its_width / crossed : 0.0,
+                 hits);
+        return;
+    }
     double crossed = 0.0;
     std::visit(
         [&](const auto& shape) {
-            if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, scene::GridVolume>)
+            using Shape = std::decay_t<decltype(shape)>;
+            if constexpr (!std::is_same_v<Shape, scene::GridVolume> && !std::is_same_v<Shape, scene::Hair>)
                 crossed = crossings(in, shape);
         },
         object.shape);
@@ -202,7 +239,9 @@ void add(const Projection& in, const scene::Object& object, bool cells, Expected
     if (const auto* particles = std::get_if<scene::Particles>(&object.shape)) {
         hits.media = std::min(1.0, hits.media + std::min(share, crossed));
         hits.steps += crossed;
-        hits.inside += length_inside(in, *particles);
+        if (share > 0.0)
+            hits.inside += share * before_dark(length_inside(in, *particles) / share,
+                                               mean_density(*particles) * mean(object.extinction));
     } else {
         add_seen(crossed, std::min(1.0, std::max(share, 0.0)), mean(object.opacity), hits);
     }
@@ -210,7 +249,8 @@ void add(const Projection& in, const scene::Object& object, bool cells, Expected
 
 }  // namespace
 
-ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& view, bool casters_only, bool cells) {
+ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& view, bool casters_only, bool cells,
+                           double least_hair) {
     ExpectedHits hits;
     if (scene.deep_image) {
         const double pixels = static_cast<double>(scene.deep_image->width) * scene.deep_image->height;
@@ -219,7 +259,13 @@ ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& vie
     }
     const Projection projection(view);
     for (const scene::Object& object : scene.objects)
-        if (object.casts_shadow || !casters_only) add(projection, object, cells, hits);
+        if (object.casts_shadow || !casters_only) add(projection, object, cells, least_hair, hits);
+    return hits;
+}
+
+ExpectedHits expected_hits(const scene::Object& object, const rays::LightView& view, bool cells, double least_hair) {
+    ExpectedHits hits;
+    add(Projection(view), object, cells, least_hair, hits);
     return hits;
 }
 

@@ -13,12 +13,19 @@ struct ExpectedHits {
     double grids = 0.0;     // of its segments, those of grid volumes
     double media = 0.0;     // share of the rays that pass through media
     double inside = 0.0;    // world length of a ray in media, on average
+    // Pieces of hair that a tracer tests for a ray: those around whose boxes it passes.
+    double hair_tests = 0.0;
 };
 
 // For rays spread evenly over the view's map. Of each object at most some ten thousand primitives are looked at, spread
 // evenly. `casters_only`: objects without shadows count as absent. `cells`: grid volumes have a segment for each voxel
-// cell, else for each step.
-ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& view, bool casters_only, bool cells);
+// cell, else for each step. `least_hair`: pixels of the map that hair is at least wide, where narrower hair is widened
+// and lets the more light through (rays::ViewedHair).
+ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& view, bool casters_only, bool cells,
+                           double least_hair = 0.0);
+
+ExpectedHits expected_hits(const scene::Object& object, const rays::LightView& view, bool cells,
+                           double least_hair = 0.0);
 
 // The view of a camera, as if it were a light with one ray a pixel.
 rays::LightView camera_view(const scene::Camera& camera, base::Vec2i resolution);

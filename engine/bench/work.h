@@ -9,16 +9,21 @@
 #include "bench/contender.h"
 #include "bench/expected_hits.h"
 #include "rays/light_rays.h"
+#include "rays/light_view.h"
 #include "scene/scene.h"
 
 namespace shadowbench::bench {
 
 struct LightWork {
+    rays::LightView view;
     double rays = 0.0;            // of its map
     double segments = 0.0;        // of a ray
     double steps = 0.0;           // of these, those of media
+    double grids = 0.0;           // of these, those of grid volumes
     double in_media = 0.0;        // of these, those of pixels that may hold media: all or none
     double exact = 0.0;           // segments of a ray that is traced, exact in grid volumes
+    double media = 1.0;           // share of the rays that pass through media
+    double hair_tests = 0.0;      // of a ray that is traced: see ExpectedHits
     double truth_segments = 0.0;  // of a ray of the truth, without grid volumes
     double pixels = 0.0;          // of the map
     double samples = 1.0;         // rays a pixel
@@ -48,6 +53,9 @@ struct VariantWork {
 // `light`: its number. `contenders`: none where a caller counts the work of its techniques itself.
 LightWork count_work(const scene::Scenario& scenario, std::size_t light, const rays::MapLayout& layout,
                      const rays::LightView& view, std::span<const Contender> contenders);
+
+// Seconds of a tracer's test of a piece of hair.
+inline constexpr double hair_test = 0.18e-6;
 
 // What a structure of a capture costs, beside one of a tracer.
 inline constexpr double capture_share = 0.2;

@@ -1,6 +1,7 @@
 #include "bench/work.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "bench/contender.h"
 #include "bench/load.h"
+#include "bench/seen_places.h"
 #include "document/document.h"
 #include "rays/capture.h"
 #include "rays/light_view.h"
@@ -108,6 +110,45 @@ TEST(ExpectedHits, leave_out_what_joins_strands) {
     EXPECT_NEAR(expected_hits(one(object), square_view(), false, false).segments, 2.0 * 0.2 / 100.0, 1e-8);
 }
 
+// A map of 1 by 4096 pixels was estimated to have seven times the hair that it has.
+TEST(ExpectedHits, of_hair_do_not_depend_on_the_shape_of_the_pixels) {
+    scene::Object object;
+    object.shape = scene::Hair{{{-2, 0, 1}, {-1, 0, 1}}, {0.1f, 0.1f}, {0, 2}};
+    rays::LightView view = square_view();
+    view.pixel = {10.0, 0.01};
+    view.resolution = {1, 1000};
+    EXPECT_NEAR(expected_hits(one(object), view, false, false).segments, 0.2 / 100.0, 1e-4);
+}
+
+// Pictures widen hair: a ball of it took ten times as long as estimated.
+TEST(ExpectedHits, of_widened_hair_are_more_and_reach_deeper) {
+    scene::Hair hair;
+    for (int strand = 0; strand < 10000; ++strand) {
+        hair.strand_begin.push_back(static_cast<std::uint32_t>(hair.points.size()));
+        for (const float x : {-5.0f, 5.0f}) {
+            hair.points.push_back({x, -5.0f + 0.001f * static_cast<float>(strand), 1.0f});
+            hair.radii.push_back(0.005f);
+        }
+    }
+    hair.strand_begin.push_back(static_cast<std::uint32_t>(hair.points.size()));
+    scene::Object object;
+    object.shape = hair;
+    const ExpectedHits thin = expected_hits(one(object), square_view(), false, false);
+    const ExpectedHits wide = expected_hits(one(object), square_view(), false, false, 0.5);
+    EXPECT_NEAR(thin.segments, 10.0, 0.02);
+    EXPECT_NEAR(wide.segments, 50.0, 0.5) << "half a pixel of 0.1 is five times as wide";
+    EXPECT_NEAR(thin.seen, 1.0, 0.01);
+    EXPECT_NEAR(wide.seen, 42.0, 0.5) << "0.8^42 is the first power below 1e-4";
+}
+
+// A tracer tests the pieces whose boxes a ray enters: long ones the more.
+TEST(ExpectedHits, count_tests_of_hair_by_its_length) {
+    scene::Object object;
+    object.shape = scene::Hair{{{-1, 0, 1}, {1, 0, 1}}, {0.1f, 0.1f}, {0, 2}};
+    EXPECT_NEAR(expected_hits(one(object), square_view(), false, false).hair_tests, 2.0 * (0.2 + 2.0 * 0.5) / 100.0,
+                1e-7);
+}
+
 // A grid of a voxel is captured in steps, but traced, and in the truth, as one cell: a million steps were estimated to
 // take minutes to look up.
 TEST_F(CountedWork, of_grids_is_of_steps_for_maps_and_of_cells_for_traced_rays) {
@@ -150,6 +191,27 @@ TEST(ExpectedHits, know_the_way_through_media) {
     EXPECT_NEAR(expected_hits(one(object), square_view(), false, true).steps, 0.04 * 0.5 * 4.0, 1e-6)
         << "two cells for each of two voxels";
     EXPECT_NEAR(hits.segments, hits.steps, 1e-9);
+    object.extinction = base::Vec3f(100.0f);
+    hits = expected_hits(one(object), square_view(), false, false);
+    EXPECT_NEAR(hits.inside, 0.04 * 0.0921, 1e-5) << "of which nothing is seen behind an optical depth of 9.21";
+}
+
+// Nothing is looked up where a camera sees what no map holds.
+TEST(SeenPlaces, are_in_the_map_by_their_share_of_the_picture) {
+    scene::Object object;
+    scene::Mesh ground;
+    ground.positions = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
+    ground.triangles = {{0, 1, 2}, {0, 2, 3}};
+    object.shape = ground;
+    const rays::LightView above = camera_view({{0, 0, 20}, {0, 0, 0}}, {200, 200});
+    rays::LightView map = square_view();
+    EXPECT_EQ(share_in_map(object, above, map), 1.0);
+    map.resolution = {50, 100};
+    EXPECT_NEAR(share_in_map(object, above, map), 0.5, 0.01);
+    object.shape = scene::Hair{{{1, 1, 1}, {2, 2, 1}, {-3, 1, 1}, {-2, 2, 1}}, {1, 1, 1, 1}, {0, 2, 4}};
+    EXPECT_NEAR(share_in_map(object, above, map), 0.5, 1e-9);
+    EXPECT_EQ(share_in_map(object, camera_view({{0, 0, 20}, {0, 0, 40}}, {200, 200}), map), 1.0)
+        << "behind the camera nothing is known";
 }
 
 TEST_F(CountedWork, is_that_of_the_map_the_truth_and_the_techniques) {

@@ -17,6 +17,9 @@ protected:
         scene::Object ball;
         ball.shape = scene::Spheres{{{0, 0, 0}}, {1.0f}};
         scenario_.scene.objects.push_back(ball);
+        work_.view.lower = {-50.0, -50.0};
+        work_.view.pixel = {1.0, 1.0};
+        work_.view.resolution = {100, 100};
         work_.pixels = 1e4;
         work_.rays = 1.6e5;
         work_.segments = work_.exact = work_.truth_segments = 4.0;
@@ -85,6 +88,13 @@ TEST_F(PictureEstimate, ends_where_the_points_fill_the_memory) {
     work_.truth_pixel_rays = work_.truth_samples = 1e6;
     EXPECT_EQ(of(512), sees);
     EXPECT_GT(of(128, 2, 1000), sees) << "the files are read";
+}
+
+// A ball outside the map is lit everywhere.
+TEST_F(PictureEstimate, counts_the_truth_of_points_inside_the_map) {
+    const double inside = of(512);
+    work_.view.lower = {100.0, 100.0};
+    EXPECT_LT(of(512), 0.8 * inside);
 }
 
 // Media have a point for each step of a view ray: up to 64 a pixel.

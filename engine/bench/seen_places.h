@@ -1,0 +1,13 @@
+// Which part of what a camera sees lies inside a light's map, from places of the objects, before any ray is traced.
+#pragma once
+
+#include "rays/light_view.h"
+#include "scene/scene.h"
+
+namespace shadowbench::bench {
+
+// Of some thousand places spread over the object's primitives, of those that the camera's frame holds, the share inside
+// the frame of the light's map: 1 if the camera's frame holds none. What hides what is neglected.
+double share_in_map(const scene::Object& object, const rays::LightView& camera, const rays::LightView& light);
+
+}  // namespace shadowbench::bench
