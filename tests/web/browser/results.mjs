@@ -124,6 +124,10 @@ ofResults['two results that differ'] = async ({page, url, mock}) => {
 
 ofResults['several results in one plot, and over time'] = async ({page, url, mock}) => {
   const jobs = [mock.job('succeeded'), mock.job('succeeded'), mock.job('succeeded', {kind: 'recommendation'})];
+  // The later of the two jobs has the earlier run, of another commit.
+  const result = JSON.parse(readFileSync(join(mock.fixture, 'result.json'), 'utf8'));
+  const of = (commit, started) => ({...result, program: {...result.program, commit}, times: {...result.times, started}});
+  mock.resultOf.set(jobs[0].id, of('bbbbbbbbb222', '2026-11-26T08:00:00Z')).set(jobs[1].id, of('aaaaaaaaa111', '2026-11-25T08:00:00Z'));
   await page.goto(`${url}#/explore`);
   await page.waitForSelector('.boxes input');
   assert.equal(await page.locator('.boxes input').count(), 2, 'a recommendation has points of its own');
@@ -131,7 +135,14 @@ ofResults['several results in one plot, and over time'] = async ({page, url, moc
   for (const box of [0, 1]) await page.locator('.boxes input').nth(box).check();
   await page.waitForSelector('.trend .mark-symbol path');
   assert.match(decodeURIComponent(page.url()), new RegExp(`jobs=${jobs[1].id},${jobs[0].id}$`));
-  assert.deepEqual(await page.locator('.results li a').allInnerTexts(), ['#1 small', '#2 small']);
+  const listed = await page.locator('.results li').allInnerTexts();
+  assert.match(listed[0], /^#1 small 25 Nov 2026[^]*\(aaaaaaaaa\)$/);
+  assert.match(listed[1], /^#2 small 26 Nov 2026[^]*\(bbbbbbbbb\)$/);
+  const tips = await page.locator('.trend').first().locator('.mark-symbol path').evaluateAll((all) => all.map((mark) => mark.getAttribute('aria-label')));
+  assert.deepEqual(tips.map((tip) => tip.split('\n').at(-1)), ['aaaaaaaaa', 'bbbbbbbbb'], 'a point says of which commit it is');
+  const labels = await page.locator('.panel:has(#overlay-title) .mark-text.role-mark text').allTextContents();
+  const names = labels.filter((label) => label && !/^#\d$/.test(label));
+  assert.ok(names.length > 0 && new Set(names).size === names.length, `no two are labelled alike: ${names}`);
   const cells = 2 * 2 * 6, drawn = await page.locator('.panel:has(#overlay-title) .mark-symbol path').count();
   assert.equal(drawn, 2 * cells, 'the cells of both');
   assert.equal(await page.locator('.trend').count(), cells, 'each over time');

@@ -2,12 +2,14 @@
 import assert from 'node:assert/strict';
 import {assertAccessible, assertContrast, openPage, picture} from './harness.mjs';
 import {firstPage} from './first.mjs';
+import {keyboard} from './keyboard.mjs';
 import {looking} from './looking.mjs';
+import {ofPlots} from './plots.mjs';
 import {ofResults} from './results.mjs';
 import {makeFixture, startMock} from './server.mjs';
 
 const text = (page, selector) => page.locator(selector).innerText();
-const states = {...firstPage, ...looking, ...ofResults};
+const states = {...firstPage, ...keyboard, ...looking, ...ofPlots, ...ofResults};
 
 states['no jobs'] = async ({page, url}) => {
   await page.goto(`${url}#/jobs`);
@@ -209,14 +211,15 @@ export default async function run(options) {
     const {mock, url, stop} = await startMock({...options, fixture});
     const {page, close} = await openPage(options.browser, {allowed: url, expected});
     try {
-      await state({page, url, mock});
-      for (const [colorScheme, width] of [['light', 1440], ['light', 1024], ['dark', 390]]) {
-        await page.emulateMedia({colorScheme});
-        await page.setViewportSize({width, height: 900});
-        await assertAccessible(page, {axe: width !== 1024, focus: width === 1440});
-        await assertContrast(page);
-        await picture(page, `state-${name.replaceAll(' ', '-')}-${colorScheme}-${width}`);
-      }
+      await state({page, url, mock, browser: options.browser});
+      for (const colorScheme of ['light', 'dark'])
+        for (const width of [1440, 1024, 390]) {
+          await page.emulateMedia({colorScheme});
+          await page.setViewportSize({width, height: 900});
+          await assertAccessible(page, {focus: width !== 1024});
+          await assertContrast(page);
+          await picture(page, `state-${name.replaceAll(' ', '-')}-${colorScheme}-${width}`);
+        }
       await close();
     } catch (error) {
       error.message = `${name}: ${error.message}`;

@@ -8,7 +8,7 @@ import {levelSample, lookOf, onThemeChange} from '../plots/palette.js';
 import {labelWidth, plot} from '../plots/plot.js';
 import {saveButtons} from '../plots/save.js';
 import {frontOf} from './model.js';
-import {costs, ownFronts, pointsAt, settingsOf} from './settings.js';
+import {costs, labelsOf, ownFronts, pointsAt, settingsOf} from './settings.js';
 
 // series: numbers of techniques.
 export function exploredView({recommendation, series, name, signal}) {
@@ -26,15 +26,15 @@ export function exploredView({recommendation, series, name, signal}) {
     const firsts = new Set(techniques.map((t) => frontOf(points.filter((p) => p.technique === t)).at(-1)));
     const drawn = points.map((p, key) => {
       const {colour, shape} = lookOf(series.get(p.technique));
-      return {key, technique: p.technique, x: p.x, low: p.xLow, high: p.xHigh, y: p.y, yLow: p.low || p.y, yHigh: p.high || p.y, colour, shape, chosen: false,
+      return {key, technique: p.technique, words: p.words, x: p.x, low: p.xLow, high: p.xHigh, y: p.y, yLow: p.low || p.y, yHigh: p.high || p.y, colour, shape, chosen: false,
         fill: p.confirmed ? colour : drawing.colour('panel'), size: p.confirmed ? 150 : 45, labelled: firsts.has(p) || p.confirmed,
         tip: `${p.name}\n${cost.text}: ${write(cost.kind, p.x)}\nerror: ${significant(p.y)}${p.confirmed ? `, 95 %: ${significant(p.low)} to ${significant(p.high)}` : ', measured once'}`};
     });
     const labelled = (width, height) => {
       const at = (p) => ({x: width * logPlace('x', x, p.x), y: height * (1 - logPlace('y', y, p.y))});
-      const named = drawn.filter((p) => p.labelled);
+      const named = drawn.filter((p) => p.labelled), names = labelsOf(named);
       const marks = drawn.filter((p) => !p.labelled).map((p) => ({...at(p), radius: 5, texts: ['']}));
-      const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, points: [...named.map((p) => ({...at(p), radius: 8, texts: [p.technique, ''], first: true})), ...marks]});
+      const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, points: [...named.map((p, i) => ({...at(p), radius: 8, texts: [names[i], ''], first: true})), ...marks]});
       const labels = new Map(named.map((p, i) => [p.key, placed[i]]));
       return drawn.map((p) => ({...p, label: labels.get(p.key)?.text ?? '', dx: labels.get(p.key)?.dx ?? 0, dy: labels.get(p.key)?.dy ?? 0}));
     };

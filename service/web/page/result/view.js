@@ -10,7 +10,7 @@ import {answerView} from './answer.js';
 import {cellView} from './cell.js';
 import {compareView} from './compare.js';
 import {curvesView} from './curves.js';
-import {errors, groupsOf, imagesAreOf, originOf, picturesOf, seriesOf, speeds, unsettledOf} from './model.js';
+import {errors, groupsOf, imagesAreOf, originOf, picturesOf, seriesOf, speeds, unsettledOf, withoutMap} from './model.js';
 import {cellTable, figures} from './table.js';
 import {tradeView} from './trade.js';
 
@@ -70,7 +70,8 @@ function groupView({source, result, images, imagesFault, group, series, signal})
   let budget = allowed > 0 ? allowed : firstBudget(cells, error);
   const first = () => {
     const {fastest, smallest, closest} = answersAt(cells, {error, speed, budget});
-    return Math.max(0, cells.indexOf(fastest ?? smallest ?? closest));
+    const best = fastest ?? smallest ?? closest ?? cells.find((cell) => !withoutMap(cell));
+    return Math.max(0, cells.indexOf(best));
   };
   const asked = Number(address.get('technique')) - 1;
   let chosen = Number.isInteger(asked) && asked >= 0 && asked < cells.length ? asked : first();
