@@ -53,12 +53,13 @@ ofPlots['what has no map is never chosen first'] = async (given) => {
   assert.equal((await names(bytes)).filter((name) => name.includes('ray_traced')).length, 0);
   assert.equal((await names(bytes)).length, 6);
   assert.match(await bytes.innerText(), /Not drawn: 1 ray_traced stores no map/);
-  // Nor is it where no map could be built.
+  // Nor is it where no map could be built, and the first of them has no pictures.
   for (const cell of all.slice(1)) Object.assign(cell, {status: 'failed', reason: 'too large', verdict: 'failed'});
+  images.techniques = images.techniques.filter((own) => own.technique !== 'shadow_map');
   await page.reload();
   await page.waitForSelector('#curves .curve-legend');
   assert.match(await page.locator('#cell-title').innerText(), /shadow_map/);
-  assert.match(await page.locator('img-comparison-slider').getAttribute('aria-label'), /against shadow_map/);
+  assert.match(await page.locator('img-comparison-slider').getAttribute('aria-label'), /against deep/);
 };
 
 ofPlots['the smallest beside the fastest'] = async (given) => {
