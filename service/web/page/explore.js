@@ -5,13 +5,14 @@ import {choice, h, setText} from './dom.js';
 import {moment, plural} from './format.js';
 import {linearAxis, logAxis, logPlace, write} from './plots/axes.js';
 import {placeLabels} from './plots/labels.js';
-import {lookOf, onThemeChange} from './plots/palette.js';
+import {glyph, lookOf, onThemeChange} from './plots/palette.js';
 import {labelWidth, plot} from './plots/plot.js';
 import {saveButtons} from './plots/save.js';
 import {errors, size, speeds} from './result/model.js';
 import {overTime, pointsOfAll} from './result/several.js';
 
 const most = 12;  // results at a time
+const fewPoints = 24;  // have room for the number of their result
 const measures = [...speeds, size];
 const commitOf = (result) => String(result.program?.commit ?? '?').slice(0, 9);
 
@@ -51,8 +52,9 @@ export function exploreView({signal}) {
     drawing.update({
       signals: {...x.signals, ...y.signals}, description: `${points.length} points of ${plural(results.length, 'result')}: ${cost.text} against ${error.text}, log axes.`,
       data(width, height) {
-        const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, points: drawn.map((p) => ({x: width * logPlace('x', x.signals, p.x), y: height * (1 - logPlace('y', y.signals, p.y)), radius: 7,
-          texts: p.of === results.length - 1 ? [p.short, `#${p.of + 1}`, ''] : [`#${p.of + 1}`, '']}))});
+        const latest = (p) => p.of === results.length - 1, number = (p) => (drawn.length > fewPoints ? [] : [`#${p.of + 1}`]);
+        const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, furthest: 13, points: drawn.map((p) => ({x: width * logPlace('x', x.signals, p.x), y: height * (1 - logPlace('y', y.signals, p.y)), radius: 7,
+          texts: [...latest(p) ? [p.short] : [], ...number(p), ''], first: latest(p)}))});
         return {points: drawn.map((p, i) => ({...p, label: placed[i].text, dx: placed[i].dx, dy: placed[i].dy})), front: [], levels: [], band: [],
           lines: lines.map((l) => ({...l, x: zero(l.x, x), y: zero(l.y, y), colour: lookOf(titles.indexOf(l.of)).colour}))};
       },
@@ -60,7 +62,8 @@ export function exploreView({signal}) {
     return h('section', {class: 'panel', 'aria-labelledby': 'overlay-title'},
       h('div', {class: 'panel-head'}, h('h2', {id: 'overlay-title'}, 'In one plot'), saveButtons(box, () => 'results', () => ({title: 'Several results', up: `↑ ${error.text}`, across: `${cost.text} →`}))),
       h('p', {class: 'axis-title'}, `↑ ${error.text}`), box, h('p', {class: 'axis-title across'}, `${cost.text} →`),
-      h('p', {class: 'note'}, 'Full marks are of the last result, open ones of those before. A line joins a cell over the results.'));
+      h('ul', {class: 'levels'}, titles.map((technique, i) => h('li', {}, glyph(i), ` ${technique}`))),
+      h('p', {class: 'note'}, 'Full marks are of the last result, open ones of those before. A line joins a cell over the results. Point at a mark for its name.'));
   }
 
   async function draw() {

@@ -172,7 +172,7 @@ states['options reach the server'] = async ({page, url, mock}) => {
   await page.locator('#scenario').fill(scenario.replace('"rays": {', '"rays": {"seed": 12345678901234567891, '));
   await page.waitForSelector('.verdict-box .good');
   await page.uncheck('#pictures');
-  await page.selectOption('.actions select', 'fresh');
+  await page.selectOption('.choice:has-text("Known results") select', 'fresh');
   await page.click('#run');
   await page.waitForURL(/#\/jobs\/j-/);
   assert.deepEqual(mock.jobs[0].options, {cache: 'fresh', pictures: false});

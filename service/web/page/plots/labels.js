@@ -16,15 +16,15 @@ function overlap(a, b) {
 // points: {x, y, texts, radius, first}, in pixels; lines: [x0, y0, x1, y1], horizontal or vertical. Each point gets the
 // first of its texts that has a free place, or the last one; those that are `first` choose before the others. Returns for
 // each point {text, dx, dy}, with the offset of the middle of the text. Avoiding marks and labels comes before lines.
-// widthOf(text): in pixels.
-export function placeLabels({points, lines, width, height, widthOf = guess}) {
+// widthOf(text): in pixels. furthest: how far a label may stand from its mark, in pixels.
+export function placeLabels({points, lines, width, height, widthOf = guess, furthest = Infinity}) {
   const marks = points.map((p) => boxOf(p.x, p.y, p.radius, p.radius));
   const strokes = lines.map(([x0, y0, x1, y1]) => ({left: Math.min(x0, x1) - 1, right: Math.max(x0, x1) + 1, top: Math.min(y0, y1) - 1, bottom: Math.max(y0, y1) + 1}));
   const taken = [], placed = [];
   const place = (p, text) => {
     const halfWidth = widthOf(text) / 2 + 2, halfHeight = line / 2;
     let best = null;
-    for (const reach of reaches)
+    for (const reach of reaches.filter((r) => r <= furthest))
       for (const [right, down] of directions) {
         const dx = right * (p.radius + halfWidth + reach), dy = down * (p.radius + (right ? 0 : halfHeight) + reach);
         const box = boxOf(p.x + dx, p.y + dy, halfWidth, halfHeight);
