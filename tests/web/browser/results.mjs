@@ -18,7 +18,8 @@ ofResults['a recommendation'] = async ({page, url, mock}) => {
   result.recommendation = {light: 'key', measure: 'rms', goal: {error: 0.02, cheapest: ['bytes'], at_most: {}, budget_seconds: 9}, end: 'complete', steal: null, scout: null,
     families: [{technique: 'deep', name: 'deep', axes, mapless: false}, {technique: 'ray_traced', name: 'ray_traced', axes, mapless: true}],
     measured: [at(0, 0, 0.05, 10, 1000), at(0, 1, 0.019, 20, 4000), at(1, 0, 0.01, 900, 0)],
-    confirmed: [{family: 0, step: [1, 0], failed: '', cut: false, error: {mean: 0.019, interval95: [0.018, 0.02]}, lookup_ns: sample(20), bytes: sample(4000), build_ms: sample(2)}]};
+    confirmed: [{family: 0, step: [0, 0], failed: '', cut: false, error: {mean: 0.05, interval95: [0.049, 0.052]}, lookup_ns: sample(10), bytes: sample(1000), build_ms: sample(2)},
+      {family: 0, step: [1, 0], failed: '', cut: false, error: {mean: 0.019, interval95: [0.018, 0.02]}, lookup_ns: sample(20), bytes: sample(4000), build_ms: sample(2)}]};
   mock.results = result;
   await page.goto(`${url}#/jobs`);
   await page.waitForSelector('.jobs tbody tr');
@@ -29,6 +30,8 @@ ofResults['a recommendation'] = async ({page, url, mock}) => {
   const marks = page.locator('#explored .mark-symbol path');
   await marks.first().waitFor();
   assert.equal(await marks.count(), 3);
+  assert.deepEqual(await page.locator('#explored .labels_marks text').allTextContents(), ['deep resolution=32', 'deep resolution=64', 'ray_traced'], 'labels name what differs');
+  assert.match(await text(page, '#explored .levels'), /the error asked for: 0\.02\s+deep\s+ray_traced/);
   assert.match(await marks.nth(1).getAttribute('aria-label'), /deep, resolution=64\s+one lookup: 20 ns\s+error: 0\.019, 95 %: 0\.018 to 0\.02/);
   await page.selectOption('#explored select', 'bytes');
   await page.waitForFunction(() => document.querySelectorAll('#explored .mark-symbol path').length === 2);
