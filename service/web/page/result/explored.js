@@ -16,7 +16,7 @@ export function exploredView({recommendation, series, name, signal}) {
   const goal = recommendation.goal.error;
   const drawing = plot('trade', {label: 'Settings that were measured', signal,
     theme: () => ({ink: drawing.colour('ink'), muted: drawing.colour('muted'), paper: drawing.colour('panel'), shade: drawing.colour('grid')})});
-  const place = h('div', {class: 'plot-place'}, drawing.element), key = h('ul', {class: 'levels'}), up = h('p', {class: 'axis-title'}), across = h('p', {class: 'axis-title across'});
+  const place = h('div', {class: 'plot-place'}, drawing.element), legend = h('ul', {class: 'levels'}), up = h('p', {class: 'axis-title'}), across = h('p', {class: 'axis-title across'});
   const picker = choice('Cost', costs.map((c) => ({value: c.id, text: c.text})), '', (id) => { address.go({cost: id}); draw(); });
   function draw() {
     const cost = costs.find((c) => c.id === address.get('cost')) ?? costs[0];
@@ -42,7 +42,7 @@ export function exploredView({recommendation, series, name, signal}) {
     };
     setText(up, `↑ error, ${recommendation.measure}`);
     setText(across, `${cost.text} →`);
-    key.replaceChildren(h('li', {}, levelSample([6, 3]), ` the error asked for: ${significant(goal)}`),
+    legend.replaceChildren(h('li', {}, levelSample([6, 3]), ` the error asked for: ${significant(goal)}`),
       ...techniques.filter((t) => points.some((p) => p.technique === t)).map((t) => h('li', {}, glyph(series.get(t)), ` ${t}`)));
     const lines = ownFronts(points).map((p) => ({...p, colour: lookOf(series.get(p.technique)).colour}));
     drawing.update({
@@ -56,7 +56,6 @@ export function exploredView({recommendation, series, name, signal}) {
   return h('section', {class: 'panel', id: 'explored', 'aria-labelledby': 'explored-title'},
     h('div', {class: 'panel-head'}, h('h2', {id: 'explored-title'}, 'What was measured'),
       h('div', {class: 'choices'}, picker, saveButtons(place, () => `${name}.explored`, () => ({title: `${name}: settings measured`, up: up.textContent, across: across.textContent})))),
-    up, place, across,
-    key,
+    up, place, across, legend,
     h('p', {class: 'note'}, 'Full marks are confirmed, with 95 % intervals; open ones were measured once. Lines join the settings of a technique that no other of its own beats.'));
 }
