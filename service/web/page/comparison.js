@@ -1,7 +1,7 @@
 // Compares two results, each of a job or a file: every measure gets a verdict.
 import {get, post} from './api.js';
 import {announce, choice, download, h, setText} from './dom.js';
-import {csvOf, moment, significant} from './format.js';
+import {bytes, csvOf, moment, significant} from './format.js';
 import {verdictMark} from './result/table.js';
 
 const sides = [['baseline', 'Baseline'], ['current', 'Current']];
@@ -20,12 +20,12 @@ function changeOf({time, reason}) {
 
 function lineTable(lines) {
   const heads = [['Cell'], ['Measure'], ['Verdict'], ['Baseline', 'number'], ['Current', 'number'], ['Change']];
-  const number = (value, unit) => h('td', {class: 'number'}, significant(value, 5), value !== null && unit && h('small', {}, ` ${unit}`));
+  const number = (value, {unit, measure}) => h('td', {class: 'number'}, /bytes$/.test(measure) && value !== null ? bytes(value, 4) : significant(value, 5), value !== null && unit && h('small', {}, ` ${unit.replace(/^x /, '× ')}`));
   return h('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Table of verdicts'},
     h('table', {class: 'cells lines'}, h('caption', {class: 'hidden'}, 'Every measure of every technique, those that need attention first'),
       h('thead', {}, h('tr', {}, heads.map(([text, kind]) => h('th', {scope: 'col', class: kind}, text)))),
       h('tbody', {}, lines.map((line) => h('tr', {}, h('th', {scope: 'row'}, line.title), h('td', {}, line.measure || 'all'), h('td', {}, verdictMark(line)),
-        number(line.baseline, line.unit), number(line.current, line.unit), h('td', {class: 'change'}, changeOf(line)))))));
+        number(line.baseline, line), number(line.current, line), h('td', {class: 'change'}, changeOf(line)))))));
 }
 
 // All verdicts, with all digits.
@@ -83,7 +83,10 @@ function sidePicker(label, jobs, id, changed, failed) {
   const select = job.querySelector('select');
   return h('fieldset', {class: 'side', ondragover: (event) => event.preventDefault(), ondrop: (event) => {
     event.preventDefault();
-    if (event.dataTransfer.files[0]) take(event.dataTransfer.files[0]);
+    const {files} = event.dataTransfer;
+    if (!files[0]) return;
+    file.files = files;
+    take(files[0]);
   }}, h('legend', {}, label), job, h('label', {class: 'choice'}, h('span', {}, 'or a result.json'), file), said);
 }
 
@@ -106,8 +109,13 @@ export function comparisonView({ids, signal}) {
       place.replaceChildren(answerView(answer));
       announce(outcomeOf(answer));
     } catch (error) {
-      if (!signal.aborted && mine === turn) failed(error.message);
+      if (!signal.aborted && mine === turn) failed(error.errors?.length ? error.errors.map(sentence).join(' ') : error.message);
     }
+  }
+  // A fault of a side names it and its file in words.
+  function sentence({pointer, detail}) {
+    const [side, label] = sides.find(([name]) => pointer === `/${name}` || pointer?.startsWith(`/${name}/`)) ?? [];
+    return side ? `${label}: ${chosen[side].name ?? chosen[side].job}: ${detail}.` : `${pointer} ${detail}.`;
   }
   function pick(side, what) {
     chosen[side] = what;
@@ -118,6 +126,6 @@ export function comparisonView({ids, signal}) {
     (error) => { if (!signal.aborted) setText(problem, error.message); });
   draw();
   return h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Compare two results')),
-    h('p', {class: 'purpose'}, 'Bytes, nodes, errors and promises are the same on every machine and are judged by tolerance. Times of two single runs decide nothing; shadowbench ab judges times.'),
-    h('section', {class: 'panel', 'aria-label': 'The two results'}, pickers), problem, place);
+    h('p', {class: 'purpose'}, 'Bytes, nodes, errors and promises are the same on every machine and are judged by tolerance. Times of two single runs decide nothing; ', h('code', {}, 'shadowbench ab'), ' judges times.'),
+    h('section', {class: 'panel', 'aria-label': 'The two results'}, pickers, problem), place);
 }

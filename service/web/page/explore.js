@@ -4,7 +4,7 @@ import {get} from './api.js';
 import {choice, h, setText} from './dom.js';
 import {moment, plural} from './format.js';
 import {linearAxis, logAxis, logPlace, write} from './plots/axes.js';
-import {placeLabels} from './plots/labels.js';
+import {labelFields, placeLabels} from './plots/labels.js';
 import {glyph, lookOf, onThemeChange} from './plots/palette.js';
 import {labelWidth, plot} from './plots/plot.js';
 import {saveButtons} from './plots/save.js';
@@ -55,7 +55,7 @@ export function exploreView({signal}) {
         const latest = (p) => p.of === results.length - 1, number = (p) => (drawn.length > fewPoints ? [] : [`#${p.of + 1}`]);
         const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, furthest: 13, points: drawn.map((p) => ({x: width * logPlace('x', x.signals, p.x), y: height * (1 - logPlace('y', y.signals, p.y)), radius: 7,
           texts: [...latest(p) ? [p.short] : [], ...number(p), ''], first: latest(p)}))});
-        return {points: drawn.map((p, i) => ({...p, label: placed[i].text, dx: placed[i].dx, dy: placed[i].dy})), front: [], levels: [], band: [],
+        return {points: drawn.map((p, i) => ({...p, ...labelFields(placed[i])})), front: [], levels: [], band: [],
           lines: lines.map((l) => ({...l, x: zero(l.x, x), y: zero(l.y, y), colour: lookOf(titles.indexOf(l.of)).colour}))};
       },
     });
@@ -106,7 +106,7 @@ export function exploreView({signal}) {
       const ids = asked().filter((id) => id !== job.id);
       address.go({jobs: (event.target.checked ? [...ids, job.id] : ids).join(',') || null});
       draw();
-    }}), `${job.name}, ${moment(job.created)}`)));
+    }}), `${job.name}, ${moment(job.created)}, ${job.id}`)));
     draw();
   }, (error) => { if (!signal.aborted) setText(problem, error.message); });
   addEventListener('hashchange', draw, {signal});

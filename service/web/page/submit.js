@@ -1,5 +1,6 @@
 // The page on which the user edits and submits a scenario.
 import {get, post} from './api.js';
+import {typesOf} from './choices.js';
 import {choice, h, setText} from './dom.js';
 import {filePicker} from './files.js';
 import {choicesForm} from './form.js';
@@ -54,12 +55,18 @@ function faultsOf(problem, text) {
   });
 }
 
-function summaryOf(answer) {
-  const parts = [plural(answer.variants, 'variant'), plural(answer.lights, 'light'), plural(answer.techniques, 'technique')];
+// A technique may stand in a scenario with several settings; "*" stands for all.
+function techniquesOf(answer, text) {
+  const types = typesOf(JSON.parse(text), []).size;
+  return types > 1 && types < answer.techniques && !text.includes('"*"') ? `${answer.techniques} settings of ${types} techniques` : plural(answer.techniques, 'technique');
+}
+
+function summaryOf(answer, text) {
+  const parts = [plural(answer.variants, 'variant'), plural(answer.lights, 'light'), techniquesOf(answer, text)];
   const {seconds: time, bytes: memory} = answer.estimate ?? {};
   if (Number.isFinite(time)) parts.push(`about ${seconds(time)}`);
   if (Number.isFinite(memory)) parts.push(`at least ${bytes(memory)}`);
-  return `Valid: ${parts.join(', ')}.`;
+  return `Valid: ${parts.map((part) => part.replace(/(\d) (?=\S+$)/, '$1\u00a0')).join(', ')}.`;
 }
 
 function newKey() {
@@ -95,7 +102,7 @@ export function submitView({draft, signal, go}) {
       const answer = await post('/v1/validate', text, {}, signal);
       if (turn !== checks) return;
       edit.mark([]);
-      verdict.replaceChildren(h('p', {class: 'good'}, h('span', {'aria-hidden': 'true'}, '✓ '), summaryOf(answer)),
+      verdict.replaceChildren(h('p', {class: 'good'}, h('span', {'aria-hidden': 'true'}, '✓ '), summaryOf(answer, text)),
         ...(answer.notes ?? []).map((note) => h('p', {class: 'note'}, note)));
     } catch (error) {
       if (signal.aborted || turn !== checks) return;

@@ -219,6 +219,7 @@ export class Mock {
     if (part === 'result') return this.file(response, join(this.fixture, 'result.json'));
     if (part === 'curves') return this.json(response, 200, curvesOf(url.searchParams.get('light'), Number(url.searchParams.get('x')), Number(url.searchParams.get('y'))));
     const name = path.slice(4).join('/');
+    if (part === 'artifacts' && typeof this.files[name] === 'string') return response.writeHead(200, {'Content-Type': 'text/plain; charset=utf-8'}).end(this.files[name]);
     if (part === 'artifacts' && this.files[name]) return this.json(response, 200, this.files[name]);
     return part === 'artifacts' ? this.file(response, join(this.fixture, normalize(name))) : this.problem(response, 404, 'There is no such file.');
   }

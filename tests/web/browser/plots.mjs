@@ -52,7 +52,7 @@ ofPlots['what has no map is never chosen first'] = async (given) => {
   assert.equal((await names(speed)).filter((name) => name.includes('ray_traced')).length, 1);
   assert.equal((await names(bytes)).filter((name) => name.includes('ray_traced')).length, 0);
   assert.equal((await names(bytes)).length, 6);
-  assert.match(await bytes.innerText(), /Not drawn: 1 ray_traced stores no map/);
+  assert.match(await bytes.innerText(), /Not drawn: ray_traced \(1\) stores no map/);
   // Nor is it where no map could be built, and the first of them has no pictures.
   for (const cell of all.slice(1)) Object.assign(cell, {status: 'failed', reason: 'too large', verdict: 'failed'});
   images.techniques = images.techniques.filter((own) => own.technique !== 'shadow_map');

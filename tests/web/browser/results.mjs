@@ -26,7 +26,7 @@ ofResults['a recommendation'] = async ({page, url, mock}) => {
   for (const words of ['recommendation', 'error not reached']) assert.ok((await text(page, '.jobs')).includes(words), words);
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForSelector('.cells tbody tr');
-  assert.match(await text(page, 'pre.answer'), /at most 0\.02/);
+  assert.equal(await text(page, 'pre.answer'), 'rms error at most 0.02 with 95 % confidence');
   const marks = page.locator('#explored .mark-symbol path');
   await marks.first().waitFor();
   assert.equal(await marks.count(), 3);
@@ -83,7 +83,7 @@ ofResults['pictures that could not be made'] = async ({page, url, mock}) => {
   mock.files['images/error.json'] = {error: {code: 65, where: '/receivers', message: 'the camera sees no <b>surface</b>'}};
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForSelector('#curves .curve-legend');
-  assert.match(await text(page, 'main'), /Pictures could not be made: \/receivers the camera sees no <b>surface<\/b>\./);
+  assert.match(await text(page, 'main'), /Pictures could not be made: \/receivers: the camera sees no <b>surface<\/b>\./);
 };
 
 ofResults['legends of the scale that was stored'] = async ({page, url, mock}) => {
@@ -143,7 +143,7 @@ ofResults['several results in one plot, and over time'] = async ({page, url, moc
   assert.match(listed[1], /^#2 small 26 Nov 2026[^]*\(bbbbbbbbb\)$/);
   const tips = await page.locator('.trend').first().locator('.mark-symbol path').evaluateAll((all) => all.map((mark) => mark.getAttribute('aria-label')));
   assert.deepEqual(tips.map((tip) => tip.split('\n').at(-1)), ['aaaaaaaaa', 'bbbbbbbbb'], 'a point says of which commit it is');
-  const labels = await page.locator('.panel:has(#overlay-title) .mark-text.role-mark text').allTextContents();
+  const labels = await page.locator('.panel:has(#overlay-title) .labels_marks text').allTextContents();
   const names = labels.filter((label) => label && !/^#\d$/.test(label));
   assert.ok(names.length > 0 && new Set(names).size === names.length, `no two are labelled alike: ${names}`);
   const cells = 2 * 2 * 6, drawn = await page.locator('.panel:has(#overlay-title) .mark-symbol path').count();
@@ -170,6 +170,6 @@ ofResults['a file that is not a result'] = async ({page, url, mock}) => {
     data.items.add(new File(['{"seed": 12345678901234567891}'], 'mine.json'));
     side.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
   });
-  await page.waitForFunction(() => document.querySelector('.problem').textContent === '/current: not a result of run');
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'Current: mine.json: not a result of run.');
   assert.equal(mock.comparedText, `{"baseline": {"job":"${job.id}"}, "current": {"result": {"seed": 12345678901234567891}}}`);
 };

@@ -118,12 +118,18 @@ states['a job in the queue is cancelled'] = async ({page, url, mock}) => {
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForFunction(() => document.querySelector('.stage-text')?.textContent === 'Queued: 2 before it');
   await page.click('.progress button');
-  await page.waitForFunction(() => document.querySelector('.fault')?.textContent.includes('The job was cancelled'));
+  await page.waitForFunction(() => document.querySelector('.ended')?.textContent.includes('The job was cancelled'));
+  assert.equal(await page.locator('.fault').count(), 0, 'which is no alarm');
 };
 
 states['no such job'] = async ({page, url}) => {
   await page.goto(`${url}#/jobs/j-none`);
-  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'There is no such job.');
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'There is no job j-none, or it was deleted.');
+  assert.equal(await text(page, 'h1'), 'No such job');
+  await page.click('main a:has-text("All jobs")');
+  await page.waitForSelector('.empty:not([hidden])');
+  await page.goBack();
+  await page.waitForFunction(() => document.querySelector('h1').textContent === 'No such job');
 };
 
 states['text that is not JSON'] = async ({page, url}) => {

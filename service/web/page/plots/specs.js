@@ -21,8 +21,8 @@ function axis(name, type, extra = {}, clamp = true) {
 const range = (name, low, high) => ({[`${name}_low`]: low, [`${name}_high`]: high, [`${name}_ticks`]: [low, high], [`${name}_labels`]: ['', '']});
 const ink = {expr: 'ink'}, muted = {expr: 'muted'}, paper = {expr: 'paper'};
 
-// Cost against error. points: {key, x, low, high, y, yLow, yHigh, colour, fill, shape, size, chosen, tip, label}, and dx and
-// dy of the label's middle; lines: {technique, x, y, order, colour}; front: {x, y, order, dash}, from left to right;
+// Cost against error. points: {key, x, low, high, y, yLow, yHigh, colour, fill, shape, size, chosen, tip, label}, dx and
+// dy of the label's middle, and fromX, fromY, toX, toY of a line to it, all as offsets in pixels; lines: {technique, x, y, order, colour}; front: {x, y, order, dash}, from left to right;
 // band: {x, y, y2}, where the front may be; levels: {y, dash}, explained in the text below the plot. Intervals are drawn
 // `across` and `upright`. The groups of marks have the names of the layers as classes: g.lines_marks.
 const xy = {x: {field: 'x', ...axis('x', 'log')}, y: {field: 'y', ...axis('y', 'log')}};
@@ -73,6 +73,16 @@ const trade = {
             fill: asIs('fill'), stroke: asIs('colour'), shape: asIs('shape'), size: {field: 'size', type: 'quantitative', scale: null, legend: null},
             tooltip: {field: 'tip'}, description: {field: 'tip'},
           },
+        },
+        {
+          name: 'leads',
+          mark: {type: 'rule', strokeWidth: 1, xOffset: {expr: 'datum.fromX'}, x2Offset: {expr: 'datum.toX'}, yOffset: {expr: 'datum.fromY'}, y2Offset: {expr: 'datum.toY'}, aria: false},
+          encoding: {x2: {field: 'x'}, y2: {field: 'y'}, color: asIs('colour')},
+        },
+        {
+          name: 'halos',
+          mark: {type: 'text', dx: {expr: 'datum.dx'}, dy: {expr: 'datum.dy'}, fontSize: 11, fontWeight: 600, fill: paper, stroke: paper, strokeWidth: 4, opacity: 0.85, aria: false},
+          encoding: {text: {field: 'label'}},
         },
         {
           name: 'labels', mark: {type: 'text', dx: {expr: 'datum.dx'}, dy: {expr: 'datum.dy'}, fontSize: 11, fontWeight: 600, fill: ink, aria: false},

@@ -3,7 +3,7 @@ import {address} from '../address.js';
 import {choice, h, setText} from '../dom.js';
 import {significant} from '../format.js';
 import {logAxis, logPlace, write} from '../plots/axes.js';
-import {placeLabels} from '../plots/labels.js';
+import {labelFields, placeLabels} from '../plots/labels.js';
 import {glyph, levelSample, lookOf, onThemeChange} from '../plots/palette.js';
 import {labelWidth, plot} from '../plots/plot.js';
 import {saveButtons} from '../plots/save.js';
@@ -38,7 +38,7 @@ export function exploredView({recommendation, series, name, signal}) {
       const marks = drawn.filter((p) => !p.labelled).map((p) => ({...at(p), radius: 5, texts: ['']}));
       const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, furthest: 22, points: [...named.map((p, i) => ({...at(p), radius: 8, texts: [names[i], ''], first: p.confirmed})), ...marks]});
       const labels = new Map(named.map((p, i) => [p.key, placed[i]]));
-      return drawn.map((p) => ({...p, label: labels.get(p.key)?.text ?? '', dx: labels.get(p.key)?.dx ?? 0, dy: labels.get(p.key)?.dy ?? 0}));
+      return drawn.map((p) => ({...p, ...labelFields(labels.get(p.key) ?? {text: '', dx: 0, dy: 0, lead: null})}));
     };
     setText(up, `↑ error, ${recommendation.measure}`);
     setText(across, `${cost.text} →`);
@@ -50,6 +50,8 @@ export function exploredView({recommendation, series, name, signal}) {
       description: `${points.length} settings of ${techniques.length} techniques: ${cost.text} against error, log axes; the error asked for is ${significant(goal)}.`,
     });
   }
+  if (!settings.length)
+    return h('section', {class: 'panel', id: 'explored', 'aria-labelledby': 'explored-title'}, h('h2', {id: 'explored-title'}, 'What was measured'), h('p', {class: 'note'}, 'No setting was measured that kept its promises.'));
   draw();
   onThemeChange(draw, signal);
   addEventListener('hashchange', draw, {signal});

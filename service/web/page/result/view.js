@@ -137,7 +137,7 @@ function groupView({source, result, images, imagesFault, group, series, signal})
     cellPlace,
     compare?.element ?? h('section', {class: 'panel quiet-panel', 'aria-label': 'Pictures'}, h('p', {class: 'note'},
       images ? 'The pictures show another variant.'
-        : imagesFault ? ['Pictures could not be made: ', imagesFault.where && h('code', {}, imagesFault.where), ` ${imagesFault.message}.`] : 'There are no pictures of this result.')),
+        : imagesFault ? ['Pictures could not be made: ', imagesFault.where && [h('code', {}, imagesFault.where), ': '], `${imagesFault.message}.`] : 'There are no pictures of this result.')),
     curves?.element,
     h('section', {class: 'panel quiet-panel', 'aria-label': 'Capture'}, captureOf(group.light, originOf(result, group)),
       group.light.sees_nothing && h('p', {class: 'note'}, 'This light sees nothing that casts a shadow.')));
