@@ -34,6 +34,8 @@ function rowsOf(lines) {
     ...lines.map((line) => [line.title, line.measure || 'all', line.verdict, line.baseline, line.current, line.unit, changeOf(line)])];
 }
 
+const upper = (text) => text.slice(0, 1).toUpperCase() + text.slice(1);
+
 // The outcome without the exit code of the command line.
 function outcomeOf(answer) {
   return answer.outcome.replace(/^exit code \d+: /, '');
@@ -52,9 +54,9 @@ function answerView(answer) {
     h('div', {class: 'panel-head'}, h('h2', {id: 'verdicts-title'}, 'Verdicts'),
       h('div', {class: 'choices'}, h('button', {type: 'button', class: 'quiet small', 'aria-label': 'Save the verdicts as CSV', onclick: csv}, 'CSV'), choice('Show', [{value: 'differ', text: `what differs (${differ.length})`}, {value: 'all', text: `all (${answer.lines.length})`},
         ...counts.map(([verdict, n]) => ({value: verdict, text: `${verdict} (${n})`}))], 'differ', show))),
-    h('p', {class: `outcome ${answer.exit_code ? 'bad-title' : 'good'}`}, `${outcome[0].toUpperCase()}${outcome.slice(1)}.`),
+    h('p', {class: `outcome ${answer.exit_code ? 'bad-title' : 'good'}`}, `${upper(outcome)}.`),
     h('p', {}, `${counts.map(([verdict, n]) => `${n} ${verdict}`).join(', ')}.`),
-    h('p', {class: 'note'}, [answer.method, answer.sensitivity].filter(Boolean).join('; ')),
+    h('p', {class: 'note'}, upper([answer.method, answer.sensitivity].filter(Boolean).join('; '))),
     answer.notes.map((note) => h('p', {class: 'note'}, note)),
     answer.fronts.length > 0 && [h('h3', {class: 'part'}, 'Fronts'), h('ul', {class: 'fronts'}, answer.fronts.map((front) => h('li', {}, front.text)))],
     place);

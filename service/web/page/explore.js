@@ -2,7 +2,7 @@
 import {address} from './address.js';
 import {get} from './api.js';
 import {choice, h, setText} from './dom.js';
-import {moment, plural} from './format.js';
+import {bytes, moment, plural} from './format.js';
 import {linearAxis, logAxis, logPlace, write} from './plots/axes.js';
 import {labelFields, placeLabels} from './plots/labels.js';
 import {glyph, lookOf, onThemeChange} from './plots/palette.js';
@@ -16,6 +16,13 @@ const fewPoints = 24;  // have room for the number of their result
 const measures = [...speeds, size];
 const commitOf = (result) => String(result.program?.commit ?? '?').slice(0, 9);
 
+// Ticks at round numbers, of bytes in the unit that they are written in.
+function roundAxis(kind, low, high) {
+  const unit = kind === 'bytes' ? 1024 ** Math.max(0, Math.floor(Math.log2(high) / 10)) : 1, axis = linearAxis('y', low / unit, high / unit, 4);
+  const ticks = axis.y_ticks.map((v) => v * unit);
+  return {y_low: axis.y_low * unit, y_high: axis.y_high * unit, y_ticks: ticks, y_labels: ticks.map((v) => (kind === 'bytes' ? bytes(v, 5) : write(kind, v)))};
+}
+
 function trendOf({title, points}, measure, results, signal) {
   const values = points.flatMap((p) => [p.low, p.high]), low = Math.min(...values), high = Math.max(...values), room = Math.max((high - low) * 0.12, Math.abs(high) * 0.02);
   const drawing = plot('trend', {signal, label: `${title}, ${measure.text}: ${points.map((p) => write(measure.kind, p.value)).join(', ')}`,
@@ -23,7 +30,7 @@ function trendOf({title, points}, measure, results, signal) {
   const x = linearAxis('x', -0.4, results.length - 0.6, Math.min(6, results.length - 1));
   x.x_ticks = results.map((_, i) => i);
   x.x_labels = results.map((_, i) => `#${i + 1}`);
-  drawing.update({signals: {...x, ...linearAxis('y', low - room, high + room, 4, (v) => write(measure.kind, v))}, data: {since: [], points: points.map((p) => ({...p,
+  drawing.update({signals: {...x, ...roundAxis(measure.kind, low - room, high + room)}, data: {since: [], points: points.map((p) => ({...p,
     tip: `${write(measure.kind, p.value)}\n${moment(results[p.i].result.times?.started)}\n${commitOf(results[p.i].result)}`}))}});
   return h('figure', {class: 'trend'}, h('figcaption', {}, h('strong', {}, title)), drawing.element);
 }
@@ -92,7 +99,9 @@ export function exploreView({signal}) {
       picker.dataset.part = name;
       return picker;
     };
-    const trends = results.length > 1 ? overTime(results.map((r) => r.result), over) : [];
+    const changes = ({points}) => Math.max(...points.map((p) => p.value)) !== Math.min(...points.map((p) => p.value));
+    // Those that change come first.
+    const trends = results.length > 1 ? overTime(results.map((r) => r.result), over).sort((a, b) => changes(b) - changes(a)) : [];
     return [
       h('ol', {class: 'results'}, results.map((r, i) => h('li', {}, h('a', {href: `#/jobs/${r.id}`}, `#${i + 1} ${r.result.name}`),
         ` ${moment(r.result.times?.started)}, ${r.result.program?.version ?? '?'} (${commitOf(r.result)})`))),

@@ -8,6 +8,7 @@ import {glyph, levelSample, lookOf, onThemeChange} from '../plots/palette.js';
 import {labelWidth, plot} from '../plots/plot.js';
 import {saveButtons} from '../plots/save.js';
 import {frontOf} from './model.js';
+import {measures} from './recommended.js';
 import {costs, labelsOf, ownFronts, pointsAt, settingsOf} from './settings.js';
 
 // series: numbers of techniques.
@@ -40,7 +41,7 @@ export function exploredView({recommendation, series, name, signal}) {
       const labels = new Map(named.map((p, i) => [p.key, placed[i]]));
       return drawn.map((p) => ({...p, ...labelFields(labels.get(p.key) ?? {text: '', dx: 0, dy: 0, lead: null})}));
     };
-    setText(up, `↑ error, ${recommendation.measure}`);
+    setText(up, `↑ error, ${measures[recommendation.measure] ?? recommendation.measure}`);
     setText(across, `${cost.text} →`);
     legend.replaceChildren(h('li', {}, levelSample([6, 3]), ` the error asked for: ${significant(goal)}`),
       ...techniques.filter((t) => points.some((p) => p.technique === t)).map((t) => h('li', {}, glyph(series.get(t)), ` ${t}`)));

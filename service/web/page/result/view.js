@@ -128,9 +128,8 @@ function groupView({source, result, images, imagesFault, group, series, signal})
   const csv = () => download(`${result.name ?? 'result'}.csv`, 'text/csv', csvOf(figures(cells)));
   return h('div', {class: 'stack'},
     answer.element,
-    unsettled && h('p', {class: 'unsettled', role: 'note'}, h('strong', {}, 'Unsettled. '),
-      `${unsettled}. Times may be off by as much, and the front of time and error and rankings by time with them. ` +
-      'Run it again on a quiet machine.'),
+    unsettled && h('details', {class: 'unsettled'}, h('summary', {}, h('strong', {}, 'Unsettled. '), 'Times, and all that is ranked by time, may be off. Run it again on a quiet machine.'),
+      h('p', {}, `${unsettled}. Times may be off by as much, and the front of time and error with them.`)),
     trade.element,
     h('section', {class: 'panel', 'aria-labelledby': 'table-title'},
       h('div', {class: 'panel-head'}, h('h2', {id: 'table-title'}, 'All figures'), h('button', {type: 'button', class: 'quiet small', onclick: csv, 'aria-label': 'Save the table as CSV'}, 'CSV')), tablePlace),
