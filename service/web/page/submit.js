@@ -66,7 +66,7 @@ function summaryOf(answer, text) {
   const {seconds: time, bytes: memory} = answer.estimate ?? {};
   if (Number.isFinite(time)) parts.push(`about ${seconds(time)}`);
   if (Number.isFinite(memory)) parts.push(`at least ${bytes(memory)}`);
-  return `Valid: ${parts.map((part) => part.replace(/(\d) (?=\S+$)/, '$1\u00a0')).join(', ')}.`;
+  return `Valid: ${parts.join(', ')}.`.replace(/(\d) (?=(?:ms|s|min|h|B|[KMGT]iB)\b)/g, '$1\u00a0');  // units stay with their numbers
 }
 
 function newKey() {

@@ -74,6 +74,11 @@ test('a label whose near places are taken stands further away, or gives way', ()
   assert.equal(at(6).text, '');
   assert.equal(at(undefined).text, 'name');
   assert.ok(Math.hypot(at(undefined).dx, at(undefined).dy) > 30);
+  const {dx, dy, lead: {from, to}} = at(undefined);
+  assert.ok(Math.abs(Math.hypot(...from) - 8) < 1e-9, 'a line begins at the edge of the mark');
+  assert.ok(Math.abs(to[0] - dx) <= 18 && Math.abs(to[1] - dy) <= 7, 'and ends at the label');
+  const [alone] = placeLabels({points: [{x: 200, y: 100, radius: 8, texts: ['name']}], lines: [], width: 400, height: 200});
+  assert.equal(alone.lead, null, 'a label beside its own mark needs none');
 });
 
 test('an address keeps what is shown, and is read with care', () => {

@@ -63,6 +63,7 @@ ofResults['the answer of a recommendation, and on from there'] = async ({page, u
   assert.match(rows[0], /Fastest lookup\s+deep kernel=tent, resolution=91 6\.56 ns a lookup, 421 KiB, 76\.2 ms to build, error 0\.0181 to 0\.0195\s+255 % more: avsm nodes=16, resolution=117, 23\.3 ns \(not confirmed\)/);
   assert.match(rows[1], /Fewest bytes\s+deep tolerance=0\.1, resolution=59 45\.1 KiB, [^]*A tie with avsm nodes=4, 45\.1 KiB\s*Perhaps 1 KiB, error not confirmed: avsm nodes=2/);
   assert.match(rows[2], /Without a map\s+ray_traced samples=13 8\.73 µs a lookup, error/);
+  assert.match(await text(page, '#explored'), /No setting was measured/, 'no plot of nothing');
   await first.locator('summary').first().click();
   assert.match(await first.locator('.facts').innerText(), /pcf\s+already dearer; closest error 0\.0942\s+variance\s+the budget ended; not measured\s+fourier\s+broke a promise at 1 of 2 settings; <b>rises<\/b>/);
   await first.locator('summary').nth(1).click();
