@@ -71,12 +71,12 @@ export function jobView({id, signal, edit}) {
   const title = h('h1', {tabindex: '-1'}, '…'), state = h('span'), facts = h('p', {class: 'note'}), links = h('p', {class: 'links'});
   const place = h('div', {class: 'stack'}), problem = h('p', {class: 'problem', role: 'alert'});
   const element = h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('div', {class: 'title'}, title, state), links), facts, problem, place);
-  const failed = (error) => {
-    if (signal.aborted) return;
-    setText(problem, error.status === 404 ? `There is no job ${id}, or it was deleted.` : error.message);
-    if (error.status !== 404) return;
+  const failed = (error) => { if (!signal.aborted) setText(problem, error.message); };
+  const lost = (error) => {
+    if (signal.aborted || error.status !== 404) return failed(error);
     setText(title, 'No such job');
-    place.replaceChildren(h('p', {}, h('a', {href: '#/jobs'}, 'All jobs')));
+    setText(problem, `There is no job ${id}, or it was deleted.`);
+    return place.replaceChildren(h('p', {}, h('a', {href: '#/jobs'}, 'All jobs')));
   };
   const progress = progressPanel(() => post(`${path}/cancel`, null).catch(failed));
   let shown = '';
@@ -132,7 +132,7 @@ export function jobView({id, signal, edit}) {
     }
     if (!ended(job)) progress.update(job);
   }
-  const follow = () => watchJob(id, update, signal).catch(failed);
+  const follow = () => watchJob(id, update, signal).catch(lost);
   follow();
   return element;
 }
