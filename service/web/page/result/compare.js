@@ -22,7 +22,7 @@ function ranking({source, images, drawable, picked, signal}) {
       h('span', {}, titleOf(o.cell)), h('small', {}, `RMS ${significant(error(o), 2)}`));
   });
   return {
-    element: h('div', {}, h('h3', {id: 'ranking-title'}, '|error| of every shadow, on one scale'), h('div', {class: 'ranking', role: 'group', 'aria-labelledby': 'ranking-title'}, buttons)),
+    element: h('div', {}, h('h3', {id: 'ranking-title'}, '|error| of every shadow, on one scale'), h('div', {class: 'ranking', role: 'group', 'aria-labelledby': 'ranking-title'}, buttons), mapLegend('heat', images)),
     update(index) { for (const b of buttons) b.setAttribute('aria-pressed', String(Number(b.dataset.index) === index)); },
   };
 }
