@@ -20,7 +20,8 @@ function changeOf({time, reason}) {
 
 function lineTable(lines) {
   const heads = [['Cell'], ['Measure'], ['Verdict'], ['Baseline', 'number'], ['Current', 'number'], ['Change']];
-  const number = (value, {unit, measure}) => h('td', {class: 'number'}, /bytes$/.test(measure) && value !== null ? bytes(value, 4) : significant(value, 5), value !== null && unit && h('small', {}, ` ${unit.replace(/^x /, '× ')}`));
+  const number = (value, {unit, measure}) => h('td', {class: 'number'}, value !== null && /bytes$/.test(measure) ? bytes(value, 4)
+    : [significant(value, 5), value !== null && unit && h('small', {}, ` ${unit.replace(/^x /, '× ')}`)]);
   return h('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Table of verdicts'},
     h('table', {class: 'cells lines'}, h('caption', {class: 'hidden'}, 'Every measure of every technique, those that need attention first'),
       h('thead', {}, h('tr', {}, heads.map(([text, kind]) => h('th', {scope: 'col', class: kind}, text)))),
@@ -35,6 +36,8 @@ function rowsOf(lines) {
 }
 
 const upper = (text) => text.slice(0, 1).toUpperCase() + text.slice(1);
+
+const ended = (text) => text.replace(/\.?$/, '.');
 
 // The outcome without the exit code of the command line.
 function outcomeOf(answer) {
@@ -117,7 +120,7 @@ export function comparisonView({ids, signal}) {
   // A fault of a side names it and its file in words.
   function sentence({pointer, detail}) {
     const [side, label] = sides.find(([name]) => pointer === `/${name}` || pointer?.startsWith(`/${name}/`)) ?? [];
-    return side ? `${label}: ${chosen[side].name ?? chosen[side].job}: ${detail}.` : `${pointer} ${detail}.`;
+    return side ? `${label}: ${chosen[side].name ?? chosen[side].job}: ${ended(detail)}` : `${pointer} ${ended(detail)}`;
   }
   function pick(side, what) {
     chosen[side] = what;
