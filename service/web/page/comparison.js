@@ -1,7 +1,7 @@
 // Compares two results, each of a job or a file: every measure gets a verdict.
 import {get, post} from './api.js';
 import {announce, choice, download, h, setText} from './dom.js';
-import {csvOf, moment, significant} from './format.js';
+import {bytes, csvOf, moment, significant} from './format.js';
 import {verdictMark} from './result/table.js';
 
 const sides = [['baseline', 'Baseline'], ['current', 'Current']];
@@ -20,12 +20,13 @@ function changeOf({time, reason}) {
 
 function lineTable(lines) {
   const heads = [['Cell'], ['Measure'], ['Verdict'], ['Baseline', 'number'], ['Current', 'number'], ['Change']];
-  const number = (value, unit) => h('td', {class: 'number'}, significant(value, 5), value !== null && unit && h('small', {}, ` ${unit}`));
+  const number = (value, {unit, measure}) => h('td', {class: 'number'}, value !== null && /bytes$/.test(measure) ? bytes(value, 4)
+    : [significant(value, 5), value !== null && unit && h('small', {}, ` ${unit.replace(/^x /, '× ')}`)]);
   return h('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Table of verdicts'},
     h('table', {class: 'cells lines'}, h('caption', {class: 'hidden'}, 'Every measure of every technique, those that need attention first'),
       h('thead', {}, h('tr', {}, heads.map(([text, kind]) => h('th', {scope: 'col', class: kind}, text)))),
       h('tbody', {}, lines.map((line) => h('tr', {}, h('th', {scope: 'row'}, line.title), h('td', {}, line.measure || 'all'), h('td', {}, verdictMark(line)),
-        number(line.baseline, line.unit), number(line.current, line.unit), h('td', {class: 'change'}, changeOf(line)))))));
+        number(line.baseline, line), number(line.current, line), h('td', {class: 'change'}, changeOf(line)))))));
 }
 
 // All verdicts, with all digits.
@@ -33,6 +34,10 @@ function rowsOf(lines) {
   return [['cell', 'measure', 'verdict', 'baseline', 'current', 'unit', 'change'],
     ...lines.map((line) => [line.title, line.measure || 'all', line.verdict, line.baseline, line.current, line.unit, changeOf(line)])];
 }
+
+const upper = (text) => text.slice(0, 1).toUpperCase() + text.slice(1);
+
+const ended = (text) => text.replace(/\.?$/, '.');
 
 // The outcome without the exit code of the command line.
 function outcomeOf(answer) {
@@ -52,9 +57,9 @@ function answerView(answer) {
     h('div', {class: 'panel-head'}, h('h2', {id: 'verdicts-title'}, 'Verdicts'),
       h('div', {class: 'choices'}, h('button', {type: 'button', class: 'quiet small', 'aria-label': 'Save the verdicts as CSV', onclick: csv}, 'CSV'), choice('Show', [{value: 'differ', text: `what differs (${differ.length})`}, {value: 'all', text: `all (${answer.lines.length})`},
         ...counts.map(([verdict, n]) => ({value: verdict, text: `${verdict} (${n})`}))], 'differ', show))),
-    h('p', {class: `outcome ${answer.exit_code ? 'bad-title' : 'good'}`}, `${outcome[0].toUpperCase()}${outcome.slice(1)}.`),
+    h('p', {class: `outcome ${answer.exit_code ? 'bad-title' : 'good'}`}, `${upper(outcome)}.`),
     h('p', {}, `${counts.map(([verdict, n]) => `${n} ${verdict}`).join(', ')}.`),
-    h('p', {class: 'note'}, [answer.method, answer.sensitivity].filter(Boolean).join('; ')),
+    h('p', {class: 'note'}, upper([answer.method, answer.sensitivity].filter(Boolean).join('; '))),
     answer.notes.map((note) => h('p', {class: 'note'}, note)),
     answer.fronts.length > 0 && [h('h3', {class: 'part'}, 'Fronts'), h('ul', {class: 'fronts'}, answer.fronts.map((front) => h('li', {}, front.text)))],
     place);
@@ -83,7 +88,10 @@ function sidePicker(label, jobs, id, changed, failed) {
   const select = job.querySelector('select');
   return h('fieldset', {class: 'side', ondragover: (event) => event.preventDefault(), ondrop: (event) => {
     event.preventDefault();
-    if (event.dataTransfer.files[0]) take(event.dataTransfer.files[0]);
+    const {files} = event.dataTransfer;
+    if (!files[0]) return;
+    file.files = files;
+    take(files[0]);
   }}, h('legend', {}, label), job, h('label', {class: 'choice'}, h('span', {}, 'or a result.json'), file), said);
 }
 
@@ -106,8 +114,13 @@ export function comparisonView({ids, signal}) {
       place.replaceChildren(answerView(answer));
       announce(outcomeOf(answer));
     } catch (error) {
-      if (!signal.aborted && mine === turn) failed(error.message);
+      if (!signal.aborted && mine === turn) failed(error.errors?.length ? error.errors.map(sentence).join(' ') : error.message);
     }
+  }
+  // A fault of a side names it and its file in words.
+  function sentence({pointer, detail}) {
+    const [side, label] = sides.find(([name]) => pointer === `/${name}` || pointer?.startsWith(`/${name}/`)) ?? [];
+    return side ? `${label}: ${chosen[side].name ?? chosen[side].job}: ${ended(detail)}` : `${pointer} ${ended(detail)}`;
   }
   function pick(side, what) {
     chosen[side] = what;
@@ -118,6 +131,6 @@ export function comparisonView({ids, signal}) {
     (error) => { if (!signal.aborted) setText(problem, error.message); });
   draw();
   return h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('h1', {tabindex: '-1'}, 'Compare two results')),
-    h('p', {class: 'purpose'}, 'Bytes, nodes, errors and promises are the same on every machine and are judged by tolerance. Times of two single runs decide nothing; shadowbench ab judges times.'),
-    h('section', {class: 'panel', 'aria-label': 'The two results'}, pickers), problem, place);
+    h('p', {class: 'purpose'}, 'Bytes, nodes, errors and promises are the same on every machine and are judged by tolerance. Times of two single runs decide nothing; ', h('code', {}, 'shadowbench ab'), ' judges times.'),
+    h('section', {class: 'panel', 'aria-label': 'The two results'}, pickers, problem), place);
 }

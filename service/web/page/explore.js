@@ -2,18 +2,26 @@
 import {address} from './address.js';
 import {get} from './api.js';
 import {choice, h, setText} from './dom.js';
-import {moment, plural} from './format.js';
+import {bytes, moment, plural} from './format.js';
 import {linearAxis, logAxis, logPlace, write} from './plots/axes.js';
-import {placeLabels} from './plots/labels.js';
-import {lookOf, onThemeChange} from './plots/palette.js';
+import {labelFields, placeLabels} from './plots/labels.js';
+import {glyph, lookOf, onThemeChange} from './plots/palette.js';
 import {labelWidth, plot} from './plots/plot.js';
 import {saveButtons} from './plots/save.js';
 import {errors, size, speeds} from './result/model.js';
 import {overTime, pointsOfAll} from './result/several.js';
 
 const most = 12;  // results at a time
+const fewPoints = 24;  // have room for the number of their result
 const measures = [...speeds, size];
 const commitOf = (result) => String(result.program?.commit ?? '?').slice(0, 9);
+
+// Ticks at round numbers, of bytes in the unit that they are written in.
+function roundAxis(kind, low, high) {
+  const unit = kind === 'bytes' ? 1024 ** Math.max(0, Math.floor(Math.log2(high) / 10)) : 1, axis = linearAxis('y', low / unit, high / unit, 4);
+  const ticks = axis.y_ticks.map((v) => v * unit);
+  return {y_low: axis.y_low * unit, y_high: axis.y_high * unit, y_ticks: ticks, y_labels: ticks.map((v) => (kind === 'bytes' ? bytes(v, 5) : write(kind, v)))};
+}
 
 function trendOf({title, points}, measure, results, signal) {
   const values = points.flatMap((p) => [p.low, p.high]), low = Math.min(...values), high = Math.max(...values), room = Math.max((high - low) * 0.12, Math.abs(high) * 0.02);
@@ -22,7 +30,7 @@ function trendOf({title, points}, measure, results, signal) {
   const x = linearAxis('x', -0.4, results.length - 0.6, Math.min(6, results.length - 1));
   x.x_ticks = results.map((_, i) => i);
   x.x_labels = results.map((_, i) => `#${i + 1}`);
-  drawing.update({signals: {...x, ...linearAxis('y', low - room, high + room, 4, (v) => write(measure.kind, v))}, data: {since: [], points: points.map((p) => ({...p,
+  drawing.update({signals: {...x, ...roundAxis(measure.kind, low - room, high + room)}, data: {since: [], points: points.map((p) => ({...p,
     tip: `${write(measure.kind, p.value)}\n${moment(results[p.i].result.times?.started)}\n${commitOf(results[p.i].result)}`}))}});
   return h('figure', {class: 'trend'}, h('figcaption', {}, h('strong', {}, title)), drawing.element);
 }
@@ -51,16 +59,18 @@ export function exploreView({signal}) {
     drawing.update({
       signals: {...x.signals, ...y.signals}, description: `${points.length} points of ${plural(results.length, 'result')}: ${cost.text} against ${error.text}, log axes.`,
       data(width, height) {
-        const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, points: drawn.map((p) => ({x: width * logPlace('x', x.signals, p.x), y: height * (1 - logPlace('y', y.signals, p.y)), radius: 7,
-          texts: p.of === results.length - 1 ? [p.short, `#${p.of + 1}`, ''] : [`#${p.of + 1}`, '']}))});
-        return {points: drawn.map((p, i) => ({...p, label: placed[i].text, dx: placed[i].dx, dy: placed[i].dy})), front: [], levels: [], band: [],
+        const latest = (p) => p.of === results.length - 1, number = (p) => (drawn.length > fewPoints ? [] : [`#${p.of + 1}`]);
+        const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, furthest: 13, points: drawn.map((p) => ({x: width * logPlace('x', x.signals, p.x), y: height * (1 - logPlace('y', y.signals, p.y)), radius: 7,
+          texts: [...latest(p) ? [p.short] : [], ...number(p), ''], first: latest(p)}))});
+        return {points: drawn.map((p, i) => ({...p, ...labelFields(placed[i])})), front: [], levels: [], band: [],
           lines: lines.map((l) => ({...l, x: zero(l.x, x), y: zero(l.y, y), colour: lookOf(titles.indexOf(l.of)).colour}))};
       },
     });
     return h('section', {class: 'panel', 'aria-labelledby': 'overlay-title'},
       h('div', {class: 'panel-head'}, h('h2', {id: 'overlay-title'}, 'In one plot'), saveButtons(box, () => 'results', () => ({title: 'Several results', up: `↑ ${error.text}`, across: `${cost.text} →`}))),
       h('p', {class: 'axis-title'}, `↑ ${error.text}`), box, h('p', {class: 'axis-title across'}, `${cost.text} →`),
-      h('p', {class: 'note'}, 'Full marks are of the last result, open ones of those before. A line joins a cell over the results.'));
+      h('ul', {class: 'levels'}, titles.map((technique, i) => h('li', {}, glyph(i), ` ${technique}`))),
+      h('p', {class: 'note'}, 'Full marks are of the last result, open ones of those before. A line joins a cell over the results. Point at a mark for its name.'));
   }
 
   async function draw() {
@@ -89,7 +99,9 @@ export function exploreView({signal}) {
       picker.dataset.part = name;
       return picker;
     };
-    const trends = results.length > 1 ? overTime(results.map((r) => r.result), over) : [];
+    const changes = ({points}) => Math.max(...points.map((p) => p.value)) !== Math.min(...points.map((p) => p.value));
+    // Those that change come first.
+    const trends = results.length > 1 ? overTime(results.map((r) => r.result), over).sort((a, b) => changes(b) - changes(a)) : [];
     return [
       h('ol', {class: 'results'}, results.map((r, i) => h('li', {}, h('a', {href: `#/jobs/${r.id}`}, `#${i + 1} ${r.result.name}`),
         ` ${moment(r.result.times?.started)}, ${r.result.program?.version ?? '?'} (${commitOf(r.result)})`))),
@@ -103,7 +115,7 @@ export function exploreView({signal}) {
       const ids = asked().filter((id) => id !== job.id);
       address.go({jobs: (event.target.checked ? [...ids, job.id] : ids).join(',') || null});
       draw();
-    }}), `${job.name}, ${moment(job.created)}`)));
+    }}), `${job.name}, ${moment(job.created)}, ${job.id}`)));
     draw();
   }, (error) => { if (!signal.aborted) setText(problem, error.message); });
   addEventListener('hashchange', draw, {signal});

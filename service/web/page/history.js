@@ -20,7 +20,7 @@ function drawTrend(measure, place) {
     i: indexOf(p.run, i), value: p.value, low: p.low ?? p.value, high: p.high ?? p.value,
     tip: `${significant(p.value)} ${measure.unit}\n${moment(p.run)}\n${short(p.commit)}`,
   }));
-  if (!points.length) return;
+  if (!points.length) { place.append(h('p', {class: 'note'}, 'No run has this value.')); return; }
   const values = points.flatMap((p) => [p.low, p.high]);
   const low = Math.min(...values), high = Math.max(...values), room = Math.max((high - low) * 0.12, Math.abs(high) * 0.02);
   const last = Math.max(1, runs.length - 1);

@@ -60,7 +60,7 @@ function progressPanel(stop) {
 // retry(): queues the job once more.
 function faultPanel(job, retry) {
   const {where, message} = job.error ?? {};
-  return h('section', {class: 'panel fault', role: 'alert'}, h('h2', {}, job.state === 'failed' ? 'The job failed' : 'The job was cancelled'),
+  return h('section', {class: job.state === 'failed' ? 'panel ended fault' : 'panel ended', role: 'alert'}, h('h2', {}, job.state === 'failed' ? 'The job failed' : 'The job was cancelled'),
     job.error && h('p', {}, where && h('code', {}, where), ` ${message}`),
     job.attempts > 1 && h('p', {class: 'note'}, `After ${job.attempts} attempts.`),
     h('p', {class: 'fault-actions'}, h('button', {type: 'button', onclick: retry}, 'Retry')));
@@ -71,7 +71,13 @@ export function jobView({id, signal, edit}) {
   const title = h('h1', {tabindex: '-1'}, '…'), state = h('span'), facts = h('p', {class: 'note'}), links = h('p', {class: 'links'});
   const place = h('div', {class: 'stack'}), problem = h('p', {class: 'problem', role: 'alert'});
   const element = h('div', {class: 'stack'}, h('div', {class: 'page-head'}, h('div', {class: 'title'}, title, state), links), facts, problem, place);
-  const failed = (error) => { if (!signal.aborted) setText(problem, error.status === 404 ? 'There is no such job.' : error.message); };
+  const failed = (error) => { if (!signal.aborted) setText(problem, error.message); };
+  const lost = (error) => {
+    if (signal.aborted || error.status !== 404) return failed(error);
+    setText(title, 'No such job');
+    setText(problem, `There is no job ${id}, or it was deleted.`);
+    return place.replaceChildren(h('p', {}, h('a', {href: '#/jobs'}, 'All jobs')));
+  };
   const progress = progressPanel(() => post(`${path}/cancel`, null).catch(failed));
   let shown = '';
 
@@ -126,7 +132,7 @@ export function jobView({id, signal, edit}) {
     }
     if (!ended(job)) progress.update(job);
   }
-  const follow = () => watchJob(id, update, signal).catch(failed);
+  const follow = () => watchJob(id, update, signal).catch(lost);
   follow();
   return element;
 }

@@ -7,7 +7,7 @@ import {ended, pause, watchJob} from './watch.js';
 
 const askAgain = 2500, typingPause = 250;  // milliseconds
 const states = ['queued', 'running', 'succeeded', 'failed', 'cancelled'];
-const signs = {queued: '○', running: '◐', succeeded: '●', failed: '✕', cancelled: '–'};
+const signs = {queued: '○', running: '◐', succeeded: '●', failed: '✕', cancelled: '⊘'};
 
 export function stateMark(job) {
   const broken = job.state === 'succeeded' && (job.promises_kept === false || job.reached === false);
@@ -43,7 +43,7 @@ function row(act) {
   const button = h('button', {type: 'button', class: 'quiet', onclick: () => act(current, ended(current) ? 'delete' : 'cancel')});
   const again = h('button', {type: 'button', class: 'quiet', hidden: true, onclick: () => act(current, 'retry')}, 'Retry');
   const pin = h('button', {type: 'button', class: 'quiet', onclick: () => act(current, current.pinned ? 'unpin' : 'pin')});
-  const element = h('tr', {}, h('th', {scope: 'row'}, name, h('small', {class: 'id'})), state, h('td', {class: 'what'}, bar, what), when, h('td', {class: 'act'}, again, ' ', pin, ' ', button));
+  const element = h('tr', {}, h('th', {scope: 'row'}, name, h('small', {class: 'id'})), state, h('td', {class: 'what'}, bar, what), when, h('td', {class: 'act'}, h('div', {}, again, pin, button)));
   let current = null;
   return {
     element,

@@ -1,10 +1,12 @@
 // The page on which the user edits and submits a scenario.
 import {get, post} from './api.js';
+import {typesOf} from './choices.js';
 import {choice, h, setText} from './dom.js';
 import {filePicker} from './files.js';
 import {choicesForm} from './form.js';
 import {bytes, plural, seconds, written} from './format.js';
 import {JsonFault, lineOf, offsetOf, places} from './pointer.js';
+import {question} from './question.js';
 import {startHead} from './start.js';
 
 const checkPause = 400;  // milliseconds after the last key
@@ -53,12 +55,18 @@ function faultsOf(problem, text) {
   });
 }
 
-function summaryOf(answer) {
-  const parts = [plural(answer.variants, 'variant'), plural(answer.lights, 'light'), plural(answer.techniques, 'technique')];
+// A technique may stand in a scenario with several settings; "*" stands for all.
+function techniquesOf(answer, text) {
+  const types = typesOf(JSON.parse(text), []).size;
+  return types > 1 && types < answer.techniques && !text.includes('"*"') ? `${answer.techniques} settings of ${types} techniques` : plural(answer.techniques, 'technique');
+}
+
+function summaryOf(answer, text) {
+  const parts = [plural(answer.variants, 'variant'), plural(answer.lights, 'light'), techniquesOf(answer, text)];
   const {seconds: time, bytes: memory} = answer.estimate ?? {};
   if (Number.isFinite(time)) parts.push(`about ${seconds(time)}`);
   if (Number.isFinite(memory)) parts.push(`at least ${bytes(memory)}`);
-  return `Valid: ${parts.join(', ')}.`;
+  return `Valid: ${parts.join(', ')}.`.replace(/(\d) (?=(?:ms|s|min|h|B|[KMGT]iB)\b)/g, '$1\u00a0');  // units stay with their numbers
 }
 
 function newKey() {
@@ -94,7 +102,7 @@ export function submitView({draft, signal, go}) {
       const answer = await post('/v1/validate', text, {}, signal);
       if (turn !== checks) return;
       edit.mark([]);
-      verdict.replaceChildren(h('p', {class: 'good'}, h('span', {'aria-hidden': 'true'}, '✓ '), summaryOf(answer)),
+      verdict.replaceChildren(h('p', {class: 'good'}, h('span', {'aria-hidden': 'true'}, '✓ '), summaryOf(answer, text)),
         ...(answer.notes ?? []).map((note) => h('p', {class: 'note'}, note)));
     } catch (error) {
       if (signal.aborted || turn !== checks) return;
@@ -115,11 +123,8 @@ export function submitView({draft, signal, go}) {
     const select = examples.querySelector('select');
     if (select) select.value = '';
   }
-  // The error that is allowed stands in the card of the recommendation and in the form.
-  const fields = [0, 1].map(() => h('input', {type: 'number', min: '0.0001', max: '1', step: 'any', value: '0.05', required: true, 'aria-label': 'Error that is allowed',
-    oninput: (event) => { for (const field of fields) field.value = event.target.value; asked = true; }}));
-  let asked = false;
-  const form = choicesForm({text: edit.text, write(text) { own(); edit.set(text); }, error: fields[1], signal});
+  const asks = question({signal});
+  const form = choicesForm({text: edit.text, write(text) { own(); edit.set(text); }, error: asks.errors[1], signal});
   signal.addEventListener('abort', () => clearTimeout(timer), {once: true});
 
   // Sends the scenario, with `more` members of the request, to the path. Goes to its job.
@@ -130,7 +135,7 @@ export function submitView({draft, signal, go}) {
     try {
       const job = await post(path, `{"scenario": ${text}, ${more}}`, {'Idempotency-Key': key}, signal);
       sessionStorage.removeItem(draftKey);
-      go(`#/jobs/${job.id}${asked && path === '/v1/jobs' ? `?budget=${Number(fields[0].value)}` : ''}`);
+      go(`#/jobs/${job.id}${path === '/v1/jobs' && asks.asked() ? `?budget=${asks.error()}` : ''}`);
     } catch (error) {
       if (signal.aborted) return;
       if (error.status === 422 || error.status === 400) showFaults(faultsOf(error, text));
@@ -141,13 +146,11 @@ export function submitView({draft, signal, go}) {
       for (const b of buttons()) b.disabled = false;
     }
   }
-  let minutes = 2;
-  const time = choice('within', [1, 2, 5, 15, 25].map((n) => ({value: n, text: `${n} min`})), minutes, (n) => { minutes = Number(n); });
   const buttons = () => element.querySelectorAll('button[type="submit"], button.send');
   const run = () => send('/v1/jobs', `"options": ${JSON.stringify({cache, pictures: pictures.checked})}`);
   function recommend() {
     key = newKey();  // another question about the same text
-    return send('/v1/recommendations', `"recommend": ${JSON.stringify({error: Number(fields[0].value), budget: 60 * minutes})}, "options": ${JSON.stringify({cache})}`);
+    return send('/v1/recommendations', `"recommend": ${JSON.stringify({error: asks.error(), budget: asks.seconds()})}, "options": ${JSON.stringify({cache})}`);
   }
   const pictures = h('input', {type: 'checkbox', checked: true, id: 'pictures', onchange: () => { key = newKey(); }});
   const button = h('button', {type: 'submit', class: 'primary', id: 'run'}, 'Run it');
@@ -177,7 +180,7 @@ export function submitView({draft, signal, go}) {
   const bring = (text) => { own(); edit.set(text); title.scrollIntoView(); button.focus({preventScroll: true}); };
   const head = draft ? null : startHead({
     compare() { pick('quickstart'); title.scrollIntoView(); button.focus({preventScroll: true}); },
-    files: filePicker({taken: bring, signal}), recommend, error: fields[0], time,
+    files: filePicker({taken: bring, signal}), recommend, error: asks.errors[0], time: asks.minutes[0],
   });
   const element = h('div', {class: 'stack'}, head,
     h('form', {class: 'submit', onsubmit: (event) => { event.preventDefault(); run(); }},
@@ -185,7 +188,8 @@ export function submitView({draft, signal, go}) {
       purpose,
       h('div', {class: 'workbench'}, form.element,
         h('div', {class: 'text-side'}, h('label', {class: 'hidden', for: 'scenario'}, 'Scenario, as JSON'), edit.element, verdict)),
-      h('div', {class: 'actions'}, button, h('button', {type: 'button', class: 'send', onclick: () => { if (fields[1].reportValidity()) recommend(); }}, 'Recommend for this error'),
+      h('div', {class: 'actions'}, button,
+        h('span', {class: 'choices'}, h('button', {type: 'button', class: 'send', onclick: () => { if (asks.valid()) recommend(); }}, 'Recommend for this error'), asks.minutes[1]),
         h('label', {class: 'check'}, pictures, ' with pictures'),
         choice('Known results', [{value: 'reuse', text: 'reuse them'}, {value: 'fresh', text: 'measure again'}], cache, (v) => { cache = v; key = newKey(); })),
       problem));

@@ -14,6 +14,8 @@ firstPage['the first page'] = async ({page, url}) => {
   await page.click('button:has-text("Show the example")');
   assert.ok(await page.evaluate(() => document.activeElement.id === 'run'), 'the next step has the focus');
   assert.equal((await scenarioOf(page)).name, 'quickstart');
+  await ready(page);
+  assert.match(await page.locator('.verdict-box').innerText(), /7 settings of 6 techniques, about 4\.2\u00a0s/, 'as many techniques as boxes');
 };
 
 firstPage['a form that writes the text'] = async ({page, url}) => {
@@ -48,14 +50,28 @@ firstPage['a recommendation is asked for'] = async ({page, url, mock}) => {
   await page.click('.card button:has-text("Recommend")');
   await page.waitForURL(/#\/jobs\/j-/);
   assert.deepEqual(mock.jobs[0].recommend, {error: 0.015, budget: 120});
-  // Beside the text too, where one is after bringing a file.
+  // Beside the text too, where one is after bringing a file. Both places have one question, which the address holds.
   await page.goto(url);
   await ready(page);
-  await page.selectOption('.card:has-text("Ask for") select', '5');
+  const asked = () => page.evaluate(() => ['.card:has(form)', '.submit'].map((place) => [...document.querySelectorAll(`${place} [aria-label="Error that is allowed"], ${place} .choice select`)]
+    .filter((e) => e.matches('input') || e.parentElement.textContent.startsWith('within')).map((e) => e.value).join()));
+  assert.deepEqual(await asked(), ['0.05,2', '0.05,2']);
+  await page.selectOption('.actions .choice:has-text("within") select', '5');
   await page.fill('.common input[aria-label="Error that is allowed"]', '0.1');
+  assert.deepEqual(await asked(), ['0.1,5', '0.1,5']);
+  await page.selectOption('.card .choice:has-text("within") select', '15');
+  await page.waitForFunction(() => /^#\/?\?within=15&error=0.1$/.test(location.hash));
+  await page.goBack();
+  await page.waitForFunction(() => document.querySelector('.actions .choice select').value === '5');
+  await page.reload();
+  await ready(page);
+  assert.deepEqual(await asked(), ['0.1,5', '0.1,5'], 'a reload keeps it');
   await page.click('.actions button:has-text("Recommend for this error")');
   await page.waitForURL(/#\/jobs\/j-/);
   assert.deepEqual(mock.jobs[0].recommend, {error: 0.1, budget: 300});
+  await page.goto(`${url}#/?error=7&within=3`);
+  await ready(page);
+  assert.deepEqual(await asked(), ['0.05,2', '0.05,2'], 'what nobody can ask for is not asked');
   // In a run, it is the error that is allowed at first.
   await page.goto(url);
   await ready(page);
@@ -84,39 +100,4 @@ firstPage['a file of the data folders'] = async ({page, url, mock}) => {
   // A scenario of one's own.
   await card.locator('input[type="file"]').setInputFiles({name: 'mine.json', mimeType: 'application/json', buffer: Buffer.from('{"name": "mine"}')});
   await page.waitForFunction(() => document.querySelector('#scenario').value === '{"name": "mine"}');
-};
-
-firstPage['the keyboard alone, from the first page to an answer'] = async ({page, url, mock}) => {
-  await page.goto(url);
-  await ready(page);
-  // Goes on to the next element that the words name.
-  const next = async (words) => {
-    for (let i = 0; i < 60; ++i) {
-      await page.keyboard.press('Tab');
-      if (await page.evaluate((w) => (document.activeElement.getAttribute('aria-label') ?? document.activeElement.textContent).includes(w), words)) return;
-    }
-    assert.fail(`no Tab leads to ${words}`);
-  };
-  await next('Skip to the content');
-  await page.keyboard.press('Enter');
-  assert.ok(await page.evaluate(() => document.activeElement.id === 'main'), 'the address stays that of the page');
-  assert.equal(await page.locator('#scenario').count(), 1);
-  await next('Show the example');
-  await page.keyboard.press('Enter');
-  await ready(page);
-  await page.keyboard.press('Enter');  // the button that runs it has the focus
-  await page.waitForURL(/#\/jobs\/j-/);
-  for (const [job] = mock.jobs; job.state !== 'succeeded';) mock.step(job);
-  await page.waitForSelector('.answers button');
-  await next('Error that is allowed');
-  const before = await page.locator('.answers').innerText();
-  await page.keyboard.press('Home');
-  await page.waitForFunction((was) => document.querySelector('.answers').innerText !== was, before);
-  await next('fourier');
-  await page.keyboard.press('Enter');
-  await page.waitForFunction(() => document.querySelector('#cell-title').textContent.includes('fourier'));
-  await next('Map of light');
-  const was = await page.locator('.curve-title').innerText();
-  await page.keyboard.press('ArrowLeft');
-  await page.waitForFunction((text) => document.querySelector('.curve-title').innerText !== text, was);
 };

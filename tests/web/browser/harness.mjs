@@ -96,7 +96,7 @@ export async function assertAccessible(page, {axe: rules = true, focus: every = 
     const overlap = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
     for (const plot of document.querySelectorAll('.plot svg')) {
       const boxes = (selector) => [...plot.querySelectorAll(selector)].map((e) => ({text: e.textContent, box: e.getBoundingClientRect()}));
-      const labels = boxes('.mark-text.role-mark text');
+      const labels = boxes('.labels_marks text');
       const all = [...labels, ...boxes('.mark-symbol.role-mark path')];
       labels.forEach((label, i) => all.slice(i + 1).forEach((other) => { if (overlap(label.box, other.box)) found.push(`"${label.text}" covers ${other.text || 'a mark'}`); }));
     }

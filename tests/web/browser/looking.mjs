@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
+import {openPage} from './harness.mjs';
 
 export const looking = {};
 const text = (page, selector) => page.locator(selector).first().innerText();
@@ -25,7 +26,6 @@ looking['the answer first, at an error that is dragged'] = async (given) => {
   const first = await page.evaluate(() => document.querySelector('main .panel:not(.quiet-panel)').className);
   assert.match(first, /answer/);
   assert.match(await text(page, '.answers'), /Fastest[^]*ns, [\d.]+ [KM]iB, error 0\.\d+/);
-  assert.doesNotMatch(await text(page, '#cell-title'), /ray_traced/, 'the first that is shown is a map');
   // Dragging the line down leaves fewer, and at last none.
   const line = page.locator('.budget-line').first(), before = Number(await line.getAttribute('aria-valuenow'));
   await line.scrollIntoViewIfNeeded();
@@ -48,24 +48,6 @@ looking['the answer first, at an error that is dragged'] = async (given) => {
   await page.fill('#budget', '0.5');
   await page.keyboard.press('Enter');
   await holds(page, 'budget', '0.5');
-};
-
-looking['labels, lines and a plot without what has no map'] = async (given) => {
-  const {page, mock} = given;
-  const result = JSON.parse(readFileSync(join(mock.fixture, 'result.json'), 'utf8'));
-  const cells = result.variants[0].lights[0].cells;
-  cells.find((cell) => cell.label === 'nodes=8').label = '';  // as it is named where it is not swept
-  cells.push({...cells[0], technique: 'ray_traced', label: '', parameters: {samples: 16}, bytes: 0, nodes: {cells: 0}});
-  mock.results = result;
-  await open(given);
-  const labels = await page.locator('.trade .mark-text.role-mark text').allTextContents();
-  for (const words of ['avsm nodes=4', 'avsm nodes=8']) assert.ok(labels.includes(words), `${words} in ${labels}`);
-  assert.ok((await page.locator('.cell-name').allInnerTexts()).some((name) => name.includes('avsm nodes=8')), 'the table names it as well');
-  const bytes = page.locator('.trade').nth(1);
-  assert.match(await bytes.innerText(), /Not drawn: .*ray_traced stores no map/);
-  const points = (plot) => plot.locator('[class*="points"] path, g.points_marks path').count();
-  assert.equal(await points(page.locator('.trade').first()) - await points(bytes), 1);
-  assert.ok(await page.locator('.trade').first().locator('[class*="layer_2"] path, .mark-line path').count() >= 2, 'a line joins the settings of avsm');
 };
 
 looking['plots and tables are saved'] = async (given) => {
@@ -91,7 +73,7 @@ looking['plots and tables are saved'] = async (given) => {
 };
 
 looking['the address holds what is shown'] = async (given) => {
-  const {page} = given;
+  const {page, url, browser} = given;
   await open(given);
   const titles = () => text(page, '#cell-title');
   const first = await titles();
@@ -109,17 +91,22 @@ looking['the address holds what is shown'] = async (given) => {
   await page.waitForFunction(() => location.hash.includes('depth='));
   const state = await stateOf(page);
   assert.deepEqual([state.technique, state.error, state.picture, state.split, state.pixel], ['5', 'curve.max', 'shadow', '30', '5,6']);
-  const seen = () => page.evaluate(() => ({
+  const seen = (where = page) => where.evaluate(() => ({
     cell: document.querySelector('#cell-title').textContent, error: document.querySelector('.trade .axis-title').textContent, title: document.querySelector('.curve-title').textContent,
     picture: document.querySelector('#compare img').alt, zoom: document.querySelector('#compare .frame-content').style.transform,
     split: Math.round(document.querySelector('img-comparison-slider').value), depth: document.querySelector('.depth output').textContent,
   }));
   await page.waitForFunction(() => document.querySelector('#curves .mark-line path'));
   const before = await seen();
-  await page.reload();
-  await page.waitForFunction(() => document.querySelector('.curve-title')?.textContent.includes('5, 6'));
-  await page.waitForSelector('.budget-line');
-  assert.deepEqual(await seen(), before);
+  // A reload, and a colleague who gets the address as a link.
+  const colleague = await openPage(browser, {allowed: url});
+  await Promise.all([page.reload(), colleague.page.goto(page.url())]);
+  for (const where of [page, colleague.page]) {
+    await where.waitForFunction(() => document.querySelector('.curve-title')?.textContent.includes('5, 6'));
+    await where.waitForSelector('.budget-line');
+    assert.deepEqual(await seen(where), before);
+  }
+  await colleague.close();
   // Back undoes steps, one by one, to where it began.
   for (const [name, is] of [['pixel', undefined], ['picture', undefined], ['error', undefined], ['technique', undefined]]) {
     await page.goBack();
@@ -152,6 +139,49 @@ looking['pictures: pixels, shadows alone, and all errors on one scale'] = async 
   await page.locator('.ranked').last().click();
   await page.waitForFunction(() => document.querySelector('.ranked:last-child').getAttribute('aria-pressed') === 'true');
   assert.ok((await text(page, '#cell-title')).includes((await page.locator('.ranked span').last().innerText()).split(' ')[0]));
+};
+
+looking['the depth axis under the pointer'] = async (given) => {
+  const {page, mock} = given;
+  mock.results = JSON.parse(readFileSync(join(mock.fixture, 'result.json'), 'utf8'));
+  Object.assign(mock.results.variants[0].lights[0].map, {z_min: 1, z_max: 4});  // as of the mock's functions
+  await open(given);
+  const depths = async () => (await text(page, '.depth output')).split(' to ').map(Number);
+  const near = (found, wanted, words) => found.forEach((v, i) => assert.ok(Math.abs(v - wanted[i]) < 0.01 * size, `${words}: ${found}, not ${wanted}`));
+  const frameOf = async (name) => {
+    const frame = page.locator(`[aria-label^="${name}"] .role-frame.root > g > path.background`);
+    await frame.scrollIntoViewIfNeeded();
+    return frame.boundingBox();
+  };
+  const [low, high, size] = [1, 4, 3];
+  assert.deepEqual(await depths(), [low, high]);
+  // With Ctrl, the wheel zooms about the depth under the pointer, by e for 300 pixels. Alone, it scrolls the page.
+  let box = await frameOf('Visibility against depth');
+  await page.mouse.move(box.x + 0.25 * box.width, box.y + box.height / 2);
+  await page.mouse.wheel(0, -300);
+  near(await depths(), [low, high], 'the wheel alone');
+  box = await frameOf('Visibility against depth');
+  await page.mouse.move(box.x + 0.25 * box.width, box.y + box.height / 2);
+  await page.keyboard.down('Control');
+  await page.mouse.wheel(0, -300);
+  await page.keyboard.up('Control');
+  await page.waitForFunction((was) => document.querySelector('.depth output').textContent !== was, `${low} to ${high}`);
+  const part = size / Math.E, from = low + 0.25 * (size - part);
+  near(await depths(), [from, from + part], 'Ctrl and the wheel');
+  // What is dragged follows the pointer, here on the strip of errors; both plots show the same depths.
+  box = await frameOf('Stored minus exact');
+  await page.mouse.move(box.x + 0.8 * box.width, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.4 * box.width, box.y + box.height / 2, {steps: 4});
+  await page.mouse.up();
+  await page.mouse.move(box.x + 0.9 * box.width, box.y + box.height / 2);  // no longer held
+  const moved = [from + 0.4 * part, from + 1.4 * part];
+  near(await depths(), moved, 'dragging');
+  await page.waitForFunction((to) => Math.abs(new URLSearchParams(location.hash.split('?')[1]).get('depth')?.split(',')[0] - to) < 0.02, moved[0]);
+  for (const name of ['Visibility against depth', 'Stored minus exact']) {
+    const ticks = (await page.locator(`[aria-label^="${name}"] .role-axis:has(.role-axis-label) >> nth=0`).locator('.role-axis-label text').allTextContents()).map(Number);
+    assert.ok(ticks.length > 2 && ticks.every((v) => v >= moved[0] - 0.01 && v <= moved[1] + 0.01), `${name}: ${ticks}`);
+  }
 };
 
 looking['functions: the worst pixel, depths and errors'] = async (given) => {

@@ -57,7 +57,7 @@ function comparison() {
 
 export class Mock {
   constructor(pages, fixture, scenarios) {
-    Object.assign(this, {pages, fixture, scenarios, jobs: [], token: null, refuse: null, keys: [], bodies: [], files: {}, asked: null, results: null,
+    Object.assign(this, {pages, fixture, scenarios, jobs: [], token: null, refuse: null, keys: [], bodies: [], files: {}, asked: null, results: null, resultOf: new Map(),
       dataFiles: [{name: 'hair/ponytail.hair', bytes: 123456}, {name: 'smoke.vdb', bytes: 9 << 20}]});
     this.waiting = new Set();
     this.server = createServer((request, response) => this.answer(request, response).catch((error) => {
@@ -215,10 +215,11 @@ export class Mock {
     if (part === 'pin' || part === 'unpin') return this.json(response, 200, Object.assign(job, {pinned: part === 'pin'}));
     if (part === 'events') return this.events(request, response, job);
     if (part === 'scenario') return this.json(response, 200, job.scenario ?? this.scenarios[0].document);
-    if (part === 'result' && this.results) return this.json(response, 200, this.results);
+    if (part === 'result' && (this.resultOf.has(job.id) || this.results)) return this.json(response, 200, this.resultOf.get(job.id) ?? this.results);
     if (part === 'result') return this.file(response, join(this.fixture, 'result.json'));
     if (part === 'curves') return this.json(response, 200, curvesOf(url.searchParams.get('light'), Number(url.searchParams.get('x')), Number(url.searchParams.get('y'))));
     const name = path.slice(4).join('/');
+    if (part === 'artifacts' && typeof this.files[name] === 'string') return response.writeHead(200, {'Content-Type': 'text/plain; charset=utf-8'}).end(this.files[name]);
     if (part === 'artifacts' && this.files[name]) return this.json(response, 200, this.files[name]);
     return part === 'artifacts' ? this.file(response, join(this.fixture, normalize(name))) : this.problem(response, 404, 'There is no such file.');
   }

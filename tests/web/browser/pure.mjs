@@ -68,6 +68,19 @@ test('what is first gets the name, where there is room for one', () => {
   assert.deepEqual(texts([point(17, false)]), ['twelve chars']);
 });
 
+test('a label whose near places are taken stands further away, or gives way', () => {
+  const around = [[-22, -14], [0, -18], [22, -14], [-22, 0], [22, 0], [-22, 14], [0, 18], [22, 14]].map(([x, y]) => ({x: 200 + x, y: 100 + y, radius: 8, texts: ['']}));
+  const at = (furthest) => placeLabels({points: [{x: 200, y: 100, radius: 8, texts: ['name', '']}, ...around], lines: [], width: 400, height: 200, furthest})[0];
+  assert.equal(at(6).text, '');
+  assert.equal(at(undefined).text, 'name');
+  assert.ok(Math.hypot(at(undefined).dx, at(undefined).dy) > 30);
+  const {dx, dy, lead: {from, to}} = at(undefined);
+  assert.ok(Math.abs(Math.hypot(...from) - 8) < 1e-9, 'a line begins at the edge of the mark');
+  assert.ok(Math.abs(to[0] - dx) <= 18 && Math.abs(to[1] - dy) <= 7, 'and ends at the label');
+  const [alone] = placeLabels({points: [{x: 200, y: 100, radius: 8, texts: ['name']}], lines: [], width: 400, height: 200});
+  assert.equal(alone.lead, null, 'a label beside its own mark needs none');
+});
+
 test('an address keeps what is shown, and is read with care', () => {
   assert.equal(changed('#/jobs/j-1', {technique: 3, pixel: '4,5'}), '#/jobs/j-1?technique=3&pixel=4,5');
   assert.equal(changed('#/jobs/j-1?technique=3&pixel=4,5', {technique: null, zoom: '2,-0.5,0'}), '#/jobs/j-1?pixel=4,5&zoom=2,-0.5,0');

@@ -4,9 +4,9 @@ import {test} from 'node:test';
 import {answersAt, firstBudget} from '../../../service/web/page/result/answers.js';
 import {around, differenceOf, thinned} from '../../../service/web/page/result/functions.js';
 import {named} from '../../../service/web/page/result/names.js';
-import {ownFronts, pointsAt, settingsOf} from '../../../service/web/page/result/settings.js';
+import {labelsOf, ownFronts, pointsAt, settingsOf} from '../../../service/web/page/result/settings.js';
 import {overTime, pointsOfAll} from '../../../service/web/page/result/several.js';
-import {undecided} from '../../../service/web/page/result/points.js';
+import {linesOf, undecided} from '../../../service/web/page/result/points.js';
 import {errors, fewestInterval, frontOf, fronts, lightMapOf, marked, originOf, quoted, rerunOf, rmsInterval, speeds, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
 
 test('a group whose floors drifted says why, and no other does', () => {
@@ -100,6 +100,13 @@ test('the band of the front lies between the good and the bad ends of the interv
   assert.deepEqual(undecided([p(1, 1, 5, 5)], 10, 9), [], 'nothing is undecided');
 });
 
+test('a line joins the settings of a technique, from the cheapest', () => {
+  const at = (technique, x, y) => ({technique, x, y});
+  assert.deepEqual(linesOf([at('avsm', 20, 0.1), at('deep', 5, 0.2), at('avsm', 10, 0.3), at('avsm', 20, 0.2), at('pcf', 1, 1)]),
+    [{...at('avsm', 10, 0.3), order: 0}, {...at('avsm', 20, 0.2), order: 1}, {...at('avsm', 20, 0.1), order: 2}]);
+  assert.deepEqual(linesOf([at('deep', 5, 0.2), at('pcf', 1, 1)]), [], 'one setting is a point');
+});
+
 test('the difference of functions has the steps of both', () => {
   const a = {z: [1, 2, 2, 3], v: [1, 1, 0.5, 0.5]}, b = {z: [1, 3], v: [1, 0]};
   assert.deepEqual(differenceOf(a, b, 0, 4), [[0, 0], [1, 0], [2, 0.5], [2, 0], [3, 0.5], [4, 0.5]]);
@@ -126,6 +133,10 @@ test('a recommendation draws what worked, and no bytes of what has no map', () =
     measured: [at(0, 0, 0.1), at(1, 0, 0.2), at(1, 1, 0.1), at(1, 1, null), at(0, 1, 0.1, 'rises')],
     confirmed: [{family: 1, step: [0, 0], failed: '', error: {mean: 0.21, interval95: [0.2, 0.22]}, lookup_ns: sure, bytes: sure, build_ms: sure}]});
   assert.deepEqual(settings.map((s) => [s.name, s.error, s.confirmed]), [['traced, resolution=16', 0.1, false], ['deep kernel=box, resolution=16', 0.21, true], ['deep kernel=box, resolution=32', 0.1, false]]);
+  assert.deepEqual(labelsOf(settings), ['traced', 'deep resolution=16', 'deep resolution=32']);
+  const words = (technique, ...all) => ({technique, words: all});
+  assert.deepEqual(labelsOf([words('deep', 'kernel=box', 'tolerance=0.1', 'resolution=91'), words('deep', 'kernel=tent', 'tolerance=0.1', 'resolution=91'), words('avsm', 'nodes=4', 'resolution=91')]),
+    ['deep kernel=box', 'deep kernel=tent', 'avsm'], 'what all settings of a technique have tells nothing');
   assert.deepEqual(pointsAt(settings, {id: 'lookup_ns'}).map((p) => [p.x, p.xLow, p.low]), [[10, 10, 0.1], [5, 4, 0.2], [11, 11, 0.1]]);
   assert.deepEqual(pointsAt(settings, {id: 'bytes'}).map((p) => p.technique), ['deep', 'deep']);
   assert.deepEqual(ownFronts(pointsAt(settings, {id: 'lookup_ns'})), [{technique: 'deep', x: 5, y: 0.21, order: 0}, {technique: 'deep', x: 11, y: 0.1, order: 1}]);
@@ -137,6 +148,9 @@ test('results side by side join the cells that both have', () => {
   const {points, lines} = pointsOfAll(results, errors[0], speeds[0]);
   assert.deepEqual(points.map((p) => [p.of, p.title, p.x, p.y]), [[0, 'deep', 10, 0.1], [0, 'old', 10, 0.1], [1, 'deep', 20, 0.2]]);
   assert.deepEqual(lines.map((l) => [l.technique, l.x, l.y, l.order]), [['deep', 10, 0.1, 0], ['deep', 20, 0.2, 1]]);
+  const variant = (samples, light) => ({settings: {'/rays/samples_per_pixel': samples}, lights: [{light: 'key', cells: [measured('deep', 0.1, null, 10, 100)]}, {light, cells: [measured('deep', 0.1, null, 10, 100)]}]});
+  assert.deepEqual(pointsOfAll([{variants: [variant(4, 'fill'), variant(16, 'fill')]}], errors[0], speeds[0]).points.map((p) => p.short),
+    ['deep, samples_per_pixel=4, key', 'deep, samples_per_pixel=4, fill', 'deep, samples_per_pixel=16, key', 'deep, samples_per_pixel=16, fill']);
   assert.deepEqual(overTime(results, speeds[0]), [{title: 'deep', points: [{i: 0, value: 10, low: 9, high: 11}, {i: 1, value: 20, low: 18, high: 22}]}]);
 });
 

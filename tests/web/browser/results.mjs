@@ -18,17 +18,20 @@ ofResults['a recommendation'] = async ({page, url, mock}) => {
   result.recommendation = {light: 'key', measure: 'rms', goal: {error: 0.02, cheapest: ['bytes'], at_most: {}, budget_seconds: 9}, end: 'complete', steal: null, scout: null,
     families: [{technique: 'deep', name: 'deep', axes, mapless: false}, {technique: 'ray_traced', name: 'ray_traced', axes, mapless: true}],
     measured: [at(0, 0, 0.05, 10, 1000), at(0, 1, 0.019, 20, 4000), at(1, 0, 0.01, 900, 0)],
-    confirmed: [{family: 0, step: [1, 0], failed: '', cut: false, error: {mean: 0.019, interval95: [0.018, 0.02]}, lookup_ns: sample(20), bytes: sample(4000), build_ms: sample(2)}]};
+    confirmed: [{family: 0, step: [0, 0], failed: '', cut: false, error: {mean: 0.05, interval95: [0.049, 0.052]}, lookup_ns: sample(10), bytes: sample(1000), build_ms: sample(2)},
+      {family: 0, step: [1, 0], failed: '', cut: false, error: {mean: 0.019, interval95: [0.018, 0.02]}, lookup_ns: sample(20), bytes: sample(4000), build_ms: sample(2)}]};
   mock.results = result;
   await page.goto(`${url}#/jobs`);
   await page.waitForSelector('.jobs tbody tr');
   for (const words of ['recommendation', 'error not reached']) assert.ok((await text(page, '.jobs')).includes(words), words);
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForSelector('.cells tbody tr');
-  assert.match(await text(page, 'pre.answer'), /at most 0\.02/);
+  assert.equal(await text(page, 'pre.answer'), 'rms error at most 0.02 with 95 % confidence');
   const marks = page.locator('#explored .mark-symbol path');
   await marks.first().waitFor();
   assert.equal(await marks.count(), 3);
+  assert.deepEqual(await page.locator('#explored .labels_marks text').allTextContents(), ['deep resolution=32', 'deep resolution=64', 'ray_traced'], 'labels name what differs');
+  assert.match(await text(page, '#explored .levels'), /the error asked for: 0\.02\s+deep\s+ray_traced/);
   assert.match(await marks.nth(1).getAttribute('aria-label'), /deep, resolution=64\s+one lookup: 20 ns\s+error: 0\.019, 95 %: 0\.018 to 0\.02/);
   await page.selectOption('#explored select', 'bytes');
   await page.waitForFunction(() => document.querySelectorAll('#explored .mark-symbol path').length === 2);
@@ -60,6 +63,7 @@ ofResults['the answer of a recommendation, and on from there'] = async ({page, u
   assert.match(rows[0], /Fastest lookup\s+deep kernel=tent, resolution=91 6\.56 ns a lookup, 421 KiB, 76\.2 ms to build, error 0\.0181 to 0\.0195\s+255 % more: avsm nodes=16, resolution=117, 23\.3 ns \(not confirmed\)/);
   assert.match(rows[1], /Fewest bytes\s+deep tolerance=0\.1, resolution=59 45\.1 KiB, [^]*A tie with avsm nodes=4, 45\.1 KiB\s*Perhaps 1 KiB, error not confirmed: avsm nodes=2/);
   assert.match(rows[2], /Without a map\s+ray_traced samples=13 8\.73 µs a lookup, error/);
+  assert.match(await text(page, '#explored'), /No setting was measured/, 'no plot of nothing');
   await first.locator('summary').first().click();
   assert.match(await first.locator('.facts').innerText(), /pcf\s+already dearer; closest error 0\.0942\s+variance\s+the budget ended; not measured\s+fourier\s+broke a promise at 1 of 2 settings; <b>rises<\/b>/);
   await first.locator('summary').nth(1).click();
@@ -80,7 +84,7 @@ ofResults['pictures that could not be made'] = async ({page, url, mock}) => {
   mock.files['images/error.json'] = {error: {code: 65, where: '/receivers', message: 'the camera sees no <b>surface</b>'}};
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForSelector('#curves .curve-legend');
-  assert.match(await text(page, 'main'), /Pictures could not be made: \/receivers the camera sees no <b>surface<\/b>\./);
+  assert.match(await text(page, 'main'), /Pictures could not be made: \/receivers: the camera sees no <b>surface<\/b>\./);
 };
 
 ofResults['legends of the scale that was stored'] = async ({page, url, mock}) => {
@@ -92,10 +96,10 @@ ofResults['legends of the scale that was stored'] = async ({page, url, mock}) =>
   const legends = () => page.locator('.legend').evaluateAll((all) => all.map((e) => e.innerText.split(/\n+/).join(' ')));
   const heat = '0 0.01 ≥ 0.02 |visibility − reference|, mean of the channels; 1 is all of the light', through = '0 0.5 1 share of the light that gets past all that casts shadows';
   const difference = '0 0.0625 ≥ 0.125 |radiance − reference| a channel; 1 is white';
-  assert.deepEqual(await legends(), [difference, heat, heat, through]);
+  assert.deepEqual(await legends(), [difference, heat, heat, heat, through]);
   assert.match(await text(page, '#cell .strip'), /Difference to the reference, × 8/);
   await page.selectOption('#compare select >> nth=2', 'difference');
-  assert.deepEqual(await legends(), [difference, heat, difference, through]);
+  assert.deepEqual(await legends(), [difference, heat, difference, heat, through]);
 };
 
 ofResults['two results that differ'] = async ({page, url, mock}) => {
@@ -124,6 +128,10 @@ ofResults['two results that differ'] = async ({page, url, mock}) => {
 
 ofResults['several results in one plot, and over time'] = async ({page, url, mock}) => {
   const jobs = [mock.job('succeeded'), mock.job('succeeded'), mock.job('succeeded', {kind: 'recommendation'})];
+  // The later of the two jobs has the earlier run, of another commit.
+  const result = JSON.parse(readFileSync(join(mock.fixture, 'result.json'), 'utf8'));
+  const of = (commit, started) => ({...result, program: {...result.program, commit}, times: {...result.times, started}});
+  mock.resultOf.set(jobs[0].id, of('bbbbbbbbb222', '2026-11-26T08:00:00Z')).set(jobs[1].id, of('aaaaaaaaa111', '2026-11-25T08:00:00Z'));
   await page.goto(`${url}#/explore`);
   await page.waitForSelector('.boxes input');
   assert.equal(await page.locator('.boxes input').count(), 2, 'a recommendation has points of its own');
@@ -131,7 +139,14 @@ ofResults['several results in one plot, and over time'] = async ({page, url, moc
   for (const box of [0, 1]) await page.locator('.boxes input').nth(box).check();
   await page.waitForSelector('.trend .mark-symbol path');
   assert.match(decodeURIComponent(page.url()), new RegExp(`jobs=${jobs[1].id},${jobs[0].id}$`));
-  assert.deepEqual(await page.locator('.results li a').allInnerTexts(), ['#1 small', '#2 small']);
+  const listed = await page.locator('.results li').allInnerTexts();
+  assert.match(listed[0], /^#1 small 25 Nov 2026[^]*\(aaaaaaaaa\)$/);
+  assert.match(listed[1], /^#2 small 26 Nov 2026[^]*\(bbbbbbbbb\)$/);
+  const tips = await page.locator('.trend').first().locator('.mark-symbol path').evaluateAll((all) => all.map((mark) => mark.getAttribute('aria-label')));
+  assert.deepEqual(tips.map((tip) => tip.split('\n').at(-1)), ['aaaaaaaaa', 'bbbbbbbbb'], 'a point says of which commit it is');
+  const labels = await page.locator('.panel:has(#overlay-title) .labels_marks text').allTextContents();
+  const names = labels.filter((label) => label && !/^#\d$/.test(label));
+  assert.ok(names.length > 0 && new Set(names).size === names.length, `no two are labelled alike: ${names}`);
   const cells = 2 * 2 * 6, drawn = await page.locator('.panel:has(#overlay-title) .mark-symbol path').count();
   assert.equal(drawn, 2 * cells, 'the cells of both');
   assert.equal(await page.locator('.trend').count(), cells, 'each over time');
@@ -156,6 +171,6 @@ ofResults['a file that is not a result'] = async ({page, url, mock}) => {
     data.items.add(new File(['{"seed": 12345678901234567891}'], 'mine.json'));
     side.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true}));
   });
-  await page.waitForFunction(() => document.querySelector('.problem').textContent === '/current: not a result of run');
+  await page.waitForFunction(() => document.querySelector('.problem').textContent === 'Current: mine.json: not a result of run.');
   assert.equal(mock.comparedText, `{"baseline": {"job":"${job.id}"}, "current": {"result": {"seed": 12345678901234567891}}}`);
 };

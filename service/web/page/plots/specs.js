@@ -21,31 +21,32 @@ function axis(name, type, extra = {}, clamp = true) {
 const range = (name, low, high) => ({[`${name}_low`]: low, [`${name}_high`]: high, [`${name}_ticks`]: [low, high], [`${name}_labels`]: ['', '']});
 const ink = {expr: 'ink'}, muted = {expr: 'muted'}, paper = {expr: 'paper'};
 
-// Cost against error. points: {key, x, low, high, y, yLow, yHigh, colour, fill, shape, size, chosen, tip, label}, and dx and
-// dy of the label's middle; lines: {technique, x, y, order, colour}; front: {x, y, order, dash}, from left to right;
-// band: {x, y, y2}, where the front may be; levels: {y, dash}, explained in the text below the plot.
+// Cost against error. points: {key, x, low, high, y, yLow, yHigh, colour, fill, shape, size, chosen, tip, label}, dx and
+// dy of the label's middle, and fromX, fromY, toX, toY of a line to it, all as offsets in pixels; lines: {technique, x, y, order, colour}; front: {x, y, order, dash}, from left to right;
+// band: {x, y, y2}, where the front may be; levels: {y, dash}, explained in the text below the plot. Intervals are drawn
+// `across` and `upright`. The groups of marks have the names of the layers as classes: g.lines_marks.
 const xy = {x: {field: 'x', ...axis('x', 'log')}, y: {field: 'y', ...axis('y', 'log')}};
 const trade = {
   width: 520, height: 340,
   params: params({...range('x', 1, 10), ...range('y', 0.01, 1), ink: '#000', muted: '#666', paper: '#fff', shade: '#ddd'}),
   layer: [
     {
-      data: {name: 'band'},
+      name: 'band', data: {name: 'band'},
       mark: {type: 'area', interpolate: 'step-after', fill: {expr: 'shade'}, opacity: 1, clip: true, aria: false},
-      encoding: {...xy, y2: {field: 'y2'}, order: {field: 'x'}},
+      encoding: {...xy, y2: {field: 'y2'}},
     },
     {
-      data: {name: 'levels'},
+      name: 'levels', data: {name: 'levels'},
       mark: {type: 'rule', color: muted, aria: false},
       encoding: {y: {field: 'y', ...axis('y', 'log')}, strokeDash: asIs('dash')},
     },
     {
-      data: {name: 'lines'},
+      name: 'lines', data: {name: 'lines'},
       mark: {type: 'line', strokeWidth: 1.2, opacity: 0.75, clip: true, aria: false},
       encoding: {...xy, detail: {field: 'technique'}, order: {field: 'order'}, color: asIs('colour')},
     },
     {
-      data: {name: 'front'},
+      name: 'front', data: {name: 'front'},
       mark: {type: 'line', interpolate: 'step-after', color: muted, strokeWidth: 1.6, strokeJoin: 'round'},
       encoding: {...xy, order: {field: 'order'}, detail: {field: 'part'}, strokeDash: asIs('dash')},
     },
@@ -54,11 +55,11 @@ const trade = {
       encoding: xy,
       layer: [
         {
-          mark: {type: 'rule', strokeWidth: 1.6, clip: true, aria: false},
+          name: 'across', mark: {type: 'rule', strokeWidth: 1.6, clip: true, aria: false},
           encoding: {x: {field: 'low', type: 'quantitative'}, x2: {field: 'high'}, color: asIs('colour')},
         },
         {
-          mark: {type: 'rule', strokeWidth: 1.6, clip: true, aria: false},
+          name: 'upright', mark: {type: 'rule', strokeWidth: 1.6, clip: true, aria: false},
           encoding: {y: {field: 'yLow', type: 'quantitative'}, y2: {field: 'yHigh'}, color: asIs('colour')},
         },
         {
@@ -74,7 +75,17 @@ const trade = {
           },
         },
         {
-          mark: {type: 'text', dx: {expr: 'datum.dx'}, dy: {expr: 'datum.dy'}, fontSize: 11, fontWeight: 600, fill: ink, aria: false},
+          name: 'leads',
+          mark: {type: 'rule', strokeWidth: 1, xOffset: {expr: 'datum.fromX'}, x2Offset: {expr: 'datum.toX'}, yOffset: {expr: 'datum.fromY'}, y2Offset: {expr: 'datum.toY'}, aria: false},
+          encoding: {x2: {field: 'x'}, y2: {field: 'y'}, color: asIs('colour')},
+        },
+        {
+          name: 'halos',
+          mark: {type: 'text', dx: {expr: 'datum.dx'}, dy: {expr: 'datum.dy'}, fontSize: 11, fontWeight: 600, fill: paper, stroke: paper, strokeWidth: 4, opacity: 0.85, aria: false},
+          encoding: {text: {field: 'label'}},
+        },
+        {
+          name: 'labels', mark: {type: 'text', dx: {expr: 'datum.dx'}, dy: {expr: 'datum.dy'}, fontSize: 11, fontWeight: 600, fill: ink, aria: false},
           encoding: {text: {field: 'label'}},
         },
       ],

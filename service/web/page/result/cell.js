@@ -46,7 +46,7 @@ function histogramOf(cell, series, signal) {
   const across = linearAxis('x', -0.5, bars.at(-1).to, 10);
   const whole = across.x_ticks.filter(Number.isInteger);
   const powers = [0];
-  for (let p = 1; p <= most; p *= 10) powers.push(p);
+  for (let p = 1; p === 1 || powers.at(-1) < most; p *= 10) powers.push(p);
   const drawing = plot('histogram', {
     signal, label: `Histogram of nodes per cell: mean ${significant(nodes.mean)}, largest ${nodes.max}`,
     theme: () => ({bar: drawing.colour(`series-${series % 8}`)}),
@@ -54,7 +54,7 @@ function histogramOf(cell, series, signal) {
   drawing.update({
     signals: {
       ...across, x_ticks: whole, x_labels: whole.map(count),
-      y_low: 0, y_high: most * 1.15, y_ticks: powers, y_labels: powers.map((p) => count(p)),
+      y_low: 0, y_high: powers.at(-1), y_ticks: powers, y_labels: powers.map((p) => count(p)),
     },
     data: {bars},
   });

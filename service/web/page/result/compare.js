@@ -5,7 +5,7 @@ import {address} from '../address.js';
 import {choice, h, setText, svg} from '../dom.js';
 import {significant} from '../format.js';
 import {mapLegend, maps} from './legend.js';
-import {fileOf, picturesOf, titleOf} from './model.js';
+import {fileOf, picturesOf, titleOf, withoutMap} from './model.js';
 import {dragAndWheel, sharedView} from './zoom.js';
 
 const kinds = {shaded: 'shaded', shadow: 'shadow'};
@@ -22,7 +22,7 @@ function ranking({source, images, drawable, picked, signal}) {
       h('span', {}, titleOf(o.cell)), h('small', {}, `RMS ${significant(error(o), 2)}`));
   });
   return {
-    element: h('div', {}, h('h3', {id: 'ranking-title'}, '|error| of every shadow, on one scale'), h('div', {class: 'ranking', role: 'group', 'aria-labelledby': 'ranking-title'}, buttons)),
+    element: h('div', {}, h('h3', {id: 'ranking-title'}, '|error| of every shadow, on one scale'), h('div', {class: 'ranking', role: 'group', 'aria-labelledby': 'ranking-title'}, buttons), mapLegend('heat', images)),
     update(index) { for (const b of buttons) b.setAttribute('aria-pressed', String(Number(b.dataset.index) === index)); },
   };
 }
@@ -58,7 +58,7 @@ export function compareView({source, images, cells, picked, signal}) {
   const zoomText = h('output', {'aria-label': 'Pixels of the screen for one of the picture'}, '');
   view.onShown((ratio) => setText(zoomText, `${significant(ratio, 2)} : 1`));
   const rightName = h('span', {}), shadowName = h('span', {}), mapName = h('span', {}), legendPlace = h('div');
-  let kind = address.word('picture', Object.keys(kinds)), map = address.word('map', Object.keys(maps)), index = 0;
+  let kind = address.word('picture', Object.keys(kinds)), map = address.word('map', Object.keys(maps)), index = null;
 
   async function show(element, file, text) {
     const image = element.querySelector('img');
@@ -108,9 +108,11 @@ export function compareView({source, images, cells, picked, signal}) {
   return {
     element,
     update(next) {
-      if (!drawable.some((o) => o.value === next)) return;
-      index = next;
-      technique.querySelector('select').value = String(next);
+      // What has no pictures leaves those that are shown. At first these are of a map, not of the reference.
+      const known = drawable.some((o) => o.value === next);
+      if (!known && index !== null) return;
+      index = known ? next : (drawable.find((o) => !withoutMap(o.cell)) ?? drawable[0]).value;
+      technique.querySelector('select').value = String(index);
       draw();
     },
   };

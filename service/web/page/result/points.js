@@ -20,9 +20,9 @@ export function pointsOf(cells, cost, error, chosen) {
     const x = cost.of(cell), y = error.of(cell), number = index + 1;
     if (cell.status !== 'ok') missing.push(`${number} failed`);
     else if (!y) missing.push(`${number} has no ${error.text.split(',')[0]}`);
-    else if (!x) missing.push(cost.id === 'bytes' && withoutMap(cell) ? `${number} ${cell.technique} stores no map` : `${number} has no such time`);
+    else if (!x) missing.push(cost.id === 'bytes' && withoutMap(cell) ? `${cell.technique} (${number}) stores no map` : `${number} has no such time`);
     else points.push({
-      key: index, technique: cell.technique, texts: [cell.short ?? titleOf(cell), String(number)], chosen: index === chosen,
+      key: index, technique: cell.technique, texts: [cell.short ?? titleOf(cell), String(number), ''], chosen: index === chosen,
       x: x.value, low: x.low ?? x.value, high: x.high ?? x.value, y: y.value, yLow: y.low ?? y.value, yHigh: y.high ?? y.value,
       front: marks ? marks.of(cell) : '',
       tip: `${number}  ${titleOf(cell)}\n${cost.text}: ${write(cost.kind, x.value)}${interval(cost, x)}\n` +

@@ -6,7 +6,7 @@ import {glyph} from '../plots/palette.js';
 import {costs} from './settings.js';
 
 const titles = {lookup_ns: 'Fastest lookup', bytes: 'Fewest bytes', build_ms: 'Fastest build'};
-const measures = {rms: 'RMS', max: 'the largest', p99: '99th percentile', curve: 'the largest of the functions'};
+export const measures = {rms: 'RMS', max: 'the largest', p99: '99th percentile', curve: 'the largest of the functions'};
 const units = {lookup_ns: ' a lookup', bytes: '', build_ms: ' to build'};
 const stealLimit = 0.02;  // as the program's
 const kindOf = (id) => costs.find((c) => c.id === id).kind;

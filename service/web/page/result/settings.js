@@ -3,12 +3,23 @@ import {frontOf} from './model.js';
 
 export const costs = [{id: 'lookup_ns', text: 'one lookup', kind: 'ns'}, {id: 'bytes', text: 'bytes of the map', kind: 'bytes'}, {id: 'build_ms', text: 'build', kind: 'ms'}];
 
+const axesAt = ({axes}, step) => axes.map((axis, i) => ({word: `${axis.name}=${axis.values[step[i]]}`, has: axis.values[step[i]] !== '', chosen: axis.values.length > 1}));
+
 function nameOf(family, step) {
-  const settings = family.axes.map((axis, i) => [axis, axis.values[step[i]]]).filter(([axis]) => axis.values.length > 1).map(([axis, value]) => `${axis.name}=${value}`);
+  const settings = axesAt(family, step).filter((axis) => axis.chosen).map((axis) => axis.word);
   return `${family.name}${settings.length ? `, ${settings.join(' ')}` : ''}`;
 }
 
-// The settings that work: {technique, name, error, low, high, confirmed, mapless, costs: {id: {value, low, high}}}.
+// Labels of settings in a plot: the technique and, of its words, those in which these settings of it differ.
+export function labelsOf(settings) {
+  return settings.map(({technique, words}) => {
+    const own = settings.filter((s) => s.technique === technique);
+    return [technique, ...words.filter((word) => !own.every((s) => s.words.includes(word)))].join(' ');
+  });
+}
+
+// The settings that work: {technique, words, name, error, low, high, confirmed, mapless, costs: {id: {value, low, high}}}.
+// `words`: all that tells it from others of its technique, such as kernel=box.
 export function settingsOf({families, measured, confirmed}) {
   const key = (point) => `${point.family}:${point.step}`;
   const surely = new Map(confirmed.map((one) => [key(one), one]));
@@ -17,7 +28,7 @@ export function settingsOf({families, measured, confirmed}) {
     if (one.failed || found?.failed || !Number.isFinite(one.error)) return [];
     const [low, high] = found ? found.error.interval95 : [one.error, one.error];
     const sample = (id) => (found ? {value: found[id].median, low: found[id].interval95[0], high: found[id].interval95[1]} : {value: one[id], low: one[id], high: one[id]});
-    return [{technique: family.technique, name: nameOf(family, one.step), confirmed: Boolean(found), mapless: family.mapless,
+    return [{technique: family.technique, words: [...family.name.split(' ').slice(1), ...axesAt(family, one.step).filter((axis) => axis.has).map((axis) => axis.word)], name: nameOf(family, one.step), confirmed: Boolean(found), mapless: family.mapless,
       error: found ? found.error.mean : one.error, low, high, costs: Object.fromEntries(costs.map(({id}) => [id, sample(id)]))}];
   });
 }

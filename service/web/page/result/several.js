@@ -1,17 +1,22 @@
 // The cells of several results side by side. Cells are the same if their variant, light and title are.
 import {groupsOf, titleOf} from './model.js';
 
-// All cells of a result: {title, cell}. The title has the variant and the light where there are several.
+const briefly = (settings) => settings.map(([pointer, value]) => `${pointer.split('/').at(-1)}=${typeof value === 'string' ? value : JSON.stringify(value)}`).join(' ');
+
+// All cells of a result: {title, short, cell}. Both names have the variant and the light where there are several; `short` is
+// for labels in plots.
 function cellsOf(result) {
-  const groups = groupsOf(result), variants = new Set(groups.map((g) => g.variant)).size, lights = new Set(groups.map((g) => g.light.light)).size;
-  return groups.flatMap((g) => g.cells.map((cell) => ({cell, title: [titleOf(cell), variants > 1 && g.variantTitle, lights > 1 && g.light.light].filter(Boolean).join(', ')})));
+  const groups = groupsOf(result), variants = new Set(groups.map((g) => g.variant)).size > 1, lights = new Set(groups.map((g) => g.light.light)).size > 1;
+  const joined = (...parts) => parts.filter(Boolean).join(', ');
+  return groups.flatMap((g) => g.cells.map((cell) => ({cell,
+    title: joined(titleOf(cell), variants && g.variantTitle, lights && g.light.light), short: joined(cell.short, variants && briefly(g.settings), lights && g.light.light)})));
 }
 
 // results: from the oldest. points: {of, technique, title, short, x, low, high, y, tip}; lines join a cell over the results.
 export function pointsOfAll(results, error, cost) {
-  const points = results.flatMap((result, of) => cellsOf(result).flatMap(({cell, title}) => {
+  const points = results.flatMap((result, of) => cellsOf(result).flatMap(({cell, title, short}) => {
     const x = cell.status === 'ok' && cost.of(cell), y = x && error.of(cell);
-    return y ? [{of, technique: cell.technique, title, short: cell.short, x: x.value, low: x.low ?? x.value, high: x.high ?? x.value, y: y.value, tip: `#${of + 1} ${title}`}] : [];
+    return y ? [{of, technique: cell.technique, title, short, x: x.value, low: x.low ?? x.value, high: x.high ?? x.value, y: y.value, tip: `#${of + 1} ${title}`}] : [];
   }));
   const lines = [...new Set(points.map((p) => p.title))].flatMap((title) => {
     const own = points.filter((p) => p.title === title);

@@ -4,7 +4,7 @@ import {significant} from '../format.js';
 import {budgetLine} from '../plots/budget.js';
 import {labelWidth, plot} from '../plots/plot.js';
 import {logAxis, logPlace} from '../plots/axes.js';
-import {placeLabels} from '../plots/labels.js';
+import {labelFields, placeLabels} from '../plots/labels.js';
 import {levelSample, lookOf} from '../plots/palette.js';
 import {saveButtons} from '../plots/save.js';
 import {frontOf, errors, size, speeds, titleOf} from './model.js';
@@ -42,16 +42,17 @@ function frontParts(front, right, marked) {
 }
 
 // The points with their labels, for a plot of this size.
-function withLabels({points, front, levels}, x, y, width, height) {
+function withLabels({points, front, levels, budget}, x, y, width, height) {
   const across = (v) => width * logPlace('x', x.signals, v), down = (v) => height * (1 - logPlace('y', y.signals, v));
   const lines = [
-    ...points.map((p) => [across(p.low), down(p.y), across(p.high), down(p.y)]),
+    ...points.flatMap((p) => [[across(p.low), down(p.y), across(p.high), down(p.y)], [across(p.x), down(p.yLow), across(p.x), down(p.yHigh)]]),
+    [0, down(budget), width, down(budget)],
     ...levels.map((l) => [0, down(l.y), width, down(l.y)]),
     ...front.slice(1).flatMap((p, i) => [[across(front[i].x), down(front[i].y), across(p.x), down(front[i].y)], [across(p.x), down(front[i].y), across(p.x), down(p.y)]]),
   ];
-  const placed = placeLabels({lines, width, height, widthOf: labelWidth, points: points.map((p) => ({
+  const placed = placeLabels({lines, width, height, widthOf: labelWidth, furthest: 34, points: points.map((p) => ({
     x: across(p.x), y: down(p.y), texts: p.texts, radius: p.chosen ? radius.chosen : radius.other, first: p.chosen || p.front !== 'no'}))});
-  return points.map((p, i) => ({...p, label: placed[i].text, dx: placed[i].dx, dy: placed[i].dy}));
+  return points.map((p, i) => ({...p, ...labelFields(placed[i])}));
 }
 
 function tradePlot({title, name, pick, moved, series, signal}) {
@@ -95,7 +96,7 @@ function tradePlot({title, name, pick, moved, series, signal}) {
     levelKey.replaceChildren(...levels.map((l) => h('li', {}, levelSample(l.dash), ` ${l.text}`)));
     drawing.update({
       signals: {...x.signals, ...y.signals},
-      data: (width, height) => ({points: withLabels({points: placed, front, levels}, x, y, width, height), front: parts, levels, lines, band}),
+      data: (width, height) => ({points: withLabels({points: placed, front, levels, budget}, x, y, width, height), front: parts, levels, lines, band}),
       description: `${title}: ${cost.text} against ${error.text}, log axes, ${points.length} points. The table below has the numbers.`,
     });
     line.update(budget, axis);

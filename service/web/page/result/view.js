@@ -10,7 +10,7 @@ import {answerView} from './answer.js';
 import {cellView} from './cell.js';
 import {compareView} from './compare.js';
 import {curvesView} from './curves.js';
-import {errors, groupsOf, imagesAreOf, originOf, picturesOf, seriesOf, speeds, unsettledOf} from './model.js';
+import {errors, groupsOf, imagesAreOf, originOf, picturesOf, seriesOf, speeds, unsettledOf, withoutMap} from './model.js';
 import {cellTable, figures} from './table.js';
 import {tradeView} from './trade.js';
 
@@ -70,7 +70,8 @@ function groupView({source, result, images, imagesFault, group, series, signal})
   let budget = allowed > 0 ? allowed : firstBudget(cells, error);
   const first = () => {
     const {fastest, smallest, closest} = answersAt(cells, {error, speed, budget});
-    return Math.max(0, cells.indexOf(fastest ?? smallest ?? closest));
+    const best = fastest ?? smallest ?? closest ?? cells.find((cell) => !withoutMap(cell));
+    return Math.max(0, cells.indexOf(best));
   };
   const asked = Number(address.get('technique')) - 1;
   let chosen = Number.isInteger(asked) && asked >= 0 && asked < cells.length ? asked : first();
@@ -127,16 +128,15 @@ function groupView({source, result, images, imagesFault, group, series, signal})
   const csv = () => download(`${result.name ?? 'result'}.csv`, 'text/csv', csvOf(figures(cells)));
   return h('div', {class: 'stack'},
     answer.element,
-    unsettled && h('p', {class: 'unsettled', role: 'note'}, h('strong', {}, 'Unsettled. '),
-      `${unsettled}. Times may be off by as much, and the front of time and error and rankings by time with them. ` +
-      'Run it again on a quiet machine.'),
+    unsettled && h('details', {class: 'unsettled'}, h('summary', {}, h('strong', {}, 'Unsettled. '), 'Times, and all that is ranked by time, may be off. Run it again on a quiet machine.'),
+      h('p', {}, `${unsettled}. Times may be off by as much, and the front of time and error with them.`)),
     trade.element,
     h('section', {class: 'panel', 'aria-labelledby': 'table-title'},
       h('div', {class: 'panel-head'}, h('h2', {id: 'table-title'}, 'All figures'), h('button', {type: 'button', class: 'quiet small', onclick: csv, 'aria-label': 'Save the table as CSV'}, 'CSV')), tablePlace),
     cellPlace,
     compare?.element ?? h('section', {class: 'panel quiet-panel', 'aria-label': 'Pictures'}, h('p', {class: 'note'},
       images ? 'The pictures show another variant.'
-        : imagesFault ? ['Pictures could not be made: ', imagesFault.where && h('code', {}, imagesFault.where), ` ${imagesFault.message}.`] : 'There are no pictures of this result.')),
+        : imagesFault ? ['Pictures could not be made: ', imagesFault.where && [h('code', {}, imagesFault.where), ': '], `${imagesFault.message}.`] : 'There are no pictures of this result.')),
     curves?.element,
     h('section', {class: 'panel quiet-panel', 'aria-label': 'Capture'}, captureOf(group.light, originOf(result, group)),
       group.light.sees_nothing && h('p', {class: 'note'}, 'This light sees nothing that casts a shadow.')));
