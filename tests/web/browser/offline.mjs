@@ -14,11 +14,7 @@ async function each(browser, file, look) {
       const {page, close} = await openPage(browser, {scheme, width, allowed: address});
       await page.goto(address);
       await look(page, `${scheme}-${width}`);
-<<<<<<< HEAD
-      await assertAccessible(page, {focus: width !== 1024});
-=======
       await assertAccessible(page, {axe: scheme === 'light', focus: width !== 1024});  // as in states.mjs
->>>>>>> pg
       await assertContrast(page);
       await close();
     }
