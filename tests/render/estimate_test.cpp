@@ -53,8 +53,8 @@ TEST_F(PictureEstimate, counts_pixels_lights_and_techniques) {
 
 // Small pictures are enlarged: a job with a camera of 128 by 128 draws 512 by 512.
 TEST_F(PictureEstimate, is_for_the_size_that_is_drawn) {
-    EXPECT_EQ(of(128), of(512));
-    EXPECT_LT(of(64), 0.5 * of(128)) << "at most four times as wide";
+    EXPECT_EQ(of(64), of(512));
+    EXPECT_LT(of(32), 0.5 * of(64)) << "at most eight times as wide";
 }
 
 TEST_F(PictureEstimate, counts_the_bytes_of_files_that_are_read_again) {

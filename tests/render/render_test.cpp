@@ -278,12 +278,12 @@ TEST(Render, enlarges_a_small_picture_in_its_proportions) {
     EXPECT_EQ(enlarged({1, 8192}), base::Vec2i(1, 8192)) << "not 4 million pixels high";
     EXPECT_EQ(enlarged({100, 1000}), base::Vec2i(102, 1024));
     EXPECT_EQ(enlarged({300, 1}), base::Vec2i(512, 2));
-    EXPECT_EQ(enlarged({16, 12}), base::Vec2i(64, 48)) << "few pixels are meant to be quick";
+    EXPECT_EQ(enlarged({16, 12}), base::Vec2i(128, 96)) << "few pixels are meant to be quick";
     RenderOptions options = usual_options({});
     options.rays_per_side = 1;
     json document = quad_over_plane();
     document["rays"]["resolution"] = 16;
-    EXPECT_EQ(render(document, options, {}).size, base::Vec2i(320, 160));
+    EXPECT_EQ(render(document, options, {}).size, base::Vec2i(512, 256));
     options.size = base::Vec2i(30, 20);
     EXPECT_EQ(render(document, options, {}).size, base::Vec2i(30, 20)) << "as asked";
 }
