@@ -18,11 +18,10 @@ constexpr double technique = 0.03;
 // Of a ray of a camera, and of a byte of a file.
 constexpr double view_ray = 0.6e-6, file_byte = 15e-9;
 
-// The rounds that a rule makes: as many as it must, and about half way, in powers, to as many as it may, within its
-// seconds.
+// The rounds that a rule makes: as many as it must, and a part of the way to as many as it may, within its seconds.
 double rounds_of(const scene::Timing& timing, double seconds_a_round) {
     const double least = timing.repetitions, most = timing.most_repetitions;
-    const double beyond = std::max(0.0, std::sqrt(least * std::max(most, least)) - least);
+    const double beyond = 0.6 * std::max(0.0, std::sqrt(least * std::max(most, least)) - least);
     return least + std::min(beyond, timing.seconds / std::max(seconds_a_round, 1e-9));
 }
 

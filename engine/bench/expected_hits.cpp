@@ -239,9 +239,12 @@ void add(const Projection& in, const scene::Object& object, bool cells, double l
     if (const auto* particles = std::get_if<scene::Particles>(&object.shape)) {
         hits.media = std::min(1.0, hits.media + std::min(share, crossed));
         hits.steps += crossed;
-        if (share > 0.0)
-            hits.inside += share * before_dark(length_inside(in, *particles) / share,
-                                               mean_density(*particles) * mean(object.extinction));
+        if (share > 0.0) {
+            // Balls that overlap share their way, but not their optical depth.
+            const double way = length_inside(in, *particles) / share, size = scene::bounds(object).size().length();
+            const double extinction = mean_density(*particles) * mean(object.extinction);
+            hits.inside += share * std::min(way, size / std::sqrt(3.0)) * before_dark(way, extinction) / way;
+        }
     } else {
         add_seen(crossed, std::min(1.0, std::max(share, 0.0)), mean(object.opacity), hits);
     }

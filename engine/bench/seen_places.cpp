@@ -1,6 +1,7 @@
 #include "bench/seen_places.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <variant>
 
@@ -91,6 +92,24 @@ double share_in_map(const scene::Object& object, const rays::LightView& camera, 
     };
     std::visit([&](const auto& shape) { for_places(shape, add); }, object.shape);
     return seen > 0.0 ? in_map / seen : 1.0;
+}
+
+double seen_share_of_map(const scene::Scene& scene, const rays::LightView& camera, const rays::LightView& light) {
+    constexpr int side = 16;
+    std::array<bool, side * side> seen{};
+    std::size_t places = 0;
+    const auto add = [&](const Vec3d& place, double) {
+        if (!holds(camera, place) || !holds(light, place)) return;
+        ++places;
+        const Vec3d at = rays::to_light(light, place);
+        const auto cell = [](double pixel, int pixels) {
+            return std::min(side - 1, static_cast<int>(side * pixel / pixels));
+        };
+        seen[static_cast<std::size_t>(side * cell(at.y, light.resolution.y) + cell(at.x, light.resolution.x))] = true;
+    };
+    for (const scene::Object& object : scene.objects)
+        std::visit([&](const auto& shape) { for_places(shape, add); }, object.shape);
+    return places < seen.size() ? 1.0 : static_cast<double>(std::count(seen.begin(), seen.end(), true)) / seen.size();
 }
 
 }  // namespace shadowbench::bench

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "bench/reference.h"
+#include "bench/seen_places.h"
 #include "bench/shared_tile.h"
 #include "scene/cube_face.h"
 
@@ -102,7 +103,10 @@ LightWork count_work(const scene::Scenario& scenario, std::size_t light, const r
     work.truth_samples = covered * work.truth_pixel_rays;
     // Whole tiles around the queries are captured, at most all tiles.
     const double tile = static_cast<double>(layout.tile_width) * layout.tile_height;
-    work.truth_rays = std::min(work.pixels, tile * work.judged) * work.truth_pixel_rays;
+    const scene::Receivers& receivers = scenario.receivers;
+    if (receivers.camera && receivers.points.empty())
+        work.seen = seen_share_of_map(scenario.scene, camera_view(*receivers.camera, receivers.resolution), view);
+    work.truth_rays = std::min(work.seen * work.pixels, tile * work.judged) * work.truth_pixel_rays;
     work.compared = scenario.scene.deep_image ? 0.0 : std::min(work.rays, compared_rays);
     work.spread_seeds = layout.jittered && scenario.reference.spread_seeds > 1 ? scenario.reference.spread_seeds : 0.0;
     for (const Contender& contender : contenders) {

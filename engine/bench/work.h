@@ -28,6 +28,7 @@ struct LightWork {
     double pixels = 0.0;          // of the map
     double samples = 1.0;         // rays a pixel
     double truth_rays = 0.0;      // captured for the judged queries
+    double seen = 1.0;            // share of the map where the camera sees something
     double truth_samples = 0.0;   // rays in the footprint of one query of the truth
     double truth_pixel_rays = 0;  // rays a pixel of the truth
     double truth_sets = 1.0;      // into which these are divided

@@ -85,7 +85,7 @@ double estimate_pictures(const bench::VariantWork& variant, int threads) {
     double shared = seeing + points * found + pixels * techniques * compared_pixel;
     for (const bench::LightWork& work : lights) {
         const double reached = points_in_map(scenario.scene, seen, work);
-        const double truth_rays = work.pixels * work.truth_pixel_rays;
+        const double truth_rays = work.seen * work.pixels * work.truth_pixel_rays;
         shared += bench::capture_seconds(work, work.rays) + bench::build_seconds(work) +
                   bench::truth_seconds(work, truth_rays * std::ceil(reached / points_at_a_time)) +
                   bench::lookups_seconds(work, reached) + techniques * points * point +

@@ -177,6 +177,9 @@ TEST(ExpectedHits, know_the_way_through_media) {
     ExpectedHits hits = expected_hits(one(object), square_view(), false, false);
     EXPECT_NEAR(hits.inside, 4.18879 * (1.0 + 0.125) / 100.0, 1e-5) << "their volume over the area of the map";
     EXPECT_NEAR(hits.steps, 3.14159265 * 1.25 / 100.0, 1e-6);
+    object.shape = scene::Particles{std::vector<base::Vec3f>(50, {0, 0, 1}), std::vector<float>(50, 1.0f),
+                                    std::vector<float>(50, 1e-6f)};
+    EXPECT_LT(expected_hits(one(object), square_view(), false, false).inside, 0.09) << "fifty in one place are one way";
     scene::GridVolume grid;
     grid.size = {2, 2, 2};
     grid.density = {1, 0, 1, 0, 1, 0, 1, 0};
@@ -212,6 +215,21 @@ TEST(SeenPlaces, are_in_the_map_by_their_share_of_the_picture) {
     EXPECT_NEAR(share_in_map(object, above, map), 0.5, 1e-9);
     EXPECT_EQ(share_in_map(object, camera_view({{0, 0, 20}, {0, 0, 40}}, {200, 200}), map), 1.0)
         << "behind the camera nothing is known";
+}
+
+// Only tiles that hold queries are captured for the truth.
+TEST(SeenPlaces, cover_their_share_of_the_map) {
+    scene::Object object;
+    scene::Mesh ground;
+    ground.positions = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
+    ground.triangles = {{0, 1, 2}, {0, 2, 3}};
+    object.shape = ground;
+    const rays::LightView map = square_view();
+    EXPECT_EQ(seen_share_of_map(one(object), camera_view({{0, 0, 20}, {0, 0, 0}}, {200, 200}), map), 1.0);
+    scene::Camera close{{0, 0, 5.0}, {0, 0, 0}};
+    close.fov = 53.13;  // 5 by 5 lengths
+    EXPECT_NEAR(seen_share_of_map(one(object), camera_view(close, {200, 200}), map), 0.25, 0.15) << "and the border";
+    EXPECT_EQ(seen_share_of_map(one(object), camera_view({{0, 0, 20}, {0, 0, 40}}, {200, 200}), map), 1.0);
 }
 
 TEST_F(CountedWork, is_that_of_the_map_the_truth_and_the_techniques) {
