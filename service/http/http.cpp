@@ -314,10 +314,20 @@ void HttpServer::stop() {
 
 namespace {
 
+std::string silence_text(httplib::Error error) {
+    switch (error) {
+        case httplib::Error::Connection: return "no connection could be made";
+        case httplib::Error::SSLConnection: return "no secure connection could be made";
+        case httplib::Error::Read: return "no answer came over the connection";
+        case httplib::Error::Write: return "the connection ended while the request was sent";
+        default: return "the connection failed (" + httplib::to_string(error) + ")";
+    }
+}
+
 Reply reply_of(const httplib::Result& result, const std::string& url) {
     if (result.error() == httplib::Error::SSLServerVerification || result.error() == httplib::Error::SSLLoadingCerts)
         throw Error(ErrorCode::usage, url, "its certificate is not trusted; give --cacert the file of its authority");
-    if (!result) throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
+    if (!result) throw Error(ErrorCode::io, url, std::string("the server does not answer: ") + silence_text(result.error()));
     return {result->status, result->get_header_value("Content-Type"), result->body,
             result->get_header_value("Location")};
 }
