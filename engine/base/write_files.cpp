@@ -27,13 +27,14 @@ fs::path temporary_name(const fs::path& path) {
     return path.parent_path() / fmt::format(".{}.{}.tmp", path.filename().string(), getpid());
 }
 
-void write_one(const fs::path& path, const std::string& content) {
+// Faults name the file that is asked for, `place`, and not a temporary one.
+void write_one(const fs::path& path, const std::string& content, const fs::path& place) {
     errno = 0;
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     file.write(content.data(), static_cast<std::streamsize>(content.size()));
     file.close();
     const std::error_code why(errno, std::generic_category());
-    if (!file) throw WriteError(path, "cannot write the file", why);
+    if (!file) throw WriteError(place, "cannot write the file", why);
 }
 
 void write_and_rename(const std::vector<NewFile>& files, Undo& undo) {
@@ -45,7 +46,7 @@ void write_and_rename(const std::vector<NewFile>& files, Undo& undo) {
                              std::make_error_code(std::errc::is_a_directory));
         make_folders(file.path.parent_path(), undo);
         undo.record(temporary_name(file.path));
-        write_one(temporary_name(file.path), file.content);
+        write_one(temporary_name(file.path), file.content, file.path);
     }
     for (const NewFile& file : files) {
         fs::rename(temporary_name(file.path), file.path, failed);
@@ -94,7 +95,7 @@ void make_writable(const fs::path& folder, Undo& undo) {
     const fs::path file = temporary_name(folder / "result.json");
     attempt.record(file);
     try {
-        write_one(file, "");
+        write_one(file, "", folder);
     } catch (const Error&) {
         throw Error(ErrorCode::io, folder.string(), "results cannot be written there; choose another folder");
     }

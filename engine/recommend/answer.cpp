@@ -182,6 +182,8 @@ Answer answer(const Exploration& found, const Goal& goal) {
     result.confirmed = found.confirmed.size();
     result.end = found.end;
     result.steal = found.steal;
+    result.next = found.next;
+    result.budget = found.goal.budget;
     const std::vector<Choice> all = choices(found);
     std::vector<const Choice*> good, allowed;
     for (const Choice& choice : all) {
@@ -211,6 +213,11 @@ Answer answer(const Exploration& found, const Goal& goal) {
         if (reason != Held::bias && reason != Held::at_most && reason != Held::given && too_dear(result, *closest)) reason = Held::dear;
         result.missed.push_back({name, reason, *closest});
     }
+    const auto failed = std::count_if(result.broken.begin(), result.broken.end(),
+                                      [](const Broken& one) { return one.settings == one.measured; });
+    result.techniques = techniques(found).size() - static_cast<std::size_t>(failed);
+    result.open = static_cast<std::size_t>(std::count_if(
+        result.missed.begin(), result.missed.end(), [](const Missed& one) { return one.held == Held::budget; }));
     return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,11 +73,24 @@ struct Answer {
     bool cut = false;  // the time to confirm ran out: intervals are wider than planned
     End end = End::complete;
     std::optional<double> steal = {};  // see Exploration
+    std::optional<NextStep> next = {};
+    double budget = std::numeric_limits<double>::infinity();  // seconds, of the exploration
+    // Techniques that did not fail, and those of them of which the budget's end leaves open what they cost at the error.
+    std::size_t techniques = 0, open = 0;
+
+    // Whether the budget ended so early that the cheapest settings are those of the few techniques that were followed.
+    bool too_early() const { return end == End::budget && open > 0 && 2 * open >= techniques; }
 };
 // `goal` may ask for another error, other costs and other limits than the exploration's.
 Answer answer(const Exploration& found, const Goal& goal);
 
-// A cost (as Cost) with its unit: "10.5 ns", "128 KiB", "24.1 ms".
+// Seconds that a search should have which so many did not suffice for: whole minutes.
+double longer_budget(double seconds);
+
+// Seconds as a budget is written: "90s", "5min".
+std::string budget_text(double seconds);
+
+// A cost (as Cost) with its unit: "10.5 ns", "1.23 µs", "128 KiB", "24.1 ms", "1.8 s".
 std::string cost_text(double value, std::size_t cost);
 
 // "deep kernel=box tolerance=0.01, resolution=512 samples=16"
@@ -87,10 +101,12 @@ struct Wording {
     std::string measure;                             // of the error, as "rms"
     std::function<std::string(const Point&)> paste;  // the line of a scenario; may be empty
     std::size_t width = text_columns;                // characters of a line, at least 60
+    std::optional<double> truth = {};                // its standard error, if the error is against one
+    // The command for the same question with a budget of so many seconds; empty: there is no command.
+    std::function<std::string(double)> again = {};
 };
-// Lines of this width, but for those to paste; what does not fit goes on in the next line. At most `text_lines`, unless
-// the width is below `text_columns`: where these do not do, reasons are shortened, then lines are cut, those of the best
-// settings last.
+// Lines of this width, but for those to paste; what does not fit goes on in the next line. About `text_lines`, unless
+// the width is below `text_columns`: where these do not do, reasons are shortened, then lines without a setting are cut.
 std::string to_text(const Answer& answer, const std::vector<Family>& families, const Wording& wording);
 
 // What one technique costs at every error: its measured settings that no other of its settings beats in both, from the

@@ -59,7 +59,14 @@ ordered_json answer_json(const Recommendation& recommendation, const Goal& goal)
                           {"settings", one.settings},
                           {"measured", one.measured},
                           {"reason", one.reason}});
+    ordered_json too_early = nullptr;
+    if (found.too_early())
+        too_early = {{"budget_seconds", finite_or_null(found.budget)},
+                     {"techniques", found.techniques},
+                     {"open", found.open},
+                     {"give_seconds", longer_budget(found.budget)}};
     return {{"reached", found.reached},
+            {"too_early", std::move(too_early)},
             {"cheapest", std::move(cheapest)},
             {"without_map", choice_or_null(recommendation, found.without_map)},
             {"closest", choice_or_null(recommendation, found.closest)},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/table.h"
 #include "recommend/answer.h"
@@ -23,9 +24,26 @@ const char* to_string(Held held) {
     return "";
 }
 
+namespace {
+
+constexpr const char* time_units[] = {"ns", "µs", "ms", "s"};
+
+}  // namespace
+
 std::string cost_text(double value, std::size_t cost) {
     if (static_cast<Cost>(cost) == Cost::bytes) return base::bytes_text(static_cast<std::size_t>(std::llround(value)));
-    return fmt::format("{:.3g} {}", value, static_cast<Cost>(cost) == Cost::lookup ? "ns" : "ms");
+    const bool lookup = static_cast<Cost>(cost) == Cost::lookup;
+    std::size_t unit = lookup ? 0 : 2;
+    for (; value >= 1000.0 && unit + 1 < std::size(time_units); ++unit) value /= 1000.0;
+    return fmt::format("{:.3g} {}", value, time_units[unit]);
+}
+
+double longer_budget(double seconds) {
+    return std::max(usual_budget, 60.0 * std::ceil(2.0 * seconds / 60.0));
+}
+
+std::string budget_text(double seconds) {
+    return std::fmod(seconds, 60.0) == 0.0 ? fmt::format("{}min", seconds / 60.0) : fmt::format("{:.6g}s", seconds);
 }
 
 namespace {
@@ -38,16 +56,29 @@ std::string error_with_interval(const Choice& choice) {
 constexpr std::size_t least_width = 60;
 constexpr std::size_t label_width = 7;  // of lines that begin with a cost
 
+// Build times include those of capturing the light rays, which the table of a run has on a line of its own.
+std::string named_cost(double value, std::size_t cost) {
+    return cost_text(value, cost) + (static_cast<Cost>(cost) == Cost::build ? " with capture" : "");
+}
+
+// How much a cost is of another: a share up to twice as much, a ratio above.
+std::string distance_text(double behind) {
+    if (behind < 0.0) return fmt::format("{:.0f} % less:", -100.0 * behind);
+    if (behind < 1.0) return fmt::format("{:.0f} % more:", 100.0 * behind);
+    const double ratio = 1.0 + behind;
+    return fmt::format("{:.{}f} x as much:", ratio, ratio < 10.0 ? 1 : 0);
+}
+
 std::string cut(std::string line, std::size_t width) {
     if (line.size() <= width) return line;
     line.resize(width - 3);
     return line + "...";
 }
 
-// What one may paste is never broken.
+// What one may paste is never broken, and a setting is never cut.
 struct TextLine {
     std::string text;
-    bool label = false, paste = false;
+    bool label = false, paste = false, setting = false;
 };
 
 // What does not fit goes on in the next line, behind the label.
@@ -84,24 +115,24 @@ std::string joined(const std::string& start, const std::vector<std::string>& nam
 void add_cheapest(const Cheapest& cheapest, std::size_t k, const std::vector<Family>& families,
                   std::vector<TextLine>& lines) {
     const Choice& best = cheapest.best;
-    lines.push_back({fmt::format("{:<6} {}: {}", cost_words[k], cost_text(best.cost[k], k),
+    lines.push_back({fmt::format("{:<6} {}: {}", cost_words[k], named_cost(best.cost[k], k),
                                  setting_text(families, best.point)),
-                     true});
+                     true, false, true});
     std::string others;
     for (std::size_t other = 0; other < costs; ++other)
-        if (other != k) others += fmt::format(", {} {}", cost_words[other], cost_text(best.cost[other], other));
+        if (other != k) others += fmt::format(", {} {}", cost_words[other], named_cost(best.cost[other], other));
     lines.push_back({fmt::format("       error {}{}", error_with_interval(best), others)});
     if (const auto& second = cheapest.runner_up) {
-        const std::string distance = cheapest.tie             ? "a tie with"
-                                     : cheapest.behind >= 0.0 ? fmt::format("{:.0f} % more:", 100.0 * cheapest.behind)
-                                                              : fmt::format("{:.0f} % less:", -100.0 * cheapest.behind);
+        const std::string distance = cheapest.tie ? "a tie with" : distance_text(cheapest.behind);
         lines.push_back({fmt::format("       {} {}, {}{}", distance, cost_text(second->cost[k], k),
                                      setting_text(families, second->point),
-                                     second->confirmed ? "" : " (not confirmed)")});
+                                     second->confirmed ? "" : " (not confirmed)"),
+                         false, false, true});
     }
     if (const auto& perhaps = cheapest.perhaps)
         lines.push_back({fmt::format("       perhaps {}, error not confirmed: {}", cost_text(perhaps->cost[k], k),
-                                     setting_text(families, perhaps->point))});
+                                     setting_text(families, perhaps->point)),
+                         false, false, true});
 }
 
 std::vector<TextLine> held_lines(const Answer& answer, std::size_t width) {
@@ -115,6 +146,26 @@ std::vector<TextLine> held_lines(const Answer& answer, std::size_t width) {
         if (!names.empty()) lines.push_back({joined(fmt::format("not reached, {}:", to_string(held)), names, width)});
     }
     return lines;
+}
+
+// The answer begins with this: what follows is hardly the cheapest.
+void add_warning(const Answer& answer, const Wording& wording, std::vector<TextLine>& lines) {
+    const double longer = longer_budget(answer.budget);
+    const std::string command = wording.again ? wording.again(longer) : "";
+    lines.push_back({fmt::format("THE BUDGET WAS TOO SHORT: {} ended before {} of {} techniques were followed to the "
+                                 "error, so cheaper settings are likely. {}",
+                                 budget_text(answer.budget), answer.open, answer.techniques,
+                                 command.empty() ? fmt::format("Give {} or more.", budget_text(longer))
+                                                 : "What was measured is kept; go on with:")});
+    if (!command.empty()) lines.push_back({command, false, true});
+}
+
+std::string budget_line(const Answer& answer) {
+    if (!answer.next) return "the budget ended first: a cheaper setting may be left";
+    return fmt::format("the budget ended first: the next step takes about {}, confirming included, and {} were left; a "
+                       "cheaper setting may be left",
+                       cost_text(1e3 * answer.next->seconds, static_cast<std::size_t>(Cost::build)),
+                       cost_text(1e3 * answer.next->left, static_cast<std::size_t>(Cost::build)));
 }
 
 std::string broken_line(const Answer& answer, std::size_t width) {
@@ -145,8 +196,12 @@ std::string setting_text(const std::vector<Family>& families, const Point& point
 std::string to_text(const Answer& answer, const std::vector<Family>& families, const Wording& wording) {
     const std::size_t width = std::max(wording.width, least_width);
     std::vector<TextLine> lines;
+    if (answer.too_early()) add_warning(answer, wording, lines);
     lines.push_back({fmt::format("{} error at most {:.4g} with 95 % confidence: {} settings measured, {} confirmed",
                                  wording.measure, answer.goal.error, answer.measured, answer.confirmed)});
+    if (wording.truth && *wording.truth > 0.0)
+        lines.push_back({fmt::format("errors are against this scenario's truth (standard error {:.2g}); their lower ends "
+                                     "allow for it", *wording.truth)});
     std::vector<std::string> pasted;
     for (std::size_t k = 0; k < costs; ++k) {
         if (!answer.cheapest[k]) continue;
@@ -157,12 +212,14 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
     }
     if (const auto& traced = answer.without_map)
         lines.push_back({fmt::format("without a map: {}, {}, error {}", setting_text(families, traced->point),
-                                     cost_text(traced->cost[0], 0), error_with_interval(*traced))});
+                                     cost_text(traced->cost[0], 0), error_with_interval(*traced)),
+                         false, false, true});
     if (!answer.reached) {
-        lines.push_back({"no setting reaches it"});
+        lines.push_back({answer.measured > 0 ? "no setting reaches it" : "nothing was measured, so nothing is known"});
         if (answer.closest)
             lines.push_back({fmt::format("closest: error {}: {}", error_with_interval(*answer.closest),
-                                         setting_text(families, answer.closest->point))});
+                                         setting_text(families, answer.closest->point)),
+                             false, false, true});
     }
     std::vector<TextLine> last;
     for (std::string& line : pasted) last.push_back({std::move(line), false, true});
@@ -172,7 +229,7 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
         last.push_back({fmt::format("UNSETTLED: the host of this virtual machine took {:.0f} % of the time (steal); "
                                     "measure again",
                                     100.0 * *answer.steal)});
-    if (answer.end == End::budget) last.push_back({"the budget ended first: a cheaper setting may be left"});
+    if (answer.end == End::budget) last.push_back({budget_line(answer)});
     if (answer.end == End::cancelled) last.push_back({"cancelled: a cheaper setting may be left"});
 
     const std::string head = folded(lines, width), tail = folded(last, width);
@@ -188,11 +245,8 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
         return text;
     if (!names.empty()) lines.push_back(missed);
     lines.insert(lines.end(), last.begin(), last.end());
-    for (const bool best : {false, true}) {  // the best settings last
-        for (TextLine& line : lines)
-            if (!line.paste && line.label == best) line.text = cut(std::move(line.text), width);
-        if (lines_in(folded(lines, width)) <= text_lines) break;
-    }
+    for (TextLine& line : lines)
+        if (!line.paste && !line.setting) line.text = cut(std::move(line.text), width);
     return folded(lines, width);
 }
 

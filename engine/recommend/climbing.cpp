@@ -76,18 +76,21 @@ std::optional<std::size_t> Search::next_climb(std::size_t family) const {
 
 // The scout climbs first: the others begin where its light rays may do.
 void Search::climb() {
+    // What is left after confirming is for whatever fits.
+    const double share = found_.confirmed.empty() ? probe_share : 1.0;
+    skipped_climb_ = infinity;
     while (!exploring_over()) {
         std::optional<std::size_t> chosen;
         double least = infinity;
         std::size_t climbing = 0;
-        bool too_long = false;
+        double skipped = infinity;
         for (std::size_t i = 0; i < families_.size(); ++i) {
             const std::optional<std::size_t> rung = next_climb(i);
             if (!rung) continue;
             ++climbing;
             const double seconds = lab_.effort(climbs_[i].rungs[*rung]);
-            if (!fits(seconds) || (answered() && seconds > probe_share * left_to_explore())) {
-                too_long = true;
+            if (!fits(seconds) || (answered() && seconds > share * left_to_explore())) {
+                skipped = std::min(skipped, seconds);
                 continue;
             }
             const double effort = seconds * (found_.families[i].faithful ? 1.0 : faithful_first);
@@ -97,7 +100,8 @@ void Search::climb() {
             chosen = i;
         }
         if (!chosen) {
-            if (too_long && found_.end == End::complete) found_.end = End::budget;
+            skipped_climb_ = skipped;
+            if (std::isfinite(skipped) && found_.end == End::complete) found_.end = End::budget;
             return;
         }
         if (shared_[*chosen] != floors_.version()) {  // what others reached may end this climb

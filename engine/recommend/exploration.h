@@ -40,6 +40,12 @@ enum class End {
     given,  // nothing was searched: the points are those of a run
 };
 
+// What a budget left undone.
+struct NextStep {
+    double seconds = 0.0;  // that measuring it and confirming what is then the best would have taken
+    double left = 0.0;     // of the budget at the end, which are fewer
+};
+
 struct Exploration {
     Goal goal;
     std::vector<Family> families;
@@ -50,6 +56,8 @@ struct Exploration {
     // Seconds that the host of a virtual machine took from all processors, over those that it took in all; absent if
     // unknown.
     std::optional<double> steal = {};
+    double before = 0.0;                // seconds of the budget that were spent before: those of the truth
+    std::optional<NextStep> next = {};  // if the budget ended with time left
 };
 
 }  // namespace shadowbench::recommend

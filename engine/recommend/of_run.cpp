@@ -149,6 +149,7 @@ Recommendation recommendation_of(const results::Result& run, const std::string& 
     const std::string& name = lights.front()->name;
     Recommendation found{run.name, name, measure, footprint_share(run, axes, name, origin), {}};
     found.exploration.end = End::given;
+    found.truth_error = lights.front()->reference.error_rms;
 
     Axis resolutions{"resolution", {}}, samples{"samples_per_pixel", {}};
     for (const auto& [x, y] : axes.resolutions)

@@ -24,6 +24,7 @@ struct Recommendation {
     Measure measure = Measure::rms;
     std::optional<double> footprint_share;  // see Trials::footprint_share
     Exploration exploration;
+    std::optional<double> truth_error = {};  // its standard error (RMS), if lookups are judged against it
 };
 
 struct Watch {
@@ -39,7 +40,8 @@ struct Explored {
 };
 
 // Explores a scenario. `request.only` takes the place of that of the options. `trials`: a folder of trials that are not
-// measured again, to which new ones are added (trial_files.h); empty: none. Throws what Trials and TrialFiles throw.
+// measured again, to which new ones are added (trial_files.h); empty: none. Throws what Trials and TrialFiles throw, and
+// Error{usage}, place --budget, if the budget ends before anything is measured.
 Explored explore(const nlohmann::json& document, const bench::RunOptions& options, const Request& request,
                  const Watch& watch, const std::filesystem::path& trials = {});
 
@@ -63,7 +65,8 @@ struct AnswerText {
     bool reached = false;  // whether a setting reaches the goal's error
 };
 
-// `goal` may be another than the exploration's. `width`: characters of a line.
-AnswerText answer_text(const Recommendation& recommendation, const Goal& goal, std::size_t width = text_columns);
+// `goal` may be another than the exploration's. `width`: characters of a line. `again`: see Wording.
+AnswerText answer_text(const Recommendation& recommendation, const Goal& goal, std::size_t width = text_columns,
+                       const std::function<std::string(double)>& again = {});
 
 }  // namespace shadowbench::recommend

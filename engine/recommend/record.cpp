@@ -144,6 +144,9 @@ json to_json(const Exploration& exploration) {
     for (const Answered& one : exploration.confirmed) confirmed.push_back(to_json(one));
     return {{"goal", to_json(exploration.goal)},
             {"end", ends[static_cast<std::size_t>(exploration.end)]},
+            {"before_seconds", exploration.before},
+            {"next", exploration.next ? json{{"seconds", exploration.next->seconds}, {"left", exploration.next->left}}
+                                      : json(nullptr)},
             {"steal", exploration.steal ? json(*exploration.steal) : json(nullptr)},
             {"scout", exploration.scout ? json(*exploration.scout) : json(nullptr)},
             {"families", std::move(families)},
@@ -158,6 +161,9 @@ Exploration exploration_from_json(const nlohmann::json& recommendation, const st
     for (std::size_t i = 0; i < std::size(ends); ++i)
         if (whole.at("end").text() == ends[i]) exploration.end = static_cast<End>(i);
     if (whole.has("steal") && !whole.at("steal").is_null()) exploration.steal = whole.at("steal").at_least_zero();
+    if (whole.has("before_seconds")) exploration.before = whole.at("before_seconds").at_least_zero();
+    if (whole.has("next") && !whole.at("next").is_null())
+        exploration.next = {whole.at("next").at("seconds").at_least_zero(), whole.at("next").at("left").at_least_zero()};
     const Field families = whole.at("families"), measured = whole.at("measured"), confirmed = whole.at("confirmed");
     for (std::size_t i = 0; i < families.array().size(); ++i)
         exploration.families.push_back(read_family(families.item(i)));

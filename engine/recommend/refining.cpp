@@ -1,11 +1,14 @@
 // The second step of a search: the point with the most expected gain for its effort comes next.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "recommend/search_steps.h"
 
 namespace shadowbench::recommend {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A point is left unmeasured if its chance to be the best is below the first, and that of a better runner-up below the
 // second.
@@ -81,15 +84,15 @@ const std::vector<Search::Open>& Search::open_points(std::size_t family) {
 
 // What others reached since a family was last updated makes its points less promising, rarely more. So only the family
 // of the most promising point is brought up to date, until the most promising point is of a family that is.
-std::optional<Point> Search::most_promising(std::size_t& open, bool& too_long) {
+std::optional<Point> Search::most_promising(std::size_t& open, double& skipped) {
     for (;;) {
-        const std::optional<Point> best = seemingly_most_promising(open, too_long);
+        const std::optional<Point> best = seemingly_most_promising(open, skipped);
         if (!best || shared_[best->family] == floors_.version()) return best;
         share_floors(best->family);
     }
 }
 
-std::optional<Point> Search::seemingly_most_promising(std::size_t& open, bool& too_long) {
+std::optional<Point> Search::seemingly_most_promising(std::size_t& open, double& skipped) {
     std::optional<Point> best;
     double most = 0.0;
     open = 0;
@@ -102,7 +105,7 @@ std::optional<Point> Search::seemingly_most_promising(std::size_t& open, bool& t
             const double effort = lab_.effort(point), worth = one.gain / effort;
             if (worth <= std::max(most, least_promise / spent_)) continue;
             if (!fits(effort)) {
-                too_long = true;
+                skipped = std::min(skipped, effort);
                 continue;
             }
             most = worth;
@@ -113,7 +116,7 @@ std::optional<Point> Search::seemingly_most_promising(std::size_t& open, bool& t
 
 // A neighbour of a best setting that nothing measured rules out: one step cheaper on an axis, and perhaps one step more
 // accurate on another.
-std::optional<Point> Search::open_neighbour(bool& too_long) const {
+std::optional<Point> Search::open_neighbour(double& skipped) const {
     for (std::size_t k = 0; k < costs; ++k) {
         if (!found_.goal.asked[k] || !incumbents_.best[k]) continue;
         const Point& best = *incumbents_.best[k];
@@ -126,8 +129,9 @@ std::optional<Point> Search::open_neighbour(bool& too_long) const {
                 if (up != down && ++point.step[up] == lattice.steps(up)) continue;
                 const std::size_t index = lattice.index(point.step);
                 if (known.measured(index) || known.ruled_out(index) || gain(best.family, index, false) <= 0.0) continue;
-                if (fits(lab_.effort(point))) return point;
-                too_long = true;
+                const double effort = lab_.effort(point);
+                if (fits(effort)) return point;
+                skipped = std::min(skipped, effort);
             }
     }
     return {};
@@ -171,18 +175,20 @@ void Search::try_variants() {
 }
 
 void Search::refine() {
+    skipped_point_ = infinity;
     while (!exploring_over()) {
         std::size_t open = 0;
-        bool too_long = false;
-        std::optional<Point> next = most_promising(open, too_long);
+        double skipped = infinity;
+        std::optional<Point> next = most_promising(open, skipped);
         if (!fine_ && (!next || (left() < (1.0 - coarse_share) * whole_time() && answered()))) {
             fine_ = true;
             update_all();
             continue;
         }
-        if (!next) next = open_neighbour(too_long);
+        if (!next) next = open_neighbour(skipped);
         if (!next) {
-            if (too_long && found_.end == End::complete) found_.end = End::budget;
+            skipped_point_ = skipped;
+            if (std::isfinite(skipped) && found_.end == End::complete) found_.end = End::budget;
             return;
         }
         report(Stage::refining, std::max<std::size_t>(open, 1));

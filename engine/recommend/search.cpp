@@ -35,6 +35,7 @@ constexpr double least_reserve = 0.25, most_reserve = 0.45, reserved_rounds = 1.
 Search::Search(Lab& lab, const Goal& goal, const Hooks& hooks)
     : lab_(lab), hooks_(hooks), began_(hooks.seconds ? hooks.seconds() : 0.0) {
     found_.goal = goal;
+    found_.before = began_;
     found_.families = {lab.families().begin(), lab.families().end()};
     found_.scout = lab.scout();
     wanted_ = {goal.error, goal.error / growth(found_), goal.at_most};
@@ -269,10 +270,28 @@ void Search::confirm() {
         }
         wanted_.trial_error = found_.goal.error / growth(found_);
         update_all();
-        refine();
-        try_variants();
-        time_again();
+        go_on();
     }
+}
+
+// Exploring after a confirmation. It took less time than was left to it, as a rule: then climbs that seemed to take too
+// long go on too, and only what is then left out says that the budget ended.
+void Search::go_on() {
+    if (found_.end == End::budget) found_.end = End::complete;
+    refine();
+    if (std::isfinite(left())) {
+        climb();
+        refine();
+    }
+    try_variants();
+    time_again();
+}
+
+// Why the search ended with time left.
+void Search::note_next() {
+    const double skipped = std::min(skipped_climb_, skipped_point_), seconds = skipped + reserve_;
+    if (found_.end == End::budget && std::isfinite(skipped) && left() > 0.0 && seconds > left())
+        found_.next = {seconds, left()};
 }
 
 Exploration Search::run() {
@@ -283,6 +302,7 @@ Exploration Search::run() {
     time_again();
     refine();
     confirm();
+    note_next();
     return std::move(found_);
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -55,9 +56,9 @@ private:
     bool answered() const;
     const std::vector<Open>& open_points(std::size_t family);
     void share_floors(std::size_t family);
-    std::optional<Point> most_promising(std::size_t& open, bool& too_long);
-    std::optional<Point> seemingly_most_promising(std::size_t& open, bool& too_long);
-    std::optional<Point> open_neighbour(bool& too_long) const;
+    std::optional<Point> most_promising(std::size_t& open, double& skipped);
+    std::optional<Point> seemingly_most_promising(std::size_t& open, double& skipped);
+    std::optional<Point> open_neighbour(double& skipped) const;
     void refine();
     std::optional<Point> open_variant() const;
     void try_variants();
@@ -69,6 +70,8 @@ private:
     bool is_confirmed(const Point& point) const;
     std::vector<Point> affordable(const ToConfirm& wanted, double seconds);
     void confirm();
+    void go_on();
+    void note_next();
 
     void report(Stage stage, std::size_t open) const;
 
@@ -76,6 +79,10 @@ private:
     const Hooks& hooks_;
     double began_;
     double reserve_ = 0.0;  // seconds that exploring leaves for what follows
+    // Seconds of the shortest step that the last climb, and the last refining, left out since it took too long; infinite
+    // if there was none.
+    double skipped_climb_ = std::numeric_limits<double>::infinity(),
+           skipped_point_ = std::numeric_limits<double>::infinity();
     double spent_ = 1e-9;  // seconds of measuring, as foreseen
     Exploration found_;
     Wanted wanted_;

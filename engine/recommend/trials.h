@@ -65,6 +65,7 @@ public:
     // One more setting to measure: see Space::add.
     Point add(const nlohmann::json& part) { return space_->add(part); }
     const std::string& light() const { return light_->name; }
+    double truth_error() const { return truth_doubt_.rms; }  // the standard error of the truth, RMS
     // The width of all footprints as a share of the map, if the scenario gives it in map pixels: a map of another
     // resolution must be asked for this share instead, to answer the same question.
     std::optional<double> footprint_share() const;

@@ -24,6 +24,7 @@ constexpr std::size_t most_counted = 3;  // techniques that are counted by name,
 constexpr double far_apart = 2.0;        // ratio of errors that a result should be able to tell apart
 constexpr std::size_t enough_seeds = 5;  // further ones, that mostly do so
 constexpr std::size_t most_seeds = 64;   // that a scenario may ask for
+constexpr double noisy_truth = 1.0 / 3;     // standard error of the truth, as a share of the error, above which it is named
 constexpr double truth_sds = 4.0;        // a difference below so many standard deviations of the truth is its noise
 
 // The least of some choices, and those of which the intervals do not say that they are more.
@@ -116,6 +117,7 @@ struct Cheapest {
     std::vector<std::size_t> among;    // numbers of cells of the light
     std::string error, bytes, lookup;  // in words
     std::string advice;                // a sentence, or empty
+    double least_error = 0.0;          // rms
     std::string bytes_name;            // who takes the fewest bytes; empty if that is undecided or a tie
 };
 
@@ -172,6 +174,7 @@ Cheapest cheapest_of(const LightResult& light) {
     for (const std::size_t i : all_of(least)) found.among.push_back(cells[i]);
     Speaker speaker;
     const Cell& best = choices.cell(least.best);
+    found.least_error = best.lookup->norms.rms;
     const std::string who = speaker.name(best, false);
     found.error = fmt::format("{} has the smallest error (rms {}{})", who, base::error_text(best.lookup->norms.rms),
                               speaker.rivals(choices, least, true));
@@ -181,6 +184,15 @@ Cheapest cheapest_of(const LightResult& light) {
     return found;
 }
 
+// What an inexact truth adds to the errors, unless that is little beside them.
+std::string truth_text(const LightResult& light, double least_error) {
+    const double noise = light.reference.error_rms;
+    if (!(noise > noisy_truth * least_error)) return "";
+    return fmt::format(" The truth itself has a standard error of {:.2g}, which each error includes: an exact one would "
+                       "be about sqrt(error^2 - {:.2g}^2).",
+                       noise, noise);
+}
+
 std::string sentences(const LightResult& light) {
     if (sees_nothing(light)) return "nothing casts a shadow, so there is nothing to choose.";
     const Cheapest found = cheapest_of(light);
@@ -188,11 +200,13 @@ std::string sentences(const LightResult& light) {
     if (found.among.size() == 1) {
         const Cell& cell = light.cells[found.among[0]];
         return fmt::format("{}. It takes {}{}.", found.error, base::bytes_text(cell.bytes),
-                           cell.times ? " and " + time_text(cell.times->random_order.ns, light) + " ns a lookup" : "");
+                           cell.times ? " and " + time_text(cell.times->random_order.ns, light) + " ns a lookup" : "") +
+               truth_text(light, found.least_error);
     }
     return fmt::format("{}. Of these, {}{}.{}", found.error, found.bytes,
                        found.lookup.empty() ? "" : (found.lookup[0] == 'w' ? "; " : ", and ") + found.lookup,
-                       found.advice);
+                       found.advice) +
+           truth_text(light, found.least_error);
 }
 
 // In how many lights a technique takes the fewest bytes of those that may have the smallest error.

@@ -14,10 +14,22 @@ using base::ErrorCode;
 
 namespace {
 
+// The server's folders are not shown: of a name that begins with one of them, the rest is.
+std::string way_out_text(const SearchPath& path, const std::string& name) {
+    if (!fs::path(name).is_absolute())
+        return fmt::format("\"{}\" must be a name inside the data folders, without ..", name);
+    for (const fs::path& folder : path.folders) {
+        const fs::path inside = fs::path(name).lexically_relative(folder);
+        if (!inside.empty() && !names_way_out(inside.string()))
+            return fmt::format("the name is absolute; only names relative to the data folders are read here: write \"{}\"",
+                               inside.string());
+    }
+    return "the name is absolute; only names relative to the data folders are read here: put the file into one of them, "
+           "and write its name from there";
+}
+
 fs::path find_confined(const SearchPath& path, const std::string& name, const std::string& where) {
-    if (names_way_out(name))
-        throw Error(ErrorCode::bad_input, where,
-                    fmt::format("\"{}\" must be a name inside the data folders: not absolute, and without ..", name));
+    if (names_way_out(name)) throw Error(ErrorCode::bad_input, where, way_out_text(path, name));
     std::error_code ignored;
     for (const fs::path& folder : path.folders) {
         const fs::path file = folder / name;

@@ -66,17 +66,21 @@ int report(std::ostream& err, ErrorCode code, std::string message) {
 
 using Names = std::vector<std::string>;
 
-// What the user may have meant by an option that the command does not have.
-std::string near_option(const CLI::App& command, int argc, const char* const* argv) {
+// The first option that the command does not have, and what the user may have meant by it; empty: it has them all.
+struct UnknownOption {
+    std::string name, perhaps;
+};
+UnknownOption unknown_option(const CLI::App& command, int argc, const char* const* argv) {
     Names names;
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i], option = word.substr(0, word.find('='));
         if (option.size() < 3 || option.compare(0, 2, "--") != 0) continue;
-        if (std::find(names.begin(), names.end(), option) == names.end()) return base::perhaps(option, names);
+        if (std::find(names.begin(), names.end(), option) == names.end())
+            return {option, base::perhaps(option, names)};
     }
-    return "";
+    return {};
 }
 
 // What the user may have meant in a message as of CLI::IsMember: "--measure: rns not in {rms,max}".
@@ -101,8 +105,14 @@ std::string usage_message(const CLI::App& app, int argc, const char* const* argv
                            base::perhaps(argv[1], names), fmt::join(names, ", "));
     }
     const std::string message = error.what();
-    const bool extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
-    return message + (extra ? near_option(parsed.empty() ? app : *parsed[0], argc, argv) : near_word(message)) +
+    const auto is = [&](CLI::ExitCodes code) { return error.get_exit_code() == static_cast<int>(code); };
+    const UnknownOption unknown = unknown_option(parsed.empty() ? app : *parsed[0], argc, argv);
+    std::string more = near_word(message);
+    if (is(CLI::ExitCodes::ExtrasError))
+        more = unknown.perhaps;
+    else if (is(CLI::ExitCodes::RequiredError) && !unknown.name.empty())  // misspelt, it is missing
+        more = fmt::format("; there is no {}{}", unknown.name, unknown.perhaps);
+    return message + more +
            (parsed.empty() ? " (see shadowbench --help)"
                            : fmt::format(" (see shadowbench {} --help)", parsed[0]->get_name()));
 }

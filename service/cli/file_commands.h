@@ -19,6 +19,7 @@ struct FileArguments {
 struct NewArguments : FileArguments {
     std::string out;       // file; empty: standard output
     std::string up = "y";  // or z
+    bool force = false;    // write over an existing file
 };
 
 // Shows progress on `err`.

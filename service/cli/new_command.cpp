@@ -40,6 +40,14 @@ std::string name_from(const std::string& given, const std::string& out) {
     return file.is_absolute() && *name.begin() == ".." ? given : name.string();
 }
 
+// A scenario is edited by hand, unlike what other commands write: it is not lost by a name used twice.
+void refuse_existing(const NewArguments& arguments) {
+    std::error_code ignored;
+    if (!arguments.out.empty() && !arguments.force && std::filesystem::is_regular_file(arguments.out, ignored))
+        throw base::Error(base::ErrorCode::usage, "--out " + arguments.out,
+                          "the file exists; choose another name, or give --force to write over it");
+}
+
 // Refuses to write the scenario over a data file.
 void check_out(const std::string& out, const std::string& file) {
     std::error_code ignored;
@@ -67,6 +75,7 @@ void new_command(const NewArguments& arguments, std::ostream& out, std::ostream&
         files.push_back(read_data(arguments, file, err));
         names.push_back(name_from(file, arguments.out));
     }
+    refuse_existing(arguments);
     const scene::UpAxis up = arguments.up == "z" ? scene::UpAxis::z : scene::UpAxis::y;
     const std::string text = scene::in_lines(scene::new_scenario(files, names, fitting_techniques(files), up)) + "\n";
     document::check_document(nlohmann::json::parse(text));

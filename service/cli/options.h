@@ -47,6 +47,8 @@ void add_library_options(CLI::App& command, LibraryArguments& libraries);
 void add_server_library_options(CLI::App& command, LibraryArguments& libraries);
 void add_only_option(CLI::App& command, JobArguments& arguments);
 void add_output_options(CLI::App& command, OutputArguments& arguments);
+// Its value must be an error that a recommendation may be asked for.
+void check_error(CLI::Option* option);
 void add_folder_option(CLI::App& command, std::string& folder, const char* text);
 
 // Each adds its subcommand, as the functions below do for theirs.

@@ -59,6 +59,7 @@ void add_new(CLI::App& app, Commands& commands) {
     made->add_option("--out", arguments->out,
                      "Write the scenario to this file, with names of data files relative to its folder [standard "
                      "output, with the names as given, which hold for a scenario in the current folder]");
+    made->add_flag("--force", arguments->force, "Write over the file of --out if it exists");
     made->add_option("--up", arguments->up, "The axis that points up: y or z")
         ->check(CLI::IsMember({"y", "z"}))
         ->capture_default_str();

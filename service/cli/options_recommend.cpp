@@ -1,8 +1,12 @@
+#include <charconv>
+#include <cmath>
 #include <memory>
 #include <ostream>
 #include <string>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "recommend/request.h"
@@ -20,7 +24,22 @@ void refuse_without_measuring(const CLI::App& recommend, const RecommendArgument
             throw base::Error(base::ErrorCode::usage, option, "nothing is measured with --from, unless with --beside");
 }
 
+std::string error_fault(const std::string& text) {
+    double error = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [rest, fault] = std::from_chars(text.data(), end, error);
+    if (fault != std::errc() || rest != end || !std::isfinite(error))
+        return fmt::format("\"{}\" is not a number; write one as 0.02", text);
+    if (error >= recommend::least_error && error <= recommend::most_error) return "";
+    return fmt::format("{} is not from {} to {}", text, recommend::least_error, recommend::most_error);
+}
+
 }  // namespace
+
+void check_error(CLI::Option* option) {
+    option->check(CLI::Validator([](std::string& text) { return error_fault(text); },
+                                 fmt::format("FLOAT in [{} - {}]", recommend::least_error, recommend::most_error)));
+}
 
 void add_recommend(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<RecommendArguments>();
@@ -33,12 +52,11 @@ void add_recommend(CLI::App& app, Commands& commands) {
         "All maps answer the same lookups over the same footprints, whatever their resolution. The answer holds with "
         "95 % confidence. Techniques that store no map stand on a line of their own, and compete only for the lookup "
         "time.\n"
-        "Exit codes: 0; 2 nothing reaches the error; others as in shadowbench --help.");
+        "Exit codes: 0; 2 nothing reaches the error; 64 also if the budget ends before anything is measured; others as "
+        "in shadowbench --help.");
     CLI::Option* scenario =
         recommend->add_option("SCENARIO", arguments->scenario, "A scenario file, or the name of one");
-    recommend->add_option("--error", arguments->error, "The largest error that is good enough")
-        ->required()
-        ->check(CLI::Range(recommend::least_error, recommend::most_error));
+    check_error(recommend->add_option("--error", arguments->error, "The largest error that is good enough")->required());
     recommend
         ->add_option(
             "--measure", arguments->measure,

@@ -197,12 +197,15 @@ void add_submit(CLI::App& app, Commands& commands) {
     submit->add_flag("--fresh", arguments->fresh, "Run the scenario even if the server has a result of it");
     CLI::Option* no_pictures =
         submit->add_flag("--no-pictures", arguments->no_pictures, "Measure, but render no pictures");
-    submit
-        ->add_option("--recommend", arguments->recommend,
-                     "Instead of running it, find the cheapest technique and settings whose RMS error is at most this, "
-                     "as recommend --error does")
-        ->check(CLI::Range(recommend::least_error, recommend::most_error))
-        ->excludes(no_pictures);
+    CLI::Option* recommend =
+        submit
+            ->add_option("--recommend", arguments->recommend,
+                         "Instead of running it, find the cheapest technique and settings whose RMS error is at most "
+                         "this, as recommend --error does")
+            ->excludes(no_pictures);
+    check_error(recommend);
+    submit->add_option("--budget", arguments->budget, "With --recommend: its time, as in 90s, 5min or 1h [5min]")
+        ->needs(recommend);
     commands.push_back({submit, [arguments](std::ostream& out, std::ostream& err) {
                             return submit_command(*arguments, out, err) ? 0 : promise_broken;
                         }});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <ostream>
 
@@ -11,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/read_text.h"
+#include "base/shell_word.h"
 #include "base/table.h"
 #include "base/write_files.h"
 #include "recommend/beside.h"
@@ -119,6 +121,7 @@ recommend::Explored explore_scenario(const RecommendArguments& arguments, const 
     folder = output_folder(arguments.out, "results/recommendations", *job.document);
     base::Undo made;
     base::make_writable(folder, made);
+    made.record(trials_folder(folder));  // stays unless it is empty
     ProgressBar bar(err);
     recommend::Watch watch;
     watch.measuring = [&](const bench::Progress& progress) { bar.show(progress); };
@@ -163,6 +166,33 @@ std::string beside(const RecommendArguments& arguments, const recommend::Goal& g
     return recommend::to_text(contests, measure_words[static_cast<std::size_t>(ours.measure)], goal.error);
 }
 
+// The command for the same question with a budget of so many seconds.
+std::string command_again(const RecommendArguments& arguments, double budget) {
+    std::string command = fmt::format("shadowbench recommend {} --error {}", base::shell_word(arguments.scenario),
+                                      base::number_text(arguments.error));
+    const auto add = [&](const char* option, const std::string& value) {
+        if (!value.empty()) command += fmt::format(" {} {}", option, base::shell_word(value));
+    };
+    const auto add_all = [&](const char* option, const std::vector<std::string>& values) {
+        for (const std::string& value : values) add(option, value);
+    };
+    if (arguments.measure_given) add("--measure", arguments.measure);
+    add_all("--cheapest", arguments.cheapest);
+    add_all("--at-most", arguments.at_most);
+    add("--light", arguments.light);
+    add_all("--set", arguments.set);
+    add_all("--only", arguments.only);
+    add_all("--data", arguments.data);
+    add_all("--technique-library", arguments.libraries.files);
+    if (arguments.libraries.isolate) command += " --isolate";
+    if (arguments.threads > 0) add("--threads", std::to_string(arguments.threads));
+    if (arguments.memory_limit != JobArguments().memory_limit)
+        add("--memory-limit", base::number_text(arguments.memory_limit));
+    add("--out", arguments.out);
+    add("--budget", recommend::budget_text(budget));
+    return command;
+}
+
 }  // namespace
 
 bool recommend_command(const RecommendArguments& arguments, std::ostream& out, std::ostream& err) {
@@ -177,11 +207,13 @@ bool recommend_command(const RecommendArguments& arguments, std::ostream& out, s
         more = trials_text(all, folder) + fmt::format("written: {0}/result.json, {0}/result.csv\n", folder.string());
         return std::move(all.recommendation);
     };
+    const std::function<std::string(double)> again = [&](double budget) { return command_again(arguments, budget); };
     const Recommendation found =
         arguments.from.empty()
             ? explored()
             : read_recommendation(arguments.from, arguments.light, read_measure(arguments.measure), goal, &arguments);
-    const recommend::AnswerText answer = recommend::answer_text(found, goal, line_width(out));
+    const recommend::AnswerText answer = recommend::answer_text(
+        found, goal, line_width(out), arguments.from.empty() ? again : std::function<std::string(double)>());
     out << answer.text << more;
     if (!arguments.beside.empty()) out << base::wrapped(beside(arguments, goal, found, err), line_width(out));
     return answer.reached;

@@ -52,6 +52,15 @@ private:
     const char* stage_ = "exploring";
 };
 
+// A budget that is too short is bad input of the request.
+recommend::Explored explored_as_asked(const nlohmann::json& document, const bench::RunOptions& options,
+                                      const recommend::Request& asked, const recommend::Watch& watch) try {
+    return recommend::explore(document, options, asked, watch);
+} catch (const base::Error& error) {
+    if (error.where() != "--budget") throw;
+    throw base::Error(base::ErrorCode::bad_input, "/recommend/budget", error.message());
+}
+
 }  // namespace
 
 bool recommend_job(const nlohmann::json& document, const nlohmann::json& request, const bench::RunOptions& options,
@@ -64,7 +73,7 @@ bool recommend_job(const nlohmann::json& document, const nlohmann::json& request
     recommend::Watch watch;
     watch.measuring = [&](const bench::Progress& progress) { course.measure(progress); };
     watch.exploring = [&](const recommend::Progress& progress, double) { course.explore(progress); };
-    recommend::Explored explored = recommend::explore(document, options, asked, watch);
+    recommend::Explored explored = explored_as_asked(document, options, asked, watch);
     for (std::string& note : explored.result.notes) note = hide(note, hidden);
     nlohmann::ordered_json result = recommend::to_json(explored);
     result["recommendation"]["request"] = request;

@@ -1,11 +1,16 @@
 #include "service/cli/scenario_files.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <sstream>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "base/nearest.h"
+#include "base/shell_word.h"
+#include "scene/data_file.h"
 #include "scene/named_scenarios.h"
 #include "service/cli/this_program.h"
 
@@ -48,6 +53,20 @@ fs::path scenario_folder(const std::string& name) {
     return {};
 }
 
+// A data file is no scenario. Text may be one.
+void refuse_data(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".txt") return;
+    for (const scene::FileFormat& format : scene::file_formats())
+        if (extension == format.extension)
+            throw Error(ErrorCode::bad_input, file.string(),
+                        fmt::format("this is a data file ({}); make a scenario around it: shadowbench new {} --out "
+                                    "scenario.json",
+                                    format.title, base::shell_word(file.string())));
+}
+
 std::vector<std::string> known_names(const std::vector<fs::path>& folders) {
     std::vector<std::string> names;
     for (const scene::NamedScenario& scenario : scene::list_scenarios(folders)) {
@@ -70,7 +89,10 @@ std::vector<fs::path> scenario_folders() {
 
 fs::path find_scenario(const std::string& name) {
     std::error_code ignored;
-    if (fs::is_regular_file(name, ignored)) return name;
+    if (fs::is_regular_file(name, ignored)) {
+        refuse_data(name);
+        return name;
+    }
     const std::vector<fs::path> folders = scenario_folders();
     if (fs::path found = scene::find_scenario(folders, name); !found.empty()) return found;
     if (const fs::path folder = scenario_folder(name); !folder.empty())

@@ -51,6 +51,7 @@ struct SubmitArguments {
     int priority = 0;
     bool wait = false, fresh = false, no_pictures = false;
     std::optional<double> recommend;  // the error to ask a recommendation for
+    std::string budget;               // of the recommendation, with a unit; empty: the server's usual one
 };
 
 struct HelperArguments {

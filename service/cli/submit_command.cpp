@@ -12,6 +12,7 @@
 #include "document/document.h"
 #include "scene/scenario.h"
 #include "service/cli/progress_bar.h"
+#include "service/cli/quantity.h"
 #include "service/cli/scenario_files.h"
 #include "service/cli/server_commands.h"
 #include "service/cli/token_file.h"
@@ -72,9 +73,11 @@ std::string request_body(const SubmitArguments& arguments) {
                            {"options", {{"cache", arguments.fresh ? "fresh" : "reuse"}}}};
     if (!arguments.labels.empty()) body["options"]["labels"] = arguments.labels;
     if (arguments.priority != 0) body["options"]["priority"] = arguments.priority;
-    if (arguments.recommend)
+    if (arguments.recommend) {
         body["recommend"] = {{"error", *arguments.recommend}};
-    else
+        if (!arguments.budget.empty())
+            body["recommend"]["budget"] = read_quantity(arguments.budget, second_units, "--budget");
+    } else
         body["options"]["pictures"] = !arguments.no_pictures;
     return body.dump();
 }

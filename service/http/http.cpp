@@ -322,6 +322,16 @@ std::string host_of(const std::string& origin) {
     return authority.substr(0, authority.find(':'));
 }
 
+std::string silence_text(httplib::Error error) {
+    switch (error) {
+        case httplib::Error::Connection: return "no connection could be made";
+        case httplib::Error::SSLConnection: return "no secure connection could be made";
+        case httplib::Error::Read: return "no answer came over the connection";
+        case httplib::Error::Write: return "the connection ended while the request was sent";
+        default: return "the connection failed (" + httplib::to_string(error) + ")";
+    }
+}
+
 }  // namespace
 
 struct Client::State {
@@ -354,7 +364,7 @@ struct Client::State {
             return {result->status, result->get_header_value("Content-Type"), result->body,
                     result->get_header_value("Location")};
         if (const auto fault = lasting_fault(result.error())) throw Error(ErrorCode::usage, url, *fault);
-        throw Error(ErrorCode::io, url, "the server does not answer: " + httplib::to_string(result.error()));
+        throw Error(ErrorCode::io, url, "the server does not answer: " + silence_text(result.error()));
     }
 };
 

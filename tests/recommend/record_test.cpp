@@ -31,6 +31,8 @@ Exploration two_families() {
     found.confirmed = {{{0, {2, 1, 0}}, confirmed}};
     found.end = End::budget;
     found.steal = 0.125;
+    found.before = 12.5;
+    found.next = NextStep{41.0, 34.0};
     return found;
 }
 
@@ -44,8 +46,13 @@ TEST(Record, IsReadBackAsItWasWritten) {
     EXPECT_EQ(read.end, End::budget);
     EXPECT_EQ(read.steal, 0.125);
     nlohmann::json earlier = written;  // written by a version that did not note it
-    earlier.erase("steal");
+    for (const char* name : {"steal", "before_seconds", "next"}) earlier.erase(name);
     EXPECT_EQ(exploration_from_json(earlier, "result.json").steal, std::nullopt);
+    EXPECT_EQ(exploration_from_json(earlier, "result.json").next.has_value(), false);
+    EXPECT_EQ(read.before, 12.5);
+    ASSERT_TRUE(read.next);
+    EXPECT_EQ(read.next->seconds, 41.0);
+    EXPECT_EQ(read.next->left, 34.0);
     EXPECT_EQ(read.scout, found.scout);
     EXPECT_EQ(read.families[0].axes[0].values, found.families[0].axes[0].values);
     EXPECT_EQ(read.measured[0].point, found.measured[0].point);

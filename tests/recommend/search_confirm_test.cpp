@@ -107,6 +107,61 @@ TEST(Search, ARunnerUpThatWouldTakeMostOfTheTimeIsLeftIfTimeIsLimited) {
     EXPECT_LE(found_cost(lab, found, Cost::bytes), cheapest(lab, goal, Cost::bytes) * (1.0 + 1e-12));
 }
 
+// "The budget ended" with most of it left says nothing; here no step of "huge" fits, whatever is left.
+TEST(Search, SaysHowLongTheStepTakesThatTheRestOfTheBudgetIsTooShortFor) {
+    class Huge : public SyntheticLab {
+    public:
+        using SyntheticLab::SyntheticLab;
+        double effort(const Point& point) const override {
+            return SyntheticLab::effort(point) + (point.family == 1 ? 100.0 : 0.0);
+        }
+    };
+    Huge lab({usual("a"), usual("huge")}, {}, 1);
+    Goal goal = goal_of(0.1);
+    goal.budget = 60.0;
+    Hooks hooks;
+    hooks.seconds = [&lab] { return 3.0 + lab.seconds(); };
+    const Exploration found = explore(lab, goal, hooks);
+    EXPECT_EQ(found.end, End::budget);
+    EXPECT_EQ(found.before, 3.0);
+    ASSERT_TRUE(found.next);
+    EXPECT_GE(found.next->seconds, 100.0);
+    EXPECT_GT(found.next->left, 0.0);
+    EXPECT_NEAR(found.next->left, 60.0 - 3.0 - lab.seconds(), 1e-9);
+}
+
+// A first step of "late" takes more than a tenth of the time that exploring has, so that it waits; once the best are
+// confirmed there is time for it.
+TEST(Search, WhatSeemedTooLongIsMeasuredInTheTimeThatConfirmingLeft) {
+    class Late : public SyntheticLab {
+    public:
+        using SyntheticLab::SyntheticLab;
+        double effort(const Point& point) const override {
+            return SyntheticLab::effort(point) + (point.family == 1 ? 20.0 : 0.0);
+        }
+        std::vector<Confirmed> confirm(std::span<const Point> points, const Confirming& how) override {
+            if (measured_late == 0) early = true;
+            return SyntheticLab::confirm(points, how);
+        }
+        Trial measure(const Point& point) override {
+            measured_late += point.family == 1;
+            return SyntheticLab::measure(point);
+        }
+        int measured_late = 0;
+        bool early = false;  // whether something was confirmed before
+    };
+    Law late = usual("late");
+    late.error = error_law({{0.3, 0.35}, {0.3, 0.35}, {0.3, 0.4}}, 0.0);
+    Late lab({usual("a"), late}, {}, 1);
+    Goal goal = goal_of(0.1);
+    goal.budget = 60.0;
+    Hooks hooks;
+    hooks.seconds = [&lab] { return lab.seconds() + (lab.early ? 0.0 : 25.0); };
+    explore(lab, goal, hooks);
+    EXPECT_TRUE(lab.early);
+    EXPECT_GE(lab.measured_late, 1);
+}
+
 // Others within noise of the best would take too long to confirm: confirming the best again tells nothing new.
 TEST(Search, WithoutNewSettingsNothingIsConfirmedAgain) {
     class Slow : public SyntheticLab {

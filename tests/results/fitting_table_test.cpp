@@ -219,6 +219,18 @@ TEST(Meaning, says_which_error_is_undecided_and_what_would_decide) {
     EXPECT_THAT(meaning_text(result, {1000, false}), Not(HasSubstr("ask for"))) << "this decides";
 }
 
+// Otherwise an error below the one asked for seems to be above it, by the noise of the truth.
+TEST(Meaning, says_how_much_of_the_errors_a_noisy_truth_makes) {
+    Result result = result_of({{"deep", "", 50, 1 << 20, 0.021}, {"pcf", "", 5, 1 << 10, 0.2}});
+    LightResult& light = result.variants[0].lights[0];
+    light.reference.error_rms = 0.0065;
+    EXPECT_THAT(meaning_text(result, {1000, false}), Not(HasSubstr("truth itself")));
+    light.reference.error_rms = 0.011;
+    EXPECT_THAT(meaning_text(result, {1000, false}),
+                HasSubstr("The truth itself has a standard error of 0.011, which each error includes: an exact one would "
+                          "be about sqrt(error^2 - 0.011^2)."));
+}
+
 TEST(Meaning, names_the_error_of_whom_it_has_not_named_yet) {
     const std::vector<Made> five{{"deep", "", 50, 5 << 20, 0.04, 0.02},
                                  {"a", "", 60, 4 << 20, 0.0401, 0.02},

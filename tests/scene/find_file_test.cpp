@@ -73,6 +73,12 @@ TEST_F(ConfinedPath, RefusesAbsoluteNamesAlsoOfItsOwnFiles) {
     const std::filesystem::path own = top_ / "data/a.raw";
     EXPECT_EQ(test::error_of([&] { find_file(path_, own.string(), ""); }).code(), base::ErrorCode::bad_input);
     refused("/etc/hostname");
+    const auto said = [&](const std::string& name) {
+        return test::error_of([&] { find_file(path_, name, ""); }).message();
+    };
+    EXPECT_THAT(said((top_ / "data/sub/b.raw").string()), HasSubstr("the name is absolute"));
+    EXPECT_THAT(said((top_ / "data/sub/b.raw").string()), HasSubstr("write \"sub/b.raw\""));
+    EXPECT_THAT(said("/etc/hostname"), HasSubstr("put the file into one of them"));
 }
 
 TEST_F(ConfinedPath, RefusesLinksThatLeadOut) {

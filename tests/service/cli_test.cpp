@@ -1,5 +1,6 @@
 #include "service/run_cli.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,6 +96,16 @@ TEST_F(Cli, names_what_a_misspelt_word_may_mean) {
     setenv("SHADOWBENCH_SCENARIOS", folder_.c_str(), 1);
     fails({"run", "tinny"}, 66, "no scenario of this name, perhaps \"tiny\", in ");
     unsetenv("SHADOWBENCH_SCENARIOS");
+}
+
+TEST_F(Cli, says_what_is_wrong_with_an_error_to_reach) {
+    fails({"recommend", path("tiny.json"), "--eror", "0.02"}, 64, "there is no --eror, perhaps \"--error\" (see");
+    for (const char* text : {"2%", "0,02", "nan"})
+        fails({"recommend", path("tiny.json"), "--error", text}, 64, "is not a number; write one as 0.02");
+    fails({"recommend", path("tiny.json"), "--error", "2"}, 64, "--error: 2 is not from 1e-06 to 1 ");
+    fails({"submit", path("tiny.json"), "--recommend", "2%"}, 64, "\"2%\" is not a number");
+    fails({"submit", path("tiny.json"), "--budget", "2min"}, 64, "--recommend");
+    fails({"submit", path("tiny.json"), "--recommend", "0.1", "--budget", "2"}, 64, "--budget");
 }
 
 TEST_F(Cli, says_which_file_is_missing) {

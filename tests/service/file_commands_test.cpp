@@ -108,7 +108,7 @@ TEST_F(FileCommands, WhatNewMakesIsValid) {
                              Made{"tile.vdb", "OK tile: 1 variant of 1 light and 7 techniques\n"},
                              Made{"zback0.exr", "OK zback0: 1 variant of 1 light and 6 techniques\n"},
                              Made{"inf.exr", "OK inf: 1 variant of 1 light and 6 techniques\n"}}) {
-        const Outcome written = cli({"new", case_file(made.file), "--out", path("made.json")});
+        const Outcome written = cli({"new", case_file(made.file), "--out", path("made.json"), "--force"});
         ASSERT_EQ(written.code, 0) << written.err;
         EXPECT_EQ(written.out, "written: " + path("made.json") + "\n");
         const Outcome valid = cli({"validate", path("made.json")});
@@ -140,6 +140,25 @@ TEST_F(FileCommands, NewNamesFilesRelativeToTheScenario) {
     EXPECT_EQ(objects.at(0).at("file"), "meshes/a.obj");
     EXPECT_EQ(objects.at(1).at("file"), outside);
     EXPECT_EQ(cli({"validate", path("scene/made.json")}).code, 0);
+}
+
+// Otherwise a scenario that was edited by hand is lost.
+TEST_F(FileCommands, NewWritesOverNothingUnlessItIsForcedTo) {
+    const std::string mine = write("mine.json", "{\"mine\": true}");
+    fails({"new", case_file("bom.obj"), "--out", mine}, 64, "the file exists; choose another name, or give --force");
+    EXPECT_EQ(read("mine.json").at("mine"), true);
+    EXPECT_EQ(cli({"new", case_file("bom.obj"), "--out", mine, "--force"}).code, 0);
+    EXPECT_EQ(read("mine.json").at("name"), "bom");
+}
+
+TEST_F(FileCommands, FaultsOfWritingNameTheFileAskedFor) {
+    fails({"new", case_file("bom.obj"), "--out", "/proc/made.json"}, 74, "/proc/made.json: cannot write the file");
+}
+
+TEST_F(FileCommands, ADataFileInPlaceOfAScenarioIsAnsweredWithTheCommandForIt) {
+    for (const std::string command : {"run", "validate"})
+        fails({command, case_file("bom.obj")}, 65,
+              "this is a data file (Wavefront OBJ mesh); make a scenario around it: shadowbench new ");
 }
 
 TEST_F(FileCommands, NewPrintsTheScenarioWithoutAFile) {

@@ -69,6 +69,20 @@ TEST(Recommend, AnswersWritesWhatItMeasuredAndAnswersFromThat) {
     }
 }
 
+// Without a measurement, that nothing reaches the error would be false.
+TEST(Recommend, RefusesABudgetThatTheTruthTakesWhole) {
+    const TemporaryFolder folder;
+    const std::string scenario = (folder.path() / "two_quads.json").string(), out = (folder.path() / "found").string();
+    std::ofstream(scenario) << two_quads;
+    const Outcome found = cli({"recommend", scenario, "--error", "0.3", "--only", "variance", "--budget", "0.000001s",
+                               "--out", out});
+    EXPECT_EQ(found.code, 64) << found.out;
+    EXPECT_THAT(found.err, ::testing::HasSubstr("--budget: 1e-06s ended before anything was measured: reading the scene "
+                                                "and computing the truth took "));
+    EXPECT_THAT(found.err, ::testing::HasSubstr("Give 5min or more"));
+    EXPECT_FALSE(std::filesystem::exists(out)) << "nothing is left of it";
+}
+
 TEST(Recommend, AnswersFromARun) {
     const TemporaryFolder folder;
     const std::string scenario = (folder.path() / "two_quads.json").string(), out = (folder.path() / "run").string();

@@ -246,12 +246,14 @@ TEST_F(ServerCommands, SubmitPrintsTheJobAndDoesNotWait) {
 
 TEST_F(ServerCommands, SubmitAsksForARecommendation) {
     serve();
-    const Outcome submitted = cli({"submit", path("tiny.json"), "--server", url_, "--recommend", "0.25", "--fresh"});
+    const Outcome submitted = cli({"submit", path("tiny.json"), "--server", url_, "--recommend", "0.25",
+                                   "--budget", "2min", "--fresh"});
     EXPECT_EQ(submitted.code, 0) << submitted.err;
     const std::string id = submitted.out.substr(0, submitted.out.find(' '));
     const auto job = nlohmann::json::parse(Client(url_, "").get("/v1/jobs/" + id).body);
     EXPECT_EQ(job["kind"], "recommendation");
     EXPECT_EQ(job["recommend"]["error"], 0.25);
+    EXPECT_EQ(job["recommend"]["budget"], 120.0);
     EXPECT_EQ(cli({"submit", path("tiny.json"), "--server", url_, "--recommend", "5"}).code, 64);
 }
 
