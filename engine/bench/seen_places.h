@@ -1,4 +1,5 @@
-// Which part of what a camera sees lies inside a light's map, and which part of the map that is, from places of the objects, before any ray is traced.
+// Which part of what a camera sees lies inside the map of a light, and which part of the map that is, from places of the
+// objects, before any ray is traced.
 #pragma once
 
 #include "rays/light_view.h"

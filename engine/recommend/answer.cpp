@@ -58,7 +58,8 @@ const Choice* cheapest_of(const std::vector<const Choice*>& candidates, std::siz
     return best;
 }
 
-std::optional<Cheapest> cheapest(const Exploration& found, const std::vector<const Choice*>& candidates, std::size_t k) {
+std::optional<Cheapest> cheapest(const Exploration& found, const std::vector<const Choice*>& candidates,
+                                 std::size_t k) {
     const Choice* best = cheapest_of(candidates, k);
     if (!best) return {};
     Cheapest result{*best, {}, 0.0, false, {}};
@@ -71,16 +72,16 @@ std::optional<Cheapest> cheapest(const Exploration& found, const std::vector<con
     if (const Choice* second = cheapest_of(others, k)) {
         result.runner_up = *second;
         result.behind = second->cost[k] / best->cost[k] - 1.0;
-        result.tie = second->interval[k].low <= best->interval[k].high && best->interval[k].low <= second->interval[k].high;
+        result.tie =
+            second->interval[k].low <= best->interval[k].high && best->interval[k].low <= second->interval[k].high;
     }
     if (const Choice* cheaper = cheapest_of(unsure, k)) result.perhaps = *cheaper;
     return result;
 }
 
 const Choice* least_error(const std::vector<const Choice*>& candidates) {
-    const auto least = std::min_element(candidates.begin(), candidates.end(), [](const Choice* a, const Choice* b) {
-        return a->error.high < b->error.high;
-    });
+    const auto least = std::min_element(candidates.begin(), candidates.end(),
+                                        [](const Choice* a, const Choice* b) { return a->error.high < b->error.high; });
     return least == candidates.end() ? nullptr : *least;
 }
 
@@ -143,7 +144,8 @@ std::vector<std::string> techniques(const Exploration& found) {
     return names;
 }
 
-std::vector<const Choice*> of_technique(const Exploration& found, const std::vector<Choice>& all, const std::string& name) {
+std::vector<const Choice*> of_technique(const Exploration& found, const std::vector<Choice>& all,
+                                        const std::string& name) {
     std::vector<const Choice*> own;
     for (const Choice& choice : all)
         if (technique_of(found, choice) == name) own.push_back(&choice);
@@ -168,9 +170,8 @@ std::optional<Broken> broken(const Exploration& found, const std::string& techni
 }
 
 bool measured(const Exploration& found, const std::string& technique) {
-    return std::any_of(found.measured.begin(), found.measured.end(), [&](const Measured& m) {
-        return found.families[m.point.family].technique == technique;
-    });
+    return std::any_of(found.measured.begin(), found.measured.end(),
+                       [&](const Measured& m) { return found.families[m.point.family].technique == technique; });
 }
 
 }  // namespace
@@ -197,27 +198,31 @@ Answer answer(const Exploration& found, const Goal& goal) {
     for (std::size_t k = 0; k < costs; ++k)
         if (goal.asked[k])
             result.cheapest[k] = cheapest(found, static_cast<Cost>(k) == Cost::lookup ? good : with_map, k);
-    if (const Choice* least = cheapest_of(without_map, static_cast<std::size_t>(Cost::lookup))) result.without_map = *least;
+    if (const Choice* least = cheapest_of(without_map, static_cast<std::size_t>(Cost::lookup)))
+        result.without_map = *least;
     result.cut = std::any_of(found.confirmed.begin(), found.confirmed.end(),
                              [](const Answered& answered) { return answered.confirmed.cut; });
     if (!result.reached)
         if (const Choice* closest = least_error(allowed)) result.closest = *closest;
     for (const std::string& name : techniques(found)) {
-        if (std::optional<Broken> one = broken(found, name)) result.broken.push_back(std::move(*one));
-        else if (!measured(found, name)) result.missed.push_back({name, Held::budget, {}});
+        if (std::optional<Broken> one = broken(found, name))
+            result.broken.push_back(std::move(*one));
+        else if (!measured(found, name))
+            result.missed.push_back({name, Held::budget, {}});
         const std::vector<const Choice*> own = of_technique(found, all, name);
         const Choice* closest = least_error(own);
         if (!closest) continue;
         if (std::any_of(own.begin(), own.end(), [&](const Choice* c) { return good_enough(*c, goal); })) continue;
         Held reason = held(found, goal, own, *closest, all);
-        if (reason != Held::bias && reason != Held::at_most && reason != Held::given && too_dear(result, *closest)) reason = Held::dear;
+        if (reason != Held::bias && reason != Held::at_most && reason != Held::given && too_dear(result, *closest))
+            reason = Held::dear;
         result.missed.push_back({name, reason, *closest});
     }
     const auto failed = std::count_if(result.broken.begin(), result.broken.end(),
                                       [](const Broken& one) { return one.settings == one.measured; });
     result.techniques = techniques(found).size() - static_cast<std::size_t>(failed);
-    result.open = static_cast<std::size_t>(std::count_if(
-        result.missed.begin(), result.missed.end(), [](const Missed& one) { return one.held == Held::budget; }));
+    result.open = static_cast<std::size_t>(std::count_if(result.missed.begin(), result.missed.end(),
+                                                         [](const Missed& one) { return one.held == Held::budget; }));
     return result;
 }
 

@@ -56,7 +56,7 @@ struct Broken {
     std::string technique;
     std::size_t settings = 0;  // that failed
     std::size_t measured = 0;
-    std::string reason;        // of the first
+    std::string reason;  // of the first
     Point first;
 };
 
@@ -64,9 +64,9 @@ struct Answer {
     Goal goal;
     // Of the costs asked. Bytes and builds are those of a map: techniques without one do not compete for them.
     std::array<std::optional<Cheapest>, costs> cheapest;
-    std::optional<Choice> without_map;                    // the least lookup time without a map
-    bool reached = false;                                 // some setting is good enough; if not, the exit code is 2
-    std::optional<Choice> closest;                        // the least error within the limits, if none is
+    std::optional<Choice> without_map;  // the least lookup time without a map
+    bool reached = false;               // some setting is good enough; if not, the exit code is 2
+    std::optional<Choice> closest;      // the least error within the limits, if none is
     std::vector<Missed> missed;
     std::vector<Broken> broken;
     std::size_t measured = 0, confirmed = 0;
@@ -75,7 +75,8 @@ struct Answer {
     std::optional<double> steal = {};  // see Exploration
     std::optional<NextStep> next = {};
     double budget = std::numeric_limits<double>::infinity();  // seconds, of the exploration
-    // Techniques that did not fail, and those of them of which the budget's end leaves open what they cost at the error.
+    // Techniques that did not fail, and those of them of which the budget's end leaves open what they cost at the
+    // error.
     std::size_t techniques = 0, open = 0;
 
     // Whether the budget ended so early that the cheapest settings are those of the few techniques that were followed.
@@ -106,7 +107,8 @@ struct Wording {
     std::function<std::string(double)> again = {};
 };
 // Lines of this width, but for those to paste; what does not fit goes on in the next line. About `text_lines`, unless
-// the width is below `text_columns`: where these do not do, reasons are shortened, then lines without a setting are cut.
+// the width is below `text_columns`: where these do not do, reasons are shortened, then lines without a setting are
+// cut.
 std::string to_text(const Answer& answer, const std::vector<Family>& families, const Wording& wording);
 
 // What one technique costs at every error: its measured settings that no other of its settings beats in both, from the

@@ -13,13 +13,20 @@ namespace shadowbench::recommend {
 
 const char* to_string(Held held) {
     switch (held) {
-        case Held::rays: return "rays too few";
-        case Held::representation: return "the representation's own limit";
-        case Held::bias: return "bias or the filter";
-        case Held::budget: return "the budget ended";
-        case Held::dear: return "already dearer";
-        case Held::given: return "by these settings";
-        case Held::at_most: return "over --at-most";
+        case Held::rays:
+            return "rays too few";
+        case Held::representation:
+            return "the representation's own limit";
+        case Held::bias:
+            return "bias or the filter";
+        case Held::budget:
+            return "the budget ended";
+        case Held::dear:
+            return "already dearer";
+        case Held::given:
+            return "by these settings";
+        case Held::at_most:
+            return "over --at-most";
     }
     return "";
 }
@@ -115,19 +122,19 @@ std::string joined(const std::string& start, const std::vector<std::string>& nam
 void add_cheapest(const Cheapest& cheapest, std::size_t k, const std::vector<Family>& families,
                   std::vector<TextLine>& lines) {
     const Choice& best = cheapest.best;
-    lines.push_back({fmt::format("{:<6} {}: {}", cost_words[k], named_cost(best.cost[k], k),
-                                 setting_text(families, best.point)),
-                     true, false, true});
+    lines.push_back(
+        {fmt::format("{:<6} {}: {}", cost_words[k], named_cost(best.cost[k], k), setting_text(families, best.point)),
+         true, false, true});
     std::string others;
     for (std::size_t other = 0; other < costs; ++other)
         if (other != k) others += fmt::format(", {} {}", cost_words[other], named_cost(best.cost[other], other));
     lines.push_back({fmt::format("       error {}{}", error_with_interval(best), others)});
     if (const auto& second = cheapest.runner_up) {
         const std::string distance = cheapest.tie ? "a tie with" : distance_text(cheapest.behind);
-        lines.push_back({fmt::format("       {} {}, {}{}", distance, cost_text(second->cost[k], k),
-                                     setting_text(families, second->point),
-                                     second->confirmed ? "" : " (not confirmed)"),
-                         false, false, true});
+        lines.push_back(
+            {fmt::format("       {} {}, {}{}", distance, cost_text(second->cost[k], k),
+                         setting_text(families, second->point), second->confirmed ? "" : " (not confirmed)"),
+             false, false, true});
     }
     if (const auto& perhaps = cheapest.perhaps)
         lines.push_back({fmt::format("       perhaps {}, error not confirmed: {}", cost_text(perhaps->cost[k], k),
@@ -137,12 +144,14 @@ void add_cheapest(const Cheapest& cheapest, std::size_t k, const std::vector<Fam
 
 std::vector<TextLine> held_lines(const Answer& answer, std::size_t width) {
     std::vector<TextLine> lines;
-    for (const Held held : {Held::rays, Held::representation, Held::bias, Held::dear, Held::budget, Held::given, Held::at_most}) {
+    for (const Held held :
+         {Held::rays, Held::representation, Held::bias, Held::dear, Held::budget, Held::given, Held::at_most}) {
         std::vector<std::string> names;
         for (const Missed& missed : answer.missed)
             if (missed.held == held)
-                names.push_back(missed.closest ? fmt::format("{} ({:.3g})", missed.technique, missed.closest->error.high)
-                                               : missed.technique + " (not measured)");
+                names.push_back(missed.closest
+                                    ? fmt::format("{} ({:.3g})", missed.technique, missed.closest->error.high)
+                                    : missed.technique + " (not measured)");
         if (!names.empty()) lines.push_back({joined(fmt::format("not reached, {}:", to_string(held)), names, width)});
     }
     return lines;
@@ -152,20 +161,22 @@ std::vector<TextLine> held_lines(const Answer& answer, std::size_t width) {
 void add_warning(const Answer& answer, const Wording& wording, std::vector<TextLine>& lines) {
     const double longer = longer_budget(answer.budget);
     const std::string command = wording.again ? wording.again(longer) : "";
-    lines.push_back({fmt::format("THE BUDGET WAS TOO SHORT: {} ended before {} of {} techniques were followed to the "
-                                 "error, so cheaper settings are likely. {}",
-                                 budget_text(answer.budget), answer.open, answer.techniques,
-                                 command.empty() ? fmt::format("Give {} or more.", budget_text(longer))
-                                                 : "What was measured is kept; go on with:")});
+    lines.push_back(
+        {fmt::format("THE BUDGET WAS TOO SHORT: {} ended before {} of {} techniques were followed to the "
+                     "error, so cheaper settings are likely. {}",
+                     budget_text(answer.budget), answer.open, answer.techniques,
+                     command.empty() ? fmt::format("Give {} or more.", budget_text(longer))
+                                     : "What was measured is kept; go on with:")});
     if (!command.empty()) lines.push_back({command, false, true});
 }
 
 std::string budget_line(const Answer& answer) {
     if (!answer.next) return "the budget ended first: a cheaper setting may be left";
-    return fmt::format("the budget ended first: the next step takes about {}, confirming included, and {} were left; a "
-                       "cheaper setting may be left",
-                       cost_text(1e3 * answer.next->seconds, static_cast<std::size_t>(Cost::build)),
-                       cost_text(1e3 * answer.next->left, static_cast<std::size_t>(Cost::build)));
+    return fmt::format(
+        "the budget ended first: the next step takes about {}, confirming included, and {} were left; a "
+        "cheaper setting may be left",
+        cost_text(1e3 * answer.next->seconds, static_cast<std::size_t>(Cost::build)),
+        cost_text(1e3 * answer.next->left, static_cast<std::size_t>(Cost::build)));
 }
 
 std::string broken_line(const Answer& answer, std::size_t width) {
@@ -184,7 +195,8 @@ std::string setting_text(const std::vector<Family>& families, const Point& point
     const Family& family = families[point.family];
     std::string text = family.name;
     for (std::size_t i = 2; i < family.axes.size(); ++i)
-        text += fmt::format(" {}={}", family.axes[i].name, family.axes[i].values[static_cast<std::size_t>(point.step[i])]);
+        text +=
+            fmt::format(" {}={}", family.axes[i].name, family.axes[i].values[static_cast<std::size_t>(point.step[i])]);
     std::string rays;
     for (std::size_t i = 0; i < 2; ++i)
         if (family.axes[i].steps() > 1 || !family.axes[i].values[0].empty())
@@ -200,8 +212,10 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
     lines.push_back({fmt::format("{} error at most {:.4g} with 95 % confidence: {} settings measured, {} confirmed",
                                  wording.measure, answer.goal.error, answer.measured, answer.confirmed)});
     if (wording.truth && *wording.truth > 0.0)
-        lines.push_back({fmt::format("errors are against this scenario's truth (standard error {:.2g}); their lower ends "
-                                     "allow for it", *wording.truth)});
+        lines.push_back(
+            {fmt::format("errors are against this scenario's truth (standard error {:.2g}); their lower ends "
+                         "allow for it",
+                         *wording.truth)});
     std::vector<std::string> pasted;
     for (std::size_t k = 0; k < costs; ++k) {
         if (!answer.cheapest[k]) continue;
@@ -226,9 +240,10 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
     if (!answer.broken.empty()) last.push_back({broken_line(answer, width)});
     if (answer.cut) last.push_back({"the time to confirm ran out: intervals are wider than planned"});
     if (answer.steal && *answer.steal > results::steal_limit)
-        last.push_back({fmt::format("UNSETTLED: the host of this virtual machine took {:.0f} % of the time (steal); "
-                                    "measure again",
-                                    100.0 * *answer.steal)});
+        last.push_back(
+            {fmt::format("UNSETTLED: the host of this virtual machine took {:.0f} % of the time (steal); "
+                         "measure again",
+                         100.0 * *answer.steal)});
     if (answer.end == End::budget) last.push_back({budget_line(answer)});
     if (answer.end == End::cancelled) last.push_back({"cancelled: a cheaper setting may be left"});
 

@@ -45,8 +45,8 @@ bool Search::too_few_rays(std::size_t family, const Point& point) const {
     });
 }
 
-// The next rung of a family's climb; nothing if it is done. Rungs that are ruled out, or have too few rays, are left out.
-// Of families that answer alike the first climbs, and tells the others their errors.
+// The next rung of a family's climb; nothing if it is done. Rungs that are ruled out, or have too few rays, are left
+// out. Of families that answer alike the first climbs, and tells the others their errors.
 std::optional<std::size_t> Search::next_climb(std::size_t family) const {
     const Knowledge& known = families_[family];
     const std::span<const Record> records = known.records();
@@ -145,8 +145,8 @@ void Search::probe() {
     probe_own_axes();
 }
 
-// A family with several axes of its own that climbed to a good enough setting looks at each of them: perhaps its cheapest
-// step suffices there.
+// A family with several axes of its own that climbed to a good enough setting looks at each of them: perhaps its
+// cheapest step suffices there.
 void Search::probe_own_axes() {
     for (std::size_t f = 0; f < families_.size(); ++f) {
         const std::size_t climbed = climbs_[f].measured;

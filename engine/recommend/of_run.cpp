@@ -97,7 +97,8 @@ std::vector<Family::Word> words_of(const Cell& cell, const techniques::Technique
     const nlohmann::json values = nlohmann::json::parse(cell.parameters_json);
     std::vector<Family::Word> words;
     for (const auto& [name, value] : values.items())
-        if (name != "type" && (!defaults.contains(name) || defaults[name] != value)) words.push_back({name, value.dump()});
+        if (name != "type" && (!defaults.contains(name) || defaults[name] != value))
+            words.push_back({name, value.dump()});
     return words;
 }
 
@@ -114,10 +115,9 @@ Confirmed confirmed_of(const LightResult& light, const Cell& cell, bool traces, 
     if (errors.size() == 1) errors.push_back(errors.front());
     confirmed.error = error_interval(errors, measure, {light.reference.error_rms, light.reference.error_max});
     confirmed.mean_error = metrics::mean_and_variance(errors).mean;
-    const double capture_ms =
-        traces || !light.agreement
-            ? 0.0
-            : 1e3 * (light.times.setup_seconds + results::capture_seconds_on_one_thread(light));
+    const double capture_ms = traces || !light.agreement
+                                  ? 0.0
+                                  : 1e3 * (light.times.setup_seconds + results::capture_seconds_on_one_thread(light));
     const results::Sample& build = cell.times->build_ms;
     const double bytes = static_cast<double>(cell.bytes);
     confirmed.cost = {cell.times->random_order.ns.median, bytes, capture_ms + build.median};
@@ -166,8 +166,9 @@ Recommendation recommendation_of(const results::Result& run, const std::string& 
                 family.mapless = row.traits.traces;
                 found.exploration.families.push_back(std::move(family));
             }
-            const Point point{number->second,
-                              {index_in(axes.resolutions, side_of(*one)), index_in(axes.samples, one->layout.samples())}};
+            const Point point{
+                number->second,
+                {index_in(axes.resolutions, side_of(*one)), index_in(axes.samples, one->layout.samples())}};
             Trial trial{cell.status == results::CellStatus::ok ? "" : cell.reason, 0.0, {}};
             if (trial.failed.empty() && !(cell.lookup && cell.times)) trial.failed = "it was not measured";
             if (trial.failed.empty()) {

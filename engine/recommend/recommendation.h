@@ -40,8 +40,8 @@ struct Explored {
 };
 
 // Explores a scenario. `request.only` takes the place of that of the options. `trials`: a folder of trials that are not
-// measured again, to which new ones are added (trial_files.h); empty: none. Throws what Trials and TrialFiles throw, and
-// Error{usage}, place --budget, if the budget ends before anything is measured.
+// measured again, to which new ones are added (trial_files.h); empty: none. Throws what Trials and TrialFiles throw,
+// and Error{usage}, place --budget, if the budget ends before anything is measured.
 Explored explore(const nlohmann::json& document, const bench::RunOptions& options, const Request& request,
                  const Watch& watch, const std::filesystem::path& trials = {});
 

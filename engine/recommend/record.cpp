@@ -40,7 +40,10 @@ json to_json(const Family& family) {
     for (const Family::Word& word : family.words) words[word.name] = json::parse(word.value);
     for (const Axis& axis : family.axes)
         axes.push_back({{"name", axis.name}, {"values", axis.values}, {"stride", axis.stride}});
-    return {{"technique", family.technique}, {"name", family.name}, {"words", words}, {"axes", axes},
+    return {{"technique", family.technique},
+            {"name", family.name},
+            {"words", words},
+            {"axes", axes},
             {"mapless", family.mapless}};
 }
 
@@ -163,7 +166,8 @@ Exploration exploration_from_json(const nlohmann::json& recommendation, const st
     if (whole.has("steal") && !whole.at("steal").is_null()) exploration.steal = whole.at("steal").at_least_zero();
     if (whole.has("before_seconds")) exploration.before = whole.at("before_seconds").at_least_zero();
     if (whole.has("next") && !whole.at("next").is_null())
-        exploration.next = {whole.at("next").at("seconds").at_least_zero(), whole.at("next").at("left").at_least_zero()};
+        exploration.next = {whole.at("next").at("seconds").at_least_zero(),
+                            whole.at("next").at("left").at_least_zero()};
     const Field families = whole.at("families"), measured = whole.at("measured"), confirmed = whole.at("confirmed");
     for (std::size_t i = 0; i < families.array().size(); ++i)
         exploration.families.push_back(read_family(families.item(i)));

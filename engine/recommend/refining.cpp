@@ -16,8 +16,8 @@ constexpr double leader_chance = 0.03, follower_chance = 0.15;
 // Smaller gains are not looked for, as a share of the cost: where a technique leads, and where it follows.
 constexpr std::array<double, costs> least_gain{0.04, 0.002, 0.04};
 constexpr double follower_gain = 0.1;
-// If time is limited, how much a gain of a runner-up counts beside the same gain of the best: it is no answer, only what
-// another technique would cost.
+// If time is limited, how much a gain of a runner-up counts beside the same gain of the best: it is no answer, only
+// what another technique would cost.
 constexpr double follower_weight = 0.25;
 // Refining ends if going on for as long as everything has taken so far promises to gain less than this, as a share of
 // the costs.
@@ -42,8 +42,7 @@ double Search::gain(std::size_t family, std::size_t index, bool likely) const {
         // The chance to cost less than a limit by some share of it.
         const auto chance_below = [&](double bound, double share) {
             if (!std::isfinite(bound) || !std::isfinite(estimate.sd)) return known.chance(index);
-            return known.chance(index) *
-                   normal_below((std::log(bound) - estimate.mean - share) / (estimate.sd + 1e-4));
+            return known.chance(index) * normal_below((std::log(bound) - estimate.mean - share) / (estimate.sd + 1e-4));
         };
         const double lead = chance_below(limit.leads ? limit.cost : incumbents_.least[k], least_gain[k]);
         const double share = limit.leads ? least_gain[k] : follower_gain;
@@ -57,7 +56,8 @@ double Search::gain(std::size_t family, std::size_t index, bool likely) const {
         if (limit.leads)
             sum += chance * size(limit.cost, share);
         else
-            sum += weight * chance * size(limit.cost, share) + (1.0 - weight) * lead * size(incumbents_.least[k], least_gain[k]);
+            sum += weight * chance * size(limit.cost, share) +
+                   (1.0 - weight) * lead * size(incumbents_.least[k], least_gain[k]);
     }
     return sum;
 }
@@ -138,8 +138,8 @@ std::optional<Point> Search::open_neighbour(double& skipped) const {
 }
 
 // A best setting that nothing measured rules out once one thing of it is changed: one of its technique's own parameters
-// by a step to the cheaper side, or its words, as another kernel. Words have no order and each choice has a model of its
-// own, so what is known of one says little of another. The light rays are the same, and often the map, so that this
+// by a step to the cheaper side, or its words, as another kernel. Words have no order and each choice has a model of
+// its own, so what is known of one says little of another. The light rays are the same, and often the map, so that this
 // takes little time.
 std::optional<Point> Search::open_variant() const {
     const auto open = [&](const Point& point) {

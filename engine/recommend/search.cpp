@@ -170,8 +170,8 @@ void Search::share_floors(std::size_t family) {
 }
 
 // Trials time one map at a time, so that they rank lookups by chance that differ by less than the machine's noise. The
-// fastest are timed again in turns before a few of them are confirmed; and then those that seemed slower than the fastest,
-// if it turns out to be slower than they seemed.
+// fastest are timed again in turns before a few of them are confirmed; and then those that seemed slower than the
+// fastest, if it turns out to be slower than they seemed.
 void Search::time_again() {
     if (!found_.goal.asked[static_cast<std::size_t>(Cost::lookup)]) return;
     double most_seconds = std::min(again_share * whole_time(), again_share_left * left());
@@ -183,7 +183,8 @@ void Search::time_again() {
             most_seconds -= seconds;
             points.push_back(point);
         }
-        if (std::all_of(points.begin(), points.end(), [&](const Point& point) { return is_timed_again(point); })) return;
+        if (std::all_of(points.begin(), points.end(), [&](const Point& point) { return is_timed_again(point); }))
+            return;
         if (!time_in_turns(points)) return;
     }
 }

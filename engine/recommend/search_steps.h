@@ -79,8 +79,8 @@ private:
     const Hooks& hooks_;
     double began_;
     double reserve_ = 0.0;  // seconds that exploring leaves for what follows
-    // Seconds of the shortest step that the last climb, and the last refining, left out since it took too long; infinite
-    // if there was none.
+    // Seconds of the shortest step that the last climb, and the last refining, left out since it took too long;
+    // infinite if there was none.
     double skipped_climb_ = std::numeric_limits<double>::infinity(),
            skipped_point_ = std::numeric_limits<double>::infinity();
     double spent_ = 1e-9;  // seconds of measuring, as foreseen
@@ -94,7 +94,7 @@ private:
         std::size_t next = 0;      // the first rung not yet tried
         std::size_t measured = 0;  // rungs: the first records of the family
     };
-    std::vector<Climb> climbs_;  // of every family
+    std::vector<Climb> climbs_;                           // of every family
     std::vector<std::optional<std::vector<Open>>> open_;  // of every family; nothing if it must be found again
     Incumbents incumbents_{};
     bool fine_ = false;  // whether all points count, or only coarse ones

@@ -24,8 +24,9 @@ constexpr std::size_t most_counted = 3;  // techniques that are counted by name,
 constexpr double far_apart = 2.0;        // ratio of errors that a result should be able to tell apart
 constexpr std::size_t enough_seeds = 5;  // further ones, that mostly do so
 constexpr std::size_t most_seeds = 64;   // that a scenario may ask for
-constexpr double noisy_truth = 1.0 / 3;     // standard error of the truth, as a share of the error, above which it is named
-constexpr double truth_sds = 4.0;        // a difference below so many standard deviations of the truth is its noise
+constexpr double noisy_truth =
+    1.0 / 3;                       // standard error of the truth, as a share of the error, above which it is named
+constexpr double truth_sds = 4.0;  // a difference below so many standard deviations of the truth is its noise
 
 // The least of some choices, and those of which the intervals do not say that they are more.
 struct Least {
@@ -188,9 +189,10 @@ Cheapest cheapest_of(const LightResult& light) {
 std::string truth_text(const LightResult& light, double least_error) {
     const double noise = light.reference.error_rms;
     if (!(noise > noisy_truth * least_error)) return "";
-    return fmt::format(" The truth itself has a standard error of {:.2g}, which each error includes: an exact one would "
-                       "be about sqrt(error^2 - {:.2g}^2).",
-                       noise, noise);
+    return fmt::format(
+        " The truth itself has a standard error of {:.2g}, which each error includes: an exact one would "
+        "be about sqrt(error^2 - {:.2g}^2).",
+        noise, noise);
 }
 
 std::string sentences(const LightResult& light) {

@@ -21,10 +21,12 @@ std::string way_out_text(const SearchPath& path, const std::string& name) {
     for (const fs::path& folder : path.folders) {
         const fs::path inside = fs::path(name).lexically_relative(folder);
         if (!inside.empty() && !names_way_out(inside.string()))
-            return fmt::format("the name is absolute; only names relative to the data folders are read here: write \"{}\"",
-                               inside.string());
+            return fmt::format(
+                "the name is absolute; only names relative to the data folders are read here: write \"{}\"",
+                inside.string());
     }
-    return "the name is absolute; only names relative to the data folders are read here: put the file into one of them, "
+    return "the name is absolute; only names relative to the data folders are read here: put the file into one of "
+           "them, "
            "and write its name from there";
 }
 

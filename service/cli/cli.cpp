@@ -77,8 +77,7 @@ UnknownOption unknown_option(const CLI::App& command, int argc, const char* cons
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i], option = word.substr(0, word.find('='));
         if (option.size() < 3 || option.compare(0, 2, "--") != 0) continue;
-        if (std::find(names.begin(), names.end(), option) == names.end())
-            return {option, base::perhaps(option, names)};
+        if (std::find(names.begin(), names.end(), option) == names.end()) return {option, base::perhaps(option, names)};
     }
     return {};
 }

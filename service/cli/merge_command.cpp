@@ -197,7 +197,8 @@ bool merge_command(const MergeArguments& arguments, std::ostream& out, std::ostr
         kept = kept && !results::any_failed(outcomes.back().result);
     }
     report_outcomes(outcomes, several, verdicts_file("", arguments.out, several), output);
-    say_missing(missing, planned.size(), sweep, arguments.folders[0], arguments.output.has_data() ? err : output.text());
+    say_missing(missing, planned.size(), sweep, arguments.folders[0],
+                arguments.output.has_data() ? err : output.text());
     output.end();
     return kept && missing.empty();
 }

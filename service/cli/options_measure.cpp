@@ -48,9 +48,8 @@ void add_job_options(CLI::App& command, JobArguments& arguments) {
                            "Look for data in this folder first, then in $SHADOWBENCH_DATA, the scenario's folder, its "
                            "data/, and scenarios/data"));
     command
-        .add_option(
-            "--threads", arguments.threads,
-            "Threads; 0: one for each processor. Times are always measured on one thread")
+        .add_option("--threads", arguments.threads,
+                    "Threads; 0: one for each processor. Times are always measured on one thread")
         ->check(CLI::Range(0, 4096));
     command
         .add_option("--memory-limit", arguments.memory_limit,
@@ -119,15 +118,16 @@ void add_scenario_options(CLI::App& command, ScenarioArguments& arguments) {
 void add_run(CLI::App& app, Commands& commands) {
     const auto arguments = std::make_shared<RunArguments>();
     CLI::App* run = app.add_subcommand("run", "Measure scenarios: print a table, write result.json and result.csv");
-    set_help(*run, command_groups::measure,
-             {"run quickstart --pictures",
-              "run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64",
-              "run scenarios/hard --verdicts results/stability.md"},
-             "The table is as wide as the terminal, or as $COLUMNS says. It has colours on a terminal, unless $NO_COLOR "
-             "is set.\n"
-             "Four machines share a sweep if each runs one part, --shard 0/4 to --shard 3/4, with --out sweep.\n"
-             "Then shadowbench merge sweep makes one result of the parts.\n"
-             "Exit codes: 0; 2 a technique broke a promise; others as in shadowbench --help.");
+    set_help(
+        *run, command_groups::measure,
+        {"run quickstart --pictures",
+         "run hairball --only deep --only avsm --set rays.samples_per_pixel=64 --out hair64",
+         "run scenarios/hard --verdicts results/stability.md"},
+        "The table is as wide as the terminal, or as $COLUMNS says. It has colours on a terminal, unless $NO_COLOR "
+        "is set.\n"
+        "Four machines share a sweep if each runs one part, --shard 0/4 to --shard 3/4, with --out sweep.\n"
+        "Then shadowbench merge sweep makes one result of the parts.\n"
+        "Exit codes: 0; 2 a technique broke a promise; others as in shadowbench --help.");
     run->add_option("SCENARIO", arguments->scenarios,
                     "Scenario files, their names, or folders (every *.json directly in the folder). All are checked "
                     "before the first runs")
@@ -292,9 +292,8 @@ void add_reproduce(CLI::App& app, Commands& commands) {
     reproduce->add_flag("--quick", arguments->quick,
                         "Smaller sizes: all papers in under five minutes. The report says so");
     reproduce
-        ->add_option(
-            "--threads", arguments->threads,
-            "Threads; 0: one for each processor. Times are always measured on one thread")
+        ->add_option("--threads", arguments->threads,
+                     "Threads; 0: one for each processor. Times are always measured on one thread")
         ->check(CLI::Range(0, 4096));
     commands.push_back({reproduce, [arguments](std::ostream& out, std::ostream& err) {
                             reproduce_command(*arguments, out, err);

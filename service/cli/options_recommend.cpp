@@ -5,8 +5,8 @@
 #include <string>
 #include <system_error>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "base/error.h"
 #include "recommend/request.h"
@@ -56,7 +56,8 @@ void add_recommend(CLI::App& app, Commands& commands) {
         "in shadowbench --help.");
     CLI::Option* scenario =
         recommend->add_option("SCENARIO", arguments->scenario, "A scenario file, or the name of one");
-    check_error(recommend->add_option("--error", arguments->error, "The largest error that is good enough")->required());
+    check_error(
+        recommend->add_option("--error", arguments->error, "The largest error that is good enough")->required());
     recommend
         ->add_option(
             "--measure", arguments->measure,
@@ -73,7 +74,9 @@ void add_recommend(CLI::App& app, Commands& commands) {
         recommend->add_option("--at-most", arguments->at_most,
                               "cost=limit: settings that cost more are left out, as in bytes=4MiB, lookup=50ns or "
                               "build=2s"));
-    recommend->add_option("--budget", arguments->budget, "Time for the truth, the exploration and the confirmation, as in 90s, 5min or 1h")
+    recommend
+        ->add_option("--budget", arguments->budget,
+                     "Time for the truth, the exploration and the confirmation, as in 90s, 5min or 1h")
         ->capture_default_str();
     recommend->add_option("--light", arguments->light, "A light's name, or its number, from 0 [the only light]");
     add_job_options(*recommend, *arguments);

@@ -84,8 +84,9 @@ void refuse_times_of_machines(const nlohmann::json& result, const recommend::Goa
 void refuse_other_questions(const Recommendation& found, const RecommendArguments& arguments) {
     const char* measure = measure_words[static_cast<std::size_t>(found.measure)];
     if (arguments.measure_given && arguments.measure != measure)
-        throw Error(ErrorCode::usage, "--measure " + arguments.measure,
-                    fmt::format("the exploration in --from was judged by {}; explore again for another measure", measure));
+        throw Error(
+            ErrorCode::usage, "--measure " + arguments.measure,
+            fmt::format("the exploration in --from was judged by {}; explore again for another measure", measure));
     if (!arguments.light.empty() && arguments.light != found.light)
         throw Error(ErrorCode::usage, "--light " + arguments.light,
                     fmt::format("the exploration in --from is of light \"{}\"", found.light));
@@ -158,10 +159,10 @@ std::string beside(const RecommendArguments& arguments, const recommend::Goal& g
     const Job job = read_job(arguments, fs::path(arguments.from) / "result.json"),
               other = read_job(arguments, fs::path(arguments.beside) / "result.json");
     ProgressBar bar(err);
-    const std::vector<recommend::Contest> contests = recommend::hold_beside(
-        *job.document, job.options, ours, *other.document,
-        read_recommendation(arguments.beside, ours.light, ours.measure, goal), goal, goal.budget,
-        [&](const bench::Progress& progress) { bar.show(progress); });
+    const std::vector<recommend::Contest> contests =
+        recommend::hold_beside(*job.document, job.options, ours, *other.document,
+                               read_recommendation(arguments.beside, ours.light, ours.measure, goal), goal, goal.budget,
+                               [&](const bench::Progress& progress) { bar.show(progress); });
     bar.end();
     return recommend::to_text(contests, measure_words[static_cast<std::size_t>(ours.measure)], goal.error);
 }

@@ -91,7 +91,7 @@ struct JobLimits {
     std::uint64_t min_free = 0;                  // bytes of the disk that must be free for a job to start
     LimitsByOwner owners = {};
     Retention retention = {};
-    std::string launcher = {};                    // starts jobs on other machines: see launched.h; empty: here
+    std::string launcher = {};  // starts jobs on other machines: see launched.h; empty: here
 };
 
 // The disk of the state folder.
@@ -126,9 +126,9 @@ class Jobs {
 public:
     // Opens or makes the folder `state` (see state_folder.h), requeues the jobs that ran when the last server died,
     // adopts results that the database does not know, and starts the workers. They run `program job FOLDER --data
-    // DIR...` with further arguments. `log` gets what happens to jobs, files that were moved aside, adopted results, and
-    // storage that fails and works again. Its lines name folders of the machine. Throws base::Error{usage} for a folder
-    // of another program, {io} where it is not writable or another server holds it.
+    // DIR...` with further arguments. `log` gets what happens to jobs, files that were moved aside, adopted results,
+    // and storage that fails and works again. Its lines name folders of the machine. Throws base::Error{usage} for a
+    // folder of another program, {io} where it is not writable or another server holds it.
     Jobs(std::filesystem::path state, std::string program, std::vector<std::string> data, JobLimits limits,
          Log log = {}, FurtherArguments further = {});
     ~Jobs();

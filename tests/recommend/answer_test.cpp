@@ -16,7 +16,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 Family family(const std::string& technique) {
-    return {technique, technique + " filter=box", {axis("resolution", 9, 2), axis("samples", 5, 2), axis("nodes", 7, 2)}};
+    return {
+        technique, technique + " filter=box", {axis("resolution", 9, 2), axis("samples", 5, 2), axis("nodes", 7, 2)}};
 }
 
 Confirmed confirmed(double error, double lookup, double bytes, double build) {
@@ -322,9 +323,11 @@ TEST(Answer, FitsTwentyLinesOfAHundredColumns) {
         made.trial(f, {0, 0, 0}, 0.5, {1, 1, 1});
         made.trial(f, {8, 4, 6}, f % 2 ? 0.49 : 0.1, {1, 1, 1});
     }
-    for (std::size_t f = 30; f < 39; ++f) made.trial(f, {0, 0, 0}, 0.0, {}, "a long reason why it failed: " + std::string(90, 'x'));
+    for (std::size_t f = 30; f < 39; ++f)
+        made.trial(f, {0, 0, 0}, 0.0, {}, "a long reason why it failed: " + std::string(90, 'x'));
     made.found.end = End::budget;
-    const Wording wording{"p99", [](const Point& point) { return "{\"technique\": " + std::to_string(point.family) + "}"; }};
+    const Wording wording{"p99",
+                          [](const Point& point) { return "{\"technique\": " + std::to_string(point.family) + "}"; }};
     const std::vector<std::string> lines = lines_of(to_text(made.answered(), made.found.families, wording));
     // A setting is there to be copied: it goes on in a further line, and is never cut.
     const auto goes_on = [](const std::string& line) { return line.starts_with("         "); };
@@ -365,7 +368,9 @@ TEST(Answer, ASettingIsWrittenAsAScenarioHasIt) {
 
 TEST(Curves, HoldWhatNoOtherSettingOfTheTechniqueBeats) {
     Made made({"deep", "avsm"});
-    made.trial(0, {0, 0, 0}, 0.3, {10, 100, 1}).trial(0, {1, 0, 0}, 0.2, {12, 200, 1}).trial(0, {0, 1, 0}, 0.25, {15, 300, 1});
+    made.trial(0, {0, 0, 0}, 0.3, {10, 100, 1})
+        .trial(0, {1, 0, 0}, 0.2, {12, 200, 1})
+        .trial(0, {0, 1, 0}, 0.25, {15, 300, 1});
     made.trial(0, {2, 2, 2}, 0.05, {20, 50, 1}).trial(0, {3, 3, 3}, 0.01, {}, "failed");
     made.trial(1, {0, 0, 0}, 0.9, {30, 10, 1});
     const std::vector<Curve> lookup = curves(made.found, Cost::lookup), bytes = curves(made.found, Cost::bytes);

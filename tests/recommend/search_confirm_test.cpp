@@ -62,7 +62,8 @@ TEST(Search, AFailureThatOnlyConfirmingShowsIsNotTheAnswer) {
         std::vector<Confirmed> confirm(std::span<const Point> points, const Confirming& how) override {
             std::vector<Confirmed> answers = SyntheticLab::confirm(points, how);
             for (std::size_t i = 0; i < points.size(); ++i)
-                if (points[i].family == 0 && points[i].step[2] >= 4) answers[i].failed = "broke its promise with seed 3";
+                if (points[i].family == 0 && points[i].step[2] >= 4)
+                    answers[i].failed = "broke its promise with seed 3";
             return answers;
         }
     };

@@ -226,9 +226,10 @@ TEST(Meaning, says_how_much_of_the_errors_a_noisy_truth_makes) {
     light.reference.error_rms = 0.0065;
     EXPECT_THAT(meaning_text(result, {1000, false}), Not(HasSubstr("truth itself")));
     light.reference.error_rms = 0.011;
-    EXPECT_THAT(meaning_text(result, {1000, false}),
-                HasSubstr("The truth itself has a standard error of 0.011, which each error includes: an exact one would "
-                          "be about sqrt(error^2 - 0.011^2)."));
+    EXPECT_THAT(
+        meaning_text(result, {1000, false}),
+        HasSubstr("The truth itself has a standard error of 0.011, which each error includes: an exact one would "
+                  "be about sqrt(error^2 - 0.011^2)."));
 }
 
 TEST(Meaning, names_the_error_of_whom_it_has_not_named_yet) {

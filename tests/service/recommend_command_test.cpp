@@ -74,11 +74,12 @@ TEST(Recommend, RefusesABudgetThatTheTruthTakesWhole) {
     const TemporaryFolder folder;
     const std::string scenario = (folder.path() / "two_quads.json").string(), out = (folder.path() / "found").string();
     std::ofstream(scenario) << two_quads;
-    const Outcome found = cli({"recommend", scenario, "--error", "0.3", "--only", "variance", "--budget", "0.000001s",
-                               "--out", out});
+    const Outcome found =
+        cli({"recommend", scenario, "--error", "0.3", "--only", "variance", "--budget", "0.000001s", "--out", out});
     EXPECT_EQ(found.code, 64) << found.out;
-    EXPECT_THAT(found.err, ::testing::HasSubstr("--budget: 1e-06s ended before anything was measured: reading the scene "
-                                                "and computing the truth took "));
+    EXPECT_THAT(found.err,
+                ::testing::HasSubstr("--budget: 1e-06s ended before anything was measured: reading the scene "
+                                     "and computing the truth took "));
     EXPECT_THAT(found.err, ::testing::HasSubstr("Give 5min or more"));
     EXPECT_FALSE(std::filesystem::exists(out)) << "nothing is left of it";
 }
@@ -87,8 +88,9 @@ TEST(Recommend, AnswersFromARun) {
     const TemporaryFolder folder;
     const std::string scenario = (folder.path() / "two_quads.json").string(), out = (folder.path() / "run").string();
     std::ofstream(scenario) << two_quads;
-    const Outcome ran = cli({"run", scenario, "--out", out, "--set", "reference.spread_seeds=2", "--set",
-                             "receivers.footprint={\"share\": 0.06}", "--set", "sweeps={\"/rays/resolution\": [16, 32]}"});
+    const Outcome ran =
+        cli({"run", scenario, "--out", out, "--set", "reference.spread_seeds=2", "--set",
+             "receivers.footprint={\"share\": 0.06}", "--set", "sweeps={\"/rays/resolution\": [16, 32]}"});
     ASSERT_EQ(ran.code, 0) << ran.err;
     const Outcome found = cli({"recommend", "--from", out, "--error", "0.5"});
     EXPECT_EQ(found.code, 0) << found.err;
