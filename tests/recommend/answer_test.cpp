@@ -333,8 +333,9 @@ TEST(Answer, FitsTwentyLinesOfAHundredColumns) {
     const auto goes_on = [](const std::string& line) { return line.starts_with("         "); };
     EXPECT_LE(lines.size() - static_cast<std::size_t>(std::count_if(lines.begin(), lines.end(), goes_on)), text_lines);
     EXPECT_LE(lines.size(), 26u);
-    for (const std::string& line : lines)
-        if (line.find("resolution=") != std::string::npos) EXPECT_THAT(line, Not(HasSubstr("..."))) << line;
+    for (const std::string& line : lines) {
+        if (line.find("resolution=") != std::string::npos) { EXPECT_THAT(line, Not(HasSubstr("..."))) << line; }
+    }
     for (const std::string& line : lines) EXPECT_LE(line.size(), text_columns) << line;
     EXPECT_THAT(lines.back(), HasSubstr("the budget ended first"));
     EXPECT_THAT(lines, testing::Contains("{\"technique\": 0}"));
