@@ -1,5 +1,5 @@
 // Shows the page that the address names: #/ to submit, #/jobs, #/jobs/<id>, #/compare/<id>/<id>, #/explore.
-import {pathOf} from './address.js';
+import {changed, pathOf} from './address.js';
 import {onTokenNeeded} from './api.js';
 import {comparisonView} from './comparison.js';
 import {h} from './dom.js';
@@ -17,9 +17,10 @@ function go(address) {
   else location.hash = address;
 }
 
-function edit(scenario) {
+// asked: {error, within}, what a recommendation of it is asked for; what is null is as usual.
+function edit(scenario, asked) {
   draft = written(scenario);
-  go('#/');
+  go(changed('#/', asked));
 }
 
 // A typed address may contain a % that begins no escape.

@@ -5,6 +5,7 @@ import {choice, h, setText} from './dom.js';
 import {bytes, moment, plural} from './format.js';
 import {linearAxis, logAxis, logPlace, write} from './plots/axes.js';
 import {labelFields, placeLabels} from './plots/labels.js';
+import {numberOf} from './plots/numbers.js';
 import {glyph, lookOf, onThemeChange} from './plots/palette.js';
 import {labelWidth, plot} from './plots/plot.js';
 import {saveButtons} from './plots/save.js';
@@ -53,7 +54,7 @@ export function exploreView({signal}) {
     const {points, lines} = pointsOfAll(results.map((r) => r.result), error, cost);
     const box = h('div', {class: 'plot-place'}, drawing.element), titles = [...new Set(points.map((p) => p.technique))];
     const x = logAxis('x', points.flatMap((p) => [p.x, p.low, p.high]), cost.kind), y = logAxis('y', points.map((p) => p.y), 'error');
-    const look = (p) => lookOf(titles.indexOf(p.technique)), zero = (v, axis) => v || axis.zero || v;
+    const look = (p) => lookOf(numberOf(p.technique)), zero = (v, axis) => v || axis.zero || v;
     const drawn = points.map((p, key) => ({...p, key, ...look(p), fill: p.of === results.length - 1 ? look(p).colour : drawing.colour('panel'), size: 90, chosen: false,
       x: zero(p.x, x), low: zero(p.low, x), high: zero(p.high, x), y: zero(p.y, y), yLow: zero(p.y, y), yHigh: zero(p.y, y)}));
     drawing.update({
@@ -63,13 +64,13 @@ export function exploreView({signal}) {
         const placed = placeLabels({lines: [], width, height, widthOf: labelWidth, furthest: 13, points: drawn.map((p) => ({x: width * logPlace('x', x.signals, p.x), y: height * (1 - logPlace('y', y.signals, p.y)), radius: 7,
           texts: [...latest(p) ? [p.short] : [], ...number(p), ''], first: latest(p)}))});
         return {points: drawn.map((p, i) => ({...p, ...labelFields(placed[i])})), front: [], levels: [], band: [],
-          lines: lines.map((l) => ({...l, x: zero(l.x, x), y: zero(l.y, y), colour: lookOf(titles.indexOf(l.of)).colour}))};
+          lines: lines.map((l) => ({...l, x: zero(l.x, x), y: zero(l.y, y), colour: lookOf(numberOf(l.of)).colour}))};
       },
     });
     return h('section', {class: 'panel', 'aria-labelledby': 'overlay-title'},
       h('div', {class: 'panel-head'}, h('h2', {id: 'overlay-title'}, 'In one plot'), saveButtons(box, () => 'results', () => ({title: 'Several results', up: `↑ ${error.text}`, across: `${cost.text} →`}))),
       h('p', {class: 'axis-title'}, `↑ ${error.text}`), box, h('p', {class: 'axis-title across'}, `${cost.text} →`),
-      h('ul', {class: 'levels'}, titles.map((technique, i) => h('li', {}, glyph(i), ` ${technique}`))),
+      h('ul', {class: 'levels'}, titles.map((technique) => h('li', {}, glyph(numberOf(technique)), ` ${technique}`))),
       h('p', {class: 'note'}, 'Full marks are of the last result, open ones of those before. A line joins a cell over the results. Point at a mark for its name.'));
   }
 

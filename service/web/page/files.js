@@ -3,7 +3,7 @@ import {get, post} from './api.js';
 import {choice, h, setText} from './dom.js';
 import {bytes, written} from './format.js';
 
-// taken(text) is called with the text of a scenario.
+// taken(text) is called with the text of a scenario. chosen(): whether a file of the server is. make(): as the button; whether it gave a scenario.
 export function filePicker({taken, signal}) {
   const said = h('p', {class: 'note', role: 'alert'}), place = h('div', {class: 'card-actions'});
   let name = '', up = 'y';
@@ -13,8 +13,10 @@ export function filePicker({taken, signal}) {
     button.disabled = true;
     try {
       taken(written(await post('/v1/new', JSON.stringify({files: [name], up}), {}, signal)));
+      return true;
     } catch (error) {
       failed(error);
+      return false;
     } finally {
       button.disabled = false;
     }
@@ -32,5 +34,5 @@ export function filePicker({taken, signal}) {
       choice('File', files.map((f) => ({value: f.name, text: `${f.name}, ${bytes(f.bytes)}`})), name, (v) => { name = v; }),
       choice('Up', [{value: 'y', text: 'y'}, {value: 'z', text: 'z'}], up, (v) => { up = v; }), button);
   }).catch(failed);
-  return h('div', {class: 'stack'}, place, h('label', {class: 'choice'}, h('span', {}, 'or a scenario'), own), said);
+  return {element: h('div', {class: 'stack'}, place, h('label', {class: 'choice'}, h('span', {}, 'or a scenario'), own), said), chosen: () => name !== '', make};
 }

@@ -1,10 +1,12 @@
 // One job: its progress, then its result.
 import {get, getText, hasToken, objectUrl, post} from './api.js';
 import {withPart} from './choices.js';
+import {address} from './address.js';
 import {announce, h, setText} from './dom.js';
-import {moment} from './format.js';
+import {moment, newKey, seconds, significant} from './format.js';
 import {progressBar, progressText, stateMark} from './jobs.js';
 import {exploredView} from './result/explored.js';
+import {numberOf} from './plots/numbers.js';
 import {seriesOf} from './result/model.js';
 import {recommendedView} from './result/recommended.js';
 import {resultView, summaryOf} from './result/view.js';
@@ -43,6 +45,17 @@ function firstOf({recommendation}) {
   return Object.fromEntries(Object.entries(rays).map(([name, value]) => [`/rays/${name}`, value]));
 }
 
+// What a recommendation is asked for, in words.
+function questionOf({kind, recommend}) {
+  if (kind !== 'recommendation') return null;
+  return ['recommendation', recommend?.error && `error at most ${significant(recommend.error)}`, recommend?.budget && `within ${seconds(recommend.budget)}`].filter(Boolean).join(', ');
+}
+
+// The same as the error of a run that is allowed.
+function askedOf({goal, measure}) {
+  return {budget: goal.error, error: measure === 'curve' ? 'curve.max' : `lookup.${measure}`};
+}
+
 function progressPanel(stop) {
   const bar = h('div', {class: 'bar wide'}), text = h('p', {class: 'stage-text', role: 'status'});
   const button = h('button', {type: 'button', class: 'quiet', onclick: stop}, 'Cancel');
@@ -51,6 +64,7 @@ function progressPanel(stop) {
     element,
     update(job) {
       if (!bar.firstChild) bar.append(progressBar(job));
+      bar.hidden = job.state === 'queued';
       if (job.state === 'running') bar.firstChild.value = job.progress?.fraction ?? 0;
       setText(text, job.state === 'queued' ? `Queued: ${progressText(job)}` : progressText(job));
     },
@@ -79,7 +93,7 @@ export function jobView({id, signal, edit}) {
     return place.replaceChildren(h('p', {}, h('a', {href: '#/jobs'}, 'All jobs')));
   };
   const progress = progressPanel(() => post(`${path}/cancel`, null).catch(failed));
-  let shown = '';
+  let shown = '', current = null;
 
   const retry = async () => {
     try {
@@ -90,15 +104,27 @@ export function jobView({id, signal, edit}) {
       failed(error);
     }
   };
-  const take = (part) => get(`${path}/scenario`, signal).then((scenario) => edit(withPart(scenario, part)), failed);
-  const again = h('button', {type: 'button', class: 'link', onclick: () => get(`${path}/scenario`, signal).then(edit, failed)}, 'Edit and run again');
+  // What was asked for goes along.
+  const askedFor = () => ({error: current?.recommend?.error ?? address.get('budget'), within: Number.isInteger(current?.recommend?.budget / 60) ? current.recommend.budget / 60 : null});
+  const take = (part) => get(`${path}/scenario`, signal).then((scenario) => edit(withPart(scenario, part), askedFor()), failed);
+  const again = h('button', {type: 'button', class: 'link', onclick: () => get(`${path}/scenario`, signal).then((scenario) => edit(scenario, askedFor()), failed)}, 'Edit and run again');
+  // The same question with more time. The scenario is sent as it is written, with all digits of its numbers.
+  const askAgain = async (time) => {
+    try {
+      const scenario = await getText(`${path}/scenario`, signal);
+      const job = await post('/v1/recommendations', `{"scenario": ${scenario}, "recommend": ${JSON.stringify({...current.recommend, budget: time})}}`, {'Idempotency-Key': newKey()}, signal);
+      location.hash = `#/jobs/${job.id}`;
+    } catch (error) {
+      failed(error);
+    }
+  };
 
   // The answer, and what was measured for it. Results of earlier versions have the answer as text only.
   function recommendationParts(result, text, job) {
     const {recommendation} = result, series = seriesOf(result);
-    for (const {technique} of recommendation.families) if (!series.has(technique)) series.set(technique, series.size);
+    for (const {technique} of recommendation.families) series.set(technique, numberOf(technique));
     return [
-      recommendation.answer ? recommendedView({recommendation, text, take, series})
+      recommendation.answer ? recommendedView({recommendation, text, take, askAgain, series})
         : text && h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer', tabindex: '0'}, text)),
       exploredView({recommendation, series, name: job.name, signal}),
       h('div', {}, h('h2', {}, 'The settings measured, by resolution and rays a pixel'), h('p', {class: 'note'}, 'Each was measured once and briefly. The answer above rests on what was confirmed.')),
@@ -116,13 +142,14 @@ export function jobView({id, signal, edit}) {
       h('a', {href: `#/compare/${encodeURIComponent(id)}`}, 'Compare with another'), again);
     place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
       ...(result.recommendation ? recommendationParts(result, text, job) : []),
-      resultView({source, result, images, imagesFault: fault?.error, first: firstOf(result), signal}), h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)));
+      resultView({source, result, images, imagesFault: fault?.error, first: firstOf(result), asked: result.recommendation ? askedOf(result.recommendation) : null, signal}), h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)));
     announce(`${job.name}: the result is shown`);
   }
   function update(job) {
+    current = job;
     setText(title, job.name || 'unnamed');
     document.title = `${job.name} · shadowbench`;
-    setText(facts, [job.id, `sent ${moment(job.created)}${job.owner ? ` by ${job.owner}` : ''}`, ...(job.labels ?? []), `seed ${job.seed}`, job.cached && 'answered from an earlier result'].filter(Boolean).join(' · '));
+    setText(facts, [questionOf(job), job.id, `sent ${moment(job.created)}${job.owner ? ` by ${job.owner}` : ''}`, ...(job.labels ?? []), `seed ${job.seed}`, job.cached && 'answered from an earlier result'].filter(Boolean).join(' · '));
     if (shown !== job.state) {
       state.replaceChildren(stateMark(job));
       if (!ended(job)) { if (!progress.element.isConnected) place.replaceChildren(progress.element); links.replaceChildren(again); }

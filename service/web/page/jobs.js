@@ -15,13 +15,19 @@ export function stateMark(job) {
     ` ${!broken ? job.state : job.reached === false ? 'error not reached' : 'promise broken'}`);
 }
 
+// Places such as "1/2 key" count the lights of all variants.
+function placeText(place) {
+  const [, n, of, light] = /^(\d+)\/(\d+) (.+)$/.exec(place ?? '') ?? [];
+  return n ? `light ${light} (${n} of ${of})` : place;
+}
+
 export function progressText(job) {
   if (job.state === 'queued') return job.position ? `${job.position} before it` : 'next';
   if (job.state === 'running') {
     const p = job.progress;
     if (!p) return 'starting';
     const time = job.kind === 'recommendation' && ['exploring', 'confirming'].includes(p.stage) && `${p.done} of ${p.total} s`;
-    return `${percent(p.fraction)}  ${[p.stage, p.place, time].filter(Boolean).join(' ')}`;
+    return `${percent(p.fraction)}: ${[p.stage, placeText(p.place), time].filter(Boolean).join(', ')}`;
   }
   if (job.state === 'failed') return job.error?.message ?? '';
   const time = (new Date(job.ended) - new Date(job.started)) / 1000;

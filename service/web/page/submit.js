@@ -4,13 +4,14 @@ import {typesOf} from './choices.js';
 import {choice, h, setText} from './dom.js';
 import {filePicker} from './files.js';
 import {choicesForm} from './form.js';
-import {bytes, plural, seconds, written} from './format.js';
+import {bytes, newKey, plural, seconds, written} from './format.js';
 import {JsonFault, lineOf, offsetOf, places} from './pointer.js';
 import {question} from './question.js';
 import {startHead} from './start.js';
 
 const checkPause = 400;  // milliseconds after the last key
 const draftKey = 'shadowbench-draft';
+const nothingYet = 'There is no scenario yet: make one of a file, open one from this computer, or write it here.';
 
 // A text area whose lines have numbers and can be marked. changed() is called for every change; for input by the user typed() is called before it.
 function editor(changed, typed) {
@@ -69,13 +70,9 @@ function summaryOf(answer, text) {
   return `Valid: ${parts.join(', ')}.`.replace(/(\d) (?=(?:ms|s|min|h|B|[KMGT]iB)\b)/g, '$1\u00a0');  // units stay with their numbers
 }
 
-function newKey() {
-  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (b) => b.toString(16).padStart(2, '0')).join('');
-}
-
 export function submitView({draft, signal, go}) {
   const verdict = h('div', {id: 'verdict', class: 'verdict-box', role: 'status'});
-  const problem = h('p', {class: 'problem', role: 'alert'});
+  const problem = h('p', {class: 'problem', role: 'alert'}), asked = h('p', {class: 'problem', role: 'alert'});
   let timer = 0, checks = 0, cache = 'reuse', key = newKey();
 
   function showFaults(faults) {
@@ -95,6 +92,7 @@ export function submitView({draft, signal, go}) {
   }
   async function check() {
     const text = edit.text(), turn = ++checks;
+    if (!text.trim()) { edit.mark([]); return verdict.replaceChildren(h('p', {class: 'note'}, nothingYet)); }
     sessionStorage.setItem(draftKey, text);
     const fault = syntaxFault(text);
     if (fault) return showFaults([fault]);
@@ -112,6 +110,7 @@ export function submitView({draft, signal, go}) {
   }
   const edit = editor(() => {
     setText(problem, '');
+    setText(asked, '');
     key = newKey();  // a new text is a new request
     form.show();
     clearTimeout(timer);
@@ -127,10 +126,22 @@ export function submitView({draft, signal, go}) {
   const form = choicesForm({text: edit.text, write(text) { own(); edit.set(text); }, error: asks.errors[1], signal});
   signal.addEventListener('abort', () => clearTimeout(timer), {once: true});
 
-  // Sends the scenario, with `more` members of the request, to the path. Goes to its job.
-  async function send(path, more) {
+  // Without a scenario, makes one of the file that is chosen. `said`: the element beside the button that was used.
+  async function filled(said) {
+    if (edit.text().trim()) return true;
+    if (picker?.chosen()) return picker.make();
+    setText(said, nothingYet);
+    return false;
+  }
+  // Sends the scenario, with `more` members of the request, to the path. Goes to its job. `said` gets why nothing was sent.
+  async function send(path, more, said) {
+    if (!await filled(said)) return;
     const text = edit.text(), fault = syntaxFault(text);
-    if (fault) { showFaults([fault]); edit.go(fault.offset); return; }
+    if (fault) {
+      showFaults([fault]);
+      setText(said, `Nothing was sent. Line ${fault.line + 1} of the scenario: ${fault.detail}`);
+      return edit.go(fault.offset);
+    }
     for (const b of buttons()) b.disabled = true;
     try {
       const job = await post(path, `{"scenario": ${text}, ${more}}`, {'Idempotency-Key': key}, signal);
@@ -140,23 +151,23 @@ export function submitView({draft, signal, go}) {
       if (signal.aborted) return;
       if (error.status === 422 || error.status === 400) showFaults(faultsOf(error, text));
       const wait = error.retryAfter ? ` Try again in ${seconds(error.retryAfter)}.` : '';
-      setText(problem, `Not accepted: ${error.message}${wait}`);
-      problem.scrollIntoView({block: 'nearest'});
+      setText(said, `Not accepted: ${error.message}${wait}`);
+      said.scrollIntoView({block: 'nearest'});
     } finally {
       for (const b of buttons()) b.disabled = false;
     }
   }
   const buttons = () => element.querySelectorAll('button[type="submit"], button.send');
-  const run = () => send('/v1/jobs', `"options": ${JSON.stringify({cache, pictures: pictures.checked})}`);
-  function recommend() {
+  const run = () => send('/v1/jobs', `"options": ${JSON.stringify({cache, pictures: pictures.checked})}`, problem);
+  function recommend(said) {
     key = newKey();  // another question about the same text
-    return send('/v1/recommendations', `"recommend": ${JSON.stringify({error: asks.error(), budget: asks.seconds()})}, "options": ${JSON.stringify({cache})}`);
+    return send('/v1/recommendations', `"recommend": ${JSON.stringify({error: asks.error(), budget: asks.seconds()})}, "options": ${JSON.stringify({cache})}`, said);
   }
   const pictures = h('input', {type: 'checkbox', checked: true, id: 'pictures', onchange: () => { key = newKey(); }});
   const button = h('button', {type: 'submit', class: 'primary', id: 'run'}, 'Run it');
   const examples = h('span', {class: 'choices'});
   const purpose = h('p', {class: 'note', id: 'purpose'});
-  let pick = () => {};
+  let pick = () => {}, first = null;
 
   async function load() {
     if (draft) edit.set(draft);
@@ -168,28 +179,30 @@ export function submitView({draft, signal, go}) {
       setText(purpose, example.purpose ?? '');
       edit.set(written(example.document));
     };
-    const first = scenarios.find((s) => s.name === 'quickstart') ?? scenarios[0];
+    first = scenarios.find((s) => s.name === 'quickstart') ?? scenarios[0] ?? null;
+    if (!first) head?.withoutExamples();
     const kept = draft ?? sessionStorage.getItem(draftKey);
     examples.replaceChildren(choice('Example', [{value: '', text: 'your own'}, ...scenarios.map((s) => ({value: s.name, text: s.name}))],
       kept ? '' : first?.name, (name) => pick(name)));
     if (kept) { if (!draft) edit.set(kept); } else if (first) pick(first.name);
   }
-  load().catch((error) => { if (!signal.aborted) setText(problem, error.message); });
 
   const title = draft ? h('h1', {tabindex: '-1'}, 'Run a scenario') : h('h2', {tabindex: '-1'}, 'Run a scenario');
   const bring = (text) => { own(); edit.set(text); title.scrollIntoView(); button.focus({preventScroll: true}); };
+  const picker = draft ? null : filePicker({taken: bring, signal});
   const head = draft ? null : startHead({
-    compare() { pick('quickstart'); title.scrollIntoView(); button.focus({preventScroll: true}); },
-    files: filePicker({taken: bring, signal}), recommend, error: asks.errors[0], time: asks.minutes[0],
+    compare() { pick(first?.name); title.scrollIntoView(); button.focus({preventScroll: true}); },
+    files: picker.element, recommend: () => recommend(asked), said: asked, error: asks.errors[0], time: asks.minutes[0],
   });
-  const element = h('div', {class: 'stack'}, head,
+  load().catch((error) => { if (!signal.aborted) setText(problem, error.message); });
+  const element = h('div', {class: 'stack'}, head?.element,
     h('form', {class: 'submit', onsubmit: (event) => { event.preventDefault(); run(); }},
       h('div', {class: 'page-head'}, title, examples),
       purpose,
       h('div', {class: 'workbench'}, form.element,
         h('div', {class: 'text-side'}, h('label', {class: 'hidden', for: 'scenario'}, 'Scenario, as JSON'), edit.element, verdict)),
       h('div', {class: 'actions'}, button,
-        h('span', {class: 'choices'}, h('button', {type: 'button', class: 'send', onclick: () => { if (asks.valid()) recommend(); }}, 'Recommend for this error'), asks.minutes[1]),
+        h('span', {class: 'choices'}, h('button', {type: 'button', class: 'send', onclick: () => { if (asks.valid()) recommend(problem); }}, 'Recommend for this error'), asks.minutes[1]),
         h('label', {class: 'check'}, pictures, ' with pictures'),
         choice('Known results', [{value: 'reuse', text: 'reuse them'}, {value: 'fresh', text: 'measure again'}], cache, (v) => { cache = v; key = newKey(); })),
       problem));

@@ -101,3 +101,31 @@ firstPage['a file of the data folders'] = async ({page, url, mock}) => {
   await card.locator('input[type="file"]').setInputFiles({name: 'mine.json', mimeType: 'application/json', buffer: Buffer.from('{"name": "mine"}')});
   await page.waitForFunction(() => document.querySelector('#scenario').value === '{"name": "mine"}');
 };
+
+firstPage['a server without examples'] = async ({page, url, mock}) => {
+  mock.scenarios = [];
+  const card = (words) => page.locator('.card', {hasText: words});
+  await page.goto(url);
+  await page.waitForFunction(() => document.querySelector('.card').innerText.includes('This server lists no examples.'));
+  assert.equal(await page.locator('button:has-text("Show the example")').count(), 0);
+  // The file that is chosen is what a recommendation is asked for, and what is run.
+  await card('Bring a file').locator('select').first().selectOption('smoke.vdb');
+  await page.fill('.card input[aria-label="Error that is allowed"]', '0.02');
+  await page.click('.card button:has-text("Recommend")');
+  await page.waitForURL(/#\/jobs\/j-/);
+  assert.deepEqual([mock.asked, mock.jobs[0].name, mock.jobs[0].recommend.error], [{files: ['smoke.vdb'], up: 'y'}, 'smoke.vdb', 0.02]);
+  await page.goto(url);
+  await card('Bring a file').locator('button').waitFor();
+  await page.click('#run');
+  await page.waitForURL(/#\/jobs\/j-/);
+  assert.equal(mock.jobs[0].name, 'ponytail.hair');
+  // Without a file, the words beside the button say what to do first.
+  mock.dataFiles = [];
+  await page.goto(url);
+  await page.waitForFunction(() => document.body.innerText.includes('There are no such files'));
+  await page.click('.card button:has-text("Recommend")');
+  await page.waitForFunction(() => [...document.querySelectorAll('.card .problem')].some((e) => e.textContent.startsWith('There is no scenario yet')));
+  await page.click('#run');
+  await page.waitForFunction(() => document.querySelector('.submit > .problem').textContent.startsWith('There is no scenario yet'));
+  assert.equal(mock.jobs.length, 2);
+};

@@ -210,10 +210,10 @@ async function queue(page, scenario, mock) {
   if (mock) for (const _ of [1, 2]) mock.step(mock.jobs[1]);
   await page.click('nav a[href="#/jobs"]');
   await page.waitForSelector('.jobs .state-queued');
-  await page.waitForFunction(() => /\d %\s+[a-z]/.test(document.querySelector('.jobs tr:has(.state-running) .what')?.textContent));
+  await page.waitForFunction(() => /\d %: [a-z]/.test(document.querySelector('.jobs tr:has(.state-running) .what')?.textContent));
   await looks(page, 'flow-jobs');
   await page.click('.jobs tr:has(.state-running) a');
-  await page.waitForFunction(() => /\d %\s+[a-z]/.test(document.querySelector('.stage-text')?.textContent));
+  await page.waitForFunction(() => /\d %: [a-z]/.test(document.querySelector('.stage-text')?.textContent));
   await looks(page, 'flow-progress');
   await page.click('nav a[href="#/jobs"]');
   for (let left = 2; left > 0; --left) {

@@ -57,7 +57,7 @@ function comparison() {
 
 export class Mock {
   constructor(pages, fixture, scenarios) {
-    Object.assign(this, {pages, fixture, scenarios, jobs: [], token: null, refuse: null, keys: [], bodies: [], files: {}, asked: null, results: null, resultOf: new Map(),
+    Object.assign(this, {pages, fixture, scenarios, document: scenarios[0].document, jobs: [], token: null, refuse: null, keys: [], bodies: [], files: {}, asked: null, results: null, resultOf: new Map(),
       dataFiles: [{name: 'hair/ponytail.hair', bytes: 123456}, {name: 'smoke.vdb', bytes: 9 << 20}]});
     this.waiting = new Set();
     this.server = createServer((request, response) => this.answer(request, response).catch((error) => {
@@ -146,12 +146,12 @@ export class Mock {
   newScenario({response, body}) {
     this.asked = body;
     if (body.files[0].endsWith('.bad')) return this.problem(response, 422, `${body.files[0]}: not a grid`, {errors: [{pointer: '/files/0', detail: 'not a grid'}]});
-    return this.json(response, 200, {...this.scenarios[0].document, name: body.files[0].split('/').pop()});
+    return this.json(response, 200, {...this.document, name: body.files[0].split('/').pop()});
   }
 
   recommend({request, response, body}) {
     this.keys.push(request.headers['idempotency-key']);
-    const job = this.job('queued', {name: body.scenario.name, kind: 'recommendation', recommend: body.recommend, options: body.options});
+    const job = this.job('queued', {name: body.scenario.name, scenario: body.scenario, kind: 'recommendation', recommend: body.recommend, options: body.options});
     return this.json(response, 202, job, {Location: `/v1/jobs/${job.id}`});
   }
 
@@ -214,7 +214,7 @@ export class Mock {
     }
     if (part === 'pin' || part === 'unpin') return this.json(response, 200, Object.assign(job, {pinned: part === 'pin'}));
     if (part === 'events') return this.events(request, response, job);
-    if (part === 'scenario') return this.json(response, 200, job.scenario ?? this.scenarios[0].document);
+    if (part === 'scenario') return this.json(response, 200, job.scenario ?? this.document);
     if (part === 'result' && (this.resultOf.has(job.id) || this.results)) return this.json(response, 200, this.resultOf.get(job.id) ?? this.results);
     if (part === 'result') return this.file(response, join(this.fixture, 'result.json'));
     if (part === 'curves') return this.json(response, 200, curvesOf(url.searchParams.get('light'), Number(url.searchParams.get('x')), Number(url.searchParams.get('y'))));

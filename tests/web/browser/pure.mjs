@@ -167,6 +167,10 @@ test('a log axis holds all values, and zero has a place below them', () => {
     assert.equal(signals.x_ticks.length, signals.x_labels.length);
     assert.ok(signals.x_ticks.length <= 20, `${signals.x_ticks.length} ticks`);
   }
+  for (const kind of ['ns', 'bytes', 'error']) for (const v of [5, 23.4, 1000, 4e5]) {
+    const {signals} = logAxis('x', [v], kind);
+    assert.ok(new Set(signals.x_labels).size >= 2, `a single ${kind} of ${v}: ${signals.x_labels}`);
+  }
   assert.deepEqual(logAxis('x', [1024, 1 << 20], 'bytes').signals.x_labels, ['1 KiB', '4 KiB', '16 KiB', '64 KiB', '256 KiB', '1 MiB']);
 });
 

@@ -7,7 +7,7 @@ import {named} from '../../../service/web/page/result/names.js';
 import {labelsOf, ownFronts, pointsAt, settingsOf} from '../../../service/web/page/result/settings.js';
 import {overTime, pointsOfAll} from '../../../service/web/page/result/several.js';
 import {linesOf, undecided} from '../../../service/web/page/result/points.js';
-import {errors, fewestInterval, frontOf, fronts, lightMapOf, marked, originOf, quoted, rerunOf, rmsInterval, speeds, unsettledOf, worstPixelOf} from '../../../service/web/page/result/model.js';
+import {errors, fewestInterval, frontOf, fronts, lightMapOf, marked, originOf, quoted, rerunOf, rmsInterval, speeds, unsettledOf, seriesOf, worstPixelOf} from '../../../service/web/page/result/model.js';
 
 test('a group whose floors drifted says why, and no other does', () => {
   const result = {times: {settled: false, unsettled: [{variant: 1, light: 'key', why: '3 of 14 floors spread'}]}};
@@ -188,4 +188,12 @@ test('the command of a cell that "*" stands for names its technique', () => {
   const result = {name: 'all', scenario: {techniques: [{type: '*'}]}};
   const cell = {technique: 'avsm', where: '/techniques/0', parameters: {nodes: 8}};
   assert.equal(rerunOf(result, {settings: []}, cell), `shadowbench run all.json --set 'techniques=[{"type":"avsm"}]'`);
+});
+
+test('a technique has the same mark in every result', () => {
+  const of = (...techniques) => seriesOf({variants: [{lights: [{cells: techniques.map((technique) => ({technique}))}]}]});
+  const [some, others] = [of('deep', 'ray_traced', 'mine'), of('mine', 'ray_traced', 'avsm', 'deep')];
+  for (const name of ['deep', 'ray_traced', 'mine']) assert.equal(some.get(name), others.get(name), name);
+  const known = ['shadow_map', 'pcf', 'deep', 'avsm', 'fourier', 'uncompressed', 'ray_traced', 'variance', 'opacity', 'multi_depth', 'volume_deep', 'mine'];
+  assert.equal(new Set([...of(...known).values()].map((n) => `${n % 8} ${n % 7}`)).size, known.length, 'no two are alike');
 });

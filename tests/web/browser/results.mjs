@@ -42,40 +42,74 @@ ofResults['a recommendation'] = async ({page, url, mock}) => {
 
 ofResults['the answer of a recommendation, and on from there'] = async ({page, url, mock}) => {
   const job = mock.job('succeeded');
-  Object.assign(job, {kind: 'recommendation', recommend: {error: 0.02}, promises_kept: null, reached: true, artifacts: ['result.json', 'table.txt']});
+  Object.assign(job, {kind: 'recommendation', recommend: {error: 0.02, budget: 300}, promises_kept: null, reached: true, artifacts: ['result.json', 'table.txt']});
   mock.files['table.txt'] = 'as the program prints it';
   const result = JSON.parse(readFileSync(join(mock.fixture, 'result.json'), 'utf8'));
   const choice = (technique, setting, ns, size, confirmed = true) => ({technique, setting, confirmed, error: [0.0181, 0.0195], lookup_ns: ns, bytes: size, build_ms: 76.2,
     part: {rays: {resolution: 91}, techniques: [{type: technique}]}});
   const family = (technique) => ({technique, name: technique, axes: [], mapless: technique === 'ray_traced'});
   result.recommendation = {light: 'key', measure: 'rms', goal: {error: 0.02, cheapest: ['bytes'], at_most: {}, budget_seconds: 9}, end: 'budget',
-    families: ['deep', 'avsm', 'ray_traced'].map(family), measured: [], confirmed: [], answer: {reached: true, without_map: choice('ray_traced', 'ray_traced samples=13', 8730, 0), closest: null,
+    families: [...['deep', 'avsm', 'ray_traced'].map(family), {...family('deep'), name: 'deep tolerance=0.1', axes: [{name: 'resolution', values: ['32', '59']}]}, {...family('avsm'), name: 'avsm', axes: [{name: 'resolution', values: ['']}, {name: 'samples', values: ['']}, {name: 'nodes', values: ['2', '4']}]}],
+    measured: [], confirmed: [[3, [1], 44, 48], [4, [0, 0, 1], 40, 50]].map(([of, step, low, high]) => ({family: of, step, failed: '', bytes: {median: 45, interval95: [1024 * low, 1024 * high]}})), answer: {reached: true, without_map: choice('ray_traced', 'ray_traced samples=13', 8730, 0), closest: null,
       cheapest: [
         {cost: 'lookup_ns', ...choice('deep', 'deep kernel=tent, resolution=91', 6.56, 431104), runner_up: {...choice('avsm', 'avsm nodes=16, resolution=117', 23.3, 9, false), behind: 2.55, tie: false}, perhaps: null},
         {cost: 'bytes', ...choice('deep', 'deep tolerance=0.1, resolution=59', 60.5, 46182), runner_up: {...choice('avsm', 'avsm nodes=4', 9, 46182), behind: 0, tie: true}, perhaps: choice('avsm', 'avsm nodes=2', 3, 1024)}],
-      missed: [{technique: 'pcf', why: 'already dearer', error: 0.0942}, {technique: 'variance', why: 'the budget ended', error: null}],
+      missed: [{technique: 'shadow_map', why: 'already dearer', error: 0.928}, {technique: 'pcf', why: 'already dearer', error: 0.0942}, {technique: 'variance', why: 'the budget ended', error: null}],
       broken: [{technique: 'fourier', settings: 1, measured: 2, reason: '<b>rises</b>'}]}};
   mock.results = result;
   await page.goto(`${url}#/jobs/${job.id}`);
   await page.waitForSelector('.cells tbody tr');
   const first = page.locator('main .panel').first(), rows = await first.locator('.answers > div').allInnerTexts();
   assert.match(await first.innerText(), /With an error of at most 0\.02\s+\(RMS, 95 % confidence\)[^]*The time given ended first/);
-  assert.match(rows[0], /Fastest lookup\s+deep kernel=tent, resolution=91 6\.56 ns a lookup, 421 KiB, 76\.2 ms to build, error 0\.0181 to 0\.0195\s+255 % more: avsm nodes=16, resolution=117, 23\.3 ns \(not confirmed\)/);
-  assert.match(rows[1], /Fewest bytes\s+deep tolerance=0\.1, resolution=59 45\.1 KiB, [^]*A tie with avsm nodes=4, 45\.1 KiB\s*Perhaps 1 KiB, error not confirmed: avsm nodes=2/);
+  assert.match(rows[0], /Fastest lookup\s+deep kernel=tent, resolution=91 6\.56 ns a lookup, 421 KiB, 76\.2 ms to build, error 0\.0181 to 0\.0195\s+3\.5 × as much: avsm nodes=16, resolution=117, 23\.3 ns \(not confirmed\)/);
+  assert.match(rows[1], /Fewest bytes\s+deep tolerance=0\.1, resolution=59 45\.1 KiB, [^]*A tie with avsm nodes=4, 45\.1 KiB \(95 %: 40 KiB to 50 KiB; of the best 44 KiB to 48 KiB\)\s*Perhaps 1 KiB, error not confirmed: avsm nodes=2/);
   assert.match(rows[2], /Without a map\s+ray_traced samples=13 8\.73 µs a lookup, error/);
   assert.match(await text(page, '#explored'), /No setting was measured/, 'no plot of nothing');
+  assert.match(await page.locator('main .note').first().innerText(), /^recommendation, error at most 0\.02, within 5 min 0 s/);
+  const second = page.locator('.panel.answer').nth(1);
+  assert.match(await second.locator('h2').innerText(), /^Among the settings measured, with an error of at most/);
+  assert.equal(await second.locator('#budget').inputValue(), '0.02', 'the error that was asked for');
   await first.locator('summary').first().click();
-  assert.match(await first.locator('.facts').innerText(), /pcf\s+already dearer; closest error 0\.0942\s+variance\s+the budget ended; not measured\s+fourier\s+broke a promise at 1 of 2 settings; <b>rises<\/b>/);
+  assert.match(await first.locator('.facts').innerText(), /shadow_map\s+does not reach it\s+pcf\s+already dearer; closest error 0\.0942\s+variance\s+the budget ended; not measured\s+fourier\s+broke a promise at 1 of 2 settings; <b>rises<\/b>/);
   await first.locator('summary').nth(1).click();
   assert.match(await text(page, 'pre.answer'), /as the program prints it/);
   // On from there: the scenario with these settings, ready to run.
   await first.locator('button').first().click();
   await page.waitForSelector('.verdict-box .good');
   const scenario = JSON.parse(await page.locator('#scenario').inputValue());
-  assert.deepEqual([scenario.rays.resolution, scenario.techniques], [91, [{type: 'deep'}]]);
+  assert.deepEqual([scenario.rays.resolution, scenario.techniques], [91, [{type: 'deep'}, {type: 'avsm'}]], 'the runner-up beside it');
+  assert.match(page.url(), /#\/\?error=0\.02&within=5$/, 'what was asked for goes along');
+  assert.equal(await page.locator('.common input[aria-label="Error that is allowed"]').inputValue(), '0.02');
   await page.goBack();
   await page.waitForSelector('.cells tbody tr');
   for (const summary of await first.locator('summary').all()) await summary.click();
+};
+
+ofResults['a recommendation whose time was too short'] = async ({page, url, mock}) => {
+  const job = mock.job('succeeded');
+  Object.assign(job, {kind: 'recommendation', recommend: {error: 0.02, budget: 120, only: ['deep']}, promises_kept: null, reached: true, artifacts: ['result.json']});
+  const result = JSON.parse(readFileSync(join(mock.fixture, 'result.json'), 'utf8'));
+  const names = ['deep', 'avsm', 'pcf', 'variance'];
+  result.recommendation = {light: 'key', measure: 'rms', goal: {error: 0.02, cheapest: [], at_most: {}, budget_seconds: 120}, end: 'budget', measured: [], confirmed: [],
+    families: names.map((technique) => ({technique, name: technique, axes: [], mapless: false})),
+    answer: {reached: true, too_early: {budget_seconds: 120, techniques: 4, open: 3, give_seconds: 240}, without_map: null, closest: null, broken: [], cheapest: [],
+      missed: names.slice(1).map((technique) => ({technique, why: 'the budget ended', error: null}))}};
+  mock.results = result;
+  await page.goto(`${url}#/jobs/${job.id}`);
+  await page.waitForSelector('.cells tbody tr');
+  const said = /The time was too short\. 2 min 0 s ended before 3 of 4 techniques were followed to the error/, panel = page.locator('main .panel').first();
+  assert.match(await panel.innerText(), said);
+  delete result.recommendation.answer.too_early;  // as earlier versions wrote it
+  await page.reload();
+  await page.waitForSelector('.cells tbody tr');
+  assert.match(await panel.innerText(), said);
+  await page.click('button:has-text("Ask again with 4 min")');
+  await page.waitForFunction(() => document.querySelector('.stage-text')?.textContent === 'Queued: next');
+  assert.deepEqual(mock.jobs[0].recommend, {error: 0.02, budget: 240, only: ['deep']});
+  assert.equal(mock.jobs[0].scenario.name, 'quickstart');
+  assert.equal(await page.locator('.progress progress').isVisible(), false, 'no empty bar');
+  await page.goBack();
+  await page.waitForSelector('.cells tbody tr');
 };
 
 ofResults['pictures that could not be made'] = async ({page, url, mock}) => {

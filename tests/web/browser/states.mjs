@@ -30,7 +30,7 @@ states['every state of a job'] = async ({page, url, mock}) => {
   await page.goto(`${url}#/jobs`);
   await page.waitForFunction(() => document.querySelectorAll('.jobs tbody tr').length === 7);
   const table = await text(page, '.jobs');
-  for (const words of ['3 before it', 'next', '42 %', 'build 1/2 key', 'sees nothing', 'cancelled', 'promise broken', 'from an earlier result', '5.38 s'])
+  for (const words of ['3 before it', 'next', '42 %: build, light key (1 of 2)', 'sees nothing', 'cancelled', 'promise broken', 'from an earlier result', '5.38 s'])
     assert.ok(table.includes(words), words);
   // It moves without a reload, and the row stays the same element.
   await page.locator('.jobs tbody tr').nth(2).evaluate((row) => { row.id = 'kept'; });

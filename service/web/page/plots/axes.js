@@ -42,7 +42,8 @@ export function logAxis(name, values, kind) {
   const margin = Math.max(1.15, 10 ** (0.07 * span));
   low = Math.max(least, low / margin);
   high = Math.min(1 / least, high * margin);
-  const ticks = logTicks(low, high, kind);
+  let ticks = logTicks(low, high, kind);
+  for (; ticks.length < 2; ticks = logTicks(low, high, kind)) [low, high] = [Math.max(least, low / 1.4), Math.min(1 / least, 1.4 * high)];  // a single value
   const labels = ticks.map((t) => write(kind, t));
   let zero = null;
   if (values.some((v) => v === 0)) {

@@ -8,12 +8,12 @@ import {size, titleOf} from './model.js';
 
 const joined = (parts) => parts.filter(Boolean).join(', ');
 
-// pick(index), allow(value, last): as for the plots. update({cells, series, error, speed, budget}).
-export function answerView({pick, allow}) {
+// among: of the settings that a recommendation measured, whose answer stands above. pick(index), allow(value, last): as for the plots. update({cells, series, error, speed, budget}).
+export function answerView({among, pick, allow}) {
   const list = h('dl', {class: 'answers', 'aria-live': 'polite'}), measure = h('span');
   const field = h('input', {type: 'number', min: '0', step: 'any', id: 'budget', onchange: () => { if (field.value !== '' && Number(field.value) > 0) allow(Number(field.value), true); }});
   const element = h('section', {class: 'panel answer', 'aria-labelledby': 'answer-title'},
-    h('h2', {id: 'answer-title'}, h('label', {for: 'budget'}, 'With an error of at most '), field, measure), list);
+    h('h2', {id: 'answer-title'}, h('label', {for: 'budget'}, among ? 'Among the settings measured, with an error of at most ' : 'With an error of at most '), field, measure), list);
 
   function update({cells, series, error, speed, budget}) {
     const found = answersAt(cells, {error, speed, budget});

@@ -2,6 +2,7 @@
 // cell.
 
 import {count, plural, significant} from '../format.js';
+import {numberOf} from '../plots/numbers.js';
 import {named} from './names.js';
 
 export function titleOf(cell) {
@@ -106,12 +107,12 @@ export function frontOf(points) {
   return front;
 }
 
-// Numbers the techniques of a result in order of appearance. The number selects the colour and shape.
+// The numbers of the techniques of a result.
 export function seriesOf(result) {
   const series = new Map();
   for (const group of groupsOf(result))
     for (const cell of group.cells)
-      if (!series.has(cell.technique)) series.set(cell.technique, series.size);
+      series.set(cell.technique, numberOf(cell.technique));
   return series;
 }
 

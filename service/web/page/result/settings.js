@@ -10,6 +10,14 @@ function nameOf(family, step) {
   return `${family.name}${settings.length ? `, ${settings.join(' ')}` : ''}`;
 }
 
+// A setting as the answer names it.
+export function settingText({name, axes}, step) {
+  const word = (axis, i) => `${axis.name}=${axis.values[step[i]]}`;
+  const own = axes.map((axis, i) => i >= 2 && ` ${word(axis, i)}`), rays = axes.map((axis, i) => i < 2 && (axis.values.length > 1 || axis.values[0] !== '') && ` ${word(axis, i)}`);
+  const [settings, light] = [own, rays].map((all) => all.filter(Boolean).join(''));
+  return name + settings + (light && `,${light}`);
+}
+
 // Labels of settings in a plot: the technique and, of its words, those in which these settings of it differ.
 export function labelsOf(settings) {
   return settings.map(({technique, words}) => {

@@ -61,20 +61,21 @@ function captureOf(light, origin) {
 }
 
 // The part of a result for one variant and light. What is chosen stands in the address.
-function groupView({source, result, images, imagesFault, group, series, signal}) {
+function groupView({source, result, images, imagesFault, asked, group, series, signal}) {
   const theseImages = imagesAreOf(images, group) ? images : null;
   const drawn = theseImages && group.cells.findIndex((cell) => picturesOf(theseImages, cell));
   const {cells} = group;
-  let error = errors.find((m) => m.id === address.get('error')) ?? errors[0], speed = speeds.find((m) => m.id === address.get('speed')) ?? speeds[0];
+  let error = errors.find((m) => m.id === (address.get('error') ?? asked?.error)) ?? errors[0], speed = speeds.find((m) => m.id === address.get('speed')) ?? speeds[0];
   const allowed = address.numbers('budget', 1)?.[0];
-  let budget = allowed > 0 ? allowed : firstBudget(cells, error);
+  const usualBudget = () => (asked && error.id === asked.error ? asked.budget : firstBudget(cells, error));
+  let budget = allowed > 0 ? allowed : usualBudget();
   const first = () => {
     const {fastest, smallest, closest} = answersAt(cells, {error, speed, budget});
     const best = fastest ?? smallest ?? closest ?? cells.find((cell) => !withoutMap(cell));
     return Math.max(0, cells.indexOf(best));
   };
-  const asked = Number(address.get('technique')) - 1;
-  let chosen = Number.isInteger(asked) && asked >= 0 && asked < cells.length ? asked : first();
+  const wanted = Number(address.get('technique')) - 1;
+  let chosen = Number.isInteger(wanted) && wanted >= 0 && wanted < cells.length ? wanted : first();
   let shown = new AbortController();
   signal.addEventListener('abort', () => shown.abort(), {once: true});
 
@@ -89,10 +90,10 @@ function groupView({source, result, images, imagesFault, group, series, signal})
     address.go({...measures, ...(measures.error && {budget: null})});
     error = errors.find((m) => m.id === measures.error) ?? error;
     speed = speeds.find((m) => m.id === measures.speed) ?? speed;
-    if (measures.error) budget = firstBudget(cells, error);
+    if (measures.error) budget = usualBudget();
     draw();
   }
-  const answer = answerView({pick: (index) => pick(index, true), allow});
+  const answer = answerView({among: asked !== null, pick: (index) => pick(index, true), allow});
   const trade = tradeView({series: () => series, name: () => result.name ?? 'result', pick: (index) => pick(index, true), allow, choose, signal});
   const tablePlace = h('div'), cellPlace = h('div', {'aria-live': 'polite'});
   const compare = theseImages && drawn >= 0 ? compareView({source, images: theseImages, cells, picked: (index) => pick(index, false), signal}) : null;
@@ -143,8 +144,8 @@ function groupView({source, result, images, imagesFault, group, series, signal})
 }
 
 // imagesFault: why there are no pictures, as {where, message}, if it is known. first: settings of the variant that is shown
-// first, as {pointer: value}; nothing: the first one.
-export function resultView({source, result, images, imagesFault, first = {}, signal}) {
+// first, as {pointer: value}; nothing: the first one. asked: {error, budget} of a recommendation, the id of its measure and its error.
+export function resultView({source, result, images, imagesFault, first = {}, asked = null, signal}) {
   const groups = groupsOf(result), series = seriesOf(result);
   if (!groups.length) return h('p', {class: 'note'}, 'This result has no lights.');
   const place = h('div'), switches = h('div', {class: 'choices switch', hidden: groups.length === 1});
@@ -178,7 +179,7 @@ export function resultView({source, result, images, imagesFault, first = {}, sig
         (l) => go(groups.find((g) => g.variant === current.variant && g.lightIndex === Number(l))))),
     ].filter(Boolean));
     if (focused) switches.querySelector(`[data-part="${focused}"] select`)?.focus();
-    place.replaceChildren(groupView({source, result, images, imagesFault, group: current, series, signal: shown.signal}));
+    place.replaceChildren(groupView({source, result, images, imagesFault, asked, group: current, series, signal: shown.signal}));
   }
   show();
   // Back and forward within this result, and an address that is typed.
