@@ -5,10 +5,7 @@ import {address} from './address.js';
 import {announce, h, setText} from './dom.js';
 import {moment, newKey, seconds, significant} from './format.js';
 import {progressBar, progressText, stateMark} from './jobs.js';
-import {exploredView} from './result/explored.js';
-import {numberOf} from './plots/numbers.js';
-import {seriesOf} from './result/model.js';
-import {recommendedView} from './result/recommended.js';
+import {recommendationParts, shownFirst} from './result/recommendation.js';
 import {resultView, summaryOf} from './result/view.js';
 import {ended, watchJob} from './watch.js';
 
@@ -39,21 +36,10 @@ function fileLink(text, address, name) {
   }}, text);
 }
 
-// The rays of a recommendation's first answer, as settings of a variant.
-function firstOf({recommendation}) {
-  const {answer} = recommendation ?? {}, rays = (answer?.cheapest[0] ?? answer?.closest)?.part.rays ?? {};
-  return Object.fromEntries(Object.entries(rays).map(([name, value]) => [`/rays/${name}`, value]));
-}
-
 // What a recommendation is asked for, in words.
 function questionOf({kind, recommend}) {
   if (kind !== 'recommendation') return null;
   return ['recommendation', recommend?.error && `error at most ${significant(recommend.error)}`, recommend?.budget && `within ${seconds(recommend.budget)}`].filter(Boolean).join(', ');
-}
-
-// The same as the error of a run that is allowed.
-function askedOf({goal, measure}) {
-  return {budget: goal.error, error: measure === 'curve' ? 'curve.max' : `lookup.${measure}`};
 }
 
 function progressPanel(stop) {
@@ -119,17 +105,6 @@ export function jobView({id, signal, edit}) {
     }
   };
 
-  // The answer, and what was measured for it. Results of earlier versions have the answer as text only.
-  function recommendationParts(result, text, job) {
-    const {recommendation} = result, series = seriesOf(result);
-    for (const {technique} of recommendation.families) series.set(technique, numberOf(technique));
-    return [
-      recommendation.answer ? recommendedView({recommendation, text, take, askAgain, series})
-        : text && h('section', {class: 'panel', 'aria-label': 'Recommendation'}, h('h2', {}, 'Recommendation'), h('pre', {class: 'answer', tabindex: '0'}, text)),
-      exploredView({recommendation, series, name: job.name, signal}),
-      h('div', {}, h('h2', {}, 'The settings measured, by resolution and rays a pixel'), h('p', {class: 'note'}, 'Each was measured once and briefly. The answer above rests on what was confirmed.')),
-    ].filter(Boolean);
-  }
   async function showResult(job) {
     const source = sourceOf(job);
     const has = (name) => job.artifacts?.includes(name);
@@ -141,8 +116,8 @@ export function jobView({id, signal, edit}) {
       fileLink('Offline report', `${path}/report`, `${job.name}.html`),
       h('a', {href: `#/compare/${encodeURIComponent(id)}`}, 'Compare with another'), again);
     place.replaceChildren(h('p', {class: 'purpose'}, result.purpose ?? ''),
-      ...(result.recommendation ? recommendationParts(result, text, job) : []),
-      resultView({source, result, images, imagesFault: fault?.error, first: firstOf(result), asked: result.recommendation ? askedOf(result.recommendation) : null, signal}), h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)));
+      ...recommendationParts({result, text, name: job.name, take, askAgain, signal}),
+      resultView({source, result, images, imagesFault: fault?.error, ...shownFirst(result), signal}), h('section', {class: 'panel quiet-panel', 'aria-label': 'Summary'}, summaryOf(result)));
     announce(`${job.name}: the result is shown`);
   }
   function update(job) {

@@ -64,16 +64,34 @@ function historyOf() {
 }
 
 // As document.cpp puts one together.
-function historyPage(pages) {
+function pageOf(pages, script, data) {
   const read = (name) => readFileSync(join(pages, name), 'utf8');
   return '<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="color-scheme" content="light dark">' +
-    `<meta name="viewport" content="width=device-width"><title>History</title><style>${read('style.css')}</style></head><body><main id="main"></main>` +
-    `<script type="application/json" id="data">${JSON.stringify(historyOf())}</script><script>${read('history.js')}</script></body></html>`;
+    `<meta name="viewport" content="width=device-width"><title>A page</title><style>${read('style.css')}</style></head><body><main id="main"></main>` +
+    `<script type="application/json" id="data">${JSON.stringify(data)}</script><script>${read(script)}</script></body></html>`;
+}
+
+// A recommendation as a file begins with its answer, at the error that was asked for.
+async function recommendation(options, folder) {
+  const result = JSON.parse(readFileSync(join(folder, 'result.json'), 'utf8'));
+  const best = {technique: 'deep', setting: 'deep tolerance=0.02', confirmed: true, error: [0.021, 0.024], lookup_ns: 6.5, bytes: 4096, build_ms: 2, part: {rays: {}, techniques: [{type: 'deep'}]}};
+  result.recommendation = {light: 'key', measure: 'rms', goal: {error: 0.025, cheapest: ['bytes'], at_most: {}, budget_seconds: 9}, end: 'complete', measured: [], confirmed: [],
+    families: [{technique: 'deep', name: 'deep', axes: [], mapless: false}],
+    answer: {reached: true, too_early: null, without_map: null, closest: null, cheapest: [{cost: 'bytes', ...best, runner_up: null, perhaps: null}], missed: [], broken: []}};
+  const file = join(folder, 'recommendation.html');
+  writeFileSync(file, pageOf(options.pages, 'report.js', {result, images: null, pictures: {}}));
+  await each(options.browser, file, async (page, name) => {
+    await page.waitForSelector('.cells tbody tr');
+    assert.match(await page.locator('main .panel').first().innerText(), /^With an error of at most 0\.025[^]*Fewest bytes\s+deep tolerance=0\.02\s+4 KiB/);
+    assert.equal(await page.locator('#budget').inputValue(), '0.025');
+    assert.equal(await page.locator('main .panel').first().locator('button').count(), 0, 'nobody can be asked');
+    await picture(page, `report-recommendation-${name}`);
+  });
 }
 
 async function history(options, folder) {
   const file = join(folder, 'history.html');
-  writeFileSync(file, historyPage(options.pages));
+  writeFileSync(file, pageOf(options.pages, 'history.js', historyOf()));
   await each(options.browser, file, async (page, name) => {
     await page.waitForSelector('.trend .mark-symbol path');
     assert.match(await page.locator('.purpose').innerText(), /2 cells over 12 runs.* 1 measure drifts\./);
@@ -132,5 +150,6 @@ export default async function run(options) {
   const folder = makeFixture(options);
   await numbers(options, folder);
   await history(options, folder);
+  await recommendation(options, folder);
   await report(options, folder);
 }
