@@ -71,7 +71,6 @@ public:
         return covered(area);
     }
 
-    // `least_width`: in map pixels. `around`: added on each side, in lengths of the ribbon in the world.
     // `least_width`: in map pixels. `around`: added on each side, in lengths of the ribbon in the world. Pixels need
     // not be square.
     double ribbon(const Vec3f& a, const Vec3f& b, float radius, double least_width, double around) const {
@@ -239,9 +238,10 @@ void add(const Projection& in, const scene::Object& object, bool cells, double l
     if (const auto* particles = std::get_if<scene::Particles>(&object.shape)) {
         hits.media = std::min(1.0, hits.media + std::min(share, crossed));
         hits.steps += crossed;
-        if (share > 0.0) {
+        const double way = share > 0.0 ? length_inside(in, *particles) / share : 0.0;
+        if (way > 0.0) {
             // Balls that overlap share their way, but not their optical depth.
-            const double way = length_inside(in, *particles) / share, size = scene::bounds(object).size().length();
+            const double size = scene::bounds(object).size().length();
             const double extinction = mean_density(*particles) * mean(object.extinction);
             hits.inside += share * std::min(way, size / std::sqrt(3.0)) * before_dark(way, extinction) / way;
         }

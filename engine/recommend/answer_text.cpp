@@ -41,7 +41,8 @@ std::string cost_text(double value, std::size_t cost) {
     if (static_cast<Cost>(cost) == Cost::bytes) return base::bytes_text(static_cast<std::size_t>(std::llround(value)));
     const bool lookup = static_cast<Cost>(cost) == Cost::lookup;
     std::size_t unit = lookup ? 0 : 2;
-    for (; value >= 1000.0 && unit + 1 < std::size(time_units); ++unit) value /= 1000.0;
+    for (; value >= 999.5 && unit + 1 < std::size(time_units); ++unit) value /= 1000.0;
+    if (value >= 999.5) return fmt::format("{:.0f} {}", value, time_units[unit]);
     return fmt::format("{:.3g} {}", value, time_units[unit]);
 }
 
@@ -86,6 +87,7 @@ std::string cut(std::string line, std::size_t width) {
 struct TextLine {
     std::string text;
     bool label = false, paste = false, setting = false;
+    bool whole = false;  // it goes on in further lines rather than being cut
 };
 
 // What does not fit goes on in the next line, behind the label.
@@ -134,7 +136,7 @@ void add_cheapest(const Cheapest& cheapest, std::size_t k, const std::vector<Fam
         lines.push_back(
             {fmt::format("       {} {}, {}{}", distance, cost_text(second->cost[k], k),
                          setting_text(families, second->point), second->confirmed ? "" : " (not confirmed)"),
-             false, false, true});
+             false, false, false, true});
     }
     if (const auto& perhaps = cheapest.perhaps)
         lines.push_back({fmt::format("       perhaps {}, error not confirmed: {}", cost_text(perhaps->cost[k], k),
@@ -161,12 +163,12 @@ std::vector<TextLine> held_lines(const Answer& answer, std::size_t width) {
 void add_warning(const Answer& answer, const Wording& wording, std::vector<TextLine>& lines) {
     const double longer = longer_budget(answer.budget);
     const std::string command = wording.again ? wording.again(longer) : "";
-    lines.push_back(
-        {fmt::format("THE BUDGET WAS TOO SHORT: {} ended before {} of {} techniques were followed to the "
-                     "error, so cheaper settings are likely. {}",
-                     budget_text(answer.budget), answer.open, answer.techniques,
-                     command.empty() ? fmt::format("Give {} or more.", budget_text(longer))
-                                     : "What was measured is kept; go on with:")});
+    lines.push_back({fmt::format("THE BUDGET WAS TOO SHORT: {} ended before {} of {} techniques were followed to the "
+                                 "error, so cheaper settings are likely. {}",
+                                 budget_text(answer.budget), answer.open, answer.techniques,
+                                 command.empty() ? fmt::format("Give {} or more.", budget_text(longer))
+                                                 : "What was measured is kept; go on with:"),
+                     false, false, true});
     if (!command.empty()) lines.push_back({command, false, true});
 }
 
@@ -244,7 +246,7 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
             {fmt::format("UNSETTLED: the host of this virtual machine took {:.0f} % of the time (steal); "
                          "measure again",
                          100.0 * *answer.steal)});
-    if (answer.end == End::budget) last.push_back({budget_line(answer)});
+    if (answer.end == End::budget) last.push_back({budget_line(answer), false, false, false, true});
     if (answer.end == End::cancelled) last.push_back({"cancelled: a cheaper setting may be left"});
 
     const std::string head = folded(lines, width), tail = folded(last, width);
@@ -261,7 +263,7 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
     if (!names.empty()) lines.push_back(missed);
     lines.insert(lines.end(), last.begin(), last.end());
     for (TextLine& line : lines)
-        if (!line.paste && !line.setting) line.text = cut(std::move(line.text), width);
+        if (!line.paste && !line.setting && !line.whole) line.text = cut(std::move(line.text), width);
     return folded(lines, width);
 }
 

@@ -20,14 +20,13 @@ std::string way_out_text(const SearchPath& path, const std::string& name) {
         return fmt::format("\"{}\" must be a name inside the data folders, without ..", name);
     for (const fs::path& folder : path.folders) {
         const fs::path inside = fs::path(name).lexically_relative(folder);
-        if (!inside.empty() && !names_way_out(inside.string()))
+        if (!inside.empty() && inside != "." && !names_way_out(inside.string()))
             return fmt::format(
                 "the name is absolute; only names relative to the data folders are read here: write \"{}\"",
                 inside.string());
     }
     return "the name is absolute; only names relative to the data folders are read here: put the file into one of "
-           "them, "
-           "and write its name from there";
+           "them, and write its name from there";
 }
 
 fs::path find_confined(const SearchPath& path, const std::string& name, const std::string& where) {

@@ -1,5 +1,6 @@
 #include "service/api/helper_side.h"
 
+#include <algorithm>
 #include <istream>
 #include <limits>
 #include <memory>
@@ -109,7 +110,7 @@ json facts_of(const json& document, const std::string& recommend, const std::vec
             {"techniques", v.techniques},
             {"notes", notes},
             {"estimate",
-             {{"seconds", process_start + v.seconds * pace + v.budget},
+             {{"seconds", process_start + std::max(v.seconds * pace, v.budget)},
               {"picture_seconds", picture_seconds * pace},
               {"bytes", v.least_bytes},
               {"resolution", v.largest_side},

@@ -1,4 +1,5 @@
 #include "service/cli/recommend_command.h"
+#include "service/cli/libraries.h"
 
 #include <algorithm>
 #include <cmath>
@@ -184,8 +185,7 @@ std::string command_again(const RecommendArguments& arguments, double budget) {
     add_all("--set", arguments.set);
     add_all("--only", arguments.only);
     add_all("--data", arguments.data);
-    add_all("--technique-library", arguments.libraries.files);
-    if (arguments.libraries.isolate) command += " --isolate";
+    for (const std::string& word : library_arguments(arguments.libraries)) command += " " + base::shell_word(word);
     if (arguments.threads > 0) add("--threads", std::to_string(arguments.threads));
     if (arguments.memory_limit != JobArguments().memory_limit)
         add("--memory-limit", base::number_text(arguments.memory_limit));

@@ -1,7 +1,6 @@
 #include "service/cli/recommend_job.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -15,8 +14,7 @@
 namespace shadowbench::service {
 namespace {
 
-// How far a recommendation is: its time against the time of the truth and the budget. While the truth is computed, that
-// time is taken to end now.
+// How far a recommendation is: its time against the budget, which the truth counts to.
 class Course {
 public:
     Course(double budget, const JobProgressCallback& report) : budget_(budget), report_(report) {}
@@ -30,7 +28,7 @@ public:
     }
 
     void explore(const recommend::Progress& progress) {
-        if (!began_) began_ = since_start_.seconds();
+        began_ = true;
         stage_ = progress.stage == recommend::Stage::confirming ? "confirming" : "exploring";
         report_budget();
     }
@@ -38,17 +36,17 @@ public:
 private:
     double fraction() const {
         const double now = since_start_.seconds();
-        return std::min(now / (began_.value_or(now) + budget_), 1.0);
+        return std::min(now / budget_, 1.0);
     }
     void report_budget() const {
-        const double spent = std::min(since_start_.seconds() - *began_, budget_);
+        const double spent = std::min(since_start_.seconds(), budget_);
         report_({"", stage_, static_cast<std::size_t>(spent), static_cast<std::size_t>(budget_)}, fraction());
     }
 
     double budget_;
     const JobProgressCallback& report_;
     bench::Stopwatch since_start_;
-    std::optional<double> began_;  // seconds until the exploration began
+    bool began_ = false;  // exploring
     const char* stage_ = "exploring";
 };
 

@@ -12,6 +12,7 @@
 #include "service/jobs/folders.h"
 #include "service/jobs/record.h"
 #include "service/jobs/state_folder.h"
+#include "service/store/damaged_store.h"
 #include "service/store/store_check.h"
 #include "service/store/store_kind.h"
 
@@ -146,7 +147,7 @@ std::vector<std::string> check_state(const fs::path& state) {
     StoreContents contents;
     try {
         contents = check_store(database);
-    } catch (const Error& error) {
+    } catch (const DamagedStore& error) {
         if (kind_of_store(database) != StoreKind::ours) throw;
         return check_without_database(error, folders);
     }

@@ -121,10 +121,21 @@ void JobTexts::set(std::int64_t sequence, std::string text) noexcept {
 
 std::vector<std::int64_t> JobTexts::find(const std::vector<std::string>& parts, std::int64_t before,
                                          std::size_t most) const {
-    const std::scoped_lock lock(mutex_);
+    // Writers wait for no more than some texts.
+    constexpr int at_a_time = 4096;
     std::vector<std::int64_t> found;
+    std::unique_lock lock(mutex_);
+    int looked_at = 0;
     for (auto at = texts_.lower_bound(before); at != texts_.begin() && found.size() < most;) {
         --at;
+        if (++looked_at % at_a_time == 0) {
+            const std::int64_t here = at->first;
+            lock.unlock();
+            lock.lock();
+            at = texts_.upper_bound(here);
+            if (at == texts_.begin()) break;
+            --at;
+        }
         const auto has = [&](const std::string& part) { return at->second.find(part) != std::string::npos; };
         if (at->second.size() >= longest_kept || std::all_of(parts.begin(), parts.end(), has))
             found.push_back(at->first);

@@ -91,17 +91,22 @@ export function jobView({id, signal, edit}) {
     }
   };
   // What was asked for goes along.
-  const askedFor = () => ({error: current?.recommend?.error ?? address.get('budget'), within: Number.isInteger(current?.recommend?.budget / 60) ? current.recommend.budget / 60 : null});
+  const askedFor = () => ({error: current?.recommend?.error ?? ((address.get('error') ?? 'lookup.rms') === 'lookup.rms' ? address.get('budget') : null), within: Number.isInteger(current?.recommend?.budget / 60) ? current.recommend.budget / 60 : null});
   const take = (part) => get(`${path}/scenario`, signal).then((scenario) => edit(withPart(scenario, part), askedFor()), failed);
   const again = h('button', {type: 'button', class: 'link', onclick: () => get(`${path}/scenario`, signal).then((scenario) => edit(scenario, askedFor()), failed)}, 'Edit and run again');
   // The same question with more time. The scenario is sent as it is written, with all digits of its numbers.
+  let asking = false;
   const askAgain = async (time) => {
+    if (asking) return;
+    asking = true;
     try {
       const scenario = await getText(`${path}/scenario`, signal);
       const job = await post('/v1/recommendations', `{"scenario": ${scenario}, "recommend": ${JSON.stringify({...current.recommend, budget: time})}}`, {'Idempotency-Key': newKey()}, signal);
       location.hash = `#/jobs/${job.id}`;
     } catch (error) {
       failed(error);
+    } finally {
+      asking = false;
     }
   };
 

@@ -54,7 +54,7 @@ const longest = 1500;  // seconds that may be asked for
 function tooEarly({answer, goal, end, families}) {
   const open = answer.missed.filter((m) => m.why === 'the budget ended').length, all = new Set(families.map((f) => f.technique)).size;
   const known = answer.too_early ?? (answer.too_early === undefined && end === 'budget' && open > 0 && 2 * open >= all
-    ? {budget_seconds: goal.budget_seconds, techniques: all, open, give_seconds: Math.max(120, 60 * Math.ceil(goal.budget_seconds / 30))} : null);
+    ? {budget_seconds: goal.budget_seconds, techniques: all, open, give_seconds: Math.max(300, 60 * Math.ceil(goal.budget_seconds / 30))} : null);
   if (!known) return null;
   return {text: ` ${Number.isFinite(known.budget_seconds) ? seconds(known.budget_seconds) : 'It'} ended before ${known.open} of ${known.techniques} techniques were followed to the error, so cheaper settings are likely.`,
     seconds: Math.min(longest, known.give_seconds), more: !(known.budget_seconds >= longest)};
