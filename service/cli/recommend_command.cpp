@@ -23,6 +23,7 @@
 #include "results/report.h"
 #include "scene/scenario.h"
 #include "service/cli/job.h"
+#include "service/cli/libraries.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/quantity.h"
 #include "service/cli/terminal.h"
