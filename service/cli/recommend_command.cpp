@@ -1,5 +1,4 @@
 #include "service/cli/recommend_command.h"
-#include "service/cli/libraries.h"
 
 #include <algorithm>
 #include <cmath>
