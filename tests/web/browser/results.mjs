@@ -92,7 +92,7 @@ ofResults['a recommendation whose time was too short'] = async ({page, url, mock
   const names = ['deep', 'avsm', 'pcf', 'variance'];
   result.recommendation = {light: 'key', measure: 'rms', goal: {error: 0.02, cheapest: [], at_most: {}, budget_seconds: 120}, end: 'budget', measured: [], confirmed: [],
     families: names.map((technique) => ({technique, name: technique, axes: [], mapless: false})),
-    answer: {reached: true, too_early: {budget_seconds: 120, techniques: 4, open: 3, give_seconds: 240}, without_map: null, closest: null, broken: [], cheapest: [],
+    answer: {reached: true, too_early: {budget_seconds: 120, techniques: 4, open: 3, give_seconds: 300}, without_map: null, closest: null, broken: [], cheapest: [],
       missed: names.slice(1).map((technique) => ({technique, why: 'the budget ended', error: null}))}};
   mock.results = result;
   await page.goto(`${url}#/jobs/${job.id}`);
@@ -103,9 +103,9 @@ ofResults['a recommendation whose time was too short'] = async ({page, url, mock
   await page.reload();
   await page.waitForSelector('.cells tbody tr');
   assert.match(await panel.innerText(), said);
-  await page.click('button:has-text("Ask again with 4 min")');
+  await page.click('button:has-text("Ask again with 5 min")');
   await page.waitForFunction(() => document.querySelector('.stage-text')?.textContent === 'Queued: next');
-  assert.deepEqual(mock.jobs[0].recommend, {error: 0.02, budget: 240, only: ['deep']});
+  assert.deepEqual(mock.jobs[0].recommend, {error: 0.02, budget: 300, only: ['deep']});
   assert.equal(mock.jobs[0].scenario.name, 'quickstart');
   assert.equal(await page.locator('.progress progress').isVisible(), false, 'no empty bar');
   await page.goBack();
