@@ -156,7 +156,7 @@ states['a full queue'] = async ({page, url, mock}) => {
   await page.goto(url);
   await page.waitForSelector('.verdict-box .good');
   await page.click('#run');
-  await page.waitForFunction(() => document.querySelector('.problem').textContent ===
+  await page.waitForFunction(() => document.querySelector('.submit .problem').textContent ===
     'Not accepted: The queue is full. Try again in 1 min 30 s.');
   // The same again is the same request; another text is another.
   mock.refuse = null;
