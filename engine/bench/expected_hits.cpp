@@ -153,20 +153,9 @@ double filled(const scene::GridVolume& grid) {
            std::max(count, 1.0);
 }
 
-// Of the voxels that have density.
-double mean_density(const scene::GridVolume& grid) {
-    double dense = 0.0;
-    const double all = sum(grid.density.size(), [&](std::size_t i) {
-        if (grid.density[i] > 0.0f) ++dense;
-        return static_cast<double>(grid.density[i]);
-    });
-    const double looked_at = static_cast<double>(std::min(grid.density.size(), most_looked_at));
-    return dense > 0.0 ? all * looked_at / (static_cast<double>(grid.density.size()) * dense) : 0.0;
-}
-
-double mean_density(const scene::Particles& particles) {
-    return sum(particles.density.size(), [&](std::size_t i) { return static_cast<double>(particles.density[i]); }) /
-           std::max(1.0, static_cast<double>(particles.density.size()));
+double mean(const std::vector<float>& values) {
+    return sum(values.size(), [&](std::size_t i) { return static_cast<double>(values[i]); }) /
+           std::max(1.0, static_cast<double>(values.size()));
 }
 
 // The world length of a ray through the middle of the box.
@@ -192,9 +181,9 @@ double mean(const Vec3f& channels) {
     return (static_cast<double>(channels.x) + static_cast<double>(channels.y) + static_cast<double>(channels.z)) / 3.0;
 }
 
-// Of a way through media of this extinction, what lies before almost nothing of the light is left.
-double before_dark(double way, double extinction) {
-    return extinction * way > -std::log(little_left) ? -std::log(little_left) / extinction : way;
+// The share of a way through media of this optical depth that lies before almost nothing of the light is left.
+double before_dark(double optical_depth) {
+    return std::min(1.0, -std::log(little_left) / std::max(optical_depth, 1e-9));
 }
 
 // Adds an object that a share of the rays meets, `crossed` times a ray of the map.
@@ -208,13 +197,13 @@ void add_seen(double crossed, double share, double opacity, ExpectedHits& hits) 
 void add(const Projection& in, const scene::Object& object, bool cells, double least_hair, ExpectedHits& hits) {
     if (const auto* grid = std::get_if<scene::GridVolume>(&object.shape)) {
         const double share = covered(in, {grid->lower, grid->upper}, grid->frame ? &*grid->frame : nullptr);
-        const double part = share * filled(*grid);
+        const double part = share * filled(*grid), way = chord(*grid);
         const double parts = part * segments_through(*grid, cells);
         hits.segments += parts;
         hits.steps += parts;
         hits.grids += parts;
         hits.media = std::min(1.0, hits.media + share);
-        hits.inside += share * before_dark(filled(*grid) * chord(*grid), mean_density(*grid) * mean(object.extinction));
+        hits.inside += part * way * before_dark(mean(grid->density) * mean(object.extinction) * way);
         return;
     }
     const double share = covered(in, scene::bounds(object), nullptr);
@@ -238,13 +227,11 @@ void add(const Projection& in, const scene::Object& object, bool cells, double l
     if (const auto* particles = std::get_if<scene::Particles>(&object.shape)) {
         hits.media = std::min(1.0, hits.media + std::min(share, crossed));
         hits.steps += crossed;
+        // Balls that overlap share their way, but not their optical depth.
         const double way = share > 0.0 ? length_inside(in, *particles) / share : 0.0;
-        if (way > 0.0) {
-            // Balls that overlap share their way, but not their optical depth.
-            const double size = scene::bounds(object).size().length();
-            const double extinction = mean_density(*particles) * mean(object.extinction);
-            hits.inside += share * std::min(way, size / std::sqrt(3.0)) * before_dark(way, extinction) / way;
-        }
+        const double longest = scene::bounds(object).size().length() / std::sqrt(3.0);
+        hits.inside +=
+            share * std::min(way, longest) * before_dark(mean(particles->density) * mean(object.extinction) * way);
     } else {
         add_seen(crossed, std::min(1.0, std::max(share, 0.0)), mean(object.opacity), hits);
     }
@@ -252,8 +239,7 @@ void add(const Projection& in, const scene::Object& object, bool cells, double l
 
 }  // namespace
 
-ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& view, bool casters_only, bool cells,
-                           double least_hair) {
+ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& view, bool casters_only, bool cells) {
     ExpectedHits hits;
     if (scene.deep_image) {
         const double pixels = static_cast<double>(scene.deep_image->width) * scene.deep_image->height;
@@ -262,7 +248,7 @@ ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& vie
     }
     const Projection projection(view);
     for (const scene::Object& object : scene.objects)
-        if (object.casts_shadow || !casters_only) add(projection, object, cells, least_hair, hits);
+        if (object.casts_shadow || !casters_only) add(projection, object, cells, 0.0, hits);
     return hits;
 }
 

@@ -19,13 +19,12 @@ struct ExpectedHits {
 
 // For rays spread evenly over the view's map. Of each object at most some ten thousand primitives are looked at, spread
 // evenly. `casters_only`: objects without shadows count as absent. `cells`: grid volumes have a segment for each voxel
-// cell, else for each step. `least_hair`: pixels of the map that hair is at least wide, where narrower hair is widened
-// and lets the more light through (rays::ViewedHair).
-ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& view, bool casters_only, bool cells,
-                           double least_hair = 0.0);
+// cell, else for each step.
+ExpectedHits expected_hits(const scene::Scene& scene, const rays::LightView& view, bool casters_only, bool cells);
 
-ExpectedHits expected_hits(const scene::Object& object, const rays::LightView& view, bool cells,
-                           double least_hair = 0.0);
+// Of one object. `least_hair`: pixels of the map that hair is at least wide, where narrower hair is widened and lets the
+// more light through (rays::ViewedHair).
+ExpectedHits expected_hits(const scene::Object& object, const rays::LightView& view, bool cells, double least_hair);
 
 // The view of a camera, as if it were a light with one ray a pixel.
 rays::LightView camera_view(const scene::Camera& camera, base::Vec2i resolution);

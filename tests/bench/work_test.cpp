@@ -134,7 +134,7 @@ TEST(ExpectedHits, of_widened_hair_are_more_and_reach_deeper) {
     scene::Object object;
     object.shape = hair;
     const ExpectedHits thin = expected_hits(one(object), square_view(), false, false);
-    const ExpectedHits wide = expected_hits(one(object), square_view(), false, false, 0.5);
+    const ExpectedHits wide = expected_hits(object, square_view(), false, 0.5);
     EXPECT_NEAR(thin.segments, 10.0, 0.02);
     EXPECT_NEAR(wide.segments, 50.0, 0.5) << "half a pixel of 0.1 is five times as wide";
     EXPECT_NEAR(thin.seen, 1.0, 0.01);
