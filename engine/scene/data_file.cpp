@@ -269,6 +269,14 @@ std::span<const FileFormat> file_formats() {
     return formats;
 }
 
+const FileFormat* format_of_name(const std::filesystem::path& name) {
+    const std::string extension = extension_of(name);
+    const auto formats = file_formats();
+    const auto found = std::find_if(formats.begin(), formats.end(),
+                                    [&](const FileFormat& format) { return format.extension == extension; });
+    return found == formats.end() ? nullptr : &*found;
+}
+
 DataFile read_data_file(const std::filesystem::path& file, const FileChoice& choice) {
     std::error_code fault;
     if (!std::filesystem::exists(file, fault))

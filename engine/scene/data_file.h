@@ -37,6 +37,8 @@ struct FileFormat {
 };
 
 std::span<const FileFormat> file_formats();
+// The first format of the name's extension, in any case of letters; null: none has it.
+const FileFormat* format_of_name(const std::filesystem::path& name);
 
 // A file as its reader gives it. An image is the alpha texture of a quad of height 1 that stands on the origin. Raw and
 // DDS volumes, whose files have no box, get one that begins at the origin, with voxels of edge 1.

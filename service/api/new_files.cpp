@@ -46,11 +46,7 @@ bool is_notice(const fs::path& file) {
 }
 
 bool is_read(const fs::path& file) {
-    const std::string extension = in_lower_case(file.extension().string());
-    const auto formats = scene::file_formats();
-    return !is_notice(file) && std::any_of(formats.begin(), formats.end(), [&](const scene::FileFormat& format) {
-        return format.extension == extension;
-    });
+    return !is_notice(file) && scene::format_of_name(file);
 }
 
 struct NewRequest {

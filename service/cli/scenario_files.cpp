@@ -1,7 +1,6 @@
 #include "service/cli/scenario_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <sstream>
 
@@ -55,16 +54,12 @@ fs::path scenario_folder(const std::string& name) {
 
 // A data file is no scenario. Text may be one.
 void refuse_data(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".txt") return;
-    for (const scene::FileFormat& format : scene::file_formats())
-        if (extension == format.extension)
-            throw Error(ErrorCode::bad_input, file.string(),
-                        fmt::format("this is a data file ({}); make a scenario around it: shadowbench new {} --out "
-                                    "scenario.json",
-                                    format.title, base::shell_word(file.string())));
+    const scene::FileFormat* format = scene::format_of_name(file);
+    if (!format || format->extension == ".txt") return;
+    throw Error(
+        ErrorCode::bad_input, file.string(),
+        fmt::format("this is a data file ({}); make a scenario around it: shadowbench new {} --out scenario.json",
+                    format->title, base::shell_word(file.string())));
 }
 
 std::vector<std::string> known_names(const std::vector<fs::path>& folders) {
