@@ -22,9 +22,9 @@
 #include "results/report.h"
 #include "scene/scenario.h"
 #include "service/cli/job.h"
-#include "service/cli/libraries.h"
 #include "service/cli/progress_bar.h"
 #include "service/cli/quantity.h"
+#include "service/cli/swept_scenarios.h"
 #include "service/cli/terminal.h"
 
 namespace shadowbench::service {
@@ -182,13 +182,7 @@ std::string command_again(const RecommendArguments& arguments, double budget) {
     add_all("--cheapest", arguments.cheapest);
     add_all("--at-most", arguments.at_most);
     add("--light", arguments.light);
-    add_all("--set", arguments.set);
-    add_all("--only", arguments.only);
-    add_all("--data", arguments.data);
-    for (const std::string& word : library_arguments(arguments.libraries)) command += " " + base::shell_word(word);
-    if (arguments.threads > 0) add("--threads", std::to_string(arguments.threads));
-    if (arguments.memory_limit != JobArguments().memory_limit)
-        add("--memory-limit", base::number_text(arguments.memory_limit));
+    for (const std::string& word : arguments_again(arguments)) command += " " + base::shell_word(word);
     add("--out", arguments.out);
     add("--budget", recommend::budget_text(budget));
     return command;

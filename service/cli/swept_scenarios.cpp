@@ -39,6 +39,13 @@ std::vector<Swept> read_swept(const RunArguments& arguments) {
 
 std::vector<std::string> arguments_again(const RunArguments& arguments) {
     std::vector<std::string> again = arguments.scenarios;
+    for (std::string& word : arguments_again(static_cast<const JobArguments&>(arguments)))
+        again.push_back(std::move(word));
+    return again;
+}
+
+std::vector<std::string> arguments_again(const JobArguments& arguments) {
+    std::vector<std::string> again;
     const auto add = [&](const char* option, const std::vector<std::string>& values) {
         for (const std::string& value : values) again.insert(again.end(), {option, value});
     };

@@ -20,8 +20,9 @@ struct Swept {
 // All scenarios that the arguments name, each with its document checked. Throws Error, place: the file.
 std::vector<Swept> read_swept(const RunArguments& arguments);
 
-// What a command needs to measure the same again, but for --shard and --out.
+// What a command needs to measure the same again, but for --shard and --out; of a job, without its scenarios.
 std::vector<std::string> arguments_again(const RunArguments& arguments);
+std::vector<std::string> arguments_again(const JobArguments& arguments);
 
 Sweep sweep_of(const std::vector<Swept>& swept, const RunArguments& arguments);
 
