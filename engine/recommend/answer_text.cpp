@@ -83,11 +83,10 @@ std::string cut(std::string line, std::size_t width) {
     return line + "...";
 }
 
-// What one may paste is never broken, and a setting is never cut.
+// What one may paste is never broken. What is whole goes on in further lines rather than being cut.
 struct TextLine {
     std::string text;
-    bool label = false, paste = false, setting = false;
-    bool whole = false;  // it goes on in further lines rather than being cut
+    bool label = false, paste = false, whole = false;
 };
 
 // What does not fit goes on in the next line, behind the label.
@@ -136,7 +135,7 @@ void add_cheapest(const Cheapest& cheapest, std::size_t k, const std::vector<Fam
         lines.push_back(
             {fmt::format("       {} {}, {}{}", distance, cost_text(second->cost[k], k),
                          setting_text(families, second->point), second->confirmed ? "" : " (not confirmed)"),
-             false, false, false, true});
+             false, false, true});
     }
     if (const auto& perhaps = cheapest.perhaps)
         lines.push_back({fmt::format("       perhaps {}, error not confirmed: {}", cost_text(perhaps->cost[k], k),
@@ -246,7 +245,7 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
             {fmt::format("UNSETTLED: the host of this virtual machine took {:.0f} % of the time (steal); "
                          "measure again",
                          100.0 * *answer.steal)});
-    if (answer.end == End::budget) last.push_back({budget_line(answer), false, false, false, true});
+    if (answer.end == End::budget) last.push_back({budget_line(answer), false, false, true});
     if (answer.end == End::cancelled) last.push_back({"cancelled: a cheaper setting may be left"});
 
     const std::string head = folded(lines, width), tail = folded(last, width);
@@ -263,7 +262,7 @@ std::string to_text(const Answer& answer, const std::vector<Family>& families, c
     if (!names.empty()) lines.push_back(missed);
     lines.insert(lines.end(), last.begin(), last.end());
     for (TextLine& line : lines)
-        if (!line.paste && !line.setting && !line.whole) line.text = cut(std::move(line.text), width);
+        if (!line.paste && !line.whole) line.text = cut(std::move(line.text), width);
     return folded(lines, width);
 }
 

@@ -13,10 +13,8 @@ namespace {
 constexpr const char* data_formats =
     "Data files are meshes (.obj, .ply, .stl, .gltf, .glb), point clouds (.ply), hair (.tfx, .hair, .txt), volumes "
     "(.vdb, .nvdb, .nrrd, .nhdr, .mhd, .mha, .vol, .slc, .pvm, .dds, .raw, .gz), scenes (.pbrt), deep images (.exr), "
-    "and "
-    "images as alpha textures (.png, .jpg, .jpeg, .tif, .tiff, .tga, .dds, .exr). Raw values, which gzip may have "
-    "packed "
-    "(.gz), form a cube of uint8 or float32, or have their size and type in the name of the file, as in "
+    "and images as alpha textures (.png, .jpg, .jpeg, .tif, .tiff, .tga, .dds, .exr). Raw values, which gzip may have "
+    "packed (.gz), form a cube of uint8 or float32, or have their size and type in the name of the file, as in "
     "ball_32x32x24_int16.raw.";
 
 void add_data_options(CLI::App& command, FileArguments& arguments, const char* files) {
